@@ -1,0 +1,166 @@
+//! The symbolic graph: hash-consed nodes, so equal expressions are one node (common subexpressions by
+//! construction). Out: [`Graph`], [`ExprId`]s. Never knows bodies, joints or TOML.
+//!
+//! Children are always created before their parents, so node order is a topological order.
+
+mod build;
+mod diff;
+mod eval;
+mod matrix;
+
+use std::collections::HashMap;
+
+pub use crate::id::{ExprId, SectionId, SymbolId};
+pub use matrix::{Mat3, Vec3};
+
+/// A node. Constants hold the bits of an f64, so that nodes can be hashed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number.
+    Constant(u64),
+    /// An input.
+    Symbol(SymbolId),
+    /// A function of one value.
+    Unary(Unary, ExprId),
+    /// A function of two values.
+    Binary(Binary, ExprId, ExprId),
+}
+
+/// Functions of one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "named as in mathematics")]
+pub enum Unary {
+    Neg,
+    Sqrt,
+    Sin,
+    Cos,
+    Exp,
+    Ln,
+    /// Series-safe coefficients of the logarithm on SE(3), by rank of derivative; see
+    /// `linkwear_runtime::log_coefficient`. The argument is theta², the squared rotation angle.
+    LogCoefficient(u8),
+}
+
+/// Functions of two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "named as in mathematics")]
+pub enum Binary {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    /// `atan2(first, second)`: angle of the vector (second, first).
+    Atan2,
+    /// theta / sin theta from (sin² theta, cos theta), series-safe at zero; see
+    /// `linkwear_runtime::angle_over_sine`.
+    AngleOverSine,
+}
+
+/// The graph: nodes, names of inputs, readable labels and sections.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    known: HashMap<Node, ExprId>,
+    symbols: Vec<String>,
+    labels: HashMap<ExprId, String>,
+    sections: Vec<String>,
+    section_of: Vec<SectionId>,
+    current_section: Option<SectionId>,
+}
+
+impl Graph {
+    /// An empty graph.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The node behind an id.
+    #[must_use]
+    pub fn node(&self, id: ExprId) -> Node {
+        self.nodes[id.index()]
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are no nodes.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// A new input, `name` as it reads in generated code (a valid Rust identifier is made of it later).
+    pub fn symbol(&mut self, name: impl Into<String>) -> ExprId {
+        let id = SymbolId::new(self.symbols.len());
+        self.symbols.push(name.into());
+        self.intern(Node::Symbol(id))
+    }
+
+    /// Name of an input.
+    #[must_use]
+    pub fn symbol_name(&self, id: SymbolId) -> &str {
+        &self.symbols[id.index()]
+    }
+
+    /// The symbol behind a node, if it is one.
+    #[must_use]
+    pub fn as_symbol(&self, id: ExprId) -> Option<SymbolId> {
+        match self.node(id) {
+            Node::Symbol(symbol) => Some(symbol),
+            _ => None,
+        }
+    }
+
+    /// The number behind a node, if it is one.
+    #[must_use]
+    pub fn as_constant(&self, id: ExprId) -> Option<f64> {
+        match self.node(id) {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// Starts a section: nodes first made from here on belong to it.
+    pub fn begin_section(&mut self, title: impl Into<String>) {
+        let title = title.into();
+        let position = self.sections.iter().position(|known| *known == title).unwrap_or_else(|| {
+            self.sections.push(title);
+            self.sections.len() - 1
+        });
+        self.current_section = Some(SectionId::new(position));
+    }
+
+    /// Title of the section in which a node was first made.
+    #[must_use]
+    pub fn section(&self, id: ExprId) -> &str {
+        self.sections.get(self.section_of[id.index()].index()).map_or("", String::as_str)
+    }
+
+    /// Gives a node a readable name, unless it is a constant, an input or named already.
+    pub fn label(&mut self, id: ExprId, name: impl Into<String>) {
+        if matches!(self.node(id), Node::Unary(..) | Node::Binary(..)) {
+            self.labels.entry(id).or_insert_with(|| name.into());
+        }
+    }
+
+    /// The readable name of a node.
+    #[must_use]
+    pub fn label_of(&self, id: ExprId) -> Option<&str> {
+        self.labels.get(&id).map(String::as_str)
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(id) = self.known.get(&node) {
+            return *id;
+        }
+        let id = ExprId::new(self.nodes.len());
+        self.nodes.push(node);
+        self.section_of.push(self.current_section.unwrap_or(SectionId::new(0)));
+        self.known.insert(node, id);
+        id
+    }
+}

@@ -1,0 +1,56 @@
+//! Typed indices, so that a body's number cannot be used as a joint's.
+//! Knows nothing else.
+
+macro_rules! typed_index {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(u32);
+
+        impl $name {
+            /// The index `position` as a typed index.
+            ///
+            /// # Panics
+            /// Beyond 2^32 entries.
+            #[must_use]
+            pub fn new(position: usize) -> Self {
+                Self(u32::try_from(position).expect("fewer than 2^32 entries"))
+            }
+
+            /// Position in the list that this index belongs to.
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    };
+}
+
+typed_index!(
+    /// A body of a mechanism; ground is not a body.
+    BodyId
+);
+typed_index!(
+    /// A joint of a mechanism.
+    JointId
+);
+typed_index!(
+    /// A named point of a mechanism.
+    PointId
+);
+typed_index!(
+    /// A parameter of a mechanism.
+    ParameterId
+);
+typed_index!(
+    /// A node of an expression graph.
+    ExprId
+);
+typed_index!(
+    /// An input symbol of an expression graph.
+    SymbolId
+);
+typed_index!(
+    /// A readable section of generated code.
+    SectionId
+);

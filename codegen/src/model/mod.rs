@@ -1,0 +1,391 @@
+//! The mechanism, resolved: ids instead of names, SI instead of units, formulas instead of text.
+//! In: [`crate::spec`]. Out: [`Mechanism`] and its [`Topology`]. Never knows expression graphs or Rust syntax.
+//!
+//! Everything is stated in one reference pose, in the ground frame W (docs/notation.md). A point may
+//! have one position per body, where branches of a loop are described open.
+
+use crate::id::{BodyId, JointId, ParameterId, PointId};
+use crate::source::Span;
+use crate::spec::Dimension;
+
+mod formula;
+pub use formula::{Formula, Function, Term};
+
+/// A body or the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Carrier {
+    /// The fixed frame W.
+    Ground,
+    /// A moving body.
+    Body(BodyId),
+}
+
+/// A mechanism with all names resolved and all dimensions checked.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    /// Name in the file.
+    pub name: String,
+    /// Parameters in file order.
+    pub parameters: Vec<Parameter>,
+    /// Gravity [m/s²] in W; formulas over parameters.
+    pub gravity: [Formula; 3],
+    /// Moving bodies in file order.
+    pub bodies: Vec<Body>,
+    /// Named points in file order.
+    pub points: Vec<Point>,
+    /// Joints in file order.
+    pub joints: Vec<Joint>,
+    /// Force elements in file order.
+    pub forces: Vec<Force>,
+    /// How loops are closed.
+    pub closure: Closure,
+    /// Start values by joint coordinate.
+    pub starts: Vec<Start>,
+}
+
+/// A named quantity.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Name in the file.
+    pub name: String,
+    /// Value in SI.
+    pub value: f64,
+    /// Dimension, hence SI unit.
+    pub dimension: Dimension,
+    /// Stays a run-time field of the generated struct.
+    pub tunable: bool,
+    /// Not from the cited source but ours.
+    pub assumed: bool,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// A named point: one position for everybody, or one per body where the branches are described open.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Name in the file.
+    pub name: String,
+    /// Position in W at the reference pose [m], formulas over parameters.
+    pub position: Position,
+    /// The body (or ground) whose material point it is in the output.
+    pub carrier: Carrier,
+    /// Not from the cited source but ours.
+    pub assumed: bool,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// Where a point is at the reference pose.
+#[derive(Clone, Debug)]
+pub enum Position {
+    /// The same for every body.
+    Shared([Formula; 3]),
+    /// A position for each body that uses it: the loop is open here.
+    PerBody(Vec<(Carrier, [Formula; 3])>),
+}
+
+impl Point {
+    /// Position in W at the reference pose of `carrier`'s branch.
+    #[must_use]
+    pub fn position_for(&self, carrier: Carrier) -> &[Formula; 3] {
+        match &self.position {
+            Position::Shared(position) => position,
+            Position::PerBody(positions) => positions
+                .iter()
+                .find(|(body, _)| *body == carrier)
+                .map_or(&positions[0].1, |(_, position)| position),
+        }
+    }
+}
+
+/// A moving body.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Name in the file.
+    pub name: String,
+    /// Mass, centre and inertia.
+    pub inertia: Inertia,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// How a body's mass is described. Formulas over parameters, SI.
+#[derive(Clone, Debug)]
+pub enum Inertia {
+    /// Solid cylinder between two points.
+    Rod {
+        /// End points.
+        ends: [PointId; 2],
+        /// Outer radius [m].
+        radius: Formula,
+        /// Inner radius [m]; zero for a solid rod.
+        inner_radius: Formula,
+        /// Density [kg/m³], or total mass [kg].
+        amount: Amount,
+    },
+    /// Cuboid with its long edge from one point to another.
+    Box {
+        /// Centres of two opposite faces.
+        ends: [PointId; 2],
+        /// Edge along `width_axis` and the other edge [m].
+        width: [Formula; 2],
+        /// Direction of the first of `width` in W, at right angles to the long edge.
+        width_axis: [f64; 3],
+        /// Density [kg/m³], or total mass [kg].
+        amount: Amount,
+    },
+    /// Numbers from elsewhere.
+    Given {
+        /// Mass [kg].
+        mass: Formula,
+        /// Centre of mass.
+        centre: PointId,
+        /// Inertia about the centre [kg m²]: xx, yy, zz, xy, xz, yz as matrix entries (xy = -∫xy dm).
+        inertia: [Formula; 6],
+        /// Columns: the axes of `inertia` in W at the reference pose.
+        axes: [[f64; 3]; 3],
+    },
+}
+
+/// How much matter there is.
+#[derive(Clone, Debug)]
+pub enum Amount {
+    /// Density [kg/m³].
+    Density(Formula),
+    /// Total mass [kg].
+    Mass(Formula),
+}
+
+/// What relative motion a joint leaves. Axes are unit vectors in W at the reference pose,
+/// one as seen on the parent's branch and one as seen on the child's.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointKind {
+    /// Rotation about an axis.
+    Revolute(Axis),
+    /// Translation along an axis.
+    Prismatic(Axis),
+    /// Rotation about and translation along an axis, in this order: `q1` [rad], `q2` [m].
+    Cylindrical(Axis),
+    /// Rotation with proportional translation; `lead` [m] per turn, positive for a right-hand thread.
+    Screw(Axis, f64),
+    /// Two rotations: `q1` about an axis fixed in the parent, `q2` about an axis fixed in the child.
+    Universal(Axis, Axis),
+    /// Free rotation about a point.
+    Spherical,
+    /// Two translations `q1`, `q2` [m] along axes of the parent and a rotation `q3` about the normal.
+    Planar {
+        /// Normal of the plane.
+        normal: Axis,
+        /// Direction of `q1`, at right angles to the normal.
+        first: Axis,
+    },
+    /// No relative motion.
+    Fixed,
+    /// No constraint.
+    Free,
+}
+
+/// A unit direction in W at the reference pose, as each side's branch describes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// As the parent's branch describes it.
+    pub parent: [f64; 3],
+    /// As the child's branch describes it.
+    pub child: [f64; 3],
+}
+
+/// A joint between two bodies; the parent is the first in the file.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Name in the file.
+    pub name: String,
+    /// Kind and axes.
+    pub kind: JointKind,
+    /// First body.
+    pub parent: Carrier,
+    /// Second body.
+    pub child: Carrier,
+    /// Where the joint is.
+    pub at: PointId,
+    /// Motion law of one coordinate, over parameters and t.
+    pub drives: Vec<Drive>,
+    /// Viscous damping, springs and actuator forces, by coordinate.
+    pub passive: Vec<Passive>,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// A prescribed coordinate of a joint.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// Which coordinate of the joint, from 0.
+    pub coordinate: usize,
+    /// Position over parameters and t [rad or m].
+    pub law: Formula,
+}
+
+/// A force in a joint, on the child, with its opposite on the parent.
+#[derive(Clone, Debug)]
+pub enum Passive {
+    /// `-coefficient * speed` of one coordinate; for a spherical joint (coordinate 0) of the
+    /// relative angular velocity.
+    Damping {
+        /// Which coordinate.
+        coordinate: usize,
+        /// [N m s/rad] or [N s/m].
+        coefficient: Formula,
+    },
+    /// `-stiffness * (q - rest)`.
+    Spring {
+        /// Which coordinate.
+        coordinate: usize,
+        /// [N m/rad] or [N/m].
+        stiffness: Formula,
+        /// Unloaded position [rad] or [m].
+        rest: Formula,
+    },
+    /// A force by expression over coordinates, speeds and t.
+    Actuator {
+        /// Which coordinate.
+        coordinate: usize,
+        /// [N m] or [N], positive along the coordinate.
+        force: Formula,
+    },
+}
+
+/// A force element between bodies.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Name in the file.
+    pub name: String,
+    /// What acts.
+    pub kind: ForceKind,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// The kinds of force elements.
+#[derive(Clone, Debug)]
+pub enum ForceKind {
+    /// Linear spring and damper between two points: pull `k (l - rest) + c l̇` along the line, plus
+    /// `preload`.
+    Spring {
+        /// The two bodies.
+        bodies: [Carrier; 2],
+        /// Attachment point on each.
+        at: [PointId; 2],
+        /// [N/m].
+        stiffness: Formula,
+        /// Unloaded length [m].
+        rest: Formula,
+        /// [N s/m].
+        damping: Formula,
+        /// Constant pull [N].
+        preload: Formula,
+    },
+    /// A force on a body at a point, with its opposite on `reaction`.
+    Force {
+        /// Body that is pushed.
+        body: Carrier,
+        /// Body that takes the reaction at the same place; ground takes it silently.
+        reaction: Carrier,
+        /// Where it acts.
+        at: PointId,
+        /// Components [N] over coordinates, speeds and t.
+        components: [Formula; 3],
+        /// Axes in which the components are meant: W, or W-parallel at the reference pose and moving with
+        /// this body.
+        axes: Carrier,
+    },
+    /// A torque on a body, with its opposite on `reaction`.
+    Torque {
+        /// Body that is turned.
+        body: Carrier,
+        /// Body that takes the reaction.
+        reaction: Carrier,
+        /// Components [N m] over coordinates, speeds and t.
+        components: [Formula; 3],
+        /// As for `Force`.
+        axes: Carrier,
+    },
+}
+
+/// How a loop is closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Closure {
+    /// Cut a joint, keep the rows it takes away.
+    #[default]
+    Joint,
+    /// Six rows `Log(T_b^-1 T_a)` of a common end body, [CS (3)].
+    Log,
+}
+
+/// A start value of one joint coordinate (or of a spherical joint's rotation vector, indices 0..3).
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Joint.
+    pub joint: JointId,
+    /// Which coordinate of the joint.
+    pub coordinate: usize,
+    /// Position [rad or m] over parameters.
+    pub position: Option<Formula>,
+    /// Speed [rad/s or m/s] over parameters.
+    pub speed: Option<Formula>,
+    /// Demanded exactly (`[initial]`), or only a guess for Newton (`[assembly]`).
+    pub held: bool,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// The spanning tree and the joints where loops are cut.
+#[derive(Clone, Debug)]
+pub struct Topology {
+    /// Tree joints, parents before children.
+    pub tree: Vec<TreeJoint>,
+    /// Joints that close loops, in file order.
+    pub cuts: Vec<JointId>,
+}
+
+/// One step outwards in the spanning tree.
+#[derive(Clone, Copy, Debug)]
+pub struct TreeJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// Nearer to ground.
+    pub inboard: Carrier,
+    /// Farther from ground.
+    pub outboard: BodyId,
+    /// True if the outboard body is the joint's parent.
+    pub reversed: bool,
+}
+
+impl Mechanism {
+    /// The body with this index.
+    #[must_use]
+    pub fn body(&self, id: BodyId) -> &Body {
+        &self.bodies[id.index()]
+    }
+    /// The joint with this index.
+    #[must_use]
+    pub fn joint(&self, id: JointId) -> &Joint {
+        &self.joints[id.index()]
+    }
+    /// The point with this index.
+    #[must_use]
+    pub fn point(&self, id: PointId) -> &Point {
+        &self.points[id.index()]
+    }
+    /// The parameter with this index.
+    #[must_use]
+    pub fn parameter(&self, id: ParameterId) -> &Parameter {
+        &self.parameters[id.index()]
+    }
+    /// Name of a body, or `ground`.
+    #[must_use]
+    pub fn carrier_name(&self, carrier: Carrier) -> &str {
+        match carrier {
+            Carrier::Ground => "ground",
+            Carrier::Body(id) => &self.body(id).name,
+        }
+    }
+}

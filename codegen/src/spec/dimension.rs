@@ -1,0 +1,12 @@
+//! Physical dimensions as integer exponents.
+
+/// Exponents of length, mass, time. Angles carry none; `rad` and `deg` are units of 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Dimension {
+    /// Exponent of m.
+    pub length: i8,
+    /// Exponent of kg.
+    pub mass: i8,
+    /// Exponent of s.
+    pub time: i8,
+}

@@ -1,0 +1,3 @@
+//! The file as written.
+mod dimension;
+pub use dimension::Dimension;

@@ -1,0 +1,107 @@
+//! What a mechanism tells about itself: names, units, rows, channels. Written by the generator.
+//! In: nothing. Out: [`Description`]. Never knows equations or numbers of a run.
+//! Strings are `Cow` so that generated code can keep them in statics and the interpreter can own them.
+
+use std::borrow::Cow;
+
+/// Text that is static in generated code and owned elsewhere.
+pub type Text = Cow<'static, str>;
+/// A list that is static in generated code and owned elsewhere.
+pub type List<T> = Cow<'static, [T]>;
+
+/// A tunable parameter, in the order of the input slice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterInfo {
+    /// Name in the file.
+    pub name: Text,
+    /// SI unit, "1" if it has none.
+    pub unit: Text,
+    /// Value in the file, in SI.
+    pub default: f64,
+}
+
+/// One scalar of the free coordinates or speeds, in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariableInfo {
+    /// Column-like name, e.g. `R4.q`, `S2.q0`, `coupler.eta1`.
+    pub name: Text,
+    /// SI unit.
+    pub unit: Text,
+    /// Whether a start value was demanded in the file and must be met exactly (else it is a guess).
+    pub held: bool,
+}
+
+/// One constraint row before redundant ones are dropped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowInfo {
+    /// The cut joint it belongs to.
+    pub joint: Text,
+    /// What it forbids, e.g. "translation along x of coupler".
+    pub meaning: Text,
+    /// True: residual in rad; false: residual in m.
+    pub angular: bool,
+    /// Index among the kept rows, or `None` if dropped as redundant.
+    pub kept: Option<usize>,
+}
+
+/// A driver, in the order of the drive forces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriverInfo {
+    /// Joint that is driven.
+    pub joint: Text,
+    /// True for an angle [rad, N m], false for a length [m, N].
+    pub angular: bool,
+}
+
+/// An output column of [`crate::Entry::Observe`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// `<element>.<quantity>`, e.g. `R1.Fx`.
+    pub name: Text,
+    /// SI unit as printed in brackets, e.g. `N m`.
+    pub unit: Text,
+    /// True for an angle recomputed with atan2: it jumps by 2 pi and recorders unwrap it.
+    pub wraps: bool,
+}
+
+/// How one group of coordinates moves with its speeds. In tree order, driven ones included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// One coordinate, one speed: `q̇ = v`. Holds the driver's index if it is driven.
+    Scalar {
+        /// Index of the driver that prescribes it.
+        driver: Option<usize>,
+    },
+    /// Unit quaternion (scalar first) of the body's frame in W; speed: absolute angular velocity in
+    /// the body's own frame. 4 coordinates, 3 speeds.
+    Rotation,
+    /// Quaternion as in `Rotation`, then the position of the frame's origin in W; speeds: absolute
+    /// angular velocity, then absolute velocity of the origin, both in the body's own frame.
+    /// 7 coordinates, 6 speeds.
+    Pose,
+}
+
+/// Everything a program needs to run, record and explain a mechanism.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// Name of the mechanism.
+    pub name: Text,
+    /// Tunable parameters.
+    pub parameters: List<ParameterInfo>,
+    /// Free coordinates.
+    pub coordinates: List<VariableInfo>,
+    /// Free speeds.
+    pub speeds: List<VariableInfo>,
+    /// Every group of coordinates, driven ones included: the layout of [`crate::Entry::EquationsOfMotion`].
+    pub motions: List<Motion>,
+    /// First index, within the free coordinates, of every unit quaternion (4 long, scalar first).
+    pub quaternions: List<usize>,
+    /// Constraint rows, kept and dropped.
+    pub rows: List<RowInfo>,
+    /// Drivers.
+    pub drivers: List<DriverInfo>,
+    /// Output columns.
+    pub channels: List<Channel>,
+    /// Index of the first driver on a revolute joint: 2 pi of it is a turn.
+    pub turn_driver: Option<usize>,
+}

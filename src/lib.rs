@@ -1,0 +1,1 @@
+//! linkwear compiles a linkage into its life.
