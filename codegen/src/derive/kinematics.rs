@@ -43,8 +43,6 @@ pub struct Poses {
     pub relative: Vec<Pose>,
     /// Relative to W.
     pub world: Vec<Pose>,
-    /// Rotation angle or stroke of one-freedom links, as it enters the pose.
-    pub coordinates: Vec<ExprId>,
 }
 
 /// Rotation matrix of a unit quaternion, scalar first.
@@ -75,7 +73,7 @@ fn rotation_about_z(g: &mut Graph, angle: ExprId) -> Mat3 {
 impl Poses {
     /// All poses. `mounts` are the positions of the joints in their parent links' frames.
     pub fn new(g: &mut Graph, linkage: &Linkage, mounts: &[Vec3], q: &[ExprId]) -> Self {
-        let mut poses = Self { relative: Vec::new(), world: Vec::new(), coordinates: q.to_vec() };
+        let mut poses = Self { relative: Vec::new(), world: Vec::new() };
         for (at, link) in linkage.links.iter().enumerate() {
             let first = link.first_coordinate;
             let own = &q[first..first + link.freedom.coordinates()];

@@ -19,9 +19,11 @@ mod lower;
 mod observe;
 mod solve;
 mod start;
+#[cfg(test)]
+mod tests;
 
 pub use closure::row_count;
-pub use entries::{Derived, derive};
+pub use entries::{Derived, Purpose, derive};
 pub use linkage::Linkage;
 
 use crate::expr::{ExprId, Graph};

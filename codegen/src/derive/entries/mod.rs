@@ -2,27 +2,26 @@
 //! In: mechanism, topology, which constraint rows to keep. Out: [`Derived`].
 //! Never knows tapes. The only place that knows all parts of the derivation.
 
-use linkwear_runtime::{
-    Channel, Description, DriverInfo, Entry, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes,
-    VariableInfo,
-};
+mod description;
+
+use linkwear_runtime::{Channel, Description, Entry, Sizes};
 
 use crate::expr::{ExprId, Graph, Vec3};
 use crate::id::JointId;
-use crate::model::{JointKind, Mechanism, Topology};
+use crate::model::{Mechanism, Topology};
 
-use super::across::Motion;
-use super::closure::{CutRows, cut_rows};
-use super::dynamics::{Partition, bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
-use super::forces::{Loads, loads};
-use super::inertia::{Geometry, MassProperties, mass_matrix};
-use super::joint_state::{JointStates, coordinate_count, is_angle};
-use super::kinematics::{Poses, accelerations, twists};
-use super::linkage::{Freedom, Linkage, linkage};
-use super::lower::Inputs;
-use super::observe::{Observed, channels};
-use super::start::{StartValues, start_values};
 use super::{Block, Equations, Function};
+use crate::derive::across::Motion;
+use crate::derive::closure::{CutRows, cut_rows};
+use crate::derive::dynamics::{Partition, bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
+use crate::derive::forces::{Loads, loads};
+use crate::derive::inertia::{Geometry, MassProperties, mass_matrix};
+use crate::derive::joint_state::JointStates;
+use crate::derive::kinematics::{Poses, accelerations, twists};
+use crate::derive::linkage::{Freedom, Linkage, linkage};
+use crate::derive::lower::Inputs;
+use crate::derive::observe::{Observed, channels};
+use crate::derive::start::{StartValues, start_values};
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
@@ -37,14 +36,28 @@ pub struct Derived {
     pub linkage: Linkage,
 }
 
+/// How much is needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// All entry points.
+    Everything,
+    /// Positions, Jacobians and columns only, while redundant rows are still in: no elimination.
+    Analysis,
+}
+
 /// Derives all entry points. `keep` says for every constraint row (cuts in topology order) whether it is
 /// kept; `None` keeps all.
 #[must_use]
-pub fn derive(mechanism: &Mechanism, topology: &Topology, keep: Option<&[bool]>) -> Derived {
+pub fn derive(
+    mechanism: &Mechanism,
+    topology: &Topology,
+    keep: Option<&[bool]>,
+    purpose: Purpose,
+) -> Derived {
     let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
     let linkage = linkage(mechanism, topology, &defaults);
     let mut deriver = Deriver::new(mechanism, &linkage, keep);
-    let functions = deriver.functions();
+    let functions = deriver.functions(purpose);
     let (sizes, description) = (deriver.sizes(), deriver.description());
     let equations = Equations { graph: deriver.g, functions };
     Derived { equations, sizes, description, linkage }
@@ -111,7 +124,7 @@ impl<'a> Deriver<'a> {
         let rows = linkage
             .cuts
             .iter()
-            .map(|cut| super::closure::row_count(&mechanism.joint(cut.joint).kind, cut.closure));
+            .map(|cut| crate::derive::closure::row_count(&mechanism.joint(cut.joint).kind, cut.closure));
         let rows: usize = rows.sum();
         let keep = keep.map_or_else(|| vec![true; rows], <[bool]>::to_vec);
         let mut own = Self {
@@ -159,7 +172,7 @@ impl<'a> Deriver<'a> {
     }
 
     fn make_symbols(&mut self) {
-        let names = variable_names(self.mechanism, self.linkage);
+        let names = description::variable_names(self.mechanism, self.linkage);
         for (name, _) in &names.0 {
             let symbol = self.g.symbol(name.replace('.', "_"));
             self.q_all.push(symbol);
@@ -268,7 +281,7 @@ impl<'a> Deriver<'a> {
         }
     }
 
-    fn functions(&mut self) -> Vec<Function> {
+    fn functions(&mut self, purpose: Purpose) -> Vec<Function> {
         let (q, v) = self.driven_state();
         let mut v_dot_known = vec![self.g.zero(); v.len()];
         for driver in &self.drivers {
@@ -279,7 +292,10 @@ impl<'a> Deriver<'a> {
         let list = vec![
             self.prescribed(),
             self.start(),
-            self.forward_dynamics(&dynamic, &masses),
+            match purpose {
+                Purpose::Everything => self.forward_dynamics(&dynamic, &masses),
+                Purpose::Analysis => self.function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
+            },
             self.rates(&q, &v, &dynamic),
             self.closure(&q, &v, &v_dot_known),
             self.energy(&dynamic, &masses),
@@ -539,110 +555,6 @@ impl<'a> Deriver<'a> {
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
         self.function(Entry::EquationsOfMotion, doc, inputs, outputs)
     }
-
-    fn sizes(&self) -> Sizes {
-        Sizes {
-            parameters: self.parameters.len(),
-            coordinates: self.free_q.len(),
-            speeds: self.partition.free.len(),
-            all_coordinates: self.q_all.len(),
-            all_speeds: self.v_all.len(),
-            rows: self.keep.iter().filter(|kept| **kept).count(),
-            all_rows: self.keep.len(),
-            drivers: self.drivers.len(),
-            channels: self.channels.len(),
-            workspace: 0,
-        }
-    }
-
-    fn description(&self) -> Description {
-        let names = variable_names(self.mechanism, self.linkage);
-        let start = self.start.as_ref().expect("start values are derived before the description");
-        let pick = |names: &[(String, &'static str)], free: &[usize], held: &[bool]| {
-            free.iter()
-                .map(|i| VariableInfo {
-                    name: names[*i].0.clone().into(),
-                    unit: names[*i].1.into(),
-                    held: held[*i],
-                })
-                .collect::<Vec<_>>()
-        };
-        let mut kept = 0;
-        let rows: Vec<RowInfo> = self
-            .row_info
-            .iter()
-            .zip(&self.keep)
-            .map(|((joint, meaning, angular), keep)| RowInfo {
-                joint: self.mechanism.joint(*joint).name.clone().into(),
-                meaning: meaning.clone().into(),
-                angular: *angular,
-                kept: keep.then(|| {
-                    kept += 1;
-                    kept - 1
-                }),
-            })
-            .collect();
-        let parameters: Vec<ParameterInfo> = self
-            .mechanism
-            .parameters
-            .iter()
-            .filter(|parameter| parameter.tunable)
-            .map(|parameter| ParameterInfo {
-                name: parameter.name.clone().into(),
-                unit: parameter.dimension.si_unit().into(),
-                default: parameter.value,
-            })
-            .collect();
-        let drivers: Vec<DriverInfo> = self
-            .drivers
-            .iter()
-            .map(|driver| DriverInfo {
-                joint: self.mechanism.joint(driver.joint).name.clone().into(),
-                angular: is_angle(&self.mechanism.joint(driver.joint).kind, driver.joint_coordinate),
-            })
-            .collect();
-        let turn_driver = self
-            .drivers
-            .iter()
-            .position(|driver| matches!(self.mechanism.joint(driver.joint).kind, JointKind::Revolute(_)));
-        Description {
-            name: self.mechanism.name.clone().into(),
-            parameters: parameters.into(),
-            coordinates: pick(&names.0, &self.free_q, &start.held_q).into(),
-            speeds: pick(&names.1, &self.partition.free, &start.held_v).into(),
-            motions: self.motions().into(),
-            quaternions: self.quaternions().into(),
-            rows: rows.into(),
-            drivers: drivers.into(),
-            channels: self.channels.clone().into(),
-            turn_driver,
-        }
-    }
-
-    fn motions(&self) -> Vec<MotionInfo> {
-        self.linkage
-            .links
-            .iter()
-            .filter_map(|link| match link.freedom {
-                Freedom::Rotation { .. } | Freedom::Translation { .. } => Some(MotionInfo::Scalar {
-                    driver: self.drivers.iter().position(|driver| driver.speed == link.first_speed),
-                }),
-                Freedom::Ball => Some(MotionInfo::Rotation),
-                Freedom::Free => Some(MotionInfo::Pose),
-                Freedom::Weld => None,
-            })
-            .collect()
-    }
-
-    /// First index among the free coordinates of every quaternion.
-    fn quaternions(&self) -> Vec<usize> {
-        self.linkage
-            .links
-            .iter()
-            .filter(|link| matches!(link.freedom, Freedom::Ball | Freedom::Free))
-            .filter_map(|link| self.free_q.iter().position(|i| *i == link.first_coordinate))
-            .collect()
-    }
 }
 
 /// `q̇` of one link from its speeds.
@@ -652,43 +564,13 @@ fn coordinate_rates(g: &mut Graph, freedom: Freedom, q: &[ExprId], v: &[ExprId])
     }
     // q̇ = q ∘ (0, omega) / 2 with omega in the link's own frame.
     let zero = g.zero();
-    let turned = super::observe::quaternion_product(g, [q[0], q[1], q[2], q[3]], [zero, v[0], v[1], v[2]]);
+    let turned =
+        crate::derive::observe::quaternion_product(g, [q[0], q[1], q[2], q[3]], [zero, v[0], v[1], v[2]]);
     let half = g.constant(0.5);
     let mut rates: Vec<ExprId> = turned.into_iter().map(|x| g.mul(half, x)).collect();
     if freedom == Freedom::Free {
-        let rotation = super::kinematics::rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
+        let rotation = crate::derive::kinematics::rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
         rates.extend(g.mul_vec3(rotation, [v[3], v[4], v[5]]));
     }
     rates
-}
-
-/// Names and units of all coordinates and of all speeds, in tree order.
-type Names = (Vec<(String, &'static str)>, Vec<(String, &'static str)>);
-
-fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names {
-    let (mut positions, mut speeds) = (Vec::new(), Vec::new());
-    for link in &linkage.links {
-        let joint = mechanism.joint(link.joint);
-        let name = &joint.name;
-        match link.freedom {
-            Freedom::Rotation { .. } | Freedom::Translation { .. } => {
-                let several = coordinate_count(&joint.kind) > 1;
-                let suffix = if several { (link.joint_coordinate + 1).to_string() } else { String::new() };
-                let angle = is_angle(&joint.kind, link.joint_coordinate);
-                let units = if angle { ("rad", "rad/s") } else { ("m", "m/s") };
-                positions.push((format!("{name}.q{suffix}"), units.0));
-                speeds.push((format!("{name}.v{suffix}"), units.1));
-            }
-            Freedom::Ball | Freedom::Free => {
-                positions.extend((0..4).map(|i| (format!("{name}.q{i}"), "1")));
-                speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.w{axis}"), "rad/s")));
-                if link.freedom == Freedom::Free {
-                    positions.extend(["x", "y", "z"].map(|axis| (format!("{name}.{axis}"), "m")));
-                    speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.v{axis}"), "m/s")));
-                }
-            }
-            Freedom::Weld => {}
-        }
-    }
-    (positions, speeds)
 }
