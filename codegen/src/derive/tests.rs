@@ -167,41 +167,89 @@ fn rssr_at_the_start_agrees_with_the_independent_newton_euler_solution() {
     }
 }
 
-#[test]
-fn count() {
-    for (keep, label) in [
-        (Entry::ForwardDynamics, "fd"),
-        (Entry::EquationsOfMotion, "eom"),
-        (Entry::Observe, "obs"),
-        (Entry::Closure, "clo"),
-    ] {
-        let (mechanism, topology) = rssr(Closure::Joint);
-        let derived = derive(&mechanism, &topology, None, Purpose::Everything);
-        let g = &derived.equations.graph;
-        let f = derived.equations.functions.iter().find(|f| f.name == keep.name()).unwrap();
-        let mut live = std::collections::HashSet::new();
-        let mut stack: Vec<_> = f.outputs.iter().flat_map(|b| b.entries.clone()).collect();
-        while let Some(id) = stack.pop() {
-            if live.insert(id) {
-                match g.node(id) {
-                    crate::expr::Node::Unary(_, a) => stack.push(a),
-                    crate::expr::Node::Binary(_, a, b) => {
-                        stack.push(a);
-                        stack.push(b);
-                    }
-                    _ => {}
-                }
-            }
-        }
-        let mut counts = std::collections::BTreeMap::new();
-        for id in &live {
-            let k = match g.node(*id) {
-                crate::expr::Node::Unary(u, _) => format!("{u:?}"),
-                crate::expr::Node::Binary(b, ..) => format!("{b:?}"),
-                _ => continue,
-            };
-            *counts.entry(k).or_insert(0) += 1;
-        }
-        eprintln!("{label} {counts:?} total {}", counts.values().sum::<i32>());
+/// N four-bar: N + 1 uprights on the ground, N couplers between their tops.
+fn n_four_bar(n: usize) -> (Mechanism, Topology) {
+    let body = |i: usize| Carrier::Body(BodyId::new(i));
+    let z = Axis { parent: [0.0, 0.0, 1.0], child: [0.0, 0.0, 1.0] };
+    let mut points = Vec::new();
+    let mut bodies = Vec::new();
+    let mut joints = Vec::new();
+    let mut tree = Vec::new();
+    let mut cuts = Vec::new();
+    for i in 0..=n {
+        points.push(point(&format!("A{i}"), [i as f64, 0.0, 0.0]));
+        points.push(point(&format!("B{i}"), [i as f64, 1.0, 0.0]));
+        bodies.push(rod(&format!("u{i}"), 2 * i, 2 * i + 1));
+        joints.push(joint(&format!("G{i}"), JointKind::Revolute(z), Carrier::Ground, i, 2 * i));
+        tree.push(TreeJoint {
+            joint: JointId::new(i),
+            inboard: Carrier::Ground,
+            outboard: BodyId::new(i),
+            reversed: false,
+        });
     }
+    for i in 0..n {
+        bodies.push(rod(&format!("c{i}"), 2 * i + 1, 2 * i + 3));
+        let id = joints.len();
+        joints.push(joint(&format!("L{i}"), JointKind::Revolute(z), body(i), n + 1 + i, 2 * i + 1));
+        tree.push(TreeJoint {
+            joint: JointId::new(id),
+            inboard: body(i),
+            outboard: BodyId::new(n + 1 + i),
+            reversed: false,
+        });
+        joints.push(joint(&format!("R{i}"), JointKind::Revolute(z), body(n + 1 + i), i + 1, 2 * i + 3));
+        cuts.push(JointId::new(id + 1));
+    }
+    let mechanism = Mechanism {
+        name: "n".into(),
+        parameters: Vec::new(),
+        gravity: [0.0, -9.81, 0.0].map(f),
+        bodies,
+        points,
+        joints,
+        forces: Vec::new(),
+        closure: Closure::Joint,
+        starts: Vec::new(),
+    };
+    (mechanism, Topology { tree, cuts })
+}
+
+fn live_operations(derived: &Derived, entry: Entry) -> usize {
+    let graph = &derived.equations.graph;
+    let function = derived.equations.functions.iter().find(|f| f.name == entry.name()).unwrap();
+    let mut live = std::collections::HashSet::new();
+    let mut stack: Vec<_> = function.outputs.iter().flat_map(|b| b.entries.clone()).collect();
+    let mut count = 0;
+    while let Some(id) = stack.pop() {
+        if !live.insert(id) {
+            continue;
+        }
+        match graph.node(id) {
+            crate::expr::Node::Unary(_, a) => {
+                stack.push(a);
+                count += 1;
+            }
+            crate::expr::Node::Binary(_, a, b) => {
+                stack.extend([a, b]);
+                count += 1;
+            }
+            _ => {}
+        }
+    }
+    count
+}
+
+#[test]
+fn operations_of_the_n_four_bar_grow_no_faster_than_n_to_the_1_3() {
+    let mut counts = Vec::new();
+    for n in [2, 10, 40] {
+        let (mechanism, topology) = n_four_bar(n);
+        // Of the five rows of every cut revolute the two in the plane are kept.
+        let keep: Vec<bool> = (0..5 * n).map(|row| row % 5 < 2).collect();
+        let derived = derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
+        counts.push(live_operations(&derived, Entry::ForwardDynamics) as f64);
+    }
+    let exponent = (counts[2] / counts[0]).ln() / 20.0_f64.ln();
+    assert!(exponent < 1.3, "operations {counts:?}");
 }
