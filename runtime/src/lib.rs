@@ -5,15 +5,20 @@
 //! come with the default feature `std`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod dual;
+mod float;
 mod intrinsic;
 mod scalar;
+mod sincos;
 mod system;
 
 #[cfg(feature = "std")]
 mod description;
 
+pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
+pub use sincos::sin_cos;
 pub use system::{Entry, Sizes, System};
 
 #[cfg(feature = "std")]
