@@ -2,9 +2,11 @@
 //!
 //! Data flows one way: toml -> `spec` -> `model` -> `derive` -> `expr` -> `tape` -> back ends.
 
+pub mod backend;
 pub mod derive;
 pub mod expr;
 pub mod id;
 pub mod model;
 pub mod source;
 pub mod spec;
+pub mod tape;

@@ -36,17 +36,3 @@ pub trait Scalar:
     /// `yes` where `mask` holds, else `no`; both are evaluated.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 }
-impl Scalar for f64 {
-    type Mask = bool;
-    fn constant(v: f64) -> f64 { v }
-    fn mul_add(self, a: f64, b: f64) -> f64 { self * a + b }
-    fn sqrt(self) -> f64 { f64::sqrt(self) }
-    fn sin_cos(self) -> (f64, f64) { f64::sin_cos(self) }
-    fn exp(self) -> f64 { f64::exp(self) }
-    fn ln(self) -> f64 { f64::ln(self) }
-    fn atan2(self, x: f64) -> f64 { f64::atan2(self, x) }
-    fn abs(self) -> f64 { f64::abs(self) }
-    fn max(self, o: f64) -> f64 { f64::max(self, o) }
-    fn lt(self, o: f64) -> bool { self < o }
-    fn select(m: bool, a: f64, b: f64) -> f64 { if m { a } else { b } }
-}

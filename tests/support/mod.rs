@@ -42,13 +42,9 @@ pub fn run(compiled: &Compiled, span: Span, settle: Span, samples: usize, tolera
 /// Any integration by the interpreter.
 pub fn run_with(compiled: &Compiled, settings: &Settings) -> Recorded {
     let system = compiled.interpreter();
-    let run = simulate(
-        &system,
-        compiled.description(),
-        &compiled.parameters(),
-        settings,
-        &mut |_| ControlFlow::Continue(()),
-    )
+    let run = simulate(&system, compiled.description(), &compiled.parameters(), settings, &mut |_| {
+        ControlFlow::Continue(())
+    })
     .unwrap_or_else(|error| panic!("{error}"));
     if let Some(stopped) = &run.stopped {
         panic!("the run stopped early: {stopped}");
@@ -104,7 +100,8 @@ impl Table {
     /// Reads `tests/reference/<name>`.
     pub fn reference(name: &str) -> Self {
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/reference").join(name);
-        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let text =
+            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
         let names = lines.next().expect("a header").split(',').map(|name| name.trim().to_owned()).collect();
         let rows = lines
@@ -115,7 +112,8 @@ impl Table {
 
     /// A column by name.
     pub fn column(&self, name: &str) -> Vec<f64> {
-        let index = self.names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
+        let index =
+            self.names.iter().position(|known| known == name).unwrap_or_else(|| panic!("no column {name}"));
         self.rows.iter().map(|row| row[index]).collect()
     }
 

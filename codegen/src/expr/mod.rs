@@ -124,6 +124,12 @@ impl Graph {
         }
     }
 
+    /// The node `-id`, if it has been made.
+    #[must_use]
+    pub fn negation_of(&self, id: ExprId) -> Option<ExprId> {
+        self.known.get(&Node::Unary(Unary::Neg, id)).copied()
+    }
+
     /// Starts a section: nodes first made from here on belong to it.
     pub fn begin_section(&mut self, title: impl Into<String>) {
         let title = title.into();
