@@ -2,9 +2,17 @@
 //!
 //! Data flows one way: toml -> `spec` -> `model` -> `derive` -> `expr` -> `tape` -> back ends.
 
+pub mod builder;
 pub mod derive;
 pub mod expr;
 pub mod id;
 pub mod model;
 pub mod source;
 pub mod spec;
+#[rustfmt::skip]
+pub mod stub; // STUB
+
+pub use builder::Builder;
+pub use model::Closure;
+pub use source::SourceFile;
+pub use stub::{Compiled, Diagnostics, Options, compile}; // STUB

@@ -10,6 +10,12 @@ mod scalar;
 mod system;
 
 #[cfg(feature = "std")]
+#[rustfmt::skip]
+mod stub; // STUB
+#[cfg(feature = "std")]
+pub use stub::{Integrator, Run, RunError, Settings, Span, Statistics, record, simulate}; // STUB
+
+#[cfg(feature = "std")]
 mod description;
 
 pub use intrinsic::{angle_over_sine, log_coefficient};
