@@ -40,4 +40,33 @@ macro_rules! shipped {
 shipped! {
     /// A bar that swings about one revolute joint.
     pendulum = "pendulum",
+    /// Planar four-bar with four revolute joints: three of its constraint rows are redundant.
+    four_bar = "four_bar",
+    /// Slider-crank with a driven crank.
+    slider_crank = "slider_crank",
+    /// The case study's spatial four-bar, rigid, with ideal joints.
+    rssr_rigid = "rssr_rigid",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shipped_file_is_compiled_in_and_carries_its_own_name() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let files = std::fs::read_dir(folder).expect("mechanisms folder");
+        let mut names: Vec<String> = files
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        let mut compiled: Vec<&str> = SHIPPED.iter().map(|shipped| shipped.name).collect();
+        compiled.sort_unstable();
+        assert_eq!(names, compiled);
+        for shipped in SHIPPED {
+            assert_eq!((shipped.description)().name, shipped.name);
+        }
+    }
 }

@@ -6,6 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use linkwear_codegen::Diagnostics;
 use linkwear_runtime::RunError;
 use serde_json::{Value, json};
@@ -201,7 +202,10 @@ fn print_errors(errors: &[Value]) {
 pub fn wrong_arguments(error: &clap::Error, as_json: bool) -> ExitCode {
     if as_json && error.use_stderr() {
         let text = error.render().to_string();
-        let message = text.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        let message = match error.kind() {
+            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
+            _ => first_paragraph(&text),
+        };
         print_errors(&[json!({
             "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
             "message": message, "help": text.trim_end(),
@@ -210,6 +214,12 @@ pub fn wrong_arguments(error: &clap::Error, as_json: bool) -> ExitCode {
         let _ = error.print();
     }
     ExitCode::from(if error.use_stderr() { USAGE } else { 0 })
+}
+
+/// What clap says before its usage lines, in one line.
+fn first_paragraph(text: &str) -> String {
+    let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@ pub fn run(arguments: &NewArguments, format: Format) -> Result<(), Failure> {
     if path.exists() {
         return Err(Failure::Exists(path));
     }
-    let text = STARTER.replace("\"starter\"", &format!("\"{}\"", arguments.name));
+    let text = STARTER.replace("starter", &arguments.name);
     write_whole(&path, |file| file.write_all(text.as_bytes()))?;
     let shown = path.display();
     match format {

@@ -222,9 +222,11 @@ fn human(
     };
     let head = format!("{}: {length} in {wall_seconds:.3} s, {backend}", description.name);
     let method = match settings.integrator {
-        Integrator::Rk4 { step } => format!("rk4, step {step} s"),
-        Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance}"),
-        Integrator::GeneralizedAlpha { step, rho } => format!("generalized-alpha, step {step} s, rho {rho}"),
+        Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
+        Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
+        Integrator::GeneralizedAlpha { step, rho } => {
+            format!("generalized-alpha, step {step:e} s, rho {rho}")
+        }
     };
     let mut text = summary::text(description, run, &head, &method);
     if let Some(out) = &arguments.out {
