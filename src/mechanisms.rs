@@ -21,7 +21,6 @@ macro_rules! shipped {
     ($($(#[$doc:meta])* $name:ident = $file:literal),* $(,)?) => {
         $(
             $(#[$doc])*
-            #[allow(unused_qualifications, clippy::all, reason = "generated code")]
             pub mod $name {
                 linkwear_runtime::include_mechanism!($file);
             }

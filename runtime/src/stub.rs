@@ -167,6 +167,11 @@ pub mod record {
 #[macro_export]
 macro_rules! include_mechanism {
     ($name:literal) => {
-        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+        #[allow(dead_code, unused_imports, unused_qualifications, missing_docs, clippy::all, clippy::pedantic)]
+        mod generated {
+            include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+        }
+        #[allow(unused_imports)]
+        pub use generated::*;
     };
 }
