@@ -11,7 +11,7 @@ mod matrix;
 use std::collections::HashMap;
 
 pub use crate::id::{ExprId, SectionId, SymbolId};
-pub use matrix::{Mat3, Vec3};
+pub use matrix::{Mat3, Vec3, transpose};
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
