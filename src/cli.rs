@@ -48,9 +48,7 @@ enum Command {
     #[command(after_help = "Example:\n  linkwear check mechanisms/rssr_rigid.toml")]
     Check(Input),
     /// Print the symbolic equations, with operation counts before and after sharing.
-    #[command(
-        after_help = "Example:\n  linkwear equations mechanisms/pendulum.toml --only mass_matrix --as latex"
-    )]
+    #[command(after_help = "Example:\n  linkwear equations mechanisms/pendulum.toml --only mass --as latex")]
     Equations(EquationsArguments),
     /// Write the specialised source code.
     #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \

@@ -201,9 +201,10 @@ impl Builder {
         written.read.push(path.to_path_buf());
         let source = SourceFile { name: shown_name(path), text };
         let compiled = compile(&source, &self.options).map_err(BuildError::Mechanism)?;
-        for warning in &compiled.warnings {
-            let (line, column) = source.line_column(warning.span.start);
-            written.warnings.push(format!("{}:{line}:{column}: {}", source.name, warning.message));
+        let warnings = Diagnostics::from_list(compiled.warnings.clone()).located(&source);
+        for warning in warnings.entries() {
+            let place = format!("{}:{}:{}", warning.file, warning.line, warning.column);
+            written.warnings.push(format!("{place}: {} ({})", warning.message, warning.code));
         }
         let mut generated = compiled.rust_source();
         if let Some(runtime) = &self.runtime_path {

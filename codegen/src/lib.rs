@@ -12,7 +12,13 @@ pub mod spec;
 #[rustfmt::skip]
 pub mod stub; // STUB
 
+#[allow(missing_docs)]
+pub mod diagnostic {
+    pub use crate::stub::{Diagnostic, Diagnostics, Entry, nearest}; // STUB
+}
+
 pub use builder::Builder;
+pub use diagnostic::Diagnostics;
 pub use model::Closure;
 pub use source::SourceFile;
-pub use stub::{Compiled, Diagnostics, Options, compile}; // STUB
+pub use stub::{Compiled, Options, compile}; // STUB

@@ -21,36 +21,43 @@ pub struct Options {
 
 #[derive(Clone, Debug)]
 pub struct Entry {
-    pub code: String,
+    pub code: &'static str,
     pub file: String,
     pub line: usize,
     pub column: usize,
     pub message: String,
-    pub help: Option<String>,
+    pub help: String,
 }
 
 #[derive(Clone, Debug)]
 pub struct Diagnostic {
-    pub code: String,
+    pub code: &'static str,
     pub message: String,
-    pub help: Option<String>,
     pub span: Span,
 }
 
 #[derive(Clone, Debug)]
 pub struct Diagnostics {
-    source: SourceFile,
+    source: Option<SourceFile>,
     list: Vec<Diagnostic>,
 }
 
 impl Diagnostics {
-    pub fn new(source: &SourceFile, list: Vec<Diagnostic>) -> Self {
-        Self { source: source.clone(), list }
+    pub fn from_list(list: Vec<Diagnostic>) -> Self {
+        Self { source: None, list }
+    }
+    pub fn located(mut self, source: &SourceFile) -> Self {
+        self.source = Some(source.clone());
+        self
+    }
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
     }
     pub fn entries(&self) -> Vec<Entry> {
+        let source = self.source.as_ref().unwrap();
         self.list.iter().map(|d| {
-            let (line, column) = self.source.line_column(d.span.start);
-            Entry { code: d.code.clone(), file: self.source.name.clone(), line, column, message: d.message.clone(), help: d.help.clone() }
+            let (line, column) = source.line_column(d.span.start);
+            Entry { code: d.code, file: source.name.clone(), line, column, message: d.message.clone(), help: String::new() }
         }).collect()
     }
 }
@@ -58,10 +65,14 @@ impl Diagnostics {
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for e in self.entries() {
-            writeln!(f, "error[{}]: {}\n --> {}:{}:{}", e.code, e.message, e.file, e.line, e.column)?;
+            write!(f, "error[{}]: {}\n --> {}:{}:{}", e.code, e.message, e.file, e.line, e.column)?;
         }
         Ok(())
     }
+}
+
+pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    known.into_iter().find(|name| strsim::osa_distance(wrong, name) <= 2)
 }
 
 #[derive(Clone, Debug)]
@@ -110,7 +121,7 @@ impl Compiled {
 
 pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
     use sha2::Digest;
-    let bad = |code: &str, message: String, span: Span| Diagnostics::new(source, vec![Diagnostic { code: code.into(), message, help: None, span }]);
+    let bad = |code: &'static str, message: String, span: Span| Diagnostics::from_list(vec![Diagnostic { code, message, span }]).located(source);
     if let Err(e) = source.text.parse::<toml::Table>() {
         return Err(bad("E0001", e.message().into(), e.span().map(Span::from).unwrap_or_default()));
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use linkwear_codegen::Diagnostics;
+use linkwear_codegen::diagnostic::{Diagnostics, Entry, nearest};
 use linkwear_runtime::RunError;
 use serde_json::{Value, json};
 
@@ -112,16 +112,7 @@ impl Failure {
 
     fn entries(&self) -> Vec<Value> {
         if let Self::Mechanism(diagnostics) = self {
-            return diagnostics
-                .entries()
-                .iter()
-                .map(|entry| {
-                    json!({
-                        "code": entry.code, "file": entry.file, "line": entry.line,
-                        "column": entry.column, "message": entry.message, "help": entry.help,
-                    })
-                })
-                .collect();
+            return entries(diagnostics);
         }
         let plain = self.plain();
         vec![json!({
@@ -182,15 +173,21 @@ fn kept_help(kept: &Option<PathBuf>) -> String {
 }
 
 fn suggestion(name: &str, known: &[String]) -> String {
-    let nearest = known
-        .iter()
-        .map(|candidate| (strsim::damerau_levenshtein(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= 2 + name.len() / 4)
-        .min_by_key(|(distance, _)| *distance);
-    match nearest {
-        Some((_, candidate)) => format!("did you mean `{candidate}`?"),
+    match nearest(name, known.iter().map(String::as_str)) {
+        Some(candidate) => format!("did you mean `{candidate}`?"),
         None => format!("there are: {}", known.join(", ")),
     }
+}
+
+/// Diagnostics of the mechanism file as machines read them.
+pub fn entries(diagnostics: &Diagnostics) -> Vec<Value> {
+    let value = |entry: Entry| {
+        json!({
+            "code": entry.code, "file": entry.file, "line": entry.line, "column": entry.column,
+            "message": entry.message, "help": entry.help,
+        })
+    };
+    diagnostics.entries().into_iter().map(value).collect()
 }
 
 fn print_errors(errors: &[Value]) {
@@ -228,8 +225,8 @@ mod tests {
 
     #[test]
     fn a_near_name_is_suggested_and_a_far_one_lists_all() {
-        let known = ["mass_matrix".to_owned(), "phi".to_owned()];
-        assert_eq!(suggestion("mas_matrix", &known), "did you mean `mass_matrix`?");
-        assert_eq!(suggestion("torque", &known), "there are: mass_matrix, phi");
+        let known = ["closure".to_owned(), "phi".to_owned()];
+        assert_eq!(suggestion("closrue", &known), "did you mean `closure`?");
+        assert_eq!(suggestion("torque", &known), "there are: closure, phi");
     }
 }

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use linkwear_codegen::{Closure, Compiled, Options, SourceFile, compile};
-use serde_json::{Value, json};
+use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile};
+use serde_json::Value;
 
-use super::failure::Failure;
+use super::failure::{Failure, entries};
 use super::{ClosureName, Input};
 
 /// A mechanism that was read and compiled.
@@ -14,6 +14,7 @@ pub struct Loaded {
     pub source: SourceFile,
     /// With overrides and closure as asked.
     pub compiled: Compiled,
+    warnings: Diagnostics,
 }
 
 /// Reads and compiles; prints warnings.
@@ -26,35 +27,17 @@ pub fn load(input: &Input) -> Result<Loaded, Failure> {
     });
     let options = Options { closure, overrides: input.overrides.clone() };
     let compiled = compile(&source, &options).map_err(Failure::Mechanism)?;
-    let loaded = Loaded { source, compiled };
-    for warning in loaded.warnings() {
-        eprintln!("warning[{}]: {}", text_of(&warning, "code"), text_of(&warning, "message"));
-        eprintln!("  --> {}:{}:{}", loaded.source.name, warning["line"], warning["column"]);
-        if !warning["help"].is_null() {
-            eprintln!("  = help: {}", text_of(&warning, "help"));
-        }
+    let warnings = Diagnostics::from_list(compiled.warnings.clone()).located(&source);
+    if !warnings.is_empty() {
+        eprintln!("{warnings}");
     }
-    Ok(loaded)
-}
-
-fn text_of<'a>(value: &'a Value, key: &str) -> &'a str {
-    value[key].as_str().unwrap_or_default()
+    Ok(Loaded { source, compiled, warnings })
 }
 
 impl Loaded {
     /// Warnings in the shape of the errors of a failure.
     pub fn warnings(&self) -> Vec<Value> {
-        self.compiled
-            .warnings
-            .iter()
-            .map(|warning| {
-                let (line, column) = self.source.line_column(warning.span.start);
-                json!({
-                    "code": warning.code, "file": self.source.name, "line": line, "column": column,
-                    "message": warning.message, "help": warning.help,
-                })
-            })
-            .collect()
+        entries(&self.warnings)
     }
 
     /// Names of the overridden parameters that are folded into the code, so that it must be made anew.
