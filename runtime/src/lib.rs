@@ -13,6 +13,12 @@ mod sincos;
 mod system;
 
 #[cfg(feature = "std")]
+#[rustfmt::skip]
+mod stub; // STUB
+#[cfg(feature = "std")]
+pub use stub::{Integrator, Run, RunError, Settings, Span, Statistics, record, simulate}; // STUB
+
+#[cfg(feature = "std")]
 mod description;
 
 pub use dual::Dual;

@@ -8,7 +8,7 @@ mod rank;
 mod reactions;
 mod samples;
 
-use linkwear_runtime::{Description, System};
+use linkwear_runtime::{AssemblyError, Description, System};
 
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::model::{Mechanism, Topology};
@@ -90,13 +90,14 @@ pub fn analyse(
             reason: "in every position tried, the other rows of its loops already forbid it".to_owned(),
         });
     }
-    let mut errors = Diagnostics::new(source);
-    if analysis.mobility == 0 {
-        errors.push(locked(mechanism, &analysis));
+    let errors = if analysis.mobility == 0 {
+        vec![locked(mechanism, &analysis)]
     } else {
-        conflicts(mechanism, description, &rows, &mut errors);
+        conflicts(mechanism, description, &rows)
+    };
+    if !errors.is_empty() {
+        return Err(Diagnostics::from_list(errors).located(source));
     }
-    errors.into_result()?;
     analysis.idle = idle::idle_freedoms(mechanism, description, system, parameters, &positions);
     analysis.non_unique = reactions::non_unique(description, system, parameters, &positions);
     Ok((analysis, keep))
@@ -115,21 +116,31 @@ fn grubler(mechanism: &Mechanism) -> i64 {
 fn cannot_close(
     source: &SourceFile,
     mechanism: &Mechanism,
-    error: &linkwear_runtime::AssemblyError,
+    error: &AssemblyError,
 ) -> Diagnostics {
-    let joint = error.joint().and_then(|name| mechanism.joints.iter().find(|joint| joint.name == name));
-    let mut diagnostic = Diagnostic::error(Code::LoopDoesNotClose, error.to_string());
-    if let Some(joint) = joint {
+    let code = match error {
+        AssemblyError::HeldPositions { .. } | AssemblyError::HeldSpeeds { .. } => Code::StartImpossible,
+        AssemblyError::NonFinite { .. } | AssemblyError::Setup(_) => Code::StartNotFinite,
+        _ => Code::LoopDoesNotClose,
+    };
+    let mut diagnostic = Diagnostic::new(code, error.to_string());
+    let named = match error {
+        AssemblyError::NoConvergence { joint, .. }
+        | AssemblyError::HeldSpeeds { joint, .. }
+        | AssemblyError::SpeedsImpossible { joint, .. } => Some(joint),
+        _ => None,
+    };
+    if let Some(joint) = named.and_then(|name| mechanism.joints.iter().find(|joint| joint.name == *name)) {
         diagnostic = diagnostic.at(joint.span, "this loop stays open");
     }
     diagnostic = diagnostic
         .help("check lengths and points, or start Newton nearer to the wanted assembly with [assembly]");
-    Diagnostics::from_one(source, diagnostic)
+    Diagnostics::from_list(vec![diagnostic]).located(source)
 }
 
 fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
     let names: Vec<&str> = mechanism.joints.iter().map(|joint| joint.name.as_str()).collect();
-    let mut diagnostic = Diagnostic::error(
+    let mut diagnostic = Diagnostic::new(
         Code::Locked,
         format!(
             "nothing can move: {} speeds are held by {} independent constraint rows",
@@ -149,7 +160,8 @@ fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
 }
 
 /// Drivers must prescribe independent freedoms.
-fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows, errors: &mut Diagnostics) {
+fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
     for group in rows.driver_conflicts() {
         let names: Vec<&str> =
             group.iter().map(|driver| description.drivers[*driver].joint.as_ref()).collect();
@@ -165,7 +177,7 @@ fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows, erro
             )
         };
         let mut diagnostic =
-            Diagnostic::error(code, message).help("keep as many drivers as there are freedoms to drive");
+            Diagnostic::new(code, message).help("keep as many drivers as there are freedoms to drive");
         for name in &names {
             if let Some(joint) = mechanism.joints.iter().find(|joint| joint.name == **name) {
                 diagnostic = diagnostic.at(joint.span, "driven here");
@@ -173,4 +185,5 @@ fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows, erro
         }
         errors.push(diagnostic);
     }
+    errors
 }

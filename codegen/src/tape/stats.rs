@@ -10,48 +10,48 @@ use crate::expr::{Binary, ExprId, Graph, Node, Unary};
 
 use super::{Op, Tape};
 
-/// Operations by kind. Counts before sharing can be astronomic, hence f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+/// Operations by kind. Counts before sharing can be astronomic: sums saturate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Operations {
     /// Multiplications.
-    pub mul: f64,
+    pub mul: u64,
     /// Additions, subtractions and changes of sign.
-    pub add: f64,
+    pub add: u64,
     /// Divisions.
-    pub div: f64,
+    pub div: u64,
     /// Square roots.
-    pub sqrt: f64,
+    pub sqrt: u64,
     /// Sine-cosine pairs.
-    pub sincos: f64,
+    pub sincos: u64,
     /// Everything else: exp, ln, atan2, intrinsics.
-    pub other: f64,
+    pub other: u64,
     /// Sum.
-    pub total: f64,
+    pub total: u64,
 }
 
 impl AddAssign for Operations {
     fn add_assign(&mut self, other: Self) {
-        self.mul += other.mul;
-        self.add += other.add;
-        self.div += other.div;
-        self.sqrt += other.sqrt;
-        self.sincos += other.sincos;
-        self.other += other.other;
-        self.total += other.total;
+        self.mul = self.mul.saturating_add(other.mul);
+        self.add = self.add.saturating_add(other.add);
+        self.div = self.div.saturating_add(other.div);
+        self.sqrt = self.sqrt.saturating_add(other.sqrt);
+        self.sincos = self.sincos.saturating_add(other.sincos);
+        self.other = self.other.saturating_add(other.other);
+        self.total = self.total.saturating_add(other.total);
     }
 }
 
 impl Operations {
     fn count(&mut self, op: &Op) {
         match op {
-            Op::Binary(Binary::Mul, ..) => self.mul += 1.0,
-            Op::Binary(Binary::Add | Binary::Sub, ..) | Op::Unary(Unary::Neg, _) => self.add += 1.0,
-            Op::Binary(Binary::Div, ..) => self.div += 1.0,
-            Op::Unary(Unary::Sqrt, _) => self.sqrt += 1.0,
-            Op::SinCos(_) | Op::Unary(Unary::Sin | Unary::Cos, _) => self.sincos += 1.0,
-            Op::Unary(..) | Op::Binary(..) => self.other += 1.0,
+            Op::Binary(Binary::Mul, ..) => self.mul += 1,
+            Op::Binary(Binary::Add | Binary::Sub, ..) | Op::Unary(Unary::Neg, _) => self.add += 1,
+            Op::Binary(Binary::Div, ..) => self.div += 1,
+            Op::Unary(Unary::Sqrt, _) => self.sqrt += 1,
+            Op::SinCos(_) | Op::Unary(Unary::Sin | Unary::Cos, _) => self.sincos += 1,
+            Op::Unary(..) | Op::Binary(..) => self.other += 1,
         }
-        self.total += 1.0;
+        self.total += 1;
     }
 }
 
