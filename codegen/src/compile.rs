@@ -7,7 +7,7 @@ use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, STATEMENTS_PER_FUNCTION, emit};
 use crate::derive::{self, Equations, Purpose};
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::model::{self, Closure, Mechanism, Topology};
+use crate::model::{self, Closure, Mechanism, Overrides, Topology};
 use crate::preflight::{self, Analysis};
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
@@ -63,11 +63,12 @@ pub struct FunctionCount {
 /// All that is wrong with the file, in one go.
 pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
     let spec = spec::parse(source)?;
-    let (mut mechanism, warnings) = model::resolve(&spec, &options.overrides)?;
+    let overrides = Overrides::from_pairs(&options.overrides);
+    let (mut mechanism, warnings) = model::resolve(&spec, &overrides)?;
     if let Some(closure) = options.closure {
         mechanism.closure = closure;
     }
-    let topology = model::topology::spanning_tree(&mechanism, source)?;
+    let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
     let (analysis, keep) = analyse(source, &mechanism, &topology)?;
     let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
     let tapes = tape::lower(&derived.equations);

@@ -34,6 +34,7 @@ fn joint(name: &str, kind: JointKind, parent: Carrier, child: usize, at: usize) 
         parent,
         child: Carrier::Body(BodyId::new(child)),
         at: PointId::new(at),
+        cut: false,
         drives: Vec::new(),
         passive: Vec::new(),
         span: Span::default(),

@@ -198,7 +198,7 @@ impl Walker<'_> {
         let mut q = self.layout.moved(&from.q, scaled.as_slice());
         for _ in 0..20 {
             let (phi, jacobian) = self.constraints(&q);
-            if phi.amax() < CLOSED {
+            if phi.iter().all(|residual| residual.abs() < CLOSED) {
                 return Some(Position { q, jacobian });
             }
             let correction = least_norm(&jacobian, &-phi)?;
@@ -219,6 +219,9 @@ fn random(state: &mut u64) -> f64 {
 /// Columns span the null space.
 pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let n = matrix.ncols();
+    if n == 0 {
+        return DMatrix::zeros(0, 0);
+    }
     // Padding with zero rows makes the decomposition return all right singular vectors.
     let padded = matrix.clone().resize_vertically(matrix.nrows().max(n), 0.0);
     let svd = padded.svd(false, true);
@@ -232,6 +235,9 @@ pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Shortest solution of a rank-deficient system.
 fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    if matrix.is_empty() {
+        return Some(DVector::zeros(matrix.ncols()));
+    }
     let svd = matrix.clone().svd(true, true);
     let largest = svd.singular_values.amax();
     svd.solve(right, RANK_TOLERANCE * largest).ok()

@@ -25,7 +25,7 @@ pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> TokenStre
         let parts = split.parts.iter().zip(&calls).map(|(part, call)| {
             let body = part_body(tape, part);
             quote! {
-                #[allow(unused_variables, clippy::all)]
+                #[allow(non_snake_case, unused_variables, clippy::all, clippy::pedantic)]
                 #[inline(never)]
                 fn #call<T: #runtime::Scalar>(x: &[T], y: &mut [T], w: &mut [T]) {
                     #bounds
@@ -37,7 +37,7 @@ pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> TokenStre
     });
     quote! {
         #(#[doc = #docs])*
-        #[allow(unused_variables, clippy::all)]
+        #[allow(non_snake_case, unused_variables, clippy::all, clippy::pedantic)]
         pub fn #name<T: #runtime::Scalar>(x: &[T], y: &mut [T], w: &mut [T]) {
             #bounds
             #direct
@@ -49,6 +49,7 @@ pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> TokenStre
 
 /// Slices of known length, so that every index below is checked once, here.
 fn bounds(inputs: usize, outputs: usize, slots: usize) -> TokenStream {
+    let [inputs, outputs, slots] = [inputs, outputs, slots].map(Literal::usize_unsuffixed);
     quote! {
         let x = &x[..#inputs];
         let y = &mut y[..#outputs];
@@ -113,12 +114,13 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
     }
     for (index, name) in inputs.iter().enumerate() {
         if let Some(name) = name {
+            let index = Literal::usize_unsuffixed(index);
             tokens.extend(quote!(let #name = x[#index];));
         }
     }
     for (value, slot) in &part.loads {
         let name = names.unique(&format!("t{value}"));
-        let slot = *slot as usize;
+        let slot = Literal::usize_unsuffixed(*slot as usize);
         tokens.extend(quote!(let #name = w[#slot];));
         values.insert(*value, name);
     }
@@ -133,7 +135,7 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
         tokens.extend(statement_tokens(statement, &inputs, &mut values, &mut names));
     }
     for (value, slot) in &part.saves {
-        let (name, slot) = (&values[value], *slot as usize);
+        let (name, slot) = (&values[value], Literal::usize_unsuffixed(*slot as usize));
         tokens.extend(quote!(w[#slot] = #name;));
     }
     tokens
@@ -179,7 +181,7 @@ fn statement_tokens(
 
 fn stores(list: &[(u32, Operand)], tokens: &dyn Fn(Operand) -> TokenStream) -> TokenStream {
     let stores = list.iter().map(|(index, operand)| {
-        let (index, value) = (*index as usize, tokens(*operand));
+        let (index, value) = (Literal::usize_unsuffixed(*index as usize), tokens(*operand));
         quote!(y[#index] = #value;)
     });
     quote!(#(#stores)*)
@@ -188,7 +190,7 @@ fn stores(list: &[(u32, Operand)], tokens: &dyn Fn(Operand) -> TokenStream) -> T
 fn direct_operand(operand: Operand) -> TokenStream {
     match operand {
         Operand::Input(index) => {
-            let index = index as usize;
+            let index = Literal::usize_unsuffixed(index as usize);
             quote!(x[#index])
         }
         other => operand_tokens(other, &[], &std::collections::HashMap::new()),
