@@ -15,8 +15,8 @@ use crate::row::{Pair, Row};
 /// universal `[angle about the parent's axis, angle about the child's axis]`, planar
 /// `[first, second, angle]`: position and speed of equal length, rad and m. Spherical: quaternion of the
 /// relative rotation (scalar first) and relative angular velocity in W. Free: the same, followed by the
-/// child's point relative to the parent's in parent axes [m], and by the velocity, in W, of the child's
-/// point relative to the parent's material there [m/s].
+/// child's point relative to the parent's in W [m], and by the velocity, in W, of the child's point
+/// relative to the parent's material there [m/s].
 /// Angles are in (-pi, pi], except a screw's, which its slide makes unique.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointMotion {
@@ -148,8 +148,7 @@ impl JointGeometry {
             let mut speed: Vec<f64> = pair.relative_omega().iter().copied().collect();
             if self.kind == JointKind::Free {
                 let (p, c) = (&pair.parent_point, &pair.child_point);
-                let d = pair.parent.state.rotation.transpose() * (c.position - p.position);
-                position.extend(d.iter());
+                position.extend((c.position - p.position).iter());
                 speed.extend((c.velocity - pair.parent.velocity_at(&c.position)).iter());
             }
             return JointMotion { position, speed };
@@ -175,7 +174,8 @@ impl JointGeometry {
         let near = usize::from(!outward);
         let rotation = k.rotation * if outward { turn } else { turn.transpose() };
         let parent_rotation = if outward { k.rotation } else { rotation };
-        let d = parent_rotation * shift;
+        // A free joint's displacement is in W already.
+        let d = if self.kind == JointKind::Free { shift } else { parent_rotation * shift };
         let point = known.point(&self.points[near]).position + if outward { d } else { -d };
         let centre = point - rotation * (self.points[1 - near] - reference);
         // Joint's relative twist at the child's point, in W.
@@ -189,7 +189,7 @@ impl JointGeometry {
     }
 
     /// Rotation of the child relative to the parent, and the child's point relative to the parent's in
-    /// parent axes.
+    /// parent axes (for a free joint in W).
     fn displacement(&self, q: &[f64]) -> (Matrix3<f64>, Vector3<f64>) {
         let axis = self.parent_axis(2);
         let align = self.triads[0] * self.triads[1].transpose();
@@ -397,9 +397,9 @@ mod tests {
             for row in joint.rows(&pair) {
                 assert!(second(&row).abs() < 1e-8, "{:?} {}", joint.kind, second(&row));
             }
-            for k in 0..joint.scalars() {
+            for (k, asked) in a.iter().enumerate().take(joint.scalars()) {
                 let row = joint.coordinate(k, &pair);
-                assert!((second(&row) - a[k]).abs() < 1e-8, "{:?} {k} {}", joint.kind, second(&row));
+                assert!((second(&row) - asked).abs() < 1e-8, "{:?} {k} {}", joint.kind, second(&row));
             }
         }
     }

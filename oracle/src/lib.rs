@@ -9,6 +9,7 @@
 //! In: a mechanism and parameter values. Out: accelerations, wrenches, energies, trajectories.
 
 mod assemble;
+mod channels;
 pub mod closed_form;
 mod force;
 mod frame;
@@ -18,6 +19,7 @@ mod joint;
 mod least_norm;
 mod mass;
 mod model;
+pub mod random;
 mod row;
 mod solve;
 

@@ -167,12 +167,12 @@ impl Oracle {
         let mut wrenches = Vec::new();
         let mut drives = Vec::new();
         let mut at = 0;
-        for index in 0..self.joints.len() {
+        for (index, on_child) in passive.iter().enumerate() {
             let joint = JointId::new(index);
             let arm = self.frames(states).pair(joint).child_point.arm;
             let count = rows[at..].iter().take_while(|(owner, _)| *owner == joint).count();
             let fixed = count - self.mechanism.joints[index].drives.len();
-            let mut total = wrench_at(&passive[index], &arm);
+            let mut total = wrench_at(on_child, &arm);
             let mut weights = vec![DVector::zeros(rows.len()); 6];
             for i in at..at + fixed {
                 let unit = wrench_at(&rows[i].1.child, &arm);
