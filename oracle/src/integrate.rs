@@ -13,6 +13,8 @@ use crate::model::Oracle;
 
 /// Columns of the extrapolation table; 2, 4, .. 14 substeps: order 14, estimate of order 12.
 const COLUMNS: usize = 7;
+/// First step that is tried [s]; the error estimate finds the right one.
+const FIRST_STEP: f64 = 1e-3;
 /// Numbers per body: quaternion, centre, angular velocity, velocity.
 const WIDTH: usize = 13;
 
@@ -52,7 +54,7 @@ impl Oracle {
     ) -> Result<Vec<Vec<BodyState>>, IntegrationError> {
         let mut states = start.to_vec();
         let mut path = vec![states.clone()];
-        let mut step = f64::INFINITY;
+        let mut step = FIRST_STEP;
         for pair in times.windows(2) {
             states = self.advance(pair[0], pair[1], &states, tolerance, &mut step)?;
             path.push(states.clone());
@@ -71,7 +73,7 @@ impl Oracle {
         start: &[BodyState],
         tolerance: Tolerance,
     ) -> Result<Vec<BodyState>, IntegrationError> {
-        let mut step = f64::INFINITY;
+        let mut step = FIRST_STEP;
         self.advance(t0, t1, start, tolerance, &mut step)
     }
 
