@@ -126,7 +126,6 @@ impl Mul for Jet {
 
 impl Div for Jet {
     type Output = Self;
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "a / b is a times b to the power -1")]
     fn div(self, b: Self) -> Self {
         self * b.power(-1)
     }
