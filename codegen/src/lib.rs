@@ -3,6 +3,7 @@
 //! Data flows one way: toml -> `spec` -> `model` -> `derive` -> `expr` -> `tape` -> back ends.
 
 pub mod derive;
+pub mod diagnostic;
 pub mod expr;
 pub mod id;
 pub mod model;

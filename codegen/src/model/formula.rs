@@ -79,7 +79,14 @@ impl Formula {
     /// `None` if it depends on time, coordinates or speeds.
     #[must_use]
     pub fn value(&self, parameters: &[f64]) -> Option<f64> {
-        self.term.value(parameters)
+        self.term.value_at(parameters, None)
+    }
+
+    /// Value at time `t` [s] with the given parameter values.
+    /// `None` if it depends on coordinates or speeds.
+    #[must_use]
+    pub fn value_at_time(&self, parameters: &[f64], t: f64) -> Option<f64> {
+        self.term.value_at(parameters, Some(t))
     }
 
     /// Whether a tunable parameter occurs, by `is_tunable`.
@@ -110,18 +117,28 @@ impl Term {
         }
     }
 
-    fn value(&self, p: &[f64]) -> Option<f64> {
+    /// Number of terms.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        let mut size = 0;
+        self.visit(&mut |_| size += 1);
+        size
+    }
+
+    /// Value with these parameters and this time [s], if known.
+    pub(in crate::model) fn value_at(&self, p: &[f64], t: Option<f64>) -> Option<f64> {
         Some(match self {
             Self::Number(x) => *x,
+            Self::Time => t?,
             Self::Parameter(id) => p[id.index()],
-            Self::Neg(a) => -a.value(p)?,
-            Self::Add(a, b) => a.value(p)? + b.value(p)?,
-            Self::Sub(a, b) => a.value(p)? - b.value(p)?,
-            Self::Mul(a, b) => a.value(p)? * b.value(p)?,
-            Self::Div(a, b) => a.value(p)? / b.value(p)?,
-            Self::Power(a, n) => a.value(p)?.powi(*n),
+            Self::Neg(a) => -a.value_at(p, t)?,
+            Self::Add(a, b) => a.value_at(p, t)? + b.value_at(p, t)?,
+            Self::Sub(a, b) => a.value_at(p, t)? - b.value_at(p, t)?,
+            Self::Mul(a, b) => a.value_at(p, t)? * b.value_at(p, t)?,
+            Self::Div(a, b) => a.value_at(p, t)? / b.value_at(p, t)?,
+            Self::Power(a, n) => a.value_at(p, t)?.powi(*n),
             Self::Call(function, arguments) => {
-                let x = arguments[0].value(p)?;
+                let x = arguments[0].value_at(p, t)?;
                 match function {
                     Function::Sin => x.sin(),
                     Function::Cos => x.cos(),
@@ -129,7 +146,7 @@ impl Term {
                     Function::Asin => x.asin(),
                     Function::Acos => x.acos(),
                     Function::Atan => x.atan(),
-                    Function::Atan2 => x.atan2(arguments[1].value(p)?),
+                    Function::Atan2 => x.atan2(arguments[1].value_at(p, t)?),
                     Function::Sinh => x.sinh(),
                     Function::Cosh => x.cosh(),
                     Function::Tanh => x.tanh(),

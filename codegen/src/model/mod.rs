@@ -9,7 +9,12 @@ use crate::source::Span;
 use crate::spec::Dimension;
 
 mod formula;
+mod kind;
+mod resolve;
+pub mod topology;
 pub use formula::{Formula, Function, Term};
+pub use kind::Coordinate;
+pub use resolve::{OverrideError, Overrides, resolve};
 
 /// A body or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -207,6 +212,8 @@ pub struct Joint {
     pub child: Carrier,
     /// Where the joint is.
     pub at: PointId,
+    /// The user wants the loop cut here.
+    pub cut: bool,
     /// Motion law of one coordinate, over parameters and t.
     pub drives: Vec<Drive>,
     /// Viscous damping, springs and actuator forces, by coordinate.
@@ -379,6 +386,11 @@ impl Mechanism {
     #[must_use]
     pub fn parameter(&self, id: ParameterId) -> &Parameter {
         &self.parameters[id.index()]
+    }
+    /// Values of all parameters in file order [SI], as [`Formula::value`] wants them.
+    #[must_use]
+    pub fn parameter_values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.value).collect()
     }
     /// Name of a body, or `ground`.
     #[must_use]

@@ -1,3 +1,23 @@
-//! The file as written.
+//! The file as written: places kept, names unresolved, quantities still text.
+//! In: a [`crate::source::SourceFile`]. Out: [`Spec`]. Never knows mechanics or ids.
+
 mod dimension;
+mod file;
+mod parse;
+mod read;
+mod repeat;
+mod schema;
+mod syntax;
+mod unit;
+mod written;
+
 pub use dimension::Dimension;
+pub use file::{
+    BodySpec, ByCoordinate, Centre, ClosureSpec, EachCoordinate, File, ForceSpec, JointSpec, Parameter,
+    Places, PointSpec, RepeatSpec, SpringPart, SpringSpec, StartSpec, StartTable, Widths,
+};
+pub use parse::{Spec, parse};
+pub use repeat::{expand, group_spans};
+pub use schema::json_schema;
+pub use syntax::{Expression, Form, Operator, SyntaxError, parse_expression};
+pub use written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

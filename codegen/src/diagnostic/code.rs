@@ -1,0 +1,165 @@
+//! The list of all faults. A code never changes its meaning; new ones are added at the end of a group.
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// Nothing is generated.
+    Error,
+    /// Something to look at.
+    Warning,
+}
+
+macro_rules! codes {
+    ($($(#[$doc:meta])* $name:ident = $text:literal,)*) => {
+        /// Which fault: printed as `E0204`, warnings as `W0101`.
+        ///
+        /// E01 form of the file, E02 names, E03 quantities and formulas, E04 mechanics, E05 how bodies hang
+        /// together, E06 assembly and rank.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Code {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl Code {
+            /// Every code, in order.
+            pub const ALL: &[Self] = &[$(Self::$name,)*];
+
+            /// As printed.
+            #[must_use]
+            pub const fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$name => $text,)*
+                }
+            }
+        }
+    };
+}
+
+codes! {
+    /// The file is not TOML.
+    NotToml = "E0101",
+    /// `spec` is missing or of a version this program does not read.
+    SpecVersion = "E0102",
+    /// A key or table is missing.
+    MissingKey = "E0103",
+    /// A key that means nothing here.
+    UnknownKey = "E0104",
+    /// A value of the wrong type, e.g. a number where a list is needed.
+    WrongType = "E0105",
+    /// A list of the wrong length.
+    WrongCount = "E0106",
+    /// Keys that exclude each other.
+    ConflictingKeys = "E0107",
+    /// Nothing says what kind of body, joint or force this is.
+    NoKind = "E0108",
+    /// A word that is not one of those allowed.
+    BadChoice = "E0109",
+    /// A `[repeat]` group that cannot be expanded.
+    BadRepeat = "E0110",
+    /// No bodies.
+    EmptyMechanism = "E0111",
+
+    /// A name with other characters than letters, digits and `_`, or not starting with a letter.
+    BadName = "E0201",
+    /// A name that formulas use for something else.
+    ReservedName = "E0202",
+    /// Two things with one name.
+    DuplicateName = "E0203",
+    /// A name that nothing has.
+    UnknownName = "E0204",
+    /// A name of another kind of thing, e.g. a point where a body is needed.
+    WrongKindOfName = "E0205",
+    /// `--set` of a parameter that does not exist.
+    UnknownOverride = "E0206",
+    /// Parameters defined by each other.
+    ParameterCycle = "E0207",
+    /// Cells of a `[repeat]` group that make the same thing twice.
+    RepeatCollision = "E0208",
+
+    /// A formula that cannot be read.
+    FormulaSyntax = "E0301",
+    /// A unit that is not known.
+    UnknownUnit = "E0302",
+    /// A quantity of the wrong dimension.
+    UnitMismatch = "E0303",
+    /// A bare number where a unit is needed.
+    MissingUnit = "E0304",
+    /// A function that is not known, or has the wrong number of arguments.
+    UnknownFunction = "E0305",
+    /// Time, a coordinate or a point where only parameters may occur.
+    NotAllowedHere = "E0306",
+    /// A tunable parameter where the value must be fixed at generation.
+    TunableNotAllowed = "E0307",
+    /// A value that is infinite or not a number.
+    NotFinite = "E0308",
+    /// A member that this joint or point does not have.
+    UnknownMember = "E0309",
+
+    /// An axis without a direction.
+    ZeroAxis = "E0401",
+    /// Two axes that are parallel but must not be.
+    ParallelAxes = "E0402",
+    /// A mass, radius, length or density that is not positive.
+    NotPositive = "E0403",
+    /// An inertia that no body can have.
+    ImpossibleInertia = "E0404",
+    /// Two points that must be apart coincide.
+    ZeroLength = "E0405",
+    /// A screw joint that does not advance.
+    ZeroLead = "E0406",
+    /// A joint or force between a body and itself.
+    SameBody = "E0407",
+    /// A point that has positions for some bodies, used by another.
+    PointNotOnBody = "E0408",
+    /// A coordinate that this kind of joint does not have.
+    NoSuchCoordinate = "E0409",
+    /// A start value that the joint cannot take.
+    BadStart = "E0410",
+    /// Axes that are not at right angles but must be.
+    NotPerpendicular = "E0411",
+
+    /// Bodies that no joint connects to the ground.
+    Disconnected = "E0501",
+    /// A joint that must be cut but carries a body.
+    CutDisconnects = "E0502",
+    /// Driven joints that close a loop on their own.
+    DrivenLoop = "E0503",
+    /// A driven joint that must be cut.
+    DrivenCut = "E0504",
+    /// A start value of a joint that is cut.
+    StartOnCut = "E0505",
+
+    /// Gravity is not mentioned.
+    NoGravity = "W0101",
+    /// A bare number that is read as radians and looks like degrees.
+    LooksLikeDegrees = "W0102",
+    /// A unit after a number that is also a name in this file.
+    UnitShadowsName = "W0103",
+    /// A parameter that nothing uses.
+    UnusedParameter = "W0104",
+    /// A spring whose ends coincide at the reference pose.
+    SpringWithoutDirection = "W0105",
+    /// A frequency in Hz or rpm where an angular speed is needed.
+    FrequencyAsSpeed = "W0106",
+}
+
+impl Code {
+    /// Error or warning, by the first letter.
+    #[must_use]
+    pub fn severity(self) -> Severity {
+        if self.as_str().starts_with('W') { Severity::Warning } else { Severity::Error }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_unique_and_in_order_within_their_letter() {
+        let texts: Vec<_> = Code::ALL.iter().map(|code| code.as_str()).collect();
+        for pair in texts.windows(2) {
+            assert!(pair[0] < pair[1], "{pair:?}");
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Diagnostics as plain text with the lines of the file they are about.
+//! In: one [`Diagnostic`] and, if known, its file. Out: text without colour or a final newline.
+
+use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
+
+use super::{Diagnostic, Severity};
+use crate::source::SourceFile;
+
+pub(super) fn plain(diagnostic: &Diagnostic, source: Option<&SourceFile>) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let mut group: Group<'_> = level
+        .primary_title(diagnostic.message.as_str())
+        .id(diagnostic.code.as_str())
+        .elements(Vec::<Element<'_>>::new());
+    if let Some(source) = source {
+        let annotations = diagnostic.labels.iter().map(|label| {
+            let kind = if label.primary { AnnotationKind::Primary } else { AnnotationKind::Context };
+            let end = label.span.end.min(source.text.len());
+            let span = kind.span(label.span.start.min(end)..end);
+            if label.text.is_empty() { span } else { span.label(label.text.as_str()) }
+        });
+        if !diagnostic.labels.is_empty() {
+            let snippet = Snippet::source(source.text.as_str()).path(source.name.as_str());
+            group = group.element(snippet.annotations(annotations));
+        } else {
+            group = group.element(annotate_snippets::Origin::path(source.name.as_str()));
+        }
+    }
+    for help in &diagnostic.help {
+        group = group.element(Level::HELP.message(help.as_str()));
+    }
+    Renderer::plain().render(&[group])
+}

@@ -1,0 +1,271 @@
+//! What kind a joint is, and its axes.
+
+use super::quantity::Allowed;
+use super::{Resolver, inertia, place};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{Axis, JointKind};
+use crate::source::Span;
+use crate::spec::{At, Dimension, JointSpec, Name, Pair, PerBody, Triple};
+
+/// The keys that name the kinds, and what is written there.
+pub(super) fn kinds(spec: &JointSpec) -> impl Iterator<Item = (&'static str, &Pair)> {
+    [
+        ("revolute", &spec.revolute),
+        ("prismatic", &spec.prismatic),
+        ("cylindrical", &spec.cylindrical),
+        ("screw", &spec.screw),
+        ("universal", &spec.universal),
+        ("spherical", &spec.spherical),
+        ("planar", &spec.planar),
+        ("fixed", &spec.fixed),
+        ("free", &spec.free),
+    ]
+    .into_iter()
+    .filter_map(|(key, pair)| pair.as_ref().map(|pair| (key, pair)))
+}
+
+/// An axis in place of one that is wrong.
+const DUMMY: [f64; 3] = [0.0, 0.0, 1.0];
+
+impl Resolver<'_> {
+    pub(super) fn joint_kind(&mut self, name: &Name, joint: &At<JointSpec>) -> JointKind {
+        let spec = &joint.value;
+        let mut written = kinds(spec);
+        let Some((kind, _)) = written.next() else {
+            self.missing(joint.span, name.span, || {
+                Diagnostic::new(Code::NoKind, format!("nothing says what kind of joint `{}` is", name.value)).help(
+                    "write for example `revolute = [\"ground\", \"crank\"]`; kinds are revolute, prismatic, cylindrical, \
+                     screw, universal, spherical, planar, fixed and free",
+                )
+            });
+            return JointKind::Free;
+        };
+        if let Some((other, _)) = written.next() {
+            let message = format!("joint `{}` is both {kind} and {other}", name.value);
+            self.report(
+                Diagnostic::new(Code::ConflictingKeys, message)
+                    .at(name.span, "")
+                    .help("make two joints of it"),
+            );
+        }
+        self.check_stray_axes(name, kind, spec);
+        match kind {
+            "spherical" => JointKind::Spherical,
+            "fixed" => JointKind::Fixed,
+            "free" => JointKind::Free,
+            "universal" => self.universal(name, joint),
+            _ => {
+                let axis = self.main_axis(name, kind, joint);
+                match kind {
+                    "revolute" => JointKind::Revolute(axis),
+                    "prismatic" => JointKind::Prismatic(axis),
+                    "cylindrical" => JointKind::Cylindrical(axis),
+                    "screw" => JointKind::Screw(axis, self.lead(name, joint)),
+                    _ => JointKind::Planar { normal: axis, first: self.first_direction(name, joint, axis) },
+                }
+            }
+        }
+    }
+
+    fn check_stray_axes(&mut self, name: &Name, kind: &str, spec: &JointSpec) {
+        let has_axis = !matches!(kind, "spherical" | "fixed" | "free" | "universal");
+        let keys = [
+            ("axis", spec.axis.as_ref().map(span_of), has_axis),
+            ("axes", spec.axes.as_ref().map(|axes| axes.span), kind == "universal"),
+            ("first", spec.first.as_ref().map(span_of), kind == "planar"),
+            ("lead", spec.lead.as_ref().map(|lead| lead.span), kind == "screw"),
+        ];
+        for (key, span, fits) in keys {
+            if let (Some(span), false) = (span, fits) {
+                let message = format!("a {kind} joint has no `{key}`");
+                let help = match (key, kind) {
+                    ("axis", "universal") => "a universal joint has two: `axes = [[1, 0, 0], [0, 1, 0]]`",
+                    ("lead", _) => "a rotation with proportional translation is a `screw`",
+                    _ => "take it away",
+                };
+                let fault = Diagnostic::new(Code::ConflictingKeys, message)
+                    .at(span, format!("in joint `{}`", name.value));
+                self.report(fault.help(help));
+            }
+        }
+    }
+
+    fn main_axis(&mut self, name: &Name, kind: &str, joint: &At<JointSpec>) -> Axis {
+        if let Some(axis) = &joint.value.axis {
+            return self.axis(axis, &joint.value, &place("axis", "joint", name));
+        }
+        self.missing(joint.span, name.span, || {
+            let help = if kind == "planar" {
+                "add `axis = [0, 0, 1]`, the normal of the plane"
+            } else {
+                "add `axis = [0, 0, 1]`, its direction in the ground frame at the reference pose"
+            };
+            Diagnostic::new(Code::MissingKey, format!("the {kind} joint `{}` has no `axis`", name.value))
+                .help(help)
+        });
+        Axis { parent: DUMMY, child: DUMMY }
+    }
+
+    /// A direction for both branches, or one for each.
+    fn axis(&mut self, written: &PerBody, spec: &JointSpec, what: &str) -> Axis {
+        match written {
+            PerBody::Shared(triple) => {
+                let direction = self.direction(triple, what).unwrap_or(DUMMY);
+                Axis { parent: direction, child: direction }
+            }
+            PerBody::Each(table) => {
+                let bodies = kinds(spec).next().map(|(_, pair)| pair.0.value.as_slice()).unwrap_or_default();
+                let mut found = [None, None];
+                for (body, triple) in &table.0 {
+                    let direction = self.direction(&triple.value, what).unwrap_or(DUMMY);
+                    match bodies.iter().position(|known| known.value == body.value) {
+                        Some(side @ (0 | 1)) => found[side] = Some(direction),
+                        _ => {
+                            let message =
+                                format!("{what} names `{}`, which the joint does not connect", body.value);
+                            let known = bodies.iter().map(|name| name.value.as_str());
+                            let fault = Diagnostic::new(Code::UnknownName, message).at(body.span, "");
+                            self.report(fault.did_you_mean(&body.value, known));
+                        }
+                    }
+                }
+                if let (Some((first, _)), true) = (table.0.first(), found.contains(&None)) {
+                    let message = format!("{what} is given for one body only");
+                    self.report(
+                        Diagnostic::new(Code::MissingKey, message)
+                            .at(first.span, "")
+                            .help("give it for both bodies, or once for both as a list"),
+                    );
+                }
+                Axis { parent: found[0].unwrap_or(DUMMY), child: found[1].unwrap_or(DUMMY) }
+            }
+        }
+    }
+
+    /// A direction of any length. Components are pure numbers, or quantities of one dimension.
+    pub(super) fn direction(&mut self, written: &Triple, what: &str) -> Option<[f64; 3]> {
+        let items = &written.0.value;
+        if items.len() != 3 {
+            self.wrong_count(written.0.span, items.len(), "3", what);
+            return None;
+        }
+        let mut dimension: Option<Dimension> = None;
+        let mut components = [0.0; 3];
+        for (component, item) in components.iter_mut().zip(items) {
+            // A bare zero fits every dimension.
+            let formula = self.formula(item, None, Allowed::CONSTANTS, what);
+            *component = self.value(&formula);
+            if *component == 0.0 || component.is_nan() {
+                continue;
+            }
+            let first = *dimension.get_or_insert(formula.dimension);
+            if first != formula.dimension {
+                let message =
+                    format!("{what} mixes {} and {}", first.description(), formula.dimension.description());
+                self.report(Diagnostic::new(Code::UnitMismatch, message).at(item.span, ""));
+                return None;
+            }
+        }
+        if components.iter().any(|x| x.is_nan()) {
+            return None;
+        }
+        let direction = inertia::unit(components);
+        if direction.is_none() {
+            let message = format!("{what} is zero and has no direction");
+            self.report(
+                Diagnostic::new(Code::ZeroAxis, message)
+                    .at(written.0.span, "")
+                    .help("write for example `[0, 0, 1]`; the length does not matter"),
+            );
+        }
+        direction
+    }
+
+    fn universal(&mut self, name: &Name, joint: &At<JointSpec>) -> JointKind {
+        let dummy = JointKind::Universal(
+            Axis { parent: [1.0, 0.0, 0.0], child: [1.0, 0.0, 0.0] },
+            Axis { parent: [0.0, 1.0, 0.0], child: [0.0, 1.0, 0.0] },
+        );
+        let what = place("axes", "joint", name);
+        let Some(axes) = &joint.value.axes else {
+            self.missing(joint.span, name.span, || {
+                Diagnostic::new(Code::MissingKey, format!("the universal joint `{}` has no `axes`", name.value))
+                    .help("add `axes = [[1, 0, 0], [0, 1, 0]]`: the first is fixed in the parent, the second in the child")
+            });
+            return dummy;
+        };
+        let [first, second] = axes.value.as_slice() else {
+            self.wrong_count(axes.span, axes.value.len(), "2 directions", &what);
+            return dummy;
+        };
+        let (first, second) = (self.axis(first, &joint.value, &what), self.axis(second, &joint.value, &what));
+        let sides = [(first.parent, second.parent), (first.child, second.child)];
+        // 1e-6: nearer than that to parallel, the joint's cross has no plane but rounding.
+        if sides.iter().any(|(a, b)| inertia::distance([0.0; 3], inertia::cross(*a, *b)) < 1e-6) {
+            let message = format!("the two axes of the universal joint `{}` are parallel", name.value);
+            self.report(Diagnostic::new(Code::ParallelAxes, message).at(axes.span, "").help(
+                "they are the two bars of the cross, usually at right angles; for one axis use `revolute`",
+            ));
+        }
+        JointKind::Universal(first, second)
+    }
+
+    fn lead(&mut self, name: &Name, joint: &At<JointSpec>) -> f64 {
+        let Some(lead) = &joint.value.lead else {
+            self.missing(joint.span, name.span, || {
+                Diagnostic::new(Code::MissingKey, format!("the screw joint `{}` has no `lead`", name.value))
+                    .help("add `lead = \"5 mm\"`, the advance per turn; negative for a left-hand thread")
+            });
+            return f64::NAN;
+        };
+        let formula =
+            self.formula(lead, Some(Dimension::LENGTH), Allowed::CONSTANTS, &place("lead", "joint", name));
+        let value = self.value(&formula);
+        if value == 0.0 {
+            self.report(
+                Diagnostic::new(Code::ZeroLead, format!("the screw joint `{}` does not advance", name.value))
+                    .at(lead.span, "")
+                    .help("without advance it is a `revolute` joint"),
+            );
+        }
+        value
+    }
+
+    /// Direction of `q1` of a planar joint, made to be in the plane.
+    fn first_direction(&mut self, name: &Name, joint: &At<JointSpec>, normal: Axis) -> Axis {
+        let what = place("first", "joint", name);
+        let Some(written) = &joint.value.first else {
+            if normal.parent != normal.child {
+                self.missing(joint.span, name.span, || {
+                    let message = format!("joint `{}` has a normal for each body, so it needs `first` for each too", name.value);
+                    Diagnostic::new(Code::MissingKey, message)
+                        .help("add `first = { crank = [1, 0, 0], ... }`, a direction in the plane as each body sees it")
+                });
+            }
+            let default = inertia::any_perpendicular(normal.parent);
+            return Axis { parent: default, child: default };
+        };
+        let first = self.axis(written, &joint.value, &what);
+        let mut in_plane = |direction: [f64; 3], normal: [f64; 3]| {
+            let across = inertia::perpendicular_part(direction, normal);
+            // As for universal joints.
+            if inertia::distance([0.0; 3], across) < 1e-6 {
+                let message = format!("{what} points along the normal of the plane");
+                let fault = Diagnostic::new(Code::ParallelAxes, message).at(span_of(written), "");
+                self.report(fault.help("it is the direction of `q1`, in the plane"));
+            }
+            inertia::unit(across).unwrap_or(DUMMY)
+        };
+        let parent = in_plane(first.parent, normal.parent);
+        let same = first.parent == first.child && normal.parent == normal.child;
+        let child = if same { parent } else { in_plane(first.child, normal.child) };
+        Axis { parent, child }
+    }
+}
+
+fn span_of(written: &PerBody) -> Span {
+    match written {
+        PerBody::Shared(triple) => triple.0.span,
+        PerBody::Each(table) => table.0.first().map_or(Span::default(), |(name, _)| name.span),
+    }
+}

@@ -1,0 +1,218 @@
+//! Joints: which bodies and point, motion laws, damping, springs and actuators.
+
+use super::quantity::Allowed;
+use super::{Resolver, joint_kind, place};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::id::PointId;
+use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointKind, Passive};
+use crate::source::Span;
+use crate::spec::{At, ByCoordinate, JointSpec, Name, Pair, Quantity, SpringSpec, Table};
+
+impl Resolver<'_> {
+    pub(super) fn resolve_joints(&mut self, table: &Table<JointSpec>) -> Vec<Joint> {
+        let mut joints = Vec::with_capacity(table.0.len());
+        for ((name, joint), kind) in table.0.iter().zip(self.joint_kinds.clone()) {
+            let spec = &joint.value;
+            let bodies = joint_kind::kinds(spec).next().map(|(_, pair)| self.bodies_of(name, pair));
+            let sides = bodies.flatten();
+            let at = self.joint_point(name, joint, sides);
+            let (parent, child) = sides.map_or((Carrier::Ground, Carrier::Ground), |[(a, _), (b, _)]| (a, b));
+            joints.push(Joint {
+                name: name.value.clone(),
+                parent,
+                child,
+                at: at.unwrap_or(PointId::new(0)),
+                cut: spec.cut.as_ref().is_some_and(|cut| cut.value),
+                drives: self.drives(name, spec, &kind),
+                passive: self.passive(name, spec, &kind),
+                kind,
+                span: name.span,
+            });
+        }
+        joints
+    }
+
+    fn bodies_of<'n>(&mut self, name: &Name, pair: &'n Pair) -> Option<[(Carrier, &'n Name); 2]> {
+        let what = format!("joint `{}`", name.value);
+        let [parent, child] = pair.0.value.as_slice() else {
+            self.wrong_count(pair.0.span, pair.0.value.len(), "2 bodies, the parent first", &what);
+            return None;
+        };
+        let (a, b) = (self.carrier(parent, &what), self.carrier(child, &what));
+        let (a, b) = (a?, b?);
+        if a == b {
+            let message = format!("joint `{}` connects `{}` with itself", name.value, parent.value);
+            self.report(Diagnostic::new(Code::SameBody, message).at(pair.0.span, ""));
+        }
+        Some([(a, parent), (b, child)])
+    }
+
+    fn joint_point(
+        &mut self,
+        name: &Name,
+        joint: &At<JointSpec>,
+        sides: Option<[(Carrier, &Name); 2]>,
+    ) -> Option<PointId> {
+        let Some(at) = &joint.value.at else {
+            self.missing(joint.span, name.span, || {
+                Diagnostic::new(Code::MissingKey, format!("joint `{}` does not say where it is", name.value))
+                    .help("add `at = \"A\"`, a point of [points]")
+            });
+            return None;
+        };
+        let what = format!("joint `{}`", name.value);
+        let Some([parent, child]) = sides else { return self.point_named(at, &what) };
+        let point = self.point_on(at, Some(parent), &what)?;
+        self.point_on(at, Some(child), &what);
+        Some(point)
+    }
+
+    fn drives(&mut self, name: &Name, spec: &JointSpec, kind: &JointKind) -> Vec<Drive> {
+        let what = place("drive", "joint", name);
+        let laws = self.by_coordinate(spec.drive.as_ref(), kind, &what);
+        laws.into_iter()
+            .map(|(coordinate, law)| {
+                let dimension = kind.coordinates()[coordinate].dimension();
+                Drive { coordinate, law: self.formula(law, Some(dimension), Allowed::TIME, &what) }
+            })
+            .collect()
+    }
+
+    fn passive(&mut self, name: &Name, spec: &JointSpec, kind: &JointKind) -> Vec<Passive> {
+        let mut passive = Vec::new();
+        for (key, written) in [("damping", &spec.damping), ("friction", &spec.friction)] {
+            let what = place(key, "joint", name);
+            if let (JointKind::Spherical, Some(ByCoordinate::One(quantity))) = (kind, written) {
+                // The one law that a joint without scalar coordinates can have: against the relative angular velocity.
+                passive.push(self.damping(0, Coordinate::Angle, quantity, &what));
+                continue;
+            }
+            for (coordinate, quantity) in self.by_coordinate(written.as_ref(), kind, &what) {
+                passive.push(self.damping(coordinate, kind.coordinates()[coordinate], quantity, &what));
+            }
+        }
+        if let Some(spring) = &spec.spring {
+            self.springs(name, spring, kind, &mut passive);
+        }
+        let what = place("force", "joint", name);
+        for (coordinate, force) in self.by_coordinate(spec.force.as_ref(), kind, &what) {
+            let dimension = kind.coordinates()[coordinate].force();
+            let force = self.formula(force, Some(dimension), Allowed::STATE, &what);
+            passive.push(Passive::Actuator { coordinate, force });
+        }
+        passive
+    }
+
+    fn damping(&mut self, coordinate: usize, is: Coordinate, quantity: &Quantity, what: &str) -> Passive {
+        let coefficient = self.formula(quantity, Some(is.damping()), Allowed::PARAMETERS, what);
+        self.check_positive(&coefficient, true, what);
+        Passive::Damping { coordinate, coefficient }
+    }
+
+    fn springs(&mut self, name: &Name, spring: &SpringSpec, kind: &JointKind, passive: &mut Vec<Passive>) {
+        let what = place("spring", "joint", name);
+        let parts = [&spring.q, &spring.q1, &spring.q2, &spring.q3];
+        let mut written: Vec<(&str, &Option<Quantity>, &Option<Quantity>, Span)> = ["q", "q1", "q2", "q3"]
+            .into_iter()
+            .zip(parts)
+            .filter_map(|(key, part)| part.as_ref().map(|part| (key, part)))
+            .map(|(key, part)| (key, &part.value.stiffness, &part.value.rest, part.span))
+            .collect();
+        if spring.stiffness.is_some() || spring.rest.is_some() || written.is_empty() {
+            let span = spring.stiffness.as_ref().or(spring.rest.as_ref()).map_or(name.span, |q| q.span);
+            written.insert(0, ("", &spring.stiffness, &spring.rest, span));
+        }
+        for (key, stiffness, rest, span) in written {
+            let Some(coordinate) = self.coordinate(key, kind, span, &what) else { continue };
+            let is = kind.coordinates()[coordinate];
+            let Some(stiffness) = stiffness else {
+                let fault =
+                    Diagnostic::new(Code::MissingKey, format!("{what} has no `stiffness`")).at(span, "");
+                self.report(fault.help(format!("add `stiffness = \"50 {}\"`", is.stiffness().si_unit())));
+                continue;
+            };
+            let stiffness = self.formula(stiffness, Some(is.stiffness()), Allowed::PARAMETERS, &what);
+            let rest = match rest {
+                Some(rest) => {
+                    self.warn_degrees(rest, is, &what);
+                    self.formula(rest, Some(is.dimension()), Allowed::PARAMETERS, &what)
+                }
+                None => Formula::number(0.0, is.dimension()),
+            };
+            passive.push(Passive::Spring { coordinate, stiffness, rest });
+        }
+    }
+
+    /// Quantities with the coordinate that each is for.
+    fn by_coordinate<'q>(
+        &mut self,
+        written: Option<&'q ByCoordinate>,
+        kind: &JointKind,
+        what: &str,
+    ) -> Vec<(usize, &'q Quantity)> {
+        let list: Vec<(&str, &Quantity)> = match written {
+            None => Vec::new(),
+            Some(ByCoordinate::One(quantity)) => vec![("", quantity)],
+            Some(ByCoordinate::Each(each)) => {
+                let parts = [&each.value.q, &each.value.q1, &each.value.q2, &each.value.q3];
+                let named = ["q", "q1", "q2", "q3"].into_iter().zip(parts);
+                named.filter_map(|(key, part)| part.as_ref().map(|part| (key, part))).collect()
+            }
+        };
+        let mut found: Vec<(usize, &Quantity)> = Vec::new();
+        for (key, quantity) in list {
+            let Some(coordinate) = self.coordinate(key, kind, quantity.span, what) else { continue };
+            if found.iter().any(|(earlier, _)| *earlier == coordinate) {
+                let message = format!("{what} is given twice for one coordinate");
+                self.report(Diagnostic::new(Code::ConflictingKeys, message).at(quantity.span, ""));
+                continue;
+            }
+            found.push((coordinate, quantity));
+        }
+        found
+    }
+
+    /// The coordinate that `key` names: none, `q`, or `q1` to `q3`.
+    fn coordinate(&mut self, key: &str, kind: &JointKind, span: Span, what: &str) -> Option<usize> {
+        let count = kind.coordinates().len();
+        let number = key.strip_prefix('q').and_then(|number| number.parse::<usize>().ok());
+        let found = match number {
+            None if count == 1 => Some(0),
+            Some(number) if number <= count => number.checked_sub(1),
+            _ => None,
+        };
+        if found.is_some() {
+            return found;
+        }
+        let kind_name = kind.name();
+        let (message, help) = match (count, number) {
+            (0, _) => (
+                format!("{what}: a {kind_name} joint has no coordinate for it"),
+                match kind {
+                    JointKind::Spherical => {
+                        "a spherical joint can have `damping`, one value; other torques go into [forces]"
+                    }
+                    _ => "forces between the bodies go into [forces]",
+                }
+                .to_owned(),
+            ),
+            (1, _) => (
+                format!("{what}: a {kind_name} joint has only the coordinate `q`"),
+                "write the value alone".into(),
+            ),
+            (_, None) => (
+                format!("{what}: a {kind_name} joint has {count} coordinates"),
+                match count {
+                    2 => "say which: `{ q1 = \"...\", q2 = \"...\" }`".to_owned(),
+                    _ => "say which: `{ q1 = \"...\", q2 = \"...\", q3 = \"...\" }`".to_owned(),
+                },
+            ),
+            (_, Some(_)) => (
+                format!("{what}: a {kind_name} joint has no `{key}`"),
+                format!("its coordinates are `q1` to `q{count}`"),
+            ),
+        };
+        self.report(Diagnostic::new(Code::NoSuchCoordinate, message).at(span, "").help(help));
+        None
+    }
+}

@@ -1,0 +1,226 @@
+//! From the file as written to the mechanism it means: names to ids, text to formulas in SI, and every
+//! check that needs no motion. In: [`Spec`], [`Overrides`]. Out: [`Mechanism`] and warnings, or all errors.
+//!
+//! A thing that is wrong is reported and replaced by something harmless (`NaN`, a dummy axis), so that
+//! the rest of the file is still checked; with any error the mechanism is thrown away.
+
+mod bodies;
+mod connect;
+mod forces;
+mod inertia;
+mod joint_kind;
+mod joints;
+mod names;
+mod overrides;
+mod parameters;
+mod points;
+mod quantity;
+mod starts;
+
+pub use overrides::{OverrideError, Overrides};
+
+use self::names::Names;
+use self::quantity::Allowed;
+use super::{Closure, Formula, JointKind, Mechanism, Parameter, Point, Term};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::source::{SourceFile, Span};
+use crate::spec::{ClosureSpec, Dimension, File, Name, Spec, Triple};
+
+/// What the steps of the resolver share.
+struct Resolver<'a> {
+    source: &'a SourceFile,
+    skipped: &'a [Span],
+    diagnostics: Vec<Diagnostic>,
+    names: Names,
+    parameters: Vec<Parameter>,
+    /// Values of the parameters.
+    values: Vec<f64>,
+    /// Parameters that are not tunable but follow from tunable ones are written out where they are used.
+    written_out: Vec<Option<Term>>,
+    used: Vec<bool>,
+    points: Vec<Point>,
+    joint_kinds: Vec<JointKind>,
+}
+
+/// Finds out what a file means.
+///
+/// # Errors
+/// All errors of the file, those found while reading it included.
+pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Diagnostic>), Diagnostics> {
+    let mut resolver = Resolver {
+        source: &spec.source,
+        skipped: &spec.skipped,
+        diagnostics: spec.problems.clone(),
+        names: Names::default(),
+        parameters: Vec::new(),
+        values: Vec::new(),
+        written_out: Vec::new(),
+        used: Vec::new(),
+        points: Vec::new(),
+        joint_kinds: Vec::new(),
+    };
+    let mechanism = resolver.mechanism(&spec.file, overrides);
+    resolver.fold_cells(&spec.file);
+    let all = Diagnostics::from_list(resolver.diagnostics).located(&spec.source);
+    if all.has_errors() {
+        return Err(all);
+    }
+    let warnings = all.list().iter().filter(|d| d.severity == Severity::Warning).cloned().collect();
+    Ok((mechanism, warnings))
+}
+
+impl Resolver<'_> {
+    fn mechanism(&mut self, written: &File, overrides: &Overrides) -> Mechanism {
+        let name = self.mechanism_name(written);
+        self.names.foresee(written);
+        self.resolve_parameters(&written.parameters, overrides);
+        let (file, problems) = crate::spec::expand(written, &mut |count| {
+            let count = self.formula(count, Some(Dimension::NONE), Allowed::CONSTANTS, "`count`");
+            count.value(&self.values).filter(|count| count.is_finite())
+        });
+        self.diagnostics.extend(problems);
+        self.names.declare_all(&file, &mut self.diagnostics);
+        let gravity = self.gravity(&file);
+        self.resolve_points(&file);
+        let kinds = file.joints.0.iter().map(|(name, joint)| self.joint_kind(name, joint)).collect();
+        self.joint_kinds = kinds;
+        let bodies = self.resolve_bodies(&file.bodies);
+        let joints = self.resolve_joints(&file.joints);
+        let forces = self.resolve_forces(&file.forces);
+        let starts = self.resolve_starts(&file, &joints);
+        self.find_carriers(&file, &bodies, &joints);
+        self.check_connected(&file, &joints);
+        self.warn_unused(written);
+        Mechanism {
+            name,
+            parameters: std::mem::take(&mut self.parameters),
+            gravity,
+            bodies,
+            points: std::mem::take(&mut self.points),
+            joints,
+            forces,
+            closure: match file.closure.unwrap_or_default() {
+                ClosureSpec::Joint => Closure::Joint,
+                ClosureSpec::Log => Closure::Log,
+            },
+            starts,
+        }
+    }
+
+    fn mechanism_name(&mut self, file: &File) -> String {
+        match &file.name {
+            Some(name) if names::is_name(&name.value) => return name.value.clone(),
+            Some(name) => {
+                self.report(names::bad_name(name));
+            }
+            None => self.missing(Span { start: 0, end: self.source.text.len() }, Span::default(), || {
+                Diagnostic::new(Code::MissingKey, "the mechanism has no name")
+                    .help("add `name = \"my_linkage\"`")
+            }),
+        }
+        String::new()
+    }
+
+    fn gravity(&mut self, file: &File) -> [Formula; 3] {
+        let acceleration = Dimension::of(1, 0, -2);
+        if let Some(gravity) = &file.gravity {
+            return self.triple(gravity, acceleration, Allowed::PARAMETERS, "`gravity`");
+        }
+        self.report(
+            Diagnostic::new(Code::NoGravity, "there is no gravity in this file")
+                .help("write `gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]`, or `gravity = [0, 0, 0]` to say so"),
+        );
+        std::array::from_fn(|_| Formula::number(0.0, acceleration))
+    }
+
+    fn warn_unused(&mut self, file: &File) {
+        for (position, (name, _)) in file.parameters.0.iter().enumerate() {
+            if self.used.get(position) == Some(&false) {
+                let message = format!("nothing uses the parameter `{}`", name.value);
+                self.report(Diagnostic::new(Code::UnusedParameter, message).at(name.span, ""));
+            }
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports what is missing within `whole`, unless something there was left out because it was wrong:
+    /// then that is the reason. The fault is shown at `at`.
+    fn missing(&mut self, whole: Span, at: Span, diagnostic: impl FnOnce() -> Diagnostic) {
+        if !self.skipped.iter().any(|skipped| whole.start <= skipped.start && skipped.end <= whole.end) {
+            self.report(diagnostic().at(at, ""));
+        }
+    }
+
+    /// Three formulas of one dimension.
+    fn triple(
+        &mut self,
+        triple: &Triple,
+        dimension: Dimension,
+        allowed: Allowed,
+        what: &str,
+    ) -> [Formula; 3] {
+        let items = &triple.0.value;
+        if items.len() != 3 {
+            self.wrong_count(triple.0.span, items.len(), "3", what);
+            return std::array::from_fn(|_| Formula::number(f64::NAN, dimension));
+        }
+        std::array::from_fn(|at| self.formula(&items[at], Some(dimension), allowed, what))
+    }
+
+    fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
+        let message = format!("{what} has {found} entries, {needed} are needed");
+        self.report(Diagnostic::new(Code::WrongCount, message).at(span, ""));
+    }
+
+    /// Value with the parameters of the file; NaN if it is not known before the motion.
+    fn value(&self, formula: &Formula) -> f64 {
+        formula.value(&self.values).unwrap_or(f64::NAN)
+    }
+
+    fn values_of<const N: usize>(&self, formulas: &[Formula; N]) -> [f64; N] {
+        std::array::from_fn(|at| self.value(&formulas[at]))
+    }
+
+    /// Reports unless `formula` is positive (or zero, if allowed).
+    fn check_positive(&mut self, formula: &Formula, zero_allowed: bool, what: &str) {
+        let value = self.value(formula);
+        if value < 0.0 || (value == 0.0 && !zero_allowed) {
+            let unit = formula.dimension.si_unit();
+            let message = format!("{what} is {value} {unit}");
+            let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
+            self.report(Diagnostic::new(Code::NotPositive, message).at(formula.span, need));
+        }
+    }
+
+    /// A fault in the text of a repeated group appears once per cell: keeps the first and counts the others.
+    fn fold_cells(&mut self, file: &File) {
+        let groups = crate::spec::group_spans(file);
+        let inside =
+            |span: Span| groups.iter().any(|group| group.start <= span.start && span.end <= group.end);
+        let mut kept: Vec<(Diagnostic, usize)> = Vec::new();
+        for diagnostic in std::mem::take(&mut self.diagnostics) {
+            let same = |known: &&mut (Diagnostic, usize)| {
+                known.0.code == diagnostic.code && known.0.span() == diagnostic.span()
+            };
+            match diagnostic.span().filter(|span| inside(*span)).and_then(|_| kept.iter_mut().find(same)) {
+                Some((_, more)) => *more += 1,
+                None => kept.push((diagnostic, 0)),
+            }
+        }
+        self.diagnostics = kept
+            .into_iter()
+            .map(|(diagnostic, more)| match more {
+                0 => diagnostic,
+                _ => diagnostic.help(format!("{more} more cells have the same fault")),
+            })
+            .collect();
+    }
+}
+
+/// `key` of `what` `name`, as messages call a place.
+fn place(key: &str, what: &str, name: &Name) -> String {
+    format!("`{key}` of {what} `{}`", name.value)
+}

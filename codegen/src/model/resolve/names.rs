@@ -1,0 +1,186 @@
+//! The one namespace: what every name of the file stands for.
+
+use std::collections::HashMap;
+
+use super::Resolver;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::id::{BodyId, JointId, ParameterId, PointId};
+use crate::model::Carrier;
+use crate::source::Span;
+use crate::spec::{File, Name, Table};
+
+/// Names with a meaning of their own.
+const RESERVED: &[(&str, &str)] = &[
+    ("t", "the time"),
+    ("pi", "the number"),
+    ("energy", "a column of the output"),
+    ("ground", "the fixed frame"),
+];
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Thing {
+    Parameter(ParameterId),
+    Point(PointId),
+    Body(BodyId),
+    Joint(JointId),
+    Force,
+}
+
+impl Thing {
+    pub(super) fn what(self) -> &'static str {
+        match self {
+            Self::Parameter(_) => "parameter",
+            Self::Point(_) => "point",
+            Self::Body(_) => "body",
+            Self::Joint(_) => "joint",
+            Self::Force => "force",
+        }
+    }
+}
+
+/// All names, in the order of the tables.
+#[derive(Default)]
+pub(super) struct Names {
+    things: Vec<(String, Thing, Span)>,
+    by_name: HashMap<String, usize>,
+    foreseen: Vec<String>,
+}
+
+impl Names {
+    /// Takes note of all names before anything is resolved: formulas ask whether a word is a name.
+    pub(super) fn foresee(&mut self, file: &File) {
+        self.foreseen.extend(file.parameters.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.points.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.joints.0.iter().map(|(name, _)| name.value.clone()));
+    }
+
+    /// Whether a word in a formula is a name.
+    pub(super) fn is_name(&self, word: &str) -> bool {
+        word == "t"
+            || word == "pi"
+            || self.by_name.contains_key(word)
+            || self.foreseen.iter().any(|name| name == word)
+    }
+
+    pub(super) fn declare_all(&mut self, file: &File, faults: &mut Vec<Diagnostic>) {
+        self.declare_table(&file.points, |at| Thing::Point(PointId::new(at)), faults);
+        self.declare_table(&file.bodies, |at| Thing::Body(BodyId::new(at)), faults);
+        self.declare_table(&file.joints, |at| Thing::Joint(JointId::new(at)), faults);
+        self.declare_table(&file.forces, |_| Thing::Force, faults);
+        self.foreseen.clear();
+    }
+
+    pub(super) fn declare_table<T>(
+        &mut self,
+        table: &Table<T>,
+        thing: impl Fn(usize) -> Thing,
+        faults: &mut Vec<Diagnostic>,
+    ) {
+        for (position, (name, _)) in table.0.iter().enumerate() {
+            self.declare(name, thing(position), faults);
+        }
+    }
+
+    pub(super) fn declare(&mut self, name: &Name, thing: Thing, faults: &mut Vec<Diagnostic>) {
+        if !is_name(&name.value) {
+            faults.push(bad_name(name));
+        } else if let Some((_, meaning)) = RESERVED.iter().find(|(reserved, _)| *reserved == name.value) {
+            faults.push(
+                Diagnostic::new(
+                    Code::ReservedName,
+                    format!("the name `{}` is reserved: it is {meaning}", name.value),
+                )
+                .at(name.span, "")
+                .help(format!("choose another name for this {}", thing.what())),
+            );
+        }
+        if let Some(earlier) = self.by_name.get(&name.value) {
+            let (_, other, span) = &self.things[*earlier];
+            let message =
+                format!("the name `{}` is given to a {} and to a {}", name.value, other.what(), thing.what());
+            faults.push(
+                Diagnostic::new(Code::DuplicateName, message)
+                    .at(name.span, "second")
+                    .also(*span, "first")
+                    .help("parameters, points, bodies, joints and forces share one set of names"),
+            );
+            return;
+        }
+        self.by_name.insert(name.value.clone(), self.things.len());
+        self.things.push((name.value.clone(), thing, name.span));
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<(Thing, Span)> {
+        self.by_name.get(name).map(|at| (self.things[*at].1, self.things[*at].2))
+    }
+
+    /// Names of things of a kind, in the order of the file.
+    pub(super) fn known(&self, wanted: impl Fn(Thing) -> bool) -> impl Iterator<Item = &str> {
+        self.things.iter().filter(move |(_, thing, _)| wanted(*thing)).map(|(name, ..)| name.as_str())
+    }
+}
+
+/// Letters, digits and `_`, a letter first.
+pub(super) fn is_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+pub(super) fn bad_name(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::BadName, format!("`{}` cannot be a name", name.value))
+        .at(name.span, "")
+        .help("names are made of the letters a-z and A-Z, digits and `_`, and start with a letter")
+}
+
+impl Resolver<'_> {
+    /// Reports a name that nothing has, or that something of another kind has.
+    fn report_name(&mut self, name: &Name, wanted: &str, used_by: &str, fits: impl Fn(Thing) -> bool) {
+        let diagnostic = match self.names.find(&name.value) {
+            Some((thing, span)) => {
+                let message =
+                    format!("{used_by} needs a {wanted}, but `{}` is a {}", name.value, thing.what());
+                Diagnostic::new(Code::WrongKindOfName, message).at(name.span, "").also(span, "declared here")
+            }
+            None => {
+                let message = format!("{used_by} names the {wanted} `{}`, which does not exist", name.value);
+                let ground = (wanted == "body").then_some("ground");
+                let known = self.names.known(fits).chain(ground);
+                Diagnostic::new(Code::UnknownName, message)
+                    .at(name.span, format!("unknown {wanted}"))
+                    .did_you_mean(&name.value, known)
+            }
+        };
+        self.report(diagnostic);
+    }
+
+    /// The body (or ground) with this name.
+    pub(super) fn carrier(&mut self, name: &Name, used_by: &str) -> Option<Carrier> {
+        if name.value == "ground" {
+            return Some(Carrier::Ground);
+        }
+        if let Some((Thing::Body(id), _)) = self.names.find(&name.value) {
+            return Some(Carrier::Body(id));
+        }
+        self.report_name(name, "body", used_by, |thing| matches!(thing, Thing::Body(_)));
+        None
+    }
+
+    /// The point with this name.
+    pub(super) fn point_named(&mut self, name: &Name, used_by: &str) -> Option<PointId> {
+        if let Some((Thing::Point(id), _)) = self.names.find(&name.value) {
+            return Some(id);
+        }
+        self.report_name(name, "point", used_by, |thing| matches!(thing, Thing::Point(_)));
+        None
+    }
+
+    /// The joint with this name.
+    pub(super) fn joint_named(&mut self, name: &Name, used_by: &str) -> Option<JointId> {
+        if let Some((Thing::Joint(id), _)) = self.names.find(&name.value) {
+            return Some(id);
+        }
+        self.report_name(name, "joint", used_by, |thing| matches!(thing, Thing::Joint(_)));
+        None
+    }
+}

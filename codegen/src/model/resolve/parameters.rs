@@ -1,0 +1,187 @@
+//! Parameters: in which order they follow from each other, their values, and `--set`.
+
+use super::names::Thing;
+use super::quantity::Allowed;
+use super::{Overrides, Resolver};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::id::ParameterId;
+use crate::model;
+use crate::source::Span;
+use crate::spec::{
+    At, Dimension, Expression, Form, Literal, Name, Parameter, Quantity, Table, parse_expression,
+};
+
+/// Largest formula that a parameter may be written out to. Parameters made of each other could double in size
+/// at every step; a real one has ten terms.
+const LARGEST: usize = 2000;
+
+impl Resolver<'_> {
+    pub(super) fn resolve_parameters(&mut self, table: &Table<Parameter>, overrides: &Overrides) {
+        self.names.declare_table(table, |at| Thing::Parameter(ParameterId::new(at)), &mut self.diagnostics);
+        self.values = vec![f64::NAN; table.0.len()];
+        self.written_out = vec![None; table.0.len()];
+        self.used = vec![false; table.0.len()];
+        self.parameters = table
+            .0
+            .iter()
+            .map(|(name, parameter)| model::Parameter {
+                name: name.value.clone(),
+                value: f64::NAN,
+                dimension: Dimension::NONE,
+                tunable: parameter.value.tunable,
+                assumed: parameter.value.assumed,
+                span: name.span,
+            })
+            .collect();
+        self.check_overrides(table, overrides);
+        for position in self.order(table) {
+            let (name, parameter) = &table.0[position];
+            self.resolve_parameter(position, name, parameter, overrides);
+        }
+    }
+
+    fn check_overrides(&mut self, table: &Table<Parameter>, overrides: &Overrides) {
+        let known = || table.0.iter().map(|(name, _)| name.value.as_str());
+        for name in overrides.names() {
+            if !known().any(|known| known == name) {
+                let message = format!("`--set {name}=...`: there is no parameter `{name}`");
+                let mut fault = Diagnostic::new(Code::UnknownOverride, message).did_you_mean(name, known());
+                if fault.help.is_empty() {
+                    let list = known().collect::<Vec<_>>().join(", ");
+                    fault = fault.help(format!("parameters of this file: {list}"));
+                }
+                self.report(fault);
+            }
+        }
+    }
+
+    fn resolve_parameter(
+        &mut self,
+        position: usize,
+        name: &Name,
+        parameter: &At<Parameter>,
+        overrides: &Overrides,
+    ) {
+        let Some(quantity) = &parameter.value.value else {
+            self.missing(parameter.span, name.span, || {
+                Diagnostic::new(Code::MissingKey, format!("the parameter `{}` has no value", name.value))
+                    .help(format!("write `{0} = \"120 mm\"` or `{0} = {{ value = \"120 mm\" }}`", name.value))
+            });
+            return;
+        };
+        let mut formula = self.formula(quantity, None, Allowed::PARAMETERS, &format!("`{}`", name.value));
+        let given = overrides.0.iter().rev().find(|(given, _)| *given == name.value);
+        if let Some((_, text)) = given {
+            formula = self.overridden(name, text, quantity.span, formula.dimension);
+        }
+        let value = formula.value(&self.values).unwrap_or(f64::NAN);
+        let follows = formula.depends_on(&|id| self.parameters[id.index()].tunable);
+        self.values[position] = value;
+        self.parameters[position].value = value;
+        self.parameters[position].dimension = formula.dimension;
+        if follows && !parameter.value.tunable {
+            if formula.term.size() > LARGEST {
+                let message =
+                    format!("`{}` grows too large when written out in tunable parameters", name.value);
+                self.report(Diagnostic::new(Code::FormulaSyntax, message).at(quantity.span, ""));
+                return;
+            }
+            self.written_out[position] = Some(formula.term);
+        }
+    }
+
+    /// The value of `--set name=text`: a quantity of the dimension that the parameter has in the file.
+    fn overridden(&mut self, name: &Name, text: &str, span: Span, dimension: Dimension) -> model::Formula {
+        let what = format!("`--set {}={text}`", name.value);
+        let quantity = Quantity { span, value: Literal::Text(text.to_owned()) };
+        let expression = parse_expression(text, &|word| self.names.is_name(word)).ok();
+        let mut names = Vec::new();
+        expression.iter().for_each(|expression| names_in(expression, &mut names));
+        if let Some(used) = names.first() {
+            let message = format!("{what} uses the name `{used}`");
+            self.report(
+                Diagnostic::new(Code::NotAllowedHere, message)
+                    .at(span, "")
+                    .help("on the command line give a quantity, for example speed=\"2 Hz\""),
+            );
+            return model::Formula::number(f64::NAN, dimension);
+        }
+        self.formula(&quantity, Some(dimension), Allowed::CONSTANTS, &what)
+    }
+
+    /// Positions so that every parameter comes after those it uses; cycles are reported and left out.
+    fn order(&mut self, table: &Table<Parameter>) -> Vec<usize> {
+        let uses: Vec<Vec<usize>> =
+            table.0.iter().map(|(_, parameter)| self.uses(&parameter.value)).collect();
+        let mut waiting: Vec<usize> = uses.iter().map(Vec::len).collect();
+        let mut users = vec![Vec::new(); uses.len()];
+        for (user, used) in uses.iter().enumerate() {
+            used.iter().for_each(|at| users[*at].push(user));
+        }
+        let mut order: Vec<usize> = (0..uses.len()).filter(|at| waiting[*at] == 0).collect();
+        let mut next = 0;
+        while let Some(&done) = order.get(next) {
+            next += 1;
+            for &user in &users[done] {
+                waiting[user] -= 1;
+                if waiting[user] == 0 {
+                    order.push(user);
+                }
+            }
+        }
+        if order.len() < uses.len() {
+            self.report_cycle(table, &uses, &waiting);
+        }
+        order
+    }
+
+    fn uses(&self, parameter: &Parameter) -> Vec<usize> {
+        let Some(At { value: Literal::Text(text), .. }) = &parameter.value else { return Vec::new() };
+        let Ok(expression) = parse_expression(text, &|word| self.names.is_name(word)) else {
+            return Vec::new();
+        };
+        let mut names = Vec::new();
+        names_in(&expression, &mut names);
+        let found = names.iter().filter_map(|name| match self.names.find(name) {
+            Some((Thing::Parameter(id), _)) => Some(id.index()),
+            _ => None,
+        });
+        found.collect()
+    }
+
+    /// Walks from a waiting parameter along waiting ones until one repeats: that is a cycle.
+    fn report_cycle(&mut self, table: &Table<Parameter>, uses: &[Vec<usize>], waiting: &[usize]) {
+        let Some(mut at) = waiting.iter().position(|count| *count > 0) else { return };
+        let mut path: Vec<usize> = Vec::new();
+        while !path.contains(&at) {
+            path.push(at);
+            let next = uses[at].iter().copied().find(|used| waiting[*used] > 0);
+            at = next.unwrap_or(at);
+        }
+        let start = path.iter().position(|seen| *seen == at).unwrap_or(0);
+        let names: Vec<_> = path[start..].iter().map(|at| format!("`{}`", table.0[*at].0.value)).collect();
+        let span = table.0[at].0.span;
+        let message = match names.as_slice() {
+            [only] => format!("the parameter {only} is defined by itself"),
+            _ => format!("the parameters {} are defined by each other", names.join(", ")),
+        };
+        self.report(
+            Diagnostic::new(Code::ParameterCycle, message).at(span, "").help("give one of them a value"),
+        );
+    }
+}
+
+/// Names of the file that occur in an expression.
+fn names_in<'a>(expression: &'a Expression, names: &mut Vec<&'a str>) {
+    match &expression.form {
+        Form::Number { .. } => {}
+        Form::Name(name) if name == "pi" => {}
+        Form::Name(name) | Form::Member(name, _) => names.push(name),
+        Form::Neg(inner) | Form::Power(inner, _) => names_in(inner, names),
+        Form::Binary(_, left, right) => {
+            names_in(left, names);
+            names_in(right, names);
+        }
+        Form::Call(_, arguments) => arguments.iter().for_each(|argument| names_in(argument, names)),
+    }
+}

@@ -1,0 +1,241 @@
+//! Which joints carry the bodies (the spanning tree) and which close loops (the cuts).
+//! In: [`Mechanism`]. Out: [`Topology`]. Never knows equations.
+//!
+//! The tree grows from the ground by the best joint at its rim: driven joints first (their coordinate is
+//! eliminated, so it must be a coordinate), then joints with start values, then those with more constraint
+//! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
+//! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
+
+use super::{
+    Axis, Carrier, ForceKind, Formula, Joint, JointKind, Mechanism, Passive, Position, Term, Topology,
+    TreeJoint,
+};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::id::{BodyId, JointId};
+
+/// Preference of a joint for the tree: smaller is better.
+type Class = (bool, bool, usize, bool);
+
+/// Chooses tree joints and cuts. The diagnostics have places but no file yet: see [`Diagnostics::located`].
+///
+/// # Errors
+/// If a body can be reached only through joints that must be cut, if driven joints close a loop among
+/// themselves or must be cut, if a cut joint has a start value.
+pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
+    let classes: Vec<Class> = classes(mechanism);
+    let may_carry: Vec<bool> = mechanism.joints.iter().map(|joint| !must_cut(mechanism, joint)).collect();
+    let mut faults = driven_cuts(mechanism, &may_carry);
+    let mut depths: Vec<Option<usize>> = vec![None; mechanism.bodies.len()];
+    let mut tree = Vec::with_capacity(mechanism.bodies.len());
+    while let Some(step) = best_step(mechanism, &classes, &may_carry, &depths) {
+        depths[step.outboard.index()] = Some(depth(step.inboard, &depths).unwrap_or(0) + 1);
+        tree.push(step);
+    }
+    let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
+    let cuts: Vec<JointId> =
+        (0..mechanism.joints.len()).map(JointId::new).filter(|joint| !carries(joint)).collect();
+    let topology = Topology { tree, cuts };
+    faults.extend(unreached(mechanism, &depths));
+    if faults.is_empty() {
+        faults.extend(driven_loops(mechanism, &topology));
+        faults.extend(starts_on_cuts(mechanism, &topology));
+    }
+    if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
+}
+
+fn depth(carrier: Carrier, depths: &[Option<usize>]) -> Option<usize> {
+    match carrier {
+        Carrier::Ground => Some(0),
+        Carrier::Body(id) => depths[id.index()],
+    }
+}
+
+/// The best joint with exactly one side in the tree.
+fn best_step(
+    mechanism: &Mechanism,
+    classes: &[Class],
+    may_carry: &[bool],
+    depths: &[Option<usize>],
+) -> Option<TreeJoint> {
+    let mut best: Option<((Class, usize), TreeJoint)> = None;
+    for (position, joint) in mechanism.joints.iter().enumerate() {
+        if !may_carry[position] {
+            continue;
+        }
+        let (inboard, outboard, reversed) =
+            match (depth(joint.parent, depths), depth(joint.child, depths), joint.parent, joint.child) {
+                (Some(_), None, inboard, Carrier::Body(outboard)) => (inboard, outboard, false),
+                (None, Some(_), Carrier::Body(outboard), inboard) => (inboard, outboard, true),
+                _ => continue,
+            };
+        let key = (classes[position], depth(inboard, depths).unwrap_or(0));
+        if best.as_ref().is_none_or(|(least, _)| key < *least) {
+            best = Some((key, TreeJoint { joint: JointId::new(position), inboard, outboard, reversed }));
+        }
+    }
+    best.map(|(_, step)| step)
+}
+
+fn classes(mechanism: &Mechanism) -> Vec<Class> {
+    let mut started = vec![false; mechanism.joints.len()];
+    mechanism.starts.iter().for_each(|start| started[start.joint.index()] = true);
+    let mentioned = mentioned(mechanism);
+    let class = |(position, joint): (usize, &Joint)| {
+        let passive = !joint.passive.is_empty() || mentioned[position];
+        (joint.drives.is_empty(), !started[position], 6 - joint.kind.rows(), !passive)
+    };
+    mechanism.joints.iter().enumerate().map(class).collect()
+}
+
+/// Joints whose coordinates occur in the formulas of forces.
+fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
+    let mut mentioned = vec![false; mechanism.joints.len()];
+    let mut note = |formula: &Formula| {
+        formula.term.visit(&mut |term| {
+            if let Term::JointPosition(id, _) | Term::JointSpeed(id, _) = term {
+                mentioned[id.index()] = true;
+            }
+        });
+    };
+    for passive in mechanism.joints.iter().flat_map(|joint| &joint.passive) {
+        if let Passive::Actuator { force, .. } = passive {
+            note(force);
+        }
+    }
+    for force in &mechanism.forces {
+        if let ForceKind::Force { components, .. } | ForceKind::Torque { components, .. } = &force.kind {
+            components.iter().for_each(&mut note);
+        }
+    }
+    mentioned
+}
+
+/// Whether the joint is described differently on its two sides, or the user wants it cut.
+fn must_cut(mechanism: &Mechanism, joint: &Joint) -> bool {
+    joint.cut || is_open(mechanism, joint)
+}
+
+/// Whether the branches on the two sides of the joint are described open.
+fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
+    let differs = |axis: &Axis| axis.parent != axis.child;
+    let axes = match &joint.kind {
+        JointKind::Revolute(axis)
+        | JointKind::Prismatic(axis)
+        | JointKind::Cylindrical(axis)
+        | JointKind::Screw(axis, _) => differs(axis),
+        JointKind::Universal(first, second) => differs(first) || differs(second),
+        JointKind::Planar { normal, first } => differs(normal) || differs(first),
+        JointKind::Spherical | JointKind::Fixed | JointKind::Free => false,
+    };
+    let point = match &mechanism.point(joint.at).position {
+        Position::Shared(_) => false,
+        Position::PerBody(list) => {
+            [joint.parent, joint.child].iter().all(|side| list.iter().any(|(body, _)| body == side))
+        }
+    };
+    axes || point
+}
+
+fn why_cut(mechanism: &Mechanism, joint: &Joint) -> &'static str {
+    if is_open(mechanism, joint) {
+        "its point or axis is given per body, so the loop is open there"
+    } else {
+        "it has `cut = true`"
+    }
+}
+
+fn driven_cuts(mechanism: &Mechanism, may_carry: &[bool]) -> Vec<Diagnostic> {
+    let wrong =
+        mechanism.joints.iter().zip(may_carry).filter(|(joint, may)| !joint.drives.is_empty() && !**may);
+    wrong
+        .map(|(joint, _)| {
+            let why = why_cut(mechanism, joint);
+            Diagnostic::new(
+                Code::DrivenCut,
+                format!("joint `{}` is driven, but must be cut: {why}", joint.name),
+            )
+            .at(joint.span, "")
+            .help("open the loop at another of its joints")
+        })
+        .collect()
+}
+
+fn unreached(mechanism: &Mechanism, depths: &[Option<usize>]) -> Vec<Diagnostic> {
+    let lost: Vec<BodyId> =
+        (0..depths.len()).filter(|body| depths[*body].is_none()).map(BodyId::new).collect();
+    let Some(first) = lost.first() else { return Vec::new() };
+    let names =
+        lost.iter().map(|body| format!("`{}`", mechanism.body(*body).name)).collect::<Vec<_>>().join(", ");
+    let is_reached = |carrier: Carrier| depth(carrier, depths).is_some();
+    let rim = mechanism.joints.iter().find(|joint| is_reached(joint.parent) != is_reached(joint.child));
+    let Some(joint) = rim else {
+        let message = format!("no chain of joints connects {names} to the ground");
+        return vec![Diagnostic::new(Code::Disconnected, message).at(mechanism.body(*first).span, "")];
+    };
+    let message = format!(
+        "joint `{}` must be cut, but nothing else carries {names}: {}",
+        joint.name,
+        why_cut(mechanism, joint)
+    );
+    vec![
+        Diagnostic::new(Code::CutDisconnects, message)
+            .at(joint.span, "")
+            .help("a joint outside a loop cannot be cut: take `cut = true` away, or give its point and axis once for both bodies"),
+    ]
+}
+
+fn driven_loops(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
+    let cut = topology.cuts.iter().map(|id| mechanism.joint(*id)).filter(|joint| !joint.drives.is_empty());
+    cut.map(|joint| {
+        let path = loop_of(mechanism, topology, joint);
+        let names =
+            path.iter().map(|id| format!("`{}`", mechanism.joint(*id).name)).collect::<Vec<_>>().join(", ");
+        let message = format!("the driven joints {names} and `{}` close a loop on their own", joint.name);
+        let mut fault = Diagnostic::new(Code::DrivenLoop, message).at(joint.span, "");
+        for id in &path {
+            fault = fault.also(mechanism.joint(*id).span, "");
+        }
+        fault.help("leave one joint of the loop without a drive: its motion follows from the others")
+    })
+    .collect()
+}
+
+/// The tree joints between the two bodies of a cut joint.
+fn loop_of(mechanism: &Mechanism, topology: &Topology, joint: &Joint) -> Vec<JointId> {
+    let to_ground = |mut carrier: Carrier| {
+        let mut path = Vec::new();
+        while let Some(step) = topology.tree.iter().find(|step| Carrier::Body(step.outboard) == carrier) {
+            path.push(step.joint);
+            carrier = step.inboard;
+        }
+        path
+    };
+    let (parent, child) = (to_ground(joint.parent), to_ground(joint.child));
+    let mut path: Vec<JointId> = parent.iter().filter(|id| !child.contains(id)).copied().collect();
+    path.extend(child.iter().filter(|id| !parent.contains(id)));
+    debug_assert!(path.iter().all(|id| id.index() < mechanism.joints.len()));
+    path
+}
+
+fn starts_on_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
+    let wrong = mechanism.starts.iter().filter(|start| topology.cuts.contains(&start.joint));
+    wrong
+        .map(|start| {
+            let joint = mechanism.joint(start.joint);
+            let why = if must_cut(mechanism, joint) {
+                why_cut(mechanism, joint)
+            } else {
+                "the other joints of its loop have start values or drives too"
+            };
+            Diagnostic::new(
+                Code::StartOnCut,
+                format!("joint `{}` has a start value, but is cut: {why}", joint.name),
+            )
+            .at(start.span, "")
+            .also(joint.span, "cut here")
+            .help(
+                "give start values of the other joints of the loop; this one follows when the loop is closed",
+            )
+        })
+        .collect()
+}

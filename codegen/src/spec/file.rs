@@ -1,0 +1,501 @@
+//! The tables of a mechanism file, as types: the parser and the JSON Schema are both made from them.
+//! Every field is optional here; what must be present is said by the resolver, which can explain why.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+
+use super::written::{
+    At, ByForm, Form, Literal, Name, Pair, PerBody, Quantity, Table, Triple, read_by_form, value_of,
+};
+
+/// A mechanism file.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["spec", "name", "bodies"]))]
+pub struct File {
+    /// Version of this format: 1.
+    pub spec: Option<At<i64>>,
+    /// Name of the mechanism, also in generated code.
+    pub name: Option<Name>,
+    /// What it is, in a sentence.
+    pub doc: Option<String>,
+    /// Acceleration of free fall in the ground frame.
+    pub gravity: Option<Triple>,
+    /// How loops are closed: at a joint, or by the logarithm of the gap.
+    pub closure: Option<ClosureSpec>,
+    /// Named quantities.
+    pub parameters: Table<Parameter>,
+    /// Named points at the reference pose.
+    pub points: Table<PointSpec>,
+    /// Moving bodies.
+    pub bodies: Table<BodySpec>,
+    /// Joints between bodies or to the ground.
+    pub joints: Table<JointSpec>,
+    /// Springs, forces and torques.
+    pub forces: Table<ForceSpec>,
+    /// Guesses of joint coordinates from which assembly starts.
+    pub assembly: Table<StartSpec>,
+    /// Start values of joint coordinates and speeds that are met exactly.
+    pub initial: Table<StartSpec>,
+    /// Groups of points, bodies and joints made several times.
+    pub repeat: Table<RepeatSpec>,
+}
+
+/// How loops are closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ClosureSpec {
+    /// Cut one joint and keep the rows it takes away.
+    #[default]
+    Joint,
+    /// Six rows: the logarithm of the gap between two branches.
+    Log,
+}
+
+/// A parameter with its marks.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["value"]))]
+struct ParameterTable {
+    /// Quantity or formula over other parameters.
+    value: Option<Quantity>,
+    /// Stays changeable in the generated code.
+    tunable: bool,
+    /// Our own assumption, not from the cited source.
+    assumed: bool,
+    /// What it is.
+    doc: Option<String>,
+}
+
+/// A named quantity.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Value.
+    pub value: Option<Quantity>,
+    /// Stays changeable in the generated code.
+    pub tunable: bool,
+    /// Our own assumption, not from the cited source.
+    pub assumed: bool,
+}
+
+impl<'de> ByForm<'de> for Parameter {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        if form == Form::Table {
+            let ParameterTable { value, tunable, assumed, doc: _ } = value_of(value)?;
+            return Ok(Self { value, tunable, assumed });
+        }
+        Ok(Self { value: Some(value_of(value)?), tunable: false, assumed: false })
+    }
+}
+
+/// Where a point is.
+#[derive(Clone, Debug, Default)]
+pub struct PointSpec {
+    /// Coordinates, for all or by body.
+    pub at: Option<PerBody>,
+    /// Coordinates by body, written without `at`.
+    pub by_body: Table<Triple>,
+    /// Body that carries the point.
+    pub on: Option<Name>,
+    /// Our own assumption.
+    pub assumed: bool,
+}
+
+impl<'de> ByForm<'de> for PointSpec {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        if form == Form::Table {
+            return Ok(value_of::<PointTable, _>(value)?.0);
+        }
+        Ok(Self { at: Some(PerBody::Shared(value_of(value)?)), ..Self::default() })
+    }
+}
+
+struct PointTable(PointSpec);
+
+impl<'de> Deserialize<'de> for PointTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys;
+        impl<'de> Visitor<'de> for Keys {
+            type Value = PointTable;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("three coordinates or a table of them")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PointTable, A::Error> {
+                let mut point = PointSpec::default();
+                while let Some(key) = map.next_key::<Name>()? {
+                    match key.value.as_str() {
+                        "at" => point.at = Some(map.next_value()?),
+                        "on" => point.on = Some(map.next_value()?),
+                        "assumed" => point.assumed = map.next_value()?,
+                        "doc" => drop(map.next_value::<String>()?),
+                        _ => point.by_body.0.push((key, map.next_value()?)),
+                    }
+                }
+                Ok(PointTable(point))
+            }
+        }
+        deserializer.deserialize_map(Keys)
+    }
+}
+
+/// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` with `centre`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("anyOf" = [
+    { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] }
+]))]
+pub struct BodySpec {
+    /// Solid cylinder between two points.
+    pub rod: Option<Pair>,
+    /// Hollow cylinder between two points.
+    pub tube: Option<Pair>,
+    /// Cuboid between two points.
+    #[serde(rename = "box")]
+    pub cuboid: Option<Pair>,
+    /// Outer radius of a rod or tube.
+    pub radius: Option<Quantity>,
+    /// Inner radius of a tube.
+    pub inner_radius: Option<Quantity>,
+    /// Edge of a square box, or the two edges of a rectangular one.
+    pub width: Option<Widths>,
+    /// Direction of the first of `width`.
+    pub width_axis: Option<Triple>,
+    /// Density, instead of `mass`.
+    pub density: Option<Quantity>,
+    /// Total mass.
+    pub mass: Option<Quantity>,
+    /// Centre of mass: a point's name or coordinates.
+    pub centre: Option<Centre>,
+    /// Inertia about the centre: xx, yy, zz or xx, yy, zz, xy, xz, yz.
+    pub inertia: Option<At<Vec<Quantity>>>,
+    /// Axes of `inertia`: two or three directions at right angles.
+    pub axes: Option<At<Vec<Triple>>>,
+    /// Our own assumption.
+    pub assumed: bool,
+    /// What it is.
+    pub doc: Option<String>,
+}
+
+/// A body's centre: a name or coordinates.
+#[derive(Clone, Debug)]
+pub enum Centre {
+    /// A named point.
+    Point(Name),
+    /// Coordinates.
+    At(Triple),
+}
+
+impl<'de> ByForm<'de> for Centre {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        Ok(if form == Form::List { Self::At(value_of(value)?) } else { Self::Point(value_of(value)?) })
+    }
+}
+
+/// Edges of a box's section.
+#[derive(Clone, Debug)]
+pub enum Widths {
+    /// A square.
+    Square(Quantity),
+    /// A rectangle: along `width_axis`, and the other edge.
+    Rectangle(At<Vec<Quantity>>),
+}
+
+impl<'de> ByForm<'de> for Widths {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        Ok(if form == Form::List {
+            Self::Rectangle(value_of(value)?)
+        } else {
+            Self::Square(value_of(value)?)
+        })
+    }
+}
+
+/// A joint: exactly one of the kinds, with the parent and the child.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("oneOf" = [
+    { "required": ["revolute"] }, { "required": ["prismatic"] }, { "required": ["cylindrical"] },
+    { "required": ["screw"] }, { "required": ["universal"] }, { "required": ["spherical"] },
+    { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
+], "required" = ["at"]))]
+pub struct JointSpec {
+    /// Rotation about `axis`.
+    pub revolute: Option<Pair>,
+    /// Translation along `axis`.
+    pub prismatic: Option<Pair>,
+    /// Rotation about and translation along `axis`.
+    pub cylindrical: Option<Pair>,
+    /// Rotation with translation by `lead` per turn.
+    pub screw: Option<Pair>,
+    /// Rotation about the two `axes`.
+    pub universal: Option<Pair>,
+    /// Rotation about a point.
+    pub spherical: Option<Pair>,
+    /// Motion in the plane with normal `axis`.
+    pub planar: Option<Pair>,
+    /// No relative motion.
+    pub fixed: Option<Pair>,
+    /// No constraint.
+    pub free: Option<Pair>,
+    /// Point where the joint is.
+    pub at: Option<Name>,
+    /// Direction at the reference pose, for all or by body; any length.
+    pub axis: Option<PerBody>,
+    /// The two axes of a universal joint: on the parent, on the child.
+    pub axes: Option<At<Vec<PerBody>>>,
+    /// Direction of `q1` of a planar joint.
+    pub first: Option<PerBody>,
+    /// Advance of a screw per turn.
+    pub lead: Option<Quantity>,
+    /// Prescribed motion over parameters and t.
+    pub drive: Option<ByCoordinate>,
+    /// Viscous damping.
+    pub damping: Option<ByCoordinate>,
+    /// Viscous friction; the same law as `damping`.
+    pub friction: Option<ByCoordinate>,
+    /// Linear spring.
+    pub spring: Option<SpringSpec>,
+    /// Force or torque by formula, positive along the coordinate.
+    pub force: Option<ByCoordinate>,
+    /// Cut the loop here.
+    pub cut: Option<At<bool>>,
+    /// Our own assumption.
+    pub assumed: bool,
+    /// What it is.
+    pub doc: Option<String>,
+}
+
+/// A quantity for the only coordinate of a joint, or one by coordinate.
+#[derive(Clone, Debug)]
+pub enum ByCoordinate {
+    /// For the only coordinate.
+    One(Quantity),
+    /// By coordinate.
+    Each(Box<At<EachCoordinate>>),
+}
+
+/// Quantities by coordinate of a joint.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct EachCoordinate {
+    /// The only coordinate.
+    pub q: Option<Quantity>,
+    /// First coordinate.
+    pub q1: Option<Quantity>,
+    /// Second coordinate.
+    pub q2: Option<Quantity>,
+    /// Third coordinate.
+    pub q3: Option<Quantity>,
+}
+
+impl<'de> ByForm<'de> for ByCoordinate {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        Ok(if form == Form::Table {
+            Self::Each(Box::new(value_of(value)?))
+        } else {
+            Self::One(value_of(value)?)
+        })
+    }
+}
+
+/// A joint spring: for the only coordinate, or by coordinate.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct SpringSpec {
+    /// Stiffness.
+    pub stiffness: Option<Quantity>,
+    /// Unloaded position; 0 by default.
+    pub rest: Option<Quantity>,
+    /// The only coordinate.
+    pub q: Option<At<SpringPart>>,
+    /// First coordinate.
+    pub q1: Option<At<SpringPart>>,
+    /// Second coordinate.
+    pub q2: Option<At<SpringPart>>,
+    /// Third coordinate.
+    pub q3: Option<At<SpringPart>>,
+}
+
+/// A spring of one coordinate.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["stiffness"]))]
+pub struct SpringPart {
+    /// Stiffness.
+    pub stiffness: Option<Quantity>,
+    /// Unloaded position; 0 by default.
+    pub rest: Option<Quantity>,
+}
+
+/// A force element: exactly one of `spring`, `force`, `torque`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("oneOf" = [
+    { "required": ["spring", "at"] }, { "required": ["force", "at", "components"] },
+    { "required": ["torque", "components"] }
+]))]
+pub struct ForceSpec {
+    /// Spring and damper between two bodies.
+    pub spring: Option<Pair>,
+    /// Body that is pushed.
+    pub force: Option<Name>,
+    /// Body that is turned.
+    pub torque: Option<Name>,
+    /// Point of a force, or the two points of a spring.
+    pub at: Option<Places>,
+    /// Stiffness of a spring.
+    pub stiffness: Option<Quantity>,
+    /// Unloaded length of a spring.
+    pub length: Option<Quantity>,
+    /// Damping of a spring along its line.
+    pub damping: Option<Quantity>,
+    /// Constant pull of a spring.
+    pub preload: Option<Quantity>,
+    /// Components of a force or torque.
+    pub components: Option<Triple>,
+    /// Axes of the components: "ground" (default) or a body they turn with.
+    pub axes: Option<Name>,
+    /// Body that takes the reaction; "ground" by default.
+    pub reaction: Option<Name>,
+    /// Our own assumption.
+    pub assumed: bool,
+    /// What it is.
+    pub doc: Option<String>,
+}
+
+/// One point or several.
+#[derive(Clone, Debug)]
+pub struct Places(pub At<Vec<Name>>);
+
+impl<'de> ByForm<'de> for Places {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        if form == Form::List {
+            return Ok(Self(value_of(value)?));
+        }
+        let name: Name = value_of(value)?;
+        Ok(Self(At { span: name.span, value: vec![name] }))
+    }
+}
+
+/// Start values of a joint.
+#[derive(Clone, Debug)]
+pub enum StartSpec {
+    /// Position of the only coordinate.
+    One(Quantity),
+    /// Positions in order.
+    List(At<Vec<Quantity>>),
+    /// Positions and speeds by name.
+    Table(Box<At<StartTable>>),
+}
+
+impl<'de> ByForm<'de> for StartSpec {
+    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
+        Ok(match form {
+            Form::Scalar => Self::One(value_of(value)?),
+            Form::List => Self::List(value_of(value)?),
+            Form::Table => Self::Table(Box::new(value_of(value)?)),
+        })
+    }
+}
+
+/// Start positions (`q`, or `q1`, `q2` ...) and speeds (`v`, or `v1`, `v2` ...).
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[allow(missing_docs, reason = "one line above says all")]
+pub struct StartTable {
+    pub q: Option<Quantity>,
+    pub q1: Option<Quantity>,
+    pub q2: Option<Quantity>,
+    pub q3: Option<Quantity>,
+    pub q4: Option<Quantity>,
+    pub q5: Option<Quantity>,
+    pub q6: Option<Quantity>,
+    pub v: Option<Quantity>,
+    pub v1: Option<Quantity>,
+    pub v2: Option<Quantity>,
+    pub v3: Option<Quantity>,
+    pub v4: Option<Quantity>,
+    pub v5: Option<Quantity>,
+    pub v6: Option<Quantity>,
+}
+
+/// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["count"]))]
+pub struct RepeatSpec {
+    /// How many cells: a whole number or a formula over parameters.
+    pub count: Option<Quantity>,
+    /// Name of the index in braces; "i" by default.
+    pub index: Option<Name>,
+    /// Value of the index in the first cell; 1 by default.
+    pub first: Option<At<i64>>,
+    /// Points of a cell.
+    pub points: Table<PointSpec>,
+    /// Bodies of a cell.
+    pub bodies: Table<BodySpec>,
+    /// Joints of a cell.
+    pub joints: Table<JointSpec>,
+    /// Forces of a cell.
+    pub forces: Table<ForceSpec>,
+    /// Guesses of a cell.
+    pub assembly: Table<StartSpec>,
+    /// Start values of a cell.
+    pub initial: Table<StartSpec>,
+}
+
+/// `Deserialize` by form, and a schema that allows the listed forms.
+macro_rules! written_in_forms {
+    ($($type:ident: $generator:ident => $schema:expr;)*) => {$(
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                read_by_form(deserializer)
+            }
+        }
+        impl JsonSchema for $type {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($type).into()
+            }
+            fn json_schema($generator: &mut SchemaGenerator) -> Schema {
+                $schema
+            }
+        }
+    )*};
+}
+
+written_in_forms! {
+    Parameter: g => {
+        json_schema!({ "anyOf": [g.subschema_for::<Literal>(), g.subschema_for::<ParameterTable>()] })
+    };
+    PointSpec: g => {
+        let position = g.subschema_for::<PerBody>();
+        let triple = g.subschema_for::<Triple>();
+        json_schema!({ "anyOf": [triple, {
+            "type": "object",
+            "properties": {
+                "at": position,
+                "on": { "type": "string", "description": "Body that carries the point." },
+                "assumed": { "type": "boolean", "description": "Our own assumption." },
+                "doc": { "type": "string" },
+            },
+            "additionalProperties": triple,
+        }]})
+    };
+    Centre: g => json_schema!({ "anyOf": [{ "type": "string" }, g.subschema_for::<Triple>()] });
+    Widths: g => {
+        let quantity = g.subschema_for::<Literal>();
+        json_schema!({ "anyOf": [quantity, { "type": "array", "items": quantity, "minItems": 2, "maxItems": 2 }] })
+    };
+    ByCoordinate: g => {
+        json_schema!({ "anyOf": [g.subschema_for::<Literal>(), g.subschema_for::<EachCoordinate>()] })
+    };
+    Places: _g => json_schema!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }] });
+    StartSpec: g => {
+        let quantity = g.subschema_for::<Literal>();
+        json_schema!({ "anyOf": [quantity, { "type": "array", "items": quantity }, g.subschema_for::<StartTable>()] })
+    };
+}

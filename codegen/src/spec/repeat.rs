@@ -1,0 +1,287 @@
+//! `[repeat.<name>]`: copies of a group with `{i}`, `{i+1}` replaced in names and texts.
+//! In: [`File`] and the number of cells of each group. Out: a [`File`] without groups. Places stay those of the
+//! one text that all copies come from.
+
+use std::collections::HashMap;
+
+use super::file::{
+    BodySpec, ByCoordinate, Centre, EachCoordinate, File, ForceSpec, JointSpec, Places, PointSpec,
+    RepeatSpec, SpringPart, SpringSpec, StartSpec, StartTable, Widths,
+};
+use super::syntax::{Form, Operator, parse_expression};
+use super::written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+/// More cells than this are a slip of the pen, and would only fill the memory.
+const MOST_CELLS: i64 = 10_000;
+
+/// Makes the cells of every group; `count_of` evaluates `count` and reports if it cannot.
+pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -> (File, Vec<Diagnostic>) {
+    let mut whole = file.clone();
+    let mut problems = Vec::new();
+    for (name, group) in std::mem::take(&mut whole.repeat).0 {
+        let Some(count) = count(&name, &group.value, count_of, &mut problems) else { continue };
+        let index = group.value.index.clone().map_or("i".to_owned(), |index| index.value);
+        let first = group.value.first.as_ref().map_or(1, |first| first.value);
+        let mut made = Made { group: &name.value, by_name: HashMap::new(), problems: &mut problems };
+        for cell in first..first.saturating_add(count) {
+            let before = made.problems.len();
+            let mut copy = group.value.clone();
+            copy.each(Span::default(), &mut |text, span| substitute(text, span, &index, cell, made.problems));
+            if made.problems.len() > before {
+                break;
+            }
+            made.append(&mut whole.points, copy.points, cell, "point");
+            made.append(&mut whole.bodies, copy.bodies, cell, "body");
+            made.append(&mut whole.joints, copy.joints, cell, "joint");
+            made.append(&mut whole.forces, copy.forces, cell, "force");
+            made.append(&mut whole.assembly, copy.assembly, cell, "guess");
+            made.append(&mut whole.initial, copy.initial, cell, "start value");
+        }
+    }
+    (whole, problems)
+}
+
+/// The places of all texts of all groups: faults there come once per cell.
+pub fn group_spans(file: &File) -> Vec<Span> {
+    let spans = file.repeat.0.iter().map(|(_, group)| {
+        let mut whole: Option<Span> = None;
+        group.value.clone().each(Span::default(), &mut |_, span| {
+            whole = Some(
+                whole.map_or(span, |w| Span { start: w.start.min(span.start), end: w.end.max(span.end) }),
+            );
+        });
+        whole.unwrap_or_default()
+    });
+    spans.collect()
+}
+
+fn count(
+    name: &Name,
+    group: &RepeatSpec,
+    count_of: &mut dyn FnMut(&Quantity) -> Option<f64>,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<i64> {
+    let Some(written) = &group.count else {
+        problems.push(
+            Diagnostic::new(
+                Code::MissingKey,
+                format!("the group `{}` does not say how many cells it has", name.value),
+            )
+            .at(name.span, "")
+            .help("add `count = 3`"),
+        );
+        return None;
+    };
+    let count = count_of(written)?;
+    if count.fract() != 0.0 || !(1.0..=MOST_CELLS as f64).contains(&count) {
+        problems.push(
+            Diagnostic::new(Code::BadRepeat, format!("`count` of group `{}` is {count}", name.value))
+                .at(written.span, format!("a whole number from 1 to {MOST_CELLS} is needed")),
+        );
+        return None;
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "a whole number up to MOST_CELLS")]
+    Some(count as i64)
+}
+
+struct Made<'a> {
+    group: &'a str,
+    by_name: HashMap<(&'static str, String), i64>,
+    problems: &'a mut Vec<Diagnostic>,
+}
+
+impl Made<'_> {
+    fn append<T>(&mut self, table: &mut Table<T>, cells: Table<T>, cell: i64, what: &'static str) {
+        for (name, value) in cells.0 {
+            let earlier = self.by_name.insert((what, name.value.clone()), cell);
+            match earlier {
+                Some(earlier) if earlier != cell => {
+                    let reported =
+                        |d: &Diagnostic| d.code == Code::RepeatCollision && d.span() == Some(name.span);
+                    if !self.problems.iter().any(reported) {
+                        self.problems.push(collision(self.group, what, &name, earlier, cell));
+                    }
+                }
+                _ => table.0.push((name, value)),
+            }
+        }
+    }
+}
+
+fn collision(group: &str, what: &str, name: &Name, earlier: i64, cell: i64) -> Diagnostic {
+    let message =
+        format!("cells {earlier} and {cell} of group `{group}` both make the {what} `{}`", name.value);
+    Diagnostic::new(Code::RepeatCollision, message).at(name.span, "").help(
+        "put the index into the name, for example `\"bar{i}\"`, or move what is common out of the group",
+    )
+}
+
+/// Replaces `{...}` in `text` by numbers.
+fn substitute(text: &mut String, span: Span, index: &str, cell: i64, problems: &mut Vec<Diagnostic>) {
+    let mut result = String::with_capacity(text.len());
+    let mut rest = text.as_str();
+    while let Some((before, after)) = rest.split_once('{') {
+        let value =
+            after.split_once('}').and_then(|(inner, after)| Some((number(inner, index, cell)?, after)));
+        let Some((value, after)) = value else {
+            problems.push(
+                Diagnostic::new(Code::BadRepeat, format!("the braces in \"{text}\" hold no whole number"))
+                    .at(span, "")
+                    .help(format!("braces hold the index and whole numbers, for example `{{{index}}}` or `{{{index}+1}}`")),
+            );
+            return;
+        };
+        result.push_str(before);
+        result.push_str(&value.to_string());
+        rest = after;
+    }
+    result.push_str(rest);
+    *text = result;
+}
+
+fn number(inner: &str, index: &str, cell: i64) -> Option<i64> {
+    fn value(form: &Form, index: &str, cell: i64) -> Option<i64> {
+        match form {
+            #[allow(clippy::cast_possible_truncation, reason = "checked to be a small whole number")]
+            Form::Number { value, bare: true, .. } if value.fract() == 0.0 && value.abs() < 1e9 => {
+                Some(*value as i64)
+            }
+            Form::Name(name) if name == index => Some(cell),
+            Form::Neg(a) => Some(-value(&a.form, index, cell)?),
+            Form::Binary(operator, a, b) => {
+                let (a, b) = (value(&a.form, index, cell)?, value(&b.form, index, cell)?);
+                match operator {
+                    Operator::Add => a.checked_add(b),
+                    Operator::Sub => a.checked_sub(b),
+                    Operator::Mul => a.checked_mul(b),
+                    Operator::Div => None,
+                }
+            }
+            _ => None,
+        }
+    }
+    value(&parse_expression(inner, &|name| name == index).ok()?.form, index, cell)
+}
+
+type Change<'a> = &'a mut dyn FnMut(&mut String, Span);
+
+/// Everything with texts in it.
+trait Texts {
+    /// Calls `change` for every text with its place.
+    fn each(&mut self, span: Span, change: Change<'_>);
+}
+
+impl Texts for String {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        change(self, span);
+    }
+}
+
+impl Texts for Literal {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        if let Self::Text(text) = self {
+            change(text, span);
+        }
+    }
+}
+
+impl<T: Texts> Texts for At<T> {
+    fn each(&mut self, _: Span, change: Change<'_>) {
+        self.value.each(self.span, change);
+    }
+}
+
+impl<T: Texts> Texts for Option<T> {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        self.iter_mut().for_each(|value| value.each(span, change));
+    }
+}
+
+impl<T: Texts> Texts for Vec<T> {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        self.iter_mut().for_each(|value| value.each(span, change));
+    }
+}
+
+impl<T: Texts> Texts for Box<T> {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        self.as_mut().each(span, change);
+    }
+}
+
+impl<T: Texts> Texts for Table<T> {
+    fn each(&mut self, span: Span, change: Change<'_>) {
+        for (name, value) in &mut self.0 {
+            name.each(span, change);
+            value.each(span, change);
+        }
+    }
+}
+
+macro_rules! texts_of {
+    ($(struct $type:ident { $($field:tt),* })* $(enum $choice:ident { $($variant:ident),* })*) => {
+        $(impl Texts for $type {
+            fn each(&mut self, span: Span, change: Change<'_>) {
+                $(self.$field.each(span, change);)*
+            }
+        })*
+        $(impl Texts for $choice {
+            fn each(&mut self, span: Span, change: Change<'_>) {
+                match self {
+                    $(Self::$variant(value) => value.each(span, change),)*
+                }
+            }
+        })*
+    };
+}
+
+texts_of! {
+    struct Triple { 0 }
+    struct Pair { 0 }
+    struct Places { 0 }
+    struct PointSpec { at, by_body, on }
+    struct BodySpec {
+        rod, tube, cuboid, radius, inner_radius, width, width_axis, density, mass, centre, inertia, axes
+    }
+    struct JointSpec {
+        revolute, prismatic, cylindrical, screw, universal, spherical, planar, fixed, free, at, axis, axes, first,
+        lead, drive, damping, friction, spring, force
+    }
+    struct EachCoordinate { q, q1, q2, q3 }
+    struct SpringSpec { stiffness, rest, q, q1, q2, q3 }
+    struct SpringPart { stiffness, rest }
+    struct ForceSpec {
+        spring, force, torque, at, stiffness, length, damping, preload, components, axes, reaction
+    }
+    struct StartTable { q, q1, q2, q3, q4, q5, q6, v, v1, v2, v3, v4, v5, v6 }
+    struct RepeatSpec { points, bodies, joints, forces, assembly, initial }
+    enum PerBody { Shared, Each }
+    enum Centre { Point, At }
+    enum Widths { Square, Rectangle }
+    enum ByCoordinate { One, Each }
+    enum StartSpec { One, List, Table }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn braces_hold_whole_number_arithmetic_on_the_index() {
+        assert_eq!(number("i", "i", 7), Some(7));
+        assert_eq!(number("2*i - 1", "i", 7), Some(13));
+        assert_eq!(number("i+1", "i", -1), Some(0));
+        for wrong in ["", "j", "i/2", "0.5", "i+", "2 mm"] {
+            assert_eq!(number(wrong, "i", 1), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn several_braces_in_one_text_are_all_replaced() {
+        let mut text = "B{i}.x - B{i-1}.x".to_owned();
+        substitute(&mut text, Span::default(), "i", 3, &mut Vec::new());
+        assert_eq!(text, "B3.x - B2.x");
+    }
+}

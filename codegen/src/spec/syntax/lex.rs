@@ -1,0 +1,102 @@
+//! A formula's text as tokens. In: text. Out: tokens with byte ranges.
+
+use std::ops::Range;
+
+use super::SyntaxError;
+
+/// What a token is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    /// A number, not yet with its unit.
+    Number(f64),
+    /// A name, a unit or a function.
+    Word(String),
+    /// One of `+-*/^(),.`
+    Mark(char),
+}
+
+/// A token and its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Token {
+    /// What it is.
+    pub kind: Kind,
+    /// Where it stands.
+    pub range: Range<usize>,
+}
+
+/// Takes the text apart.
+pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while let Some(next) = text[at..].chars().next() {
+        let start = at;
+        let kind = if next.is_whitespace() {
+            at += next.len_utf8();
+            continue;
+        } else if next.is_ascii_digit() || (next == '.' && digit_follows(text, at + 1)) {
+            at = number_end(text, at);
+            Kind::Number(number(text, start..at)?)
+        } else if next.is_alphabetic() || next == '_' || next == '%' {
+            at = word_end(text, at);
+            Kind::Word(text[start..at].to_owned())
+        } else if "+-*/^(),.".contains(next) {
+            at += 1;
+            Kind::Mark(next)
+        } else {
+            return Err(SyntaxError {
+                message: format!("`{next}` has no meaning in a formula"),
+                help: None,
+                range: start..start + next.len_utf8(),
+                unit: false,
+            });
+        };
+        tokens.push(Token { kind, range: start..at });
+    }
+    Ok(tokens)
+}
+
+fn number(text: &str, range: Range<usize>) -> Result<f64, SyntaxError> {
+    match text[range.clone()].parse() {
+        Ok(value) if f64::is_finite(value) => Ok(value),
+        _ => Err(SyntaxError {
+            message: format!("`{}` is not a number that a computer can hold", &text[range.clone()]),
+            help: None,
+            range,
+            unit: false,
+        }),
+    }
+}
+
+fn digit_follows(text: &str, at: usize) -> bool {
+    text.as_bytes().get(at).is_some_and(u8::is_ascii_digit)
+}
+
+/// Digits, a point, digits, and an exponent only if digits follow: `2 e` is no exponent.
+fn number_end(text: &str, start: usize) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while digit_follows(text, at) {
+            at += 1;
+        }
+        at
+    };
+    let mut at = digits(start);
+    if bytes.get(at) == Some(&b'.') {
+        at = digits(at + 1);
+    }
+    if matches!(bytes.get(at), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(at + 1), Some(b'+' | b'-')));
+        if digit_follows(text, at + 1 + sign) {
+            at = digits(at + 1 + sign);
+        }
+    }
+    at
+}
+
+fn word_end(text: &str, start: usize) -> usize {
+    if text[start..].starts_with('%') {
+        return start + 1;
+    }
+    let length = text[start..].find(|c: char| !(c.is_alphanumeric() || c == '_'));
+    length.map_or(text.len(), |length| start + length)
+}
