@@ -61,10 +61,10 @@ fn compare(reference: &str, speed: &str) {
 
 #[test]
 fn rssr_at_2_hz_agrees_with_the_independent_solution() {
-    compare("rssr_rigid_2hz.csv", "2 Hz");
+    compare("rssr/rigid_2hz.csv", "2 Hz");
 }
 
 #[test]
 fn rssr_at_10_hz_agrees_with_the_independent_solution() {
-    compare("rssr_rigid_10hz.csv", "10 Hz");
+    compare("rssr/rigid_10hz.csv", "10 Hz");
 }

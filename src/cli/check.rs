@@ -63,8 +63,8 @@ fn text(compiled: &Compiled) -> String {
     let mut text = format!(
         "{}: {}, {}\n\n",
         mechanism.name,
-        plural(mechanism.bodies.len(), "body", "bodies"),
-        plural(mechanism.joints.len(), "joint", "joints"),
+        plural(mechanism.bodies.len() as u64, "body", "bodies"),
+        plural(mechanism.joints.len() as u64, "joint", "joints"),
     );
     let dropped = analysis.constraint_rows - analysis.independent_rows;
     let facts = [

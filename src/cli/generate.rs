@@ -39,7 +39,7 @@ pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure>
             let rows: Vec<Vec<String>> = functions
                 .iter()
                 .map(|function| {
-                    let cells = [function.operations.total, function.statements, function.parts].map(count);
+                    let cells = [function.operations.total, function.statements as u64, function.parts as u64].map(count);
                     [vec![function.name.clone()], cells.to_vec()].concat()
                 })
                 .collect();
@@ -48,7 +48,7 @@ pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure>
             print(&format!(
                 "{}: {verb}, {} in {seconds:.3} s\n\n{}",
                 out.display(),
-                plural(statements, "statement", "statements"),
+                plural(statements as u64, "statement", "statements"),
                 table.trim_end()
             ))
         }

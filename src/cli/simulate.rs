@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use linkwear::mechanisms::{SHIPPED, Shipped};
 use linkwear_codegen::{Options, compile};
-use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, System, record, simulate};
+use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, System, simulate, write_csv};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -33,7 +33,7 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
     let loaded = load(&arguments.input)?;
     let description = loaded.compiled.description();
     let span = span(arguments, description)?;
-    let settings = Settings { integrator, span, samples: arguments.samples as usize, ..Settings::default() };
+    let settings = Settings::new(integrator, span, arguments.samples as usize);
     let (backend, system) = choose_backend(arguments, &loaded)?;
     let parameters = loaded.compiled.parameters();
 
@@ -52,7 +52,7 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
         return Err(failed(arguments, error.clone(), keep_partial(arguments, description, &run)?));
     }
     if let Some(out) = &arguments.out {
-        write_whole(out, |file| record::write_csv(file, description, &run))?;
+        write_whole(out, |file| write_csv(file, description, &run))?;
     }
     match format {
         Format::Json => print(&machine(arguments, &loaded, &run, backend, wall_seconds)),
@@ -76,7 +76,7 @@ fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {
             Err(misfit("--tol", "it takes fixed steps: give --step, or --integrator dopri5"))
         }
         IntegratorName::Dopri5 => {
-            Ok(Integrator::Dopri5 { tolerance: arguments.tol.unwrap_or(DEFAULT_TOLERANCE) })
+            Ok(Integrator::Dopri5 { tolerance: arguments.tol.unwrap_or(DEFAULT_TOLERANCE), max_step: None })
         }
         IntegratorName::Rk4 => Ok(Integrator::Rk4 { step }),
         IntegratorName::GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
@@ -146,7 +146,7 @@ fn sha256(bytes: &[u8]) -> String {
 fn failed(arguments: &SimulateArguments, error: RunError, kept: Option<PathBuf>) -> Failure {
     let file = arguments.input.file.clone();
     match error {
-        RunError::Interrupted { time } => Failure::Interrupted { file, time, kept },
+        RunError::Interrupted { t } => Failure::Interrupted { file, time: t, kept },
         error => Failure::Run { file, error, kept },
     }
 }
@@ -159,7 +159,7 @@ fn keep_partial(
 ) -> Result<Option<PathBuf>, Failure> {
     let Some(out) = arguments.out.as_deref().filter(|_| !run.rows.is_empty()) else { return Ok(None) };
     let partial = partial_name(out);
-    write_whole(&partial, |file| record::write_csv(file, description, run))?;
+    write_whole(&partial, |file| write_csv(file, description, run))?;
     Ok(Some(partial))
 }
 
@@ -230,7 +230,7 @@ fn human(
     };
     let mut text = summary::text(description, run, &head, &method);
     if let Some(out) = &arguments.out {
-        let rows = plural(run.rows.len(), "row", "rows");
+        let rows = plural(run.rows.len() as u64, "row", "rows");
         text.push_str(&format!(
             "\n{rows} of {} columns in {}",
             description.channels.len() + 1,

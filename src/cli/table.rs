@@ -51,7 +51,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// A count with separators: 12,345.
-pub fn count(value: usize) -> String {
+pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (position, digit) in digits.chars().enumerate() {
@@ -64,7 +64,7 @@ pub fn count(value: usize) -> String {
 }
 
 /// `1 body`, `2 bodies`.
-pub fn plural(value: usize, one: &str, many: &str) -> String {
+pub fn plural(value: u64, one: &str, many: &str) -> String {
     format!("{} {}", count(value), if value == 1 { one } else { many })
 }
 

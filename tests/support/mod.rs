@@ -29,13 +29,8 @@ pub fn compile_source(source: &SourceFile, overrides: &[(&str, &str)], closure: 
 
 /// Adaptive integration of a compiled mechanism by the interpreter.
 pub fn run(compiled: &Compiled, span: Span, settle: Span, samples: usize, tolerance: f64) -> Recorded {
-    let settings = Settings {
-        integrator: Integrator::Dopri5 { tolerance, max_step: None },
-        span,
-        settle,
-        samples,
-        ..Settings::default()
-    };
+    let integrator = Integrator::Dopri5 { tolerance, max_step: None };
+    let settings = Settings { settle, ..Settings::new(integrator, span, samples) };
     run_with(compiled, &settings)
 }
 
