@@ -1,5 +1,6 @@
 //! Series-safe functions that symbolic closures need. Branch-free through `select`.
 //! In: scalars. Out: scalars, finite with finite derivatives also where the textbook formula is 0/0.
+#![expect(clippy::excessive_precision, reason = "digits as computed with many more")]
 
 use crate::Scalar;
 

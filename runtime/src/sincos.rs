@@ -7,10 +7,11 @@
 //! Reduction after Cody and Waite with plain products: pi/2 is split into words of 33 bits, so that a
 //! whole number below 2^20 times a word is exact. Kernels: the minimax polynomials of FreeBSD's
 //! `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993), which accept the low part of the reduced angle.
+#![expect(clippy::excessive_precision, reason = "digits as published")]
 
 use crate::Scalar;
 
-const TWO_OVER_PI: f64 = 0.636_619_772_367_581_4;
+const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
 /// Adding and subtracting 1.5 * 2^52 rounds |x| < 2^51 to the nearest whole number, ties to even.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// First 33 bits of pi/2.
