@@ -19,8 +19,6 @@ mod description;
 #[cfg(feature = "std")]
 mod dynamics;
 #[cfg(feature = "std")]
-mod include;
-#[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
 mod evaluate;

@@ -33,6 +33,8 @@ pub struct Correction {
     pub worst: usize,
     /// Of the speeds [rad/s, m/s].
     pub speed: f64,
+    /// Index of the free speed corrected most.
+    pub worst_speed: usize,
 }
 
 impl Correction {
@@ -147,7 +149,7 @@ impl Projector {
             before = size;
             self.solve();
             evaluator.layout().advance(q, &self.delta);
-            note_position(correction, &self.delta);
+            note(&mut correction.position, &mut correction.worst, &self.delta);
         }
         self.error = evaluator.loop_error();
         let open = self.error.metres.max(self.error.radians);
@@ -175,7 +177,7 @@ impl Projector {
             }
             self.solve();
             crate::linear::add_scaled(v, 1.0, &self.delta);
-            correction.speed = correction.speed.max(largest(&self.delta));
+            note(&mut correction.speed, &mut correction.worst_speed, &self.delta);
             let complete = match self.factored {
                 Factored::Orthogonal { .. } => self.orthogonal.rank() == self.residual.len(),
                 _ => true,
@@ -228,10 +230,10 @@ impl Projector {
     }
 }
 
-fn note_position(correction: &mut Correction, delta: &[f64]) {
+fn note(most: &mut f64, worst: &mut usize, delta: &[f64]) {
     for (i, step) in delta.iter().enumerate() {
-        if step.abs() > correction.position {
-            (correction.position, correction.worst) = (step.abs(), i);
+        if step.abs() > *most {
+            (*most, *worst) = (step.abs(), i);
         }
     }
 }

@@ -73,6 +73,7 @@ fn run_rk4(
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             method.step(motion, t, state, next - t)?;
             t = next;
+            sampler.note_loop_error(motion);
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
@@ -104,6 +105,7 @@ fn run_dopri5(
         let outcome = method.step(motion, end);
         sampler.statistics.rejected = method.rejected();
         outcome?;
+        sampler.note_loop_error(motion);
         while let Some(t) = sampler.due_before(method.t()) {
             method.interpolate(t, &mut between);
             sampler.sample(motion, t, &mut between)?;

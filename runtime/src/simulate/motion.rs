@@ -104,10 +104,17 @@ impl Problem for ConstrainedMotion<'_> {
         let v_size = largest(&before[v_range.clone()]);
         let v_limit = limit(moved(v_range.clone(), y).max(v_size), &before[v_range]);
         let correction = self.put_on(t, y)?;
-        if correction.position > q_limit || correction.speed > v_limit {
-            let jump = if correction.position > q_limit { correction.position } else { correction.speed };
-            let variable = self.dynamics.evaluator.speed_name(correction.worst);
-            return Err(RunError::BranchChange { t, variable, jump });
+        let name = |index| self.dynamics.evaluator.speed_name(index);
+        if correction.position > q_limit {
+            return Err(RunError::BranchChange {
+                t,
+                variable: name(correction.worst),
+                jump: correction.position,
+            });
+        }
+        if correction.speed > v_limit {
+            let variable = format!("speed {}", name(correction.worst_speed));
+            return Err(RunError::BranchChange { t, variable, jump: correction.speed });
         }
         Ok(())
     }

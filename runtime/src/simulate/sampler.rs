@@ -108,7 +108,6 @@ impl Sampler {
         state: &[f64],
     ) -> Result<(), RunError> {
         self.statistics.steps += 1;
-        self.note_loop_error(motion);
         let kinetic = self.note_energy(motion, t, state);
         let (_, _, work) = motion.split(state);
         self.statistics.energy_throughput_J +=
@@ -159,7 +158,8 @@ impl Sampler {
         Ok(())
     }
 
-    fn note_loop_error(&mut self, motion: &ConstrainedMotion<'_>) {
+    /// Notes how well the last projection closed the loops.
+    pub(super) fn note_loop_error(&mut self, motion: &ConstrainedMotion<'_>) {
         let error = motion.loop_error();
         self.statistics.max_loop_error_m = self.statistics.max_loop_error_m.max(error.metres);
         self.statistics.max_loop_error_rad = self.statistics.max_loop_error_rad.max(error.radians);
