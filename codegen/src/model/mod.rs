@@ -116,6 +116,7 @@ pub struct Body {
 
 /// How a body's mass is described. Formulas over parameters, SI.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one per body: plain to read is worth more than small")]
 pub enum Inertia {
     /// Solid cylinder between two points.
     Rod {

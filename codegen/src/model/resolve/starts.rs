@@ -54,7 +54,7 @@ impl Resolver<'_> {
             StartSpec::List(list) => {
                 (list.value.iter().enumerate().map(|(at, q)| one(at, q)).collect(), list.span)
             }
-            StartSpec::Table(table) => return self.from_table(name, table, kind, key),
+            StartSpec::Table(table) => return self.by_name(name, table, kind, key),
         };
         if list.len() == needed && needed > 0 {
             return list;
@@ -82,7 +82,7 @@ impl Resolver<'_> {
         Vec::new()
     }
 
-    fn from_table<'a>(
+    fn by_name<'a>(
         &mut self,
         name: &Name,
         table: &'a crate::spec::At<crate::spec::StartTable>,
