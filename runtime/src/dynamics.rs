@@ -20,6 +20,7 @@ pub struct Dynamics<'a> {
     pub rank_revealing_solves: u64,
     singular_pivot: f64,
     largest_pivot: f64,
+    regularity: f64,
     solver: SingularSolver,
 }
 
@@ -34,6 +35,7 @@ impl<'a> Dynamics<'a> {
             rank_revealing_solves: 0,
             singular_pivot,
             largest_pivot: 0.0,
+            regularity: 1.0,
             solver,
         }
     }
@@ -56,12 +58,19 @@ impl<'a> Dynamics<'a> {
             }
         }
         self.largest_pivot = most;
+        self.regularity = if smallest.is_nan() { 0.0 } else { smallest.min(most) / most };
         let near_singular = smallest.is_nan() || smallest < self.singular_pivot * most;
         if near_singular {
             self.rank_revealing_solves += 1;
             self.solver.solve(&mut self.evaluator, t, q, v);
         }
         self.check(t)
+    }
+
+    /// Smallest loop pivot of the last state over the largest seen so far: 0 at a singular position.
+    #[must_use]
+    pub fn regularity(&self) -> f64 {
+        self.regularity
     }
 
     fn check(&self, t: f64) -> Result<(), RunError> {

@@ -5,7 +5,14 @@
 #[macro_export]
 macro_rules! include_mechanism {
     ($name:literal) => {
-        #[allow(dead_code, unused_imports, unused_qualifications, missing_docs, clippy::all, clippy::pedantic)]
+        #[allow(
+            dead_code,
+            unused_imports,
+            unused_qualifications,
+            missing_docs,
+            clippy::all,
+            clippy::pedantic
+        )]
         mod generated {
             include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
         }

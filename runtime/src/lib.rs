@@ -7,6 +7,8 @@
 
 mod dual;
 mod float;
+#[cfg(feature = "std")]
+mod include;
 mod intrinsic;
 mod scalar;
 mod sincos;

@@ -10,13 +10,17 @@ use crate::linear::{Cholesky, Orthogonal, largest};
 use crate::{Evaluator, LoopError};
 
 /// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
-pub const POSITION_TOLERANCE: f64 = 1e-12;
+pub const POSITION_TOLERANCE: f64 = 1e-14;
 
 /// Residual of the kept rows' speeds after a projection, per unit of the largest speed (at least 1).
-pub const SPEED_TOLERANCE: f64 = 1e-12;
+pub const SPEED_TOLERANCE: f64 = 1e-13;
 
-/// A loop open by more than this [m, rad] counts as lost.
-pub const LOST: f64 = 1e-10;
+/// Newton that makes no more progress below this residual [m, rad] has met rounding, not an open loop.
+const SETTLED: f64 = 1e-11;
+
+/// A loop open by more than this [m, rad] counts as lost. Rows that were dropped as redundant follow the kept
+/// ones with the conditioning of the position, so this is far above the tolerance of the kept rows.
+pub const LOST: f64 = 1e-7;
 
 /// Corrections that the normal equations may be trusted with: ratio of pivots, about 1e-4 in singular values.
 const TRUSTED_PIVOT: f64 = 1e-8;
@@ -132,7 +136,7 @@ impl Projector {
             self.load(evaluator, t, q, v);
             let size = largest(&self.residual);
             let stalled = size > 0.25 * before;
-            if size <= tolerance || (stalled && size <= 0.1 * LOST) {
+            if size <= tolerance || (stalled && size <= SETTLED) {
                 break;
             }
             if size.is_nan() || iteration == MAX_ITERATIONS {

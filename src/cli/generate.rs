@@ -39,7 +39,9 @@ pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure>
             let rows: Vec<Vec<String>> = functions
                 .iter()
                 .map(|function| {
-                    let cells = [function.operations.total, function.statements as u64, function.parts as u64].map(count);
+                    let cells =
+                        [function.operations.total, function.statements as u64, function.parts as u64]
+                            .map(count);
                     [vec![function.name.clone()], cells.to_vec()].concat()
                 })
                 .collect();

@@ -100,7 +100,7 @@ impl Table {
         let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
         let names = lines.next().expect("a header").split(',').map(|name| name.trim().to_owned()).collect();
         let rows = lines
-            .map(|line| line.split(',').map(|cell| cell.trim().parse().expect("a number")).collect())
+            .map(|line| line.split(',').map(|cell| cell.trim().parse().unwrap_or(f64::NAN)).collect())
             .collect();
         Self { names, rows }
     }

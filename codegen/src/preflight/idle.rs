@@ -121,8 +121,7 @@ impl Effect {
         let still = observe(&vec![0.0; sizes.speeds]);
         let columns: Vec<DVector<f64>> =
             freedoms.column_iter().map(|v| observe(v.clone_owned().as_slice()) - &still).collect();
-        let matrix =
-            DMatrix::from_fn(sizes.channels, columns.len(), |i, j| columns[j][i]);
+        let matrix = DMatrix::from_fn(sizes.channels, columns.len(), |i, j| columns[j][i]);
         let names = description.channels.iter().map(|channel| channel.name.to_string()).collect();
         Self { matrix, names }
     }

@@ -113,11 +113,7 @@ fn grubler(mechanism: &Mechanism) -> i64 {
     6 * mechanism.bodies.len() as i64 - taken as i64
 }
 
-fn cannot_close(
-    source: &SourceFile,
-    mechanism: &Mechanism,
-    error: &AssemblyError,
-) -> Diagnostics {
+fn cannot_close(source: &SourceFile, mechanism: &Mechanism, error: &AssemblyError) -> Diagnostics {
     let code = match error {
         AssemblyError::HeldPositions { .. } | AssemblyError::HeldSpeeds { .. } => Code::StartImpossible,
         AssemblyError::NonFinite { .. } | AssemblyError::Setup(_) => Code::StartNotFinite,
@@ -152,7 +148,8 @@ fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
          or correct axes that should be parallel or meet in a point",
         names.join(", ")
     ));
-    if let Some(joint) = analysis.cuts.first().and_then(|cut| mechanism.joints.iter().find(|j| j.name == *cut))
+    if let Some(joint) =
+        analysis.cuts.first().and_then(|cut| mechanism.joints.iter().find(|j| j.name == *cut))
     {
         diagnostic = diagnostic.at(joint.span, "the loop closed here is rigid");
     }
@@ -173,7 +170,10 @@ fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows) -> V
         } else {
             (
                 Code::DriversInConflict,
-                format!("the loops couple the driven joints {}: they cannot all be prescribed", names.join(", ")),
+                format!(
+                    "the loops couple the driven joints {}: they cannot all be prescribed",
+                    names.join(", ")
+                ),
             )
         };
         let mut diagnostic =

@@ -39,9 +39,8 @@ impl Rows {
         let mut rests: Vec<DMatrix<f64>> = generic.iter().map(|at| self.samples[*at].clone()).collect();
         let mut keep = vec![false; m];
         loop {
-            let gain = |row: usize| {
-                rests.iter().map(|rest| rest.row(row).norm()).fold(f64::INFINITY, f64::min)
-            };
+            let gain =
+                |row: usize| rests.iter().map(|rest| rest.row(row).norm()).fold(f64::INFINITY, f64::min);
             // Rows within a tenth of the best count as equal: the first in the file's order wins.
             let gains: Vec<f64> = (0..m).map(|row| if keep[row] { 0.0 } else { gain(row) }).collect();
             let best = gains.iter().copied().fold(0.0, f64::max);
@@ -131,7 +130,10 @@ mod tests {
             start: Vec::new(),
             driven_speeds: vec![2],
         };
-        let rows = Rows { samples: positions.positions.iter().map(|p| p.jacobian.clone()).collect(), driven: vec![2] };
+        let rows = Rows {
+            samples: positions.positions.iter().map(|p| p.jacobian.clone()).collect(),
+            driven: vec![2],
+        };
         assert_eq!(rows.independent().iter().filter(|kept| **kept).count(), 2);
         // The third speed is held by the third row: driving it is a conflict of one.
         assert_eq!(rows.driver_conflicts(), vec![vec![0]]);

@@ -227,9 +227,8 @@ pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let svd = padded.svd(false, true);
     let largest = svd.singular_values.amax();
     let v_t = svd.v_t.expect("right singular vectors were asked for");
-    let rows: Vec<usize> = (0..n)
-        .filter(|i| svd.singular_values[*i] <= RANK_TOLERANCE * largest || largest == 0.0)
-        .collect();
+    let rows: Vec<usize> =
+        (0..n).filter(|i| svd.singular_values[*i] <= RANK_TOLERANCE * largest || largest == 0.0).collect();
     DMatrix::from_fn(n, rows.len(), |i, j| v_t[(rows[j], i)])
 }
 

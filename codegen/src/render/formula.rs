@@ -59,13 +59,13 @@ impl Formula<'_> {
                 (self.number(number), if number < 0.0 { Strength::Sum } else { Strength::Atom })
             }
             Node::Symbol(symbol) => (self.name(self.graph.symbol_name(symbol)), Strength::Atom),
-            Node::Unary(Unary::Neg, a) => (format!("-{}", self.at_least(a, Strength::Product)), Strength::Sum),
+            Node::Unary(Unary::Neg, a) => {
+                (format!("-{}", self.at_least(a, Strength::Product)), Strength::Sum)
+            }
             Node::Unary(Unary::Sqrt, a) if self.format == TextFormat::Latex => {
                 (format!("\\sqrt{{{}}}", self.write(a)), Strength::Atom)
             }
-            Node::Unary(function, a) => {
-                (self.call(&unary_name(function), &[self.write(a)]), Strength::Atom)
-            }
+            Node::Unary(function, a) => (self.call(&unary_name(function), &[self.write(a)]), Strength::Atom),
             Node::Binary(operation, a, b) => self.binary(operation, a, b),
         }
     }
@@ -81,10 +81,13 @@ impl Formula<'_> {
             }
             Binary::Mul => {
                 let sign = if latex { " \\, " } else { "*" };
-                let (left, right) = (self.at_least(a, Strength::Product), self.at_least(b, Strength::Product));
+                let (left, right) =
+                    (self.at_least(a, Strength::Product), self.at_least(b, Strength::Product));
                 (format!("{left}{sign}{right}"), Strength::Product)
             }
-            Binary::Div if latex => (format!("\\frac{{{}}}{{{}}}", self.write(a), self.write(b)), Strength::Atom),
+            Binary::Div if latex => {
+                (format!("\\frac{{{}}}{{{}}}", self.write(a), self.write(b)), Strength::Atom)
+            }
             Binary::Div => {
                 let (top, bottom) = (self.at_least(a, Strength::Product), self.at_least(b, Strength::Atom));
                 (format!("{top}/{bottom}"), Strength::Product)
@@ -118,7 +121,11 @@ impl Formula<'_> {
 
     /// A name in this notation.
     pub fn name(&self, name: &str) -> String {
-        if self.format == TextFormat::Latex { format!("\\mathit{{{}}}", self.plain(name)) } else { name.to_owned() }
+        if self.format == TextFormat::Latex {
+            format!("\\mathit{{{}}}", self.plain(name))
+        } else {
+            name.to_owned()
+        }
     }
 
     /// An entry of an output.

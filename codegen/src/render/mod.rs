@@ -79,7 +79,8 @@ pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: Te
             .iter()
             .filter(|block| {
                 !block.entries.is_empty()
-                    && (only.is_empty() || only.iter().any(|name| is_meant(&function.name, &block.name, name)))
+                    && (only.is_empty()
+                        || only.iter().any(|name| is_meant(&function.name, &block.name, name)))
             })
             .collect();
         if !chosen.is_empty() {
@@ -102,7 +103,12 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(equations: &'a Equations, function: &'a Function, chosen: &'a [&'a Block], format: TextFormat) -> Self {
+    fn new(
+        equations: &'a Equations,
+        function: &'a Function,
+        chosen: &'a [&'a Block],
+        format: TextFormat,
+    ) -> Self {
         let mut writer = Self {
             graph: &equations.graph,
             equations,
@@ -187,8 +193,13 @@ impl<'a> Writer<'a> {
                 .iter()
                 .find(|info| info.function == self.function.name && info.name == block.name)
                 .expect("every output has a cost");
-            let shape = if block.columns == 1 { block.rows.to_string() } else { format!("{} x {}", block.rows, block.columns) };
-            let citation = if block.citation.is_empty() { String::new() } else { format!(" {}", block.citation) };
+            let shape = if block.columns == 1 {
+                block.rows.to_string()
+            } else {
+                format!("{} x {}", block.rows, block.columns)
+            };
+            let citation =
+                if block.citation.is_empty() { String::new() } else { format!(" {}", block.citation) };
             self.comment(
                 text,
                 &format!(
@@ -217,7 +228,9 @@ impl<'a> Writer<'a> {
         let symbol = read.and_then(|input| self.graph.as_symbol(input.entries[index]));
         match symbol {
             Some(symbol) => self.graph.symbol_name(symbol).to_owned(),
-            None if block.columns > 1 => format!("{},{}", index / block.columns + 1, index % block.columns + 1),
+            None if block.columns > 1 => {
+                format!("{},{}", index / block.columns + 1, index % block.columns + 1)
+            }
             None => (index + 1).to_string(),
         }
     }

@@ -11,6 +11,12 @@ pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
 
+/// Below this regularity (see [`Dynamics::regularity`]; about the square of a singular value) the stages of a
+/// step are put onto the constraints before they are evaluated. A stage is off the constraints by its own
+/// truncation error, which the nearly lost direction multiplies by the inverse of its singular value, twice;
+/// on the constraints the accelerations stay smooth right through a singular position.
+const PROJECTED_STAGES: f64 = 0.05;
+
 /// Energies smaller than this [J] are noise to the step control.
 const ENERGY_FLOOR: f64 = 1e-9;
 
@@ -19,6 +25,7 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) dynamics: Dynamics<'a>,
     pub(super) projections: u64,
     projector: Projector,
+    stage: Vec<f64>,
     coordinates: usize,
     speeds: usize,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
@@ -33,6 +40,7 @@ impl<'a> ConstrainedMotion<'a> {
             dynamics,
             projections: 0,
             projector,
+            stage: vec![0.0; sizes.coordinates + sizes.speeds + 2],
             coordinates: sizes.coordinates,
             speeds: sizes.speeds,
             energy_scale: ENERGY_FLOOR,
@@ -72,12 +80,10 @@ impl<'a> ConstrainedMotion<'a> {
         self.projections += u64::from(correction.moved());
         Ok(correction)
     }
-}
 
-impl Problem for ConstrainedMotion<'_> {
-    fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
+    /// Writes rates of coordinates, accelerations of the last forward dynamics, and powers.
+    fn write_derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (q, v, _) = self.split(y);
-        self.dynamics.accelerate(t, q, v)?;
         let accelerations = self.dynamics.evaluator.last_forward().accelerations;
         derivative[self.coordinates..][..self.speeds].copy_from_slice(accelerations);
         let rates = self.dynamics.evaluator.rates(t, q, v);
@@ -89,6 +95,23 @@ impl Problem for ConstrainedMotion<'_> {
         } else {
             Err(RunError::NonFinite { t, what: "power of drivers and forces".to_owned() })
         }
+    }
+}
+
+impl Problem for ConstrainedMotion<'_> {
+    fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
+        let (q, v, _) = self.split(y);
+        self.dynamics.accelerate(t, q, v)?;
+        let projected = self.dynamics.regularity() < PROJECTED_STAGES;
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        if projected && self.put_on(t, &mut stage).is_ok() {
+            let (q, v, _) = self.split(&stage);
+            self.dynamics.accelerate(t, q, v)?;
+        }
+        let result = self.write_derivative(t, &stage, derivative);
+        self.stage = stage;
+        result
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {

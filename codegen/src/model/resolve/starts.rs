@@ -158,7 +158,8 @@ impl Resolver<'_> {
         let Literal::Text(text) = &quantity.value else { return };
         let text = text.trim();
         if is == Coordinate::Angle && (text.ends_with("rpm") || text.ends_with("Hz")) {
-            let message = format!("{what}: \"{text}\" is a frequency, and is read as that many radians per second");
+            let message =
+                format!("{what}: \"{text}\" is a frequency, and is read as that many radians per second");
             self.report(
                 Diagnostic::new(Code::FrequencyAsSpeed, message)
                     .at(quantity.span, "")

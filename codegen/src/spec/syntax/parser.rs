@@ -284,7 +284,10 @@ impl<'a> Parser<'a> {
     fn bracketed_units(&mut self) -> Result<Option<Unit>, SyntaxError> {
         // Two words in a row can be nothing but units; a single one may be a name.
         let two_words = self.word_at(3).is_some();
-        if self.mark_at(0) != Some('/') || self.mark_at(1) != Some('(') || !(self.unit_word(2, true) || two_words && self.unit_word(2, false)) {
+        if self.mark_at(0) != Some('/')
+            || self.mark_at(1) != Some('(')
+            || !(self.unit_word(2, true) || two_words && self.unit_word(2, false))
+        {
             return Ok(None);
         }
         let start = self.next;
