@@ -116,6 +116,7 @@ pub struct Body {
 
 /// How a body's mass is described. Formulas over parameters, SI.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "one per body: plain to read is worth more than small")]
 pub enum Inertia {
     /// Solid cylinder between two points.
     Rod {
@@ -398,6 +399,16 @@ impl Mechanism {
         match carrier {
             Carrier::Ground => "ground",
             Carrier::Body(id) => &self.body(id).name,
+        }
+    }
+}
+impl Inertia {
+    /// The points that describe where the matter is.
+    #[must_use]
+    pub fn points(&self) -> Vec<PointId> {
+        match self {
+            Self::Rod { ends, .. } | Self::Box { ends, .. } => ends.to_vec(),
+            Self::Given { centre, .. } => vec![*centre],
         }
     }
 }

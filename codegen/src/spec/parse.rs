@@ -22,6 +22,8 @@ pub struct Spec {
     pub problems: Vec<Diagnostic>,
     /// Values left out because of `problems`.
     pub skipped: Vec<Span>,
+    /// Names of what was left out.
+    pub lost: Vec<String>,
 }
 
 /// Reads a file.
@@ -39,7 +41,13 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
     {
         return Err(Diagnostics::from_list(vec![problem]).located(source));
     }
-    Ok(Spec { source: source.clone(), file, problems: notes.diagnostics, skipped: notes.skipped })
+    Ok(Spec {
+        source: source.clone(),
+        file,
+        problems: notes.diagnostics,
+        skipped: notes.skipped,
+        lost: notes.lost,
+    })
 }
 
 /// At most one error a line: what follows in a line is usually caused by the first.

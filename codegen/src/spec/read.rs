@@ -27,6 +27,8 @@ pub(super) struct Notes {
     pub diagnostics: Vec<Diagnostic>,
     /// Values that were left out because of them.
     pub skipped: Vec<Span>,
+    /// Their keys, and the keys in tables that were left out: things that the user did write.
+    pub lost: Vec<String>,
 }
 
 /// Reads `T` from a whole document.
@@ -211,7 +213,7 @@ struct Entry<'a, 'i> {
 struct Entries<'a, 'i> {
     /// In reverse, so that the next one is popped.
     rest: Vec<Entry<'a, 'i>>,
-    value: Option<&'a Spanned<DeValue<'i>>>,
+    value: Option<(&'a str, &'a Spanned<DeValue<'i>>)>,
     notes: &'a RefCell<Notes>,
 }
 
@@ -228,6 +230,9 @@ impl<'a, 'i> Entries<'a, 'i> {
                 let mut notes = notes.borrow_mut();
                 notes.diagnostics.push(unknown_key(&entry, fields.unwrap_or_default()));
                 notes.skipped.push(span);
+                if let DeValue::Table(inner) = value.get_ref() {
+                    notes.lost.extend(inner.keys().map(|key| key.get_ref().to_string()));
+                }
                 continue;
             }
             rest.push(entry);
@@ -254,12 +259,14 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Failure> {
         let Some(entry) = self.rest.pop() else { return Ok(None) };
-        self.value = Some(entry.value);
+        self.value = Some((entry.key, entry.value));
         seed.deserialize(Key { text: entry.key, span: entry.key_span }).map(Some)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Failure> {
-        let Some(value) = self.value.take() else { return Err(Failure::custom("a key without a value")) };
+        let Some((key, value)) = self.value.take() else {
+            return Err(Failure::custom("a key without a value"));
+        };
         let span = value.span().into();
         seed.deserialize(Reader::new(value, self.notes)).map_err(|failure| {
             if failure.reported {
@@ -268,6 +275,7 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
             let mut notes = self.notes.borrow_mut();
             notes.diagnostics.push(failure.diagnostic(span));
             notes.skipped.push(span);
+            notes.lost.push(key.to_owned());
             Failure { reported: true, ..Failure::custom("") }
         })
     }
@@ -344,6 +352,14 @@ impl Error for Failure {
             Unexpected::Signed(value) => format!("the number {value}"),
             Unexpected::Float(value) => format!("the number {value}"),
             other => other.to_string(),
+        };
+        let expected = expected.to_string();
+        let expected = match expected.as_str() {
+            "a sequence" => "a list",
+            "a boolean" => "true or false",
+            "a string" => "a text",
+            other if other.starts_with("struct ") => "a table",
+            other => other,
         };
         Self::of(Code::WrongType, format!("found {found} where {expected} is needed"))
     }

@@ -110,7 +110,10 @@ pub(super) fn unit(symbol: &str) -> Option<Unit> {
 pub(super) fn suggestion(symbol: &str) -> Option<String> {
     for (split, _) in symbol.char_indices().skip(1) {
         let (first, second) = symbol.split_at(split);
-        if unit(first).is_some() && unit(second).is_some() {
+        // `mmm` is a slip, not a product: no unit is written as a product of two lengths.
+        if let (Some(a), Some(b)) = (unit(first), unit(second))
+            && a.dimension != b.dimension
+        {
             return Some(format!("{first} {second}"));
         }
     }
@@ -149,6 +152,7 @@ mod tests {
     #[test]
     fn run_together_units_are_taken_apart() {
         assert_eq!(suggestion("Nm").as_deref(), Some("N m"));
+        assert_eq!(suggestion("mmm").as_deref(), Some("mm"));
         assert_eq!(suggestion("newton"), None);
         assert_eq!(suggestion("MPA").as_deref(), Some("MPa"));
     }

@@ -147,8 +147,13 @@ impl Resolver<'_> {
         }
         self.missing(body.span, name.span, || {
             let or = if key == "density" { " or `mass`" } else { "" };
+            let example = match key {
+                "radius" => "6 mm".to_owned(),
+                "inner_radius" => "5 mm".to_owned(),
+                _ => dimension.example(),
+            };
             Diagnostic::new(Code::MissingKey, format!("body `{}` has no `{key}`{or}", name.value))
-                .help(format!("add `{key} = \"{}\"`", dimension.example()))
+                .help(format!("add `{key} = \"{example}\"`"))
         });
         Formula::number(f64::NAN, dimension)
     }

@@ -18,7 +18,7 @@ impl Resolver<'_> {
             return;
         }
         // A wrong joint would make its bodies look lost too.
-        if self.diagnostics.iter().any(|d| d.severity == crate::diagnostic::Severity::Error) {
+        if self.has_errors() {
             return;
         }
         let mut reached = vec![false; bodies.len()];

@@ -51,7 +51,7 @@ pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Dia
         source: &spec.source,
         skipped: &spec.skipped,
         diagnostics: spec.problems.clone(),
-        names: Names::default(),
+        names: Names::new(&spec.lost),
         parameters: Vec::new(),
         values: Vec::new(),
         written_out: Vec::new(),
@@ -126,20 +126,30 @@ impl Resolver<'_> {
         if let Some(gravity) = &file.gravity {
             return self.triple(gravity, acceleration, Allowed::PARAMETERS, "`gravity`");
         }
-        self.report(
-            Diagnostic::new(Code::NoGravity, "there is no gravity in this file")
-                .help("write `gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]`, or `gravity = [0, 0, 0]` to say so"),
-        );
+        // Another fault may be why: a misspelt `gravity` is one.
+        if !self.has_errors() {
+            self.report(Diagnostic::new(Code::NoGravity, "there is no gravity in this file").help(
+                "write `gravity = [\"0 m/s^2\", \"0 m/s^2\", \"-9.81 m/s^2\"]`, or `gravity = [0, 0, 0]` to say so",
+            ));
+        }
         std::array::from_fn(|_| Formula::number(0.0, acceleration))
     }
 
+    /// Only of files without errors: what is wrong may be what would have used it.
     fn warn_unused(&mut self, file: &File) {
+        if self.has_errors() {
+            return;
+        }
         for (position, (name, _)) in file.parameters.0.iter().enumerate() {
             if self.used.get(position) == Some(&false) {
                 let message = format!("nothing uses the parameter `{}`", name.value);
                 self.report(Diagnostic::new(Code::UnusedParameter, message).at(name.span, ""));
             }
         }
+    }
+
+    fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
     fn report(&mut self, diagnostic: Diagnostic) {
@@ -171,7 +181,8 @@ impl Resolver<'_> {
     }
 
     fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
-        let message = format!("{what} has {found} entries, {needed} are needed");
+        let entries = if found == 1 { "entry" } else { "entries" };
+        let message = format!("{what} has {found} {entries}, not {needed}");
         self.report(Diagnostic::new(Code::WrongCount, message).at(span, ""));
     }
 

@@ -40,14 +40,29 @@ impl Thing {
 }
 
 /// All names, in the order of the tables.
-#[derive(Default)]
 pub(super) struct Names {
     things: Vec<(String, Thing, Span)>,
     by_name: HashMap<String, usize>,
     foreseen: Vec<String>,
+    /// Names that the user wrote but that were left out or are given twice: nothing follows from their absence.
+    lost: Vec<String>,
 }
 
 impl Names {
+    pub(super) fn new(lost: &[String]) -> Self {
+        Self { things: Vec::new(), by_name: HashMap::new(), foreseen: Vec::new(), lost: lost.to_vec() }
+    }
+
+    /// Whether a fault with this name is only the consequence of another.
+    pub(super) fn is_lost(&self, name: &str) -> bool {
+        self.lost.iter().any(|lost| lost == name)
+    }
+
+    /// Whether the name belongs to something that is not known yet: parameters come before all else.
+    pub(super) fn is_foreseen(&self, name: &str) -> bool {
+        self.foreseen.iter().any(|known| known == name)
+    }
+
     /// Takes note of all names before anything is resolved: formulas ask whether a word is a name.
     pub(super) fn foresee(&mut self, file: &File) {
         self.foreseen.extend(file.parameters.0.iter().map(|(name, _)| name.value.clone()));
@@ -57,10 +72,7 @@ impl Names {
 
     /// Whether a word in a formula is a name.
     pub(super) fn is_name(&self, word: &str) -> bool {
-        word == "t"
-            || word == "pi"
-            || self.by_name.contains_key(word)
-            || self.foreseen.iter().any(|name| name == word)
+        word == "t" || word == "pi" || self.by_name.contains_key(word) || self.is_foreseen(word)
     }
 
     pub(super) fn declare_all(&mut self, file: &File, faults: &mut Vec<Diagnostic>) {
@@ -105,6 +117,7 @@ impl Names {
                     .also(*span, "first")
                     .help("parameters, points, bodies, joints and forces share one set of names"),
             );
+            self.lost.push(name.value.clone());
             return;
         }
         self.by_name.insert(name.value.clone(), self.things.len());
@@ -136,6 +149,9 @@ pub(super) fn bad_name(name: &Name) -> Diagnostic {
 impl Resolver<'_> {
     /// Reports a name that nothing has, or that something of another kind has.
     fn report_name(&mut self, name: &Name, wanted: &str, used_by: &str, fits: impl Fn(Thing) -> bool) {
+        if self.names.is_lost(&name.value) {
+            return;
+        }
         let diagnostic = match self.names.find(&name.value) {
             Some((thing, span)) => {
                 let message =

@@ -119,7 +119,9 @@ impl Resolver<'_> {
     }
 
     fn warn_shadowed(&mut self, origin: &Origin<'_>, expression: &Expression) {
-        for (unit, range) in &expression.shadowed {
+        // A plain quantity has no other reading.
+        let plain = expression.quantity().is_some();
+        for (unit, range) in expression.shadowed.iter().filter(|_| !plain) {
             let message =
                 format!("{}: `{unit}` is read as a unit, not as the `{unit}` of this file", origin.what);
             let span = self.span_in(origin.quantity, range.clone());
@@ -269,6 +271,14 @@ impl Resolver<'_> {
                 self.report(fault);
                 None
             }
+            None if self.names.is_lost(name) => None,
+            None if self.names.is_foreseen(name) => {
+                let message = format!("`{name}` is not a parameter");
+                let help = format!("here a formula can use {}", origin.allowed.list());
+                let fault = self.fault(origin, range, Code::WrongKindOfName, &message).help(help);
+                self.report(fault);
+                None
+            }
             None => {
                 let known = self.names.known(|thing| matches!(thing, Thing::Parameter(_))).chain(["t", "pi"]);
                 let span = self.span_in(origin.quantity, range.clone());
@@ -278,7 +288,7 @@ impl Resolver<'_> {
                     .did_you_mean(name, known);
                 if fault.help.is_empty() {
                     fault = fault.help(format!(
-                        "define it in [parameters]; here {} can be used",
+                        "define it in [parameters]; a formula here can use {}",
                         origin.allowed.list()
                     ));
                 }
@@ -330,6 +340,11 @@ impl Resolver<'_> {
         origin: &Origin<'_>,
     ) -> Resolved {
         let range = &expression.range;
+        if !origin.allowed.state {
+            let fault = self.not_allowed(origin, range, &format!("`{thing}.{member}`"));
+            self.report(fault);
+            return None;
+        }
         let resolved = match self.names.find(thing) {
             Some((Thing::Joint(id), _)) => self.joint_member(id, member),
             Some((Thing::Point(id), _)) => {
@@ -343,6 +358,7 @@ impl Resolver<'_> {
                 }
             }
             Some((other, _)) => Err(format!("a {} has no members in formulas", other.what())),
+            None if self.names.is_lost(thing) => return None,
             None => {
                 let known = self.names.known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_)));
                 let span = self.span_in(origin.quantity, range.clone());
@@ -355,7 +371,6 @@ impl Resolver<'_> {
             }
         };
         let fault = match resolved {
-            Ok(_) if !origin.allowed.state => self.not_allowed(origin, range, &format!("`{thing}.{member}`")),
             Ok(resolved) => return Some(resolved),
             Err(help) => {
                 let message = format!("`{thing}` has no `{member}`");

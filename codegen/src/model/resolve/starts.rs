@@ -54,7 +54,7 @@ impl Resolver<'_> {
             StartSpec::List(list) => {
                 (list.value.iter().enumerate().map(|(at, q)| one(at, q)).collect(), list.span)
             }
-            StartSpec::Table(table) => return self.from_table(name, table, kind, key),
+            StartSpec::Table(table) => return self.by_name(name, table, kind, key),
         };
         if list.len() == needed && needed > 0 {
             return list;
@@ -82,7 +82,7 @@ impl Resolver<'_> {
         Vec::new()
     }
 
-    fn from_table<'a>(
+    fn by_name<'a>(
         &mut self,
         name: &Name,
         table: &'a crate::spec::At<crate::spec::StartTable>,
@@ -119,9 +119,6 @@ impl Resolver<'_> {
 
     fn start(&mut self, id: JointId, joint: &Joint, written: &Written<'_>, held: bool, what: &str) -> Start {
         let is = joint.kind.start_values()[written.index];
-        if let Some(speed) = written.speed {
-            self.warn_frequency(speed, is, what);
-        }
         if let Some(position) = written.position {
             self.warn_degrees(position, is, what);
         }
