@@ -4,7 +4,7 @@ use linkwear_codegen::id::{JointId, PointId};
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::source::SourceFile;
 use linkwear_codegen::spec::parse;
-use linkwear_oracle::{BodyState, Oracle, Tolerance};
+use linkwear_oracle::{Oracle, Tolerance};
 use nalgebra::Vector3;
 
 fn read(name: &str, text: String) -> Oracle {
@@ -74,7 +74,7 @@ fn andrews_reaches_the_published_end() {
         let (q, v) = (expected[1 + k], expected[8 + k]);
         let turns = ((motion.position[0] - q) / std::f64::consts::TAU).round();
         let position = motion.position[0] - turns * std::f64::consts::TAU;
-        println!("{name} {:.2e} {:.2e}", position - q, (motion.speed[0] - v) / v);
+        // 1e-11 per step, some hundred steps; the fast crank's phase is worth 1e-7 in the slow speeds.
         assert!((position - q).abs() < 1e-8, "{name}: {position} {q}");
         assert!((motion.speed[0] - v).abs() < 1e-7 * v.abs(), "{name}: {} {v}", motion.speed[0]);
     }
@@ -90,55 +90,60 @@ fn bricard_moves_its_tracked_point_as_exudyn_says() {
     let end = oracle.integrate(0.0, 1.0, &start, Tolerance(1e-11)).expect("a smooth motion");
     let row = &reference("bricard")[0];
     let (place, _) = oracle.point(point(&oracle, "P3"), &end);
-    println!("{place}");
     // Eight digits printed, extrapolated from a method of second order.
     assert!((place - Vector3::new(row[1], row[2], row[3])).norm() < 5e-8, "{place}");
 }
 
 #[test]
-fn two_cells_pass_their_singular_position() {
-    let oracle = shipped("n_four_bar_2");
-    let start = oracle.start().expect("a closed start");
-    let row = &reference("n_four_bar")[0];
-    let end = oracle.integrate(0.0, 1.0, &start, Tolerance(1e-11)).expect("a regular motion");
-    let (place, velocity) = oracle.point(point(&oracle, "B0"), &end);
-    println!("{place} {velocity} {row:?}");
-    // Passing the position where all bars lie flat costs some digits.
-    assert!((place - Vector3::new(row[2], row[3], 0.0)).norm() < 1e-6);
-}
-
-#[test]
-fn flyball_climbs() {
+fn flyball_starts_to_climb() {
     let oracle = shipped("flyball");
     let start = oracle.start().expect("a closed start");
-    println!("{:?}", oracle.bodies); println!("{:?}", oracle.mechanism.forces); let sol = oracle.accelerations(0.0, &start); println!("{:?} {:?}", sol.alpha, sol.acceleration);
-    for tol in [1e-8] {
-        for t in [0.001, 0.01, 0.1] {
-            let end = oracle.integrate(0.0, t, &start, Tolerance(tol)).expect("a regular motion");
-            println!("{tol} {t} {} {}", oracle.point(point(&oracle, "S"), &end).0.z, oracle.kinetic_energy(&end));
-        }
+    // Explicit extrapolation is bound by the damper's time constant, so a tenth of a second only. The same
+    // governor in two coordinates (arm and slider, angular momentum kept), Runge-Kutta with h = 1e-4 s and half
+    // of it, reaches this height; and it reaches the published 0.501421 m after 1 s.
+    let end = oracle.integrate(0.0, 0.1, &start, Tolerance(1e-9)).expect("a smooth motion");
+    let (place, _) = oracle.point(point(&oracle, "S"), &end);
+    assert!((place.z - 0.523_836_475_569).abs() < 1e-9, "{place}");
+}
+
+/// Positions and rank along a run of the crank, walked in small steps so that Newton keeps the branch.
+fn turn(name: &str, seconds: f64, rank: usize) -> f64 {
+    let oracle = shipped(name);
+    let mut states = oracle.start().expect("a closed start");
+    let mut smallest = f64::INFINITY;
+    for k in 1..=400 {
+        let t = seconds * f64::from(k) / 400.0;
+        states = oracle.assemble(t, &states, &[]).unwrap_or_else(|error| panic!("{name} at {t} s: {error}"));
+        let solution = oracle.accelerations(t, &states);
+        assert_eq!(solution.rank, rank, "{name} at {t} s");
+        smallest = smallest.min(solution.smallest_kept);
+    }
+    let back = oracle.start().expect("a closed start");
+    // A whole turn of the crank ends where it began (assembly closes to 1e-13).
+    for (a, b) in states.iter().zip(&back) {
+        assert!((a.centre - b.centre).norm() < 1e-10, "{name}: {} {}", a.centre, b.centre);
+    }
+    smallest
+}
+
+#[test]
+fn driven_linkages_turn_right_round_with_constant_rank() {
+    // 6 per body: the drive takes the one freedom. Far from singular all the way.
+    for (name, seconds, rank) in
+        [("bennett", 2.0, 18), ("six_bar", 1.0, 30), ("spatial_slider_crank", 0.5, 18), ("four_bar", 1.0, 18)]
+    {
+        let smallest = turn(name, seconds, rank);
+        assert!(smallest > 1e-3, "{name}: {smallest:.1e}");
     }
 }
 
 #[test]
-fn every_shipped_mechanism_assembles_and_accelerates() {
-    for entry in std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../mechanisms")).expect("a folder") {
-        let path = entry.expect("a file").path();
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        let oracle = shipped(&name);
-        if oracle.bodies.len() > 50 {
-            continue;
-        }
-        let start = oracle.start().unwrap_or_else(|error| panic!("{name}: {error}"));
-        let s = oracle.accelerations(0.0, &start);
-        println!(
-            "{name}: bodies {} rows {} rank {} kept {:.2e} dropped {:.2e} mobility {}",
-            oracle.bodies.len(),
-            s.rows,
-            s.rank,
-            s.smallest_kept,
-            s.largest_dropped,
-            6 * oracle.bodies.len() as i64 - s.rank as i64
-        );
-    }
+fn forty_cells_close_with_one_freedom() {
+    let oracle = shipped("n_four_bar_40");
+    let start = oracle.start().expect("upright bars close");
+    assert_eq!((oracle.bodies.len(), oracle.mechanism.joints.len()), (81, 121));
+    let (place, velocity) = oracle.point(point(&oracle, "B0"), &start);
+    // Closed to 1e-13 at the start, where all is exact.
+    assert!((place - Vector3::y()).norm() < 1e-12 && (velocity - Vector3::x()).norm() < 1e-12);
+    assert!(oracle.velocity_residual(0.0, &start) < 1e-11);
 }
