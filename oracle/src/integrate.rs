@@ -86,6 +86,7 @@ impl Oracle {
         proposal: &mut f64,
     ) -> Result<Vec<BodyState>, IntegrationError> {
         let (mut t, mut states) = (t0, start.to_vec());
+        let rank = self.rank(t0, start);
         while t < t1 {
             let whole = t1 - t;
             // Equal parts, so that no tiny last step is left over.
@@ -93,7 +94,7 @@ impl Oracle {
             if h <= 1e-14 * (1.0 + t.abs()) {
                 return Err(IntegrationError::StepUnderflow { t });
             }
-            let (y, error) = self.extrapolate(t, h, &pack(&states), tolerance.0);
+            let (y, error) = self.extrapolate(t, h, &pack(&states), tolerance.0, rank);
             let factor = if error.is_finite() {
                 (0.9 * error.max(1e-30).powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0))).clamp(0.1, 3.0)
             } else {
@@ -111,12 +112,12 @@ impl Oracle {
     }
 
     /// One step of the extrapolation and its error in units of the tolerance.
-    fn extrapolate(&self, t: f64, h: f64, y: &[f64], tolerance: f64) -> (Vec<f64>, f64) {
-        let slope = self.slope(t, y);
+    fn extrapolate(&self, t: f64, h: f64, y: &[f64], tolerance: f64, rank: usize) -> (Vec<f64>, f64) {
+        let slope = self.slope(t, y, rank);
         // Aitken-Neville in h²: row j, column k uses 2 (j + 1) and 2 (j - k + 1) substeps.
         let mut row: Vec<Vec<f64>> = Vec::new();
         for j in 0..COLUMNS {
-            let mut next = vec![self.midpoint(t, h, y, &slope, 2 * (j + 1))];
+            let mut next = vec![self.midpoint(t, h, y, &slope, 2 * (j + 1), rank)];
             for k in 1..=j {
                 let ratio = (j + 1) as f64 / (j + 1 - k) as f64;
                 let weight = 1.0 / (ratio * ratio - 1.0);
@@ -134,7 +135,7 @@ impl Oracle {
         (best, error)
     }
 
-    fn midpoint(&self, t: f64, whole: f64, y: &[f64], slope: &[f64], count: usize) -> Vec<f64> {
+    fn midpoint(&self, t: f64, whole: f64, y: &[f64], slope: &[f64], count: usize, rank: usize) -> Vec<f64> {
         let h = whole / count as f64;
         let along = |base: &[f64], h: f64, slope: &[f64]| -> Vec<f64> {
             base.iter().zip(slope).map(|(y, f)| y + h * f).collect()
@@ -142,15 +143,15 @@ impl Oracle {
         let mut last = y.to_vec();
         let mut now = along(y, h, slope);
         for k in 1..count {
-            let next = along(&last, 2.0 * h, &self.slope(t + k as f64 * h, &now));
+            let next = along(&last, 2.0 * h, &self.slope(t + k as f64 * h, &now, rank));
             last = std::mem::replace(&mut now, next);
         }
         now
     }
 
-    fn slope(&self, t: f64, y: &[f64]) -> Vec<f64> {
+    fn slope(&self, t: f64, y: &[f64], rank: usize) -> Vec<f64> {
         let states = unpack(y);
-        let solution = self.accelerations(t, &states);
+        let solution = self.solve(t, &states, Some(rank));
         let mut slope = Vec::with_capacity(y.len());
         for (body, state) in states.iter().enumerate() {
             let part = &y[WIDTH * body..];

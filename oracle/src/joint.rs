@@ -317,6 +317,7 @@ mod tests {
             parent: Carrier::Ground,
             child: Carrier::Ground,
             at: PointId::new(0),
+            cut: false,
             drives: Vec::new(),
             passive: Vec::new(),
             span: Span::default(),

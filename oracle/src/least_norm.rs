@@ -21,21 +21,34 @@ pub(crate) struct LeastNorm {
 impl LeastNorm {
     /// Factorises `matrix`, rows scaled to length 1, without singular values below `tolerance` times the
     /// largest.
-    pub fn new(mut matrix: DMatrix<f64>, tolerance: f64) -> Self {
+    pub fn new(matrix: DMatrix<f64>, tolerance: f64) -> Self {
+        Self::with(matrix, |values| {
+            let bound = tolerance * values.iter().copied().fold(0.0, f64::max);
+            values.iter().filter(|value| **value > bound).count()
+        })
+    }
+
+    /// Factorises `matrix` as `new` does, but keeps as many singular values as `rank` says.
+    pub fn with_rank(matrix: DMatrix<f64>, rank: usize) -> Self {
+        Self::with(matrix, |_| rank)
+    }
+
+    fn with(mut matrix: DMatrix<f64>, rank: impl Fn(&[f64]) -> usize) -> Self {
         let lengths = DVector::from_iterator(matrix.nrows(), matrix.row_iter().map(|row| row.norm()));
         for (mut row, length) in matrix.row_iter_mut().zip(lengths.iter()) {
             row /= length.max(f64::MIN_POSITIVE);
         }
         let (columns, turns) = orthogonalised(matrix.transpose());
         let values: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
-        let bound = tolerance * values.iter().copied().fold(0.0, f64::max);
-        let (kept, dropped): (Vec<usize>, Vec<usize>) = (0..values.len()).partition(|k| values[*k] > bound);
-        let mut right = columns.select_columns(&kept);
-        for (mut column, k) in right.column_iter_mut().zip(&kept) {
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
+        let (kept, dropped) = order.split_at(rank(&values).min(order.len()));
+        let mut right = columns.select_columns(kept);
+        for (mut column, k) in right.column_iter_mut().zip(kept) {
             column /= values[*k];
         }
         Self {
-            left: turns.select_columns(&kept),
+            left: turns.select_columns(kept),
             right,
             dropped: dropped.iter().fold(0.0, |top, k| f64::max(top, values[*k])),
             kept: DVector::from_iterator(kept.len(), kept.iter().map(|k| values[*k])),

@@ -17,6 +17,17 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
+    /// The same with a radius of gyration of at least a micrometre: the equations divide by the inertia, and a
+    /// point mass or a line has none about some axis. Changes motions of metre-sized bodies by 1e-12.
+    pub(crate) fn with_some_inertia(mut self) -> Self {
+        let least = self.mass * 1e-12;
+        let smallest = self.inertia.symmetric_eigenvalues().min();
+        if smallest < least {
+            self.inertia += (least - smallest.min(0.0)) * Matrix3::identity();
+        }
+        self
+    }
+
     /// Properties of `inertia`; `position` gives points on this body's branch, `value` the value of a formula.
     pub(crate) fn new(
         inertia: &Inertia,

@@ -16,8 +16,8 @@ use crate::row::{Pair, Row};
 /// Why a mechanism cannot be modelled.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum OracleError {
-    /// A mass is not positive or an inertia not positive definite.
-    #[error("body {body}: mass {mass} kg or its inertia is not positive")]
+    /// A mass is not positive, or not a number.
+    #[error("body {body}: mass {mass} kg or its inertia is not a positive number")]
     NotPositive {
         /// Name of the body.
         body: String,
@@ -77,7 +77,8 @@ impl Oracle {
         for (index, body) in mechanism.bodies.iter().enumerate() {
             let carrier = Carrier::Body(BodyId::new(index));
             let at = |point| position(point, carrier);
-            let matter = MassProperties::new(&body.inertia, &at, &|f| number(f, parameters));
+            let matter =
+                MassProperties::new(&body.inertia, &at, &|f| number(f, parameters)).with_some_inertia();
             if matter.mass.is_nan() || matter.mass <= 0.0 || matter.inertia.cholesky().is_none() {
                 return Err(OracleError::NotPositive { body: body.name.clone(), mass: matter.mass });
             }

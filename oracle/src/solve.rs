@@ -111,6 +111,18 @@ impl Oracle {
     /// The state must satisfy the constraints in position and speed (see [`Oracle::assemble`]).
     #[must_use]
     pub fn accelerations(&self, t: f64, states: &[BodyState]) -> Solution {
+        self.solve(t, states, None)
+    }
+
+    /// Independent rows at a consistent state.
+    pub(crate) fn rank(&self, t: f64, states: &[BodyState]) -> usize {
+        let matrix = Metric::new(self, states).matrix(self, &self.rows(t, states));
+        LeastNorm::new(matrix, self.rank_tolerance).rank()
+    }
+
+    /// As `accelerations`, but trusts `rank`: between projections a state is not quite closed, and then rows
+    /// that depend on each other seem not to.
+    pub(crate) fn solve(&self, t: f64, states: &[BodyState], rank: Option<usize>) -> Solution {
         let rows = self.rows(t, states);
         let applied = self.applied(t, states);
         let metric = Metric::new(self, states);
@@ -123,7 +135,10 @@ impl Oracle {
         let free = metric.load(&loads);
         let bias = DVector::from_iterator(rows.len(), rows.iter().map(|(_, row)| row.bias));
         let rhs = -bias - &matrix * &free;
-        let factors = LeastNorm::new(matrix, self.rank_tolerance);
+        let factors = match rank {
+            Some(rank) => LeastNorm::with_rank(matrix, rank),
+            None => LeastNorm::new(matrix, self.rank_tolerance),
+        };
         let correction = factors.solve(&rhs);
         let lambda = factors.multipliers(&correction);
         let y = free + correction;

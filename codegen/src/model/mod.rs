@@ -148,7 +148,7 @@ pub enum Inertia {
         centre: PointId,
         /// Inertia about the centre [kg m²]: xx, yy, zz, xy, xz, yz as matrix entries (xy = -∫xy dm).
         inertia: [Formula; 6],
-        /// Columns: the axes of `inertia` in W at the reference pose.
+        /// The x, y and z axis of `inertia`, each a unit vector in W at the reference pose.
         axes: [[f64; 3]; 3],
     },
 }

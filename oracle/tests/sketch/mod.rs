@@ -90,6 +90,7 @@ impl Sketch {
             parent,
             child,
             at,
+            cut: false,
             drives: Vec::new(),
             passive: Vec::new(),
             span: Span::default(),

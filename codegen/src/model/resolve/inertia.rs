@@ -107,7 +107,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Columns: unit vectors along the axes in which the inertia is given.
+    /// Unit vectors along the axes in which the inertia is given.
     fn axes(&mut self, name: &Name, written: &At<Vec<Triple>>) -> [[f64; 3]; 3] {
         let what = place("axes", "body", name);
         if !matches!(written.value.len(), 2 | 3) {
@@ -131,7 +131,7 @@ impl Resolver<'_> {
         }
         let third = unit(third).unwrap_or(AXES_OF_W[2]);
         let second = cross(third, directions[0]);
-        std::array::from_fn(|row| [directions[0][row], second[row], third[row]])
+        [directions[0], second, third]
     }
 }
 
