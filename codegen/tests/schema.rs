@@ -10,12 +10,20 @@ fn fits(value: &Value, schema: &Value, root: &Value) -> bool {
     keywords.iter().all(|(keyword, argument)| fits_keyword(value, keyword, argument, keywords, root))
 }
 
-fn fits_keyword(value: &Value, keyword: &str, argument: &Value, all: &Map<String, Value>, root: &Value) -> bool {
+fn fits_keyword(
+    value: &Value,
+    keyword: &str,
+    argument: &Value,
+    all: &Map<String, Value>,
+    root: &Value,
+) -> bool {
     let list = || argument.as_array().unwrap();
     let count = || usize::try_from(argument.as_u64().unwrap()).unwrap();
     match keyword {
         "$schema" | "$defs" | "title" | "description" | "default" | "format" => true,
-        "$ref" => fits(value, root.pointer(argument.as_str().unwrap().strip_prefix('#').unwrap()).unwrap(), root),
+        "$ref" => {
+            fits(value, root.pointer(argument.as_str().unwrap().strip_prefix('#').unwrap()).unwrap(), root)
+        }
         "type" => argument.as_str().map_or_else(
             || list().iter().any(|name| has_type(value, name.as_str().unwrap())),
             |name| has_type(value, name),
@@ -24,9 +32,9 @@ fn fits_keyword(value: &Value, keyword: &str, argument: &Value, all: &Map<String
         "enum" => list().contains(value),
         "anyOf" => list().iter().any(|option| fits(value, option, root)),
         "oneOf" => list().iter().filter(|option| fits(value, option, root)).count() == 1,
-        "required" => {
-            value.as_object().is_none_or(|object| list().iter().all(|key| object.contains_key(key.as_str().unwrap())))
-        }
+        "required" => value
+            .as_object()
+            .is_none_or(|object| list().iter().all(|key| object.contains_key(key.as_str().unwrap()))),
         "minItems" => value.as_array().is_none_or(|items| items.len() >= count()),
         "maxItems" => value.as_array().is_none_or(|items| items.len() <= count()),
         "items" => value.as_array().is_none_or(|items| items.iter().all(|item| fits(item, argument, root))),
@@ -34,7 +42,8 @@ fn fits_keyword(value: &Value, keyword: &str, argument: &Value, all: &Map<String
             object.iter().all(|(key, inner)| argument.get(key).is_none_or(|schema| fits(inner, schema, root)))
         }),
         "additionalProperties" => value.as_object().is_none_or(|object| {
-            let known = |key: &str| all.get("properties").is_some_and(|properties| properties.get(key).is_some());
+            let known =
+                |key: &str| all.get("properties").is_some_and(|properties| properties.get(key).is_some());
             object.iter().all(|(key, inner)| known(key) || fits(inner, argument, root))
         }),
         other => panic!("the validator of this test does not know `{other}`"),
