@@ -357,6 +357,30 @@ fn faults_of_all_stages_come_together() {
     assert_eq!(codes, [Code::UnitMismatch, Code::UnknownKey, Code::UnknownName, Code::ZeroAxis]);
 }
 
+#[test]
+fn tables_under_headers_are_read_as_inline_ones() {
+    let headers = r#"
+[points.O]
+at = [0, 0, 0]
+[points.A]
+at = ["1 m", 0, 0]
+[bodies.bar]
+rod = ["O", "A"]
+radius = "5 mm"
+density = "7850 kg/m^3"
+[joints.hinge]
+revolute = ["ground", "bar"]
+at = "O"
+axis = [0, 0, 1]
+[joints.hinge.spring]
+stiffness = "1 N m"
+"#;
+    assert_eq!(read(headers).joints[0].passive.len(), 1);
+    let errors = try_read(&headers.replace("radius", "radus").replace("axis", "axs")).unwrap_err();
+    let codes: Vec<_> = errors.list().iter().map(|d| d.code).collect();
+    assert_eq!(codes, [Code::UnknownKey, Code::UnknownKey], "what is missing is misspelt: {errors}");
+}
+
 /// A closed four-bar with joints as given: R1 at O, then the joints at A, B, D.
 fn loop_with(joints: &str) -> Mechanism {
     read(&format!(

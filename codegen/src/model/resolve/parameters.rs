@@ -48,7 +48,10 @@ impl Resolver<'_> {
                 let mut fault = Diagnostic::new(Code::UnknownOverride, message).did_you_mean(name, known());
                 if fault.help.is_empty() {
                     let list = known().collect::<Vec<_>>().join(", ");
-                    fault = fault.help(format!("parameters of this file: {list}"));
+                    fault = fault.help(match list.as_str() {
+                        "" => "this file has no parameters".to_owned(),
+                        list => format!("parameters of this file: {list}"),
+                    });
                 }
                 self.report(fault);
             }
