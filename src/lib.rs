@@ -1,1 +1,12 @@
-//! linkwear compiles a linkage into its life.
+//! linkwear compiles a linkage into its life: a TOML file describes a mechanism, a generator derives
+//! its equations and writes specialised Rust, a runtime integrates it.
+//!
+//! This package is the façade: the generator as [`codegen`], the runtime as [`runtime`], the shipped
+//! mechanisms compiled in as [`mechanisms`], and (feature `cli`, on by default) the command line.
+//! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
+//! `linkwear-runtime` as dependency; see the README, "Embedding".
+
+pub mod mechanisms;
+
+pub use linkwear_codegen as codegen;
+pub use linkwear_runtime as runtime;

@@ -1,11 +1,24 @@
 //! Compiles a linkage described in TOML into specialised solver code.
 //!
-//! Data flows one way: toml -> `spec` -> `model` -> `derive` -> `expr` -> `tape` -> back ends.
+//! Data flows one way: toml -> [`spec`] -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
+//! [`backend`]s; [`mod@compile`] calls the stages in order. A build script needs only [`Builder`].
 
+pub mod backend;
+pub mod builder;
+pub mod compile;
 pub mod derive;
 pub mod diagnostic;
 pub mod expr;
 pub mod id;
 pub mod model;
+pub mod preflight;
+pub mod render;
 pub mod source;
 pub mod spec;
+pub mod tape;
+
+pub use builder::Builder;
+pub use compile::{Compiled, Options, compile};
+pub use diagnostic::Diagnostics;
+pub use model::Closure;
+pub use source::SourceFile;

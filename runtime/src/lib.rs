@@ -5,18 +5,58 @@
 //! come with the default feature `std`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod dual;
+mod float;
+#[cfg(feature = "std")]
+mod include;
 mod intrinsic;
 mod scalar;
+mod sincos;
 mod system;
 
 #[cfg(feature = "std")]
+mod assemble;
+#[cfg(feature = "std")]
 mod description;
+#[cfg(feature = "std")]
+mod dynamics;
+#[cfg(feature = "std")]
+mod error;
+#[cfg(feature = "std")]
+mod evaluate;
+#[cfg(feature = "std")]
+pub mod integrate;
+#[cfg(feature = "std")]
+mod layout;
+#[cfg(feature = "std")]
+pub mod linear;
+#[cfg(feature = "std")]
+mod project;
+#[cfg(feature = "std")]
+mod record;
+#[cfg(feature = "std")]
+mod simulate;
+#[cfg(feature = "std")]
+mod singular;
 
+pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
+pub use sincos::sin_cos;
 pub use system::{Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use description::{
-    Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
+pub use {
+    assemble::{State, assemble, assemble_with},
+    description::{
+        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
+    },
+    dynamics::{Dynamics, SINGULAR_PIVOT},
+    error::{AssemblyError, RunError, SetupError},
+    evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
+    layout::{Group, Layout},
+    project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
+    record::write_csv,
+    simulate::{BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate},
+    singular::RANK_TOLERANCE,
 };

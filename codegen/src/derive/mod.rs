@@ -1,5 +1,30 @@
 //! Symbolic derivation: from a mechanism to named outputs over one expression graph.
 //! In: [`crate::model`]. Out: [`Equations`]. Never knows text formats or Rust syntax.
+//!
+//! Order of reading: [`linkage`] (frames), [`kinematics`], [`inertia`], [`closure`], [`forces`],
+//! [`dynamics`], [`solve`], then [`entries`], which asks them for what each entry point returns.
+
+mod across;
+mod closure;
+mod dynamics;
+mod entries;
+mod forces;
+mod frame;
+mod inertia;
+mod joint_state;
+mod kinematics;
+mod linkage;
+mod log_closure;
+mod lower;
+mod observe;
+mod solve;
+mod start;
+#[cfg(test)]
+mod tests;
+
+pub use closure::row_count;
+pub use entries::{Derived, Purpose, derive};
+pub use linkage::Linkage;
 
 use crate::expr::{ExprId, Graph};
 
@@ -40,4 +65,33 @@ pub struct Block {
     pub columns: usize,
     /// Entries, row major.
     pub entries: Vec<ExprId>,
+}
+
+impl Block {
+    /// A column vector.
+    #[must_use]
+    pub fn vector(name: &str, doc: &str, citation: &str, entries: Vec<ExprId>) -> Self {
+        Self::matrix(name, doc, citation, entries.len(), 1, entries)
+    }
+
+    /// A matrix, row major.
+    #[must_use]
+    pub fn matrix(
+        name: &str,
+        doc: &str,
+        citation: &str,
+        rows: usize,
+        columns: usize,
+        entries: Vec<ExprId>,
+    ) -> Self {
+        debug_assert_eq!(rows * columns, entries.len());
+        Self {
+            name: name.to_owned(),
+            doc: doc.to_owned(),
+            citation: citation.to_owned(),
+            rows,
+            columns,
+            entries,
+        }
+    }
 }

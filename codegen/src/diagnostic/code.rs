@@ -129,6 +129,21 @@ codes! {
     /// A start value of a joint that is cut.
     StartOnCut = "E0505",
 
+    /// A loop that Newton cannot close from the given start.
+    LoopDoesNotClose = "E0601",
+    /// Nothing can move.
+    Locked = "E0602",
+    /// A driver on a coordinate that the loops hold.
+    DriverOnDependentCoordinate = "E0603",
+    /// Drivers that the loops couple.
+    DriversInConflict = "E0604",
+    /// Demanded start values that cannot be met.
+    StartImpossible = "E0605",
+    /// Start values or residuals that are not numbers.
+    StartNotFinite = "E0606",
+    /// A freedom that moves no mass.
+    MasslessFreedom = "E0607",
+
     /// Gravity is not mentioned.
     NoGravity = "W0101",
     /// A bare number that is read as radians and looks like degrees.

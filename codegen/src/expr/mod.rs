@@ -11,7 +11,7 @@ mod matrix;
 use std::collections::HashMap;
 
 pub use crate::id::{ExprId, SectionId, SymbolId};
-pub use matrix::{Mat3, Vec3};
+pub use matrix::{Mat3, Vec3, transpose};
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -122,6 +122,12 @@ impl Graph {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
             _ => None,
         }
+    }
+
+    /// The node `-id`, if it has been made.
+    #[must_use]
+    pub fn negation_of(&self, id: ExprId) -> Option<ExprId> {
+        self.known.get(&Node::Unary(Unary::Neg, id)).copied()
     }
 
     /// Starts a section: nodes first made from here on belong to it.

@@ -402,3 +402,13 @@ impl Mechanism {
         }
     }
 }
+impl Inertia {
+    /// The points that describe where the matter is.
+    #[must_use]
+    pub fn points(&self) -> Vec<PointId> {
+        match self {
+            Self::Rod { ends, .. } | Self::Box { ends, .. } => ends.to_vec(),
+            Self::Given { centre, .. } => vec![*centre],
+        }
+    }
+}

@@ -39,6 +39,12 @@ impl Overrides {
         Ok(overrides)
     }
 
+    /// Names with their values.
+    #[must_use]
+    pub fn from_pairs(pairs: &[(String, String)]) -> Self {
+        Self(pairs.to_vec())
+    }
+
     /// Names that are overridden, in the order given.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|(name, _)| name.as_str())

@@ -1,0 +1,191 @@
+//! Runs tapes without a compiler, in the same bits as compiled code.
+//! In: one tape per entry. Out: a [`System`]. Never allocates while it evaluates.
+//!
+//! Constants, inputs and registers lie side by side in the workspace, so that an operand is one index.
+
+use std::sync::Arc;
+
+use linkwear_runtime::{Description, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
+
+use crate::expr::{Binary, Unary};
+use crate::tape::{Op, Operand, Registers, Tape};
+
+/// A mechanism as tapes, ready to be evaluated on any scalar.
+#[derive(Clone, Debug)]
+pub struct Interpreted {
+    programs: Arc<Vec<Program>>,
+    sizes: Sizes,
+    description: Arc<Description>,
+}
+
+#[derive(Clone, Debug)]
+struct Program {
+    constants: Vec<f64>,
+    inputs: usize,
+    instructions: Vec<Instruction>,
+}
+
+/// Operands and results are indices into the workspace; `Store` writes an output.
+#[derive(Clone, Copy, Debug)]
+enum Instruction {
+    Add(u32, u32, u32),
+    Sub(u32, u32, u32),
+    Mul(u32, u32, u32),
+    Div(u32, u32, u32),
+    Neg(u32, u32),
+    Sqrt(u32, u32),
+    SinCos { angle: u32, sine: u32, cosine: u32 },
+    Exp(u32, u32),
+    Ln(u32, u32),
+    Atan2(u32, u32, u32),
+    AngleOverSine(u32, u32, u32),
+    LogCoefficient(u8, u32, u32),
+    Store(u32, u32),
+}
+
+impl Interpreted {
+    /// Prepares tapes in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
+    #[must_use]
+    pub fn new(tapes: &[Tape], sizes: Sizes, description: Description) -> Self {
+        let mut workspace = 0;
+        let programs: Vec<Program> = tapes
+            .iter()
+            .map(|tape| {
+                let (program, length) = Program::new(tape);
+                workspace = workspace.max(length);
+                program
+            })
+            .collect();
+        Self {
+            programs: Arc::new(programs),
+            sizes: Sizes { workspace, ..sizes },
+            description: Arc::new(description),
+        }
+    }
+
+    /// Names and units of what is evaluated.
+    #[must_use]
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+}
+
+impl Program {
+    /// The program and the length of the workspace that it wants.
+    fn new(tape: &Tape) -> (Self, usize) {
+        let registers = Registers::assign(tape);
+        let mut constants: Vec<f64> = Vec::new();
+        let mut positions = std::collections::HashMap::new();
+        let every_operand = tape.direct.iter().map(|(_, operand)| *operand).chain(
+            tape.statements
+                .iter()
+                .flat_map(|s| s.op.operands().chain(s.stores.iter().map(|(_, operand)| *operand))),
+        );
+        for operand in every_operand {
+            if let Operand::Constant(number) = operand {
+                positions.entry(number.to_bits()).or_insert_with(|| {
+                    constants.push(number);
+                    constants.len() - 1
+                });
+            }
+        }
+        let (first_input, first_register) = (constants.len(), constants.len() + tape.input_len());
+        let place = |operand: Operand| -> u32 {
+            let index = match operand {
+                Operand::Constant(number) => positions[&number.to_bits()],
+                Operand::Input(index) => first_input + index as usize,
+                Operand::Value(value) => first_register + registers.of_value[value as usize] as usize,
+            };
+            u32::try_from(index).expect("a workspace fits 32-bit indices")
+        };
+        let mut instructions = Vec::with_capacity(tape.statements.len() + tape.output_len());
+        let store = |instructions: &mut Vec<Instruction>, list: &[(u32, Operand)]| {
+            instructions
+                .extend(list.iter().map(|(index, operand)| Instruction::Store(*index, place(*operand))));
+        };
+        store(&mut instructions, &tape.direct);
+        for statement in &tape.statements {
+            let result = place(Operand::Value(statement.first));
+            instructions.push(match statement.op {
+                Op::SinCos(angle) => Instruction::SinCos {
+                    angle: place(angle),
+                    sine: result,
+                    cosine: place(Operand::Value(statement.first + 1)),
+                },
+                Op::Unary(operation, a) => unary(operation, place(a), result),
+                Op::Binary(operation, a, b) => binary(operation, place(a), place(b), result),
+            });
+            store(&mut instructions, &statement.stores);
+        }
+        let length = first_register + registers.count as usize;
+        (Self { constants, inputs: tape.input_len(), instructions }, length)
+    }
+}
+
+fn unary(operation: Unary, a: u32, result: u32) -> Instruction {
+    match operation {
+        Unary::Neg => Instruction::Neg(a, result),
+        Unary::Sqrt => Instruction::Sqrt(a, result),
+        Unary::Exp => Instruction::Exp(a, result),
+        Unary::Ln => Instruction::Ln(a, result),
+        Unary::LogCoefficient(rank) => Instruction::LogCoefficient(rank, a, result),
+        Unary::Sin | Unary::Cos => unreachable!("lowering turns sines and cosines into pairs"),
+    }
+}
+
+fn binary(operation: Binary, a: u32, b: u32, result: u32) -> Instruction {
+    match operation {
+        Binary::Add => Instruction::Add(a, b, result),
+        Binary::Sub => Instruction::Sub(a, b, result),
+        Binary::Mul => Instruction::Mul(a, b, result),
+        Binary::Div => Instruction::Div(a, b, result),
+        Binary::Atan2 => Instruction::Atan2(a, b, result),
+        Binary::AngleOverSine => Instruction::AngleOverSine(a, b, result),
+    }
+}
+
+impl<T: Scalar> System<T> for Interpreted {
+    fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    fn evaluate(&self, entry: Entry, input: &[T], output: &mut [T], workspace: &mut [T]) {
+        let index = Entry::ALL.iter().position(|other| *other == entry).expect("ALL lists every entry");
+        self.programs[index].run(input, output, workspace);
+    }
+}
+
+impl Program {
+    fn run<T: Scalar>(&self, input: &[T], output: &mut [T], w: &mut [T]) {
+        for (place, number) in w.iter_mut().zip(&self.constants) {
+            *place = T::constant(*number);
+        }
+        let first = self.constants.len();
+        w[first..first + self.inputs].copy_from_slice(&input[..self.inputs]);
+        for instruction in &self.instructions {
+            match *instruction {
+                Instruction::Add(a, b, r) => w[r as usize] = w[a as usize] + w[b as usize],
+                Instruction::Sub(a, b, r) => w[r as usize] = w[a as usize] - w[b as usize],
+                Instruction::Mul(a, b, r) => w[r as usize] = w[a as usize] * w[b as usize],
+                Instruction::Div(a, b, r) => w[r as usize] = w[a as usize] / w[b as usize],
+                Instruction::Neg(a, r) => w[r as usize] = -w[a as usize],
+                Instruction::Sqrt(a, r) => w[r as usize] = w[a as usize].sqrt(),
+                Instruction::SinCos { angle, sine, cosine } => {
+                    let (s, c) = w[angle as usize].sin_cos();
+                    w[sine as usize] = s;
+                    w[cosine as usize] = c;
+                }
+                Instruction::Exp(a, r) => w[r as usize] = w[a as usize].exp(),
+                Instruction::Ln(a, r) => w[r as usize] = w[a as usize].ln(),
+                Instruction::Atan2(a, b, r) => w[r as usize] = w[a as usize].atan2(w[b as usize]),
+                Instruction::AngleOverSine(a, b, r) => {
+                    w[r as usize] = angle_over_sine(w[a as usize], w[b as usize]);
+                }
+                Instruction::LogCoefficient(rank, a, r) => {
+                    w[r as usize] = log_coefficient(rank, w[a as usize]);
+                }
+                Instruction::Store(index, a) => output[index as usize] = w[a as usize],
+            }
+        }
+    }
+}

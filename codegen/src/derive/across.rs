@@ -1,0 +1,443 @@
+//! Relative motion of two links across a joint, seen from one of them.
+//! In: link kinematics. Out: [`Across`]. Never knows which rows a closure keeps.
+
+use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
+use crate::id::JointId;
+use crate::model::{Axis, Carrier, JointKind};
+
+use super::frame::{Frame, canonical_frame, dot, scale, sub};
+use super::inertia::Geometry;
+use super::kinematics::{Acceleration, Poses, Twist, carried_twist, point_acceleration, point_velocity};
+use super::linkage::{Freedom, LinkIndex, Linkage};
+
+/// Kinematics of all links at one instant.
+pub struct Motion {
+    /// Poses.
+    pub poses: Poses,
+    /// Twists.
+    pub twists: Vec<Twist>,
+    /// Accelerations, gravity included (the ground accelerates by minus gravity).
+    pub accelerations: Vec<Acceleration>,
+    /// Acceleration of the ground [m/s²].
+    pub ground: Vec3,
+}
+
+/// The two links of a joint and which of them lends its frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Sides {
+    /// The joint.
+    pub joint: JointId,
+    /// Link of the joint's parent body.
+    pub parent: LinkIndex,
+    /// Link of the joint's child body.
+    pub child: LinkIndex,
+    /// Whether vectors are expressed in the child's frame (else in the parent's).
+    pub in_child: bool,
+}
+
+impl Sides {
+    /// Chooses the frame that makes most Jacobian columns constant: that of a ball or free link, else of
+    /// the moving side, else of the child.
+    #[must_use]
+    pub fn choose(linkage: &Linkage, joint: JointId, parent: LinkIndex, child: LinkIndex) -> Self {
+        let rank = |link: LinkIndex| match link.map(|at| linkage.links[at].freedom) {
+            None => 0,
+            Some(Freedom::Ball | Freedom::Free) => 2,
+            Some(_) => 1,
+        };
+        Self { joint, parent, child, in_child: rank(child) >= rank(parent) }
+    }
+
+    /// The link whose frame is used.
+    #[must_use]
+    pub fn beside(&self) -> LinkIndex {
+        if self.in_child { self.child } else { self.parent }
+    }
+}
+
+/// Constant axes of a joint in the frames of its two links; they coincide when all coordinates are zero.
+#[derive(Clone, Copy, Debug)]
+pub struct JointAxes {
+    /// In the parent link's frame.
+    pub parent: Frame,
+    /// In the child link's frame.
+    pub child: Frame,
+}
+
+/// At which of the two joint points both bodies are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Each at its own joint point: right where the joint leaves no translation and the loop is closed.
+    Own,
+    /// Both where the child's joint point is.
+    Child,
+    /// Both where the parent's joint point is.
+    Parent,
+}
+
+/// Relative motion, all in the frame of [`Sides::beside`].
+pub struct Across {
+    /// Takes components in the parent's frame to the common frame.
+    pub from_parent: Mat3,
+    /// Takes components in the child's frame to the common frame.
+    pub from_child: Mat3,
+    /// Child's joint point from the parent's [m].
+    pub distance: Vec3,
+    /// The chosen place as a point of the child, in its frame [m].
+    pub child_point: Vec3,
+    /// The chosen place as a point of the parent, in its frame [m].
+    pub parent_point: Vec3,
+    /// Angular velocity of the child relative to the parent.
+    pub omega: Vec3,
+    /// Velocity of the child at the chosen place relative to the parent there.
+    pub slide: Vec3,
+    /// Angular velocity of the parent.
+    pub parent_omega: Vec3,
+    /// Angular velocity of the child.
+    pub child_omega: Vec3,
+    /// Angular acceleration of the child minus that of the parent.
+    pub alpha: Vec3,
+    /// Acceleration of the child at the chosen place minus that of the parent there.
+    pub acceleration: Vec3,
+}
+
+impl Across {
+    /// Computes everything for the joint between two links.
+    pub fn new(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, sides: Sides, place: Place) -> Self {
+        let linkage = geometry.linkage;
+        let at = geometry.mechanism.joint(sides.joint).at;
+        let mut child_point = geometry.local(g, sides.child, at);
+        let mut parent_point = geometry.local(g, sides.parent, at);
+        let identity = g.matrix(Frame::IDENTITY.0);
+        let (from_parent, from_child) = if sides.in_child {
+            (motion.poses.rotation_between(g, linkage, sides.parent, sides.child), identity)
+        } else {
+            (identity, motion.poses.rotation_between(g, linkage, sides.child, sides.parent))
+        };
+        let distance = distance(g, linkage, &motion.poses, sides, child_point, parent_point);
+        match place {
+            Place::Own => {}
+            Place::Child => {
+                let arm = g.transpose_mul_vec3(from_parent, distance);
+                parent_point = g.add3(parent_point, arm);
+            }
+            Place::Parent => {
+                let arm = g.transpose_mul_vec3(from_child, distance);
+                child_point = g.sub3(child_point, arm);
+            }
+        }
+        let [parent_omega, parent_velocity] = motion.velocity(g, sides.parent, parent_point, from_parent);
+        let [child_omega, child_velocity] = motion.velocity(g, sides.child, child_point, from_child);
+        let [parent_alpha, parent_acceleration] =
+            motion.acceleration(g, sides.parent, parent_point, from_parent);
+        let [child_alpha, child_acceleration] = motion.acceleration(g, sides.child, child_point, from_child);
+        Self {
+            from_parent,
+            from_child,
+            distance,
+            child_point,
+            parent_point,
+            omega: g.sub3(child_omega, parent_omega),
+            slide: g.sub3(child_velocity, parent_velocity),
+            parent_omega,
+            child_omega,
+            alpha: g.sub3(child_alpha, parent_alpha),
+            acceleration: g.sub3(child_acceleration, parent_acceleration),
+        }
+    }
+
+    /// Constant axis of the parent in the common frame.
+    pub fn parent_axis(&self, g: &mut Graph, axes: &JointAxes, j: usize) -> Vec3 {
+        let axis = g.vector(axes.parent.axis(j));
+        g.mul_vec3(self.from_parent, axis)
+    }
+
+    /// Constant axis of the child in the common frame.
+    pub fn child_axis(&self, g: &mut Graph, axes: &JointAxes, j: usize) -> Vec3 {
+        let axis = g.vector(axes.child.axis(j));
+        g.mul_vec3(self.from_child, axis)
+    }
+
+    /// Rotation of the child relative to the parent in joint axes: identity when all coordinates are zero.
+    pub fn rotation(&self, g: &mut Graph, axes: &JointAxes) -> Mat3 {
+        let parent = [0, 1, 2].map(|j| self.parent_axis(g, axes, j));
+        let child = [0, 1, 2].map(|j| self.child_axis(g, axes, j));
+        core::array::from_fn(|i| core::array::from_fn(|j| g.dot3(parent[i], child[j])))
+    }
+}
+
+/// From the parent's joint point to the child's, in the common frame, along the tree from the common
+/// ancestor, so that motion that both share cancels.
+fn distance(
+    g: &mut Graph,
+    linkage: &Linkage,
+    poses: &Poses,
+    sides: Sides,
+    child_point: Vec3,
+    parent_point: Vec3,
+) -> Vec3 {
+    let top = linkage.common_ancestor(sides.parent, sides.child);
+    let mut place = |link: LinkIndex, point: Vec3| {
+        let (mut at, mut place) = (link, point);
+        while at != top {
+            let inner = at.expect("the ancestor lies on the path to the ground");
+            let pose = poses.relative[inner];
+            let turned = g.mul_vec3(pose.rotation, place);
+            place = g.add3(pose.offset, turned);
+            at = linkage.links[inner].parent;
+        }
+        place
+    };
+    let (child, parent) = (place(sides.child, child_point), place(sides.parent, parent_point));
+    let apart = g.sub3(child, parent);
+    let rotation = poses.rotation_between(g, linkage, top, sides.beside());
+    g.mul_vec3(rotation, apart)
+}
+
+impl Motion {
+    /// Angular velocity of a link and velocity of a point of it, turned by `rotation`.
+    fn velocity(&self, g: &mut Graph, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+        match link {
+            None => [g.zero_vector(); 2],
+            Some(at) => {
+                let velocity = point_velocity(g, &self.twists[at], point);
+                [self.twists[at].omega, velocity].map(|v| g.mul_vec3(rotation, v))
+            }
+        }
+    }
+
+    /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
+    fn acceleration(&self, g: &mut Graph, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+        let (alpha, origin) = match link {
+            None => (g.zero_vector(), self.ground),
+            Some(at) => {
+                let acceleration = &self.accelerations[at];
+                (acceleration.alpha, point_acceleration(g, acceleration, point))
+            }
+        };
+        [alpha, origin].map(|v| g.mul_vec3(rotation, v))
+    }
+
+    /// Velocity in W of a point of a link.
+    pub fn point_velocity_w(&self, g: &mut Graph, link: LinkIndex, point: Vec3) -> Vec3 {
+        let rotation = self.poses.world_of(g, link).rotation;
+        self.velocity(g, link, point, rotation)[1]
+    }
+
+    /// Angular velocity of a ball link relative to its parent, in the ball link's frame.
+    pub fn relative_omega(&self, g: &mut Graph, linkage: &Linkage, at: usize) -> Vec3 {
+        let parent = linkage.links[at].parent.map(|p| self.twists[p]);
+        let carried = carried_twist(g, parent, &self.poses.relative[at]);
+        g.sub3(self.twists[at].omega, carried.omega)
+    }
+}
+
+/// Axes of a joint in the frames of its links; `in_child` says which frame should see simple numbers.
+#[must_use]
+pub fn joint_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
+    let linkage = geometry.linkage;
+    let frame = |link: LinkIndex| link.map_or(Frame::IDENTITY, |at| linkage.links[at].frame);
+    let (parent, child) = (frame(sides.parent), frame(sides.child));
+    let (outer_parent, outer_child) = match &geometry.mechanism.joint(sides.joint).kind {
+        JointKind::Revolute(axis)
+        | JointKind::Prismatic(axis)
+        | JointKind::Cylindrical(axis)
+        | JointKind::Screw(axis, _) => both(*axis, &parent, &child, sides.in_child),
+        JointKind::Planar { normal, first } => {
+            let own = Frame::with_z_and_x(normal.parent, first.parent);
+            (own, Frame::between(normal.parent, normal.child).times(&own))
+        }
+        JointKind::Universal(first, second) => {
+            let own = Frame::with_z_and_x(first.parent, second.parent);
+            (own, Frame::between(first.parent, first.child).times(&own))
+        }
+        JointKind::Spherical | JointKind::Fixed | JointKind::Free => {
+            let own = if sides.in_child { child } else { parent };
+            (own, own)
+        }
+    };
+    JointAxes {
+        parent: parent.transposed().times(&outer_parent).snapped(),
+        child: child.transposed().times(&outer_child).snapped(),
+    }
+}
+
+/// Axes of a body that two branches reach: its copy's frame, and that frame seen from its own branch.
+#[must_use]
+pub fn weld_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
+    let frame = |link: LinkIndex| link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+    let (own, copy) = (frame(sides.parent), frame(sides.child));
+    JointAxes { parent: own.transposed().times(&copy).snapped(), child: Frame::IDENTITY }
+}
+
+/// A frame with e_z on the axis, simple in the frame of the chosen side, and its image on the other.
+fn both(axis: Axis, parent: &Frame, child: &Frame, in_child: bool) -> (Frame, Frame) {
+    let simple = |own: &Frame, direction: [f64; 3]| {
+        own.times(&canonical_frame(own.to_local(direction), |_| None).0).snapped()
+    };
+    if in_child {
+        let own = simple(child, axis.child);
+        (Frame::between(axis.child, axis.parent).times(&own), own)
+    } else {
+        let own = simple(parent, axis.parent);
+        (own, Frame::between(axis.parent, axis.child).times(&own))
+    }
+}
+
+/// Coordinates of a joint with their first and second derivatives, recomputed from the motion across it.
+pub struct JointCoordinates {
+    /// `q`, one per freedom (empty for spherical, fixed and free joints).
+    pub position: Vec<ExprId>,
+    /// `v`.
+    pub speed: Vec<ExprId>,
+    /// `a`.
+    pub acceleration: Vec<ExprId>,
+    /// Which positions are angles from atan2.
+    pub wraps: Vec<bool>,
+    /// Wrench on the child, at its joint point, per unit of each coordinate's force.
+    pub duals: Vec<(Vec3, Vec3)>,
+}
+
+/// Recomputes the coordinates of a joint that is not a chain of the tree.
+pub fn joint_coordinates(
+    g: &mut Graph,
+    geometry: &Geometry<'_>,
+    across: &Across,
+    sides: Sides,
+) -> JointCoordinates {
+    let kind = geometry.mechanism.joint(sides.joint).kind.clone();
+    let axes = joint_axes(geometry, sides);
+    let z = across.parent_axis(g, &axes, 2);
+    let mut list = JointCoordinates {
+        position: Vec::new(),
+        speed: Vec::new(),
+        acceleration: Vec::new(),
+        wraps: Vec::new(),
+        duals: Vec::new(),
+    };
+    match kind {
+        JointKind::Revolute(_) | JointKind::Screw(..) => turn(g, &mut list, across, &axes, z),
+        JointKind::Prismatic(_) => slide(g, &mut list, across, z),
+        JointKind::Cylindrical(_) => {
+            turn(g, &mut list, across, &axes, z);
+            slide(g, &mut list, across, z);
+        }
+        JointKind::Planar { .. } => {
+            for j in 0..2 {
+                let direction = across.parent_axis(g, &axes, j);
+                slide(g, &mut list, across, direction);
+            }
+            turn(g, &mut list, across, &axes, z);
+        }
+        JointKind::Universal(first, second) => {
+            let own = UniversalAxes::new(geometry, sides, first, second);
+            universal(g, &mut list, across, &axes, &own);
+        }
+        JointKind::Spherical | JointKind::Fixed | JointKind::Free => {}
+    }
+    list
+}
+
+/// Angle about an axis fixed in the parent: q = atan2 from the relative rotation.
+fn turn(g: &mut Graph, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, z: Vec3) {
+    let rotation = across.rotation(g, axes);
+    list.position.push(g.atan2(rotation[1][0], rotation[0][0]));
+    list.wraps.push(true);
+    list.speed.push(g.dot3(z, across.omega));
+    // d/dt (z . omega) with z turning with the parent.
+    let turned = g.cross3(across.parent_omega, across.omega);
+    let rate = g.sub3(across.alpha, turned);
+    list.acceleration.push(g.dot3(z, rate));
+    list.duals.push((z, g.zero_vector()));
+}
+
+/// Distance along a direction fixed in the parent.
+fn slide(g: &mut Graph, list: &mut JointCoordinates, across: &Across, direction: Vec3) {
+    list.position.push(g.dot3(direction, across.distance));
+    list.wraps.push(false);
+    list.speed.push(g.dot3(direction, across.slide));
+    let turned = g.cross3(across.parent_omega, across.slide);
+    let two = g.constant(2.0);
+    let coriolis = g.scale3(two, turned);
+    let rate = g.sub3(across.acceleration, coriolis);
+    list.acceleration.push(g.dot3(direction, rate));
+    list.duals.push((g.zero_vector(), direction));
+}
+
+/// Numbers that describe a universal joint: second axis in the child's frame, and the angle between the axes.
+struct UniversalAxes {
+    second_in_child: [f64; 3],
+    /// In the joint axes of the child (e_z on the first axis, e_x towards the second): the second axis.
+    second: [f64; 3],
+}
+
+impl UniversalAxes {
+    fn new(geometry: &Geometry<'_>, sides: Sides, first: Axis, second: Axis) -> Self {
+        let frame = sides.child.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+        let joint = Frame::with_z_and_x(first.child, second.child);
+        Self { second_in_child: frame.to_local(second.child), second: joint.to_local(second.child) }
+    }
+}
+
+/// `omega = v1 a + v2 b` with a fixed in the parent, b in the child; the dual basis gives each speed.
+fn universal(
+    g: &mut Graph,
+    list: &mut JointCoordinates,
+    across: &Across,
+    axes: &JointAxes,
+    own: &UniversalAxes,
+) {
+    let a = across.parent_axis(g, axes, 2);
+    let b_child = g.vector(own.second_in_child);
+    let b = g.mul_vec3(across.from_child, b_child);
+    let [bx, _, cosine] = own.second;
+    let rotation = across.rotation(g, axes);
+    // b in the parent's joint axes turns about e_z by q1.
+    let b_joint = g.vector(own.second);
+    let seen = g.mul_vec3(rotation, b_joint);
+    list.position.push(g.atan2(seen[1], seen[0]));
+    // a in the child's joint axes turns about b by -q2; e_y is at right angles to both at q2 = 0.
+    let seen = transpose(rotation).map(|row| row[2]);
+    let across_b = scale(1.0 / bx, sub([0.0, 0.0, 1.0], scale(cosine, own.second)));
+    let normal = super::frame::cross(own.second, across_b);
+    debug_assert!((dot(normal, normal) - 1.0).abs() < 1e-9);
+    let (normal, across_b) = (g.vector(normal), g.vector(across_b));
+    let (along_normal, along) = (g.dot3(normal, seen), g.dot3(across_b, seen));
+    let minus = g.neg(along_normal);
+    list.position.push(g.atan2(minus, along));
+    list.wraps.extend([true, true]);
+    let scale_factor = g.constant(1.0 / (1.0 - cosine * cosine));
+    let cos = g.constant(cosine);
+    let dual = |g: &mut Graph, own: Vec3, other: Vec3| {
+        let part = g.scale3(cos, other);
+        let rest = g.sub3(own, part);
+        g.scale3(scale_factor, rest)
+    };
+    let duals = [dual(g, a, b), dual(g, b, a)];
+    let speeds = duals.map(|dual| g.dot3(dual, across.omega));
+    // alpha = a1 a + v1 omega_p x a + a2 b + v2 omega_c x b
+    let (turned_a, turned_b) = (g.cross3(across.parent_omega, a), g.cross3(across.child_omega, b));
+    let (part_a, part_b) = (g.scale3(speeds[0], turned_a), g.scale3(speeds[1], turned_b));
+    let sum = g.add3(part_a, part_b);
+    let rate = g.sub3(across.alpha, sum);
+    for (dual, speed) in duals.into_iter().zip(speeds) {
+        list.speed.push(speed);
+        list.acceleration.push(g.dot3(dual, rate));
+        list.duals.push((dual, g.zero_vector()));
+    }
+}
+
+/// The link of a joint's parent or child body, as the joint sees it (through its copy for closure `log`).
+#[must_use]
+pub fn sides_of(geometry: &Geometry<'_>, joint: JointId) -> Sides {
+    let linkage = geometry.linkage;
+    let data = geometry.mechanism.joint(joint);
+    let mut parent = linkage.link(data.parent);
+    let mut child = linkage.link(data.child);
+    if let Some(last) = linkage.link_of_joint[joint.index()] {
+        // The chain's end is the outboard body, which may be a copy of it on this branch.
+        if linkage.reversed[joint.index()] { parent = Some(last) } else { child = Some(last) }
+    }
+    debug_assert!(data.parent != Carrier::Ground || parent.is_none());
+    Sides::choose(linkage, joint, parent, child)
+}

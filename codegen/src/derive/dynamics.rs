@@ -1,0 +1,220 @@
+//! Newton-Euler passes, energies and forward dynamics, [CS (6)].
+//! In: link motion, loads, closure rows. Out: generalised forces, accelerations, multipliers.
+//! Never knows entry points or columns.
+//!
+//! Inertial wrench of a link with `spin = skew(alpha) + skew(omega)²` about its origin, from mass m, first
+//! moment s and second moment P (the same form serves rigid and flexible links):
+//!   force  = m a_O + spin s
+//!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
+
+use crate::expr::{ExprId, Graph, Mat3, Vec3};
+
+use super::across::Motion;
+use super::closure::CutRows;
+use super::forces::Loads;
+use super::inertia::{MassProperties, Wrench, mass_matrix};
+use super::kinematics::{Acceleration, Twist};
+use super::linkage::Linkage;
+use super::solve::{Solution, solve};
+
+/// Inertial wrench of a link about its origin, in its frame.
+pub fn inertial_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> Wrench {
+    let (weight, turned) = (g.scale3(own.mass, motion.origin), g.mul_vec3(motion.spin, own.first));
+    let product = g.mul_mat3(motion.spin, own.second);
+    let (lever, axial) = (g.cross3(own.first, motion.origin), axial_part(g, product));
+    Wrench { moment: g.add3(lever, axial), force: g.add3(weight, turned) }
+}
+
+/// `A_zy - A_yz`, and cyclic.
+fn axial_part(g: &mut Graph, m: Mat3) -> Vec3 {
+    core::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        g.sub(m[k][j], m[j][k])
+    })
+}
+
+/// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
+/// and loads. Left side of [CS (6)].
+pub fn bias_forces(
+    g: &mut Graph,
+    linkage: &Linkage,
+    motion: &Motion,
+    masses: &[MassProperties],
+    loads: &Loads,
+) -> Vec<ExprId> {
+    let mut forces = vec![g.zero(); linkage.speeds()];
+    let none = Wrench::zero(g);
+    let mut carried = vec![none; linkage.links.len()];
+    for (at, link) in linkage.links.iter().enumerate().rev() {
+        g.begin_section(format!("inertia, weight and loads of {}", link.name));
+        let inertial = inertial_wrench(g, &masses[at], &motion.accelerations[at]);
+        let applied = loads.external[at].plus(g, loads.reactions[at]);
+        let applied = applied.negated(g);
+        let sum = inertial.plus(g, applied);
+        let total = sum.plus(g, carried[at]);
+        for (offset, force) in total.generalised(g, link.freedom).into_iter().enumerate() {
+            let speed = link.first_speed + offset;
+            forces[speed] = g.sub(force, loads.joint[speed]);
+        }
+        if let Some(parent) = link.parent {
+            let passed = total.passed_inwards(g, link.freedom, &motion.poses.relative[at]);
+            carried[parent] = carried[parent].plus(g, passed);
+        }
+    }
+    forces
+}
+
+/// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
+/// link's origin, in its frame. `external` is everything but joints of the tree.
+pub fn joint_wrenches(
+    g: &mut Graph,
+    linkage: &Linkage,
+    motion: &Motion,
+    masses: &[MassProperties],
+    external: &[Wrench],
+) -> Vec<Wrench> {
+    let none = Wrench::zero(g);
+    let mut totals = vec![none; linkage.links.len()];
+    for (at, link) in linkage.links.iter().enumerate().rev() {
+        let inertial = inertial_wrench(g, &masses[at], &motion.accelerations[at]);
+        let applied = external[at].negated(g);
+        let sum = inertial.plus(g, applied);
+        totals[at] = totals[at].plus(g, sum);
+        if let (Some(parent), false) = (link.parent, link.freedom == super::linkage::Freedom::Free) {
+            let passed = totals[at].on_parent(g, &motion.poses.relative[at]);
+            totals[parent] = totals[parent].plus(g, passed);
+        }
+    }
+    totals
+}
+
+/// Kinetic energy [J].
+pub fn kinetic_energy(g: &mut Graph, masses: &[MassProperties], twists: &[Twist]) -> ExprId {
+    let half = g.constant(0.5);
+    let mut sum = g.zero();
+    for (own, twist) in masses.iter().zip(twists) {
+        let square = g.dot3(twist.origin, twist.origin);
+        let translation = g.mul(own.mass, square);
+        let turned = g.cross3(twist.omega, own.first);
+        let mixed = g.dot3(twist.origin, turned);
+        let two = g.constant(2.0);
+        let mixed = g.mul(two, mixed);
+        let inertia = super::inertia::inertia_of_second_moment(g, own.second);
+        let momentum = g.mul_vec3(inertia, twist.omega);
+        let rotation = g.dot3(twist.omega, momentum);
+        for term in [translation, mixed, rotation] {
+            sum = g.add(sum, term);
+        }
+    }
+    g.mul(half, sum)
+}
+
+/// Potential energy of weight [J], zero at the origin of W.
+pub fn weight_energy(
+    g: &mut Graph,
+    linkage: &Linkage,
+    motion: &Motion,
+    masses: &[MassProperties],
+    gravity: Vec3,
+) -> ExprId {
+    let mut sum = g.zero();
+    for (at, own) in masses.iter().enumerate().take(linkage.links.len()) {
+        let pose = motion.poses.world[at];
+        let lifted = g.scale3(own.mass, pose.offset);
+        let turned = g.mul_vec3(pose.rotation, own.first);
+        let moment = g.add3(lifted, turned);
+        let energy = g.dot3(gravity, moment);
+        sum = g.sub(sum, energy);
+    }
+    sum
+}
+
+/// Which speeds are free and which are driven, by index among all.
+#[derive(Clone, Debug, Default)]
+pub struct Partition {
+    /// Free speeds, in tree order.
+    pub free: Vec<usize>,
+    /// Driven speeds, in the order of the drivers.
+    pub driven: Vec<usize>,
+}
+
+/// Accelerations of free speeds, multipliers of `rows`, and drive forces.
+pub struct Forward {
+    /// Accelerations, multipliers, pivots.
+    pub solution: Solution,
+    /// Generalised force of every driver.
+    pub drive: Vec<ExprId>,
+}
+
+/// A kept row with its Jacobian by all speeds.
+pub struct KeptRow {
+    /// Columns by all speeds.
+    pub jacobian: Vec<ExprId>,
+    /// Acceleration bias.
+    pub bias: ExprId,
+    /// Position residual.
+    pub residual: ExprId,
+    /// Velocity residual.
+    pub rate: ExprId,
+}
+
+/// Picks the rows that are kept, in order, with their Jacobians.
+pub fn kept_rows(
+    g: &mut Graph,
+    linkage: &Linkage,
+    motion: &Motion,
+    cuts: &[CutRows],
+    keep: &[bool],
+) -> Vec<KeptRow> {
+    let mut kept = Vec::new();
+    let mut index = 0;
+    for cut in cuts {
+        for row in &cut.rows {
+            if keep[index] {
+                let jacobian = cut.jacobian(g, linkage, &motion.poses, row);
+                kept.push(KeptRow { jacobian, bias: row.bias, residual: row.residual, rate: row.rate });
+            }
+            index += 1;
+        }
+    }
+    kept
+}
+
+/// Forward dynamics by the structured elimination of [`solve`].
+pub fn forward(
+    g: &mut Graph,
+    linkage: &Linkage,
+    motion: &Motion,
+    masses: &[MassProperties],
+    loads: &Loads,
+    (rows, partition): (&[KeptRow], &Partition),
+) -> Forward {
+    let h = bias_forces(g, linkage, motion, masses, loads);
+    g.begin_section("mass matrix by composite bodies");
+    let mass = mass_matrix(g, linkage, &motion.poses, masses);
+    let free = &partition.free;
+    let block: Vec<Vec<ExprId>> = free.iter().map(|i| free.iter().map(|j| mass[*i][*j]).collect()).collect();
+    let jacobian: Vec<Vec<ExprId>> =
+        rows.iter().map(|row| free.iter().map(|j| row.jacobian[*j]).collect()).collect();
+    let force: Vec<ExprId> = free.iter().map(|i| g.neg(h[*i])).collect();
+    let target: Vec<ExprId> = rows.iter().map(|row| g.neg(row.bias)).collect();
+    let solution = solve(g, &block, &jacobian, &force, &target);
+    g.begin_section("drive forces");
+    let drive = partition
+        .driven
+        .iter()
+        .map(|d| {
+            let mut sum = h[*d];
+            for (position, j) in free.iter().enumerate() {
+                let product = g.mul(mass[*d][*j], solution.accelerations[position]);
+                sum = g.add(sum, product);
+            }
+            for (row, multiplier) in rows.iter().zip(&solution.multipliers) {
+                let product = g.mul(row.jacobian[*d], *multiplier);
+                sum = g.sub(sum, product);
+            }
+            sum
+        })
+        .collect();
+    Forward { solution, drive }
+}

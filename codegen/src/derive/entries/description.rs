@@ -1,0 +1,148 @@
+//! What a derived mechanism is called: sizes, names, units, rows, for the runtime's [`Description`].
+//! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
+
+use linkwear_runtime::{
+    Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes, VariableInfo,
+};
+
+use super::Deriver;
+use crate::derive::joint_state::{coordinate_count, is_angle};
+use crate::derive::linkage::{Freedom, Linkage};
+use crate::model::{JointKind, Mechanism};
+
+impl Deriver<'_> {
+    pub(super) fn sizes(&self) -> Sizes {
+        Sizes {
+            parameters: self.parameters.len(),
+            coordinates: self.free_q.len(),
+            speeds: self.partition.free.len(),
+            all_coordinates: self.q_all.len(),
+            all_speeds: self.v_all.len(),
+            rows: self.keep.iter().filter(|kept| **kept).count(),
+            all_rows: self.keep.len(),
+            drivers: self.drivers.len(),
+            channels: self.channels.len(),
+            workspace: 0,
+        }
+    }
+
+    pub(super) fn description(&self) -> Description {
+        let names = variable_names(self.mechanism, self.linkage);
+        let start = self.start.as_ref().expect("start values are derived before the description");
+        let pick = |names: &[(String, &'static str)], free: &[usize], held: &[bool]| {
+            free.iter()
+                .map(|i| VariableInfo {
+                    name: names[*i].0.clone().into(),
+                    unit: names[*i].1.into(),
+                    held: held[*i],
+                })
+                .collect::<Vec<_>>()
+        };
+        let mut kept = 0;
+        let rows: Vec<RowInfo> = self
+            .row_info
+            .iter()
+            .zip(&self.keep)
+            .map(|((joint, meaning, angular), keep)| RowInfo {
+                joint: self.mechanism.joint(*joint).name.clone().into(),
+                meaning: meaning.clone().into(),
+                angular: *angular,
+                kept: keep.then(|| {
+                    kept += 1;
+                    kept - 1
+                }),
+            })
+            .collect();
+        let parameters: Vec<ParameterInfo> = self
+            .mechanism
+            .parameters
+            .iter()
+            .filter(|parameter| parameter.tunable)
+            .map(|parameter| ParameterInfo {
+                name: parameter.name.clone().into(),
+                unit: parameter.dimension.si_unit().into(),
+                default: parameter.value,
+            })
+            .collect();
+        let drivers: Vec<DriverInfo> = self
+            .drivers
+            .iter()
+            .map(|driver| DriverInfo {
+                joint: self.mechanism.joint(driver.joint).name.clone().into(),
+                angular: is_angle(&self.mechanism.joint(driver.joint).kind, driver.joint_coordinate),
+            })
+            .collect();
+        let turn_driver = self
+            .drivers
+            .iter()
+            .position(|driver| matches!(self.mechanism.joint(driver.joint).kind, JointKind::Revolute(_)));
+        Description {
+            name: self.mechanism.name.clone().into(),
+            parameters: parameters.into(),
+            coordinates: pick(&names.0, &self.free_q, &start.held_q).into(),
+            speeds: pick(&names.1, &self.partition.free, &start.held_v).into(),
+            motions: self.motions().into(),
+            quaternions: self.quaternions().into(),
+            rows: rows.into(),
+            drivers: drivers.into(),
+            channels: self.channels.clone().into(),
+            turn_driver,
+        }
+    }
+
+    fn motions(&self) -> Vec<MotionInfo> {
+        self.linkage
+            .links
+            .iter()
+            .filter_map(|link| match link.freedom {
+                Freedom::Rotation { .. } | Freedom::Translation { .. } => Some(MotionInfo::Scalar {
+                    driver: self.drivers.iter().position(|driver| driver.speed == link.first_speed),
+                }),
+                Freedom::Ball => Some(MotionInfo::Rotation),
+                Freedom::Free => Some(MotionInfo::Pose),
+                Freedom::Weld => None,
+            })
+            .collect()
+    }
+
+    /// First index among the free coordinates of every quaternion.
+    fn quaternions(&self) -> Vec<usize> {
+        self.linkage
+            .links
+            .iter()
+            .filter(|link| matches!(link.freedom, Freedom::Ball | Freedom::Free))
+            .filter_map(|link| self.free_q.iter().position(|i| *i == link.first_coordinate))
+            .collect()
+    }
+}
+
+/// Names and units of all coordinates and of all speeds, in tree order.
+pub(super) type Names = (Vec<(String, &'static str)>, Vec<(String, &'static str)>);
+
+pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names {
+    let (mut positions, mut speeds) = (Vec::new(), Vec::new());
+    for link in &linkage.links {
+        let joint = mechanism.joint(link.joint);
+        let name = &joint.name;
+        match link.freedom {
+            Freedom::Rotation { .. } | Freedom::Translation { .. } => {
+                let several = coordinate_count(&joint.kind) > 1;
+                let suffix = if several { (link.joint_coordinate + 1).to_string() } else { String::new() };
+                let angle = is_angle(&joint.kind, link.joint_coordinate);
+                let units = if angle { ("rad", "rad/s") } else { ("m", "m/s") };
+                positions.push((format!("{name}.q{suffix}"), units.0));
+                speeds.push((format!("{name}.v{suffix}"), units.1));
+            }
+            Freedom::Ball | Freedom::Free => {
+                positions.extend((0..4).map(|i| (format!("{name}.q{i}"), "1")));
+                speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.w{axis}"), "rad/s")));
+                if link.freedom == Freedom::Free {
+                    positions.extend(["x", "y", "z"].map(|axis| (format!("{name}.{axis}"), "m")));
+                    speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.v{axis}"), "m/s")));
+                }
+            }
+            Freedom::Weld => {}
+        }
+    }
+    (positions, speeds)
+}

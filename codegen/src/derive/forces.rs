@@ -1,0 +1,271 @@
+//! Applied forces: joint damping, springs and actuators, force elements; their energy and power.
+//! In: link motion. Out: [`Loads`]. Never knows constraints. Gravity enters with the accelerations.
+
+use crate::expr::{ExprId, Graph, Vec3};
+use crate::id::{JointId, PointId};
+use crate::model::{Carrier, ForceKind, JointKind, Passive};
+
+use super::across::{Across, sides_of};
+use super::closure::link_wrenches;
+use super::inertia::Wrench;
+use super::joint_state::JointStates;
+use super::linkage::{Freedom, LinkIndex};
+
+/// Everything that pushes, and what it does to energy.
+pub struct Loads {
+    /// Wrench on every link from force elements and cut joints, in its frame about its origin.
+    pub external: Vec<Wrench>,
+    /// Force of tree joints along every speed, on the outboard side.
+    pub joint: Vec<ExprId>,
+    /// Reactions of ball joints' moments on their parent links.
+    pub reactions: Vec<Wrench>,
+    /// Moment and force of forces in cut joints on the child at its joint point, in the frame of
+    /// [`super::across::Sides::beside`].
+    pub in_cuts: Vec<(JointId, Vec3, Vec3)>,
+    /// Energy stored in springs [J].
+    pub potential: ExprId,
+    /// Power taken out by dampers [W].
+    pub dissipated: ExprId,
+    /// Power put in by actuators and applied forces [W].
+    pub supplied: ExprId,
+}
+
+/// Collects all loads.
+pub fn loads(g: &mut Graph, state: &JointStates<'_>) -> Loads {
+    let linkage = state.geometry.linkage;
+    let zero = g.zero();
+    let none = Wrench::zero(g);
+    let mut loads = Loads {
+        external: vec![none; linkage.links.len()],
+        joint: vec![zero; linkage.speeds()],
+        reactions: vec![none; linkage.links.len()],
+        in_cuts: Vec::new(),
+        potential: zero,
+        dissipated: zero,
+        supplied: zero,
+    };
+    for index in 0..state.geometry.mechanism.joints.len() {
+        let joint = JointId::new(index);
+        let data = state.geometry.mechanism.joint(joint);
+        if !data.passive.is_empty() {
+            g.begin_section(format!("forces in {}", data.name));
+        }
+        for passive in &data.passive {
+            loads.joint_force(g, state, joint, passive);
+        }
+    }
+    for force in &state.geometry.mechanism.forces {
+        g.begin_section(format!("force {}", force.name));
+        loads.element(g, state, &force.kind);
+    }
+    loads
+}
+
+impl Loads {
+    fn joint_force(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
+        let kind = &state.geometry.mechanism.joint(joint).kind;
+        if let (JointKind::Spherical, Passive::Damping { coefficient, .. }) = (kind, passive) {
+            let coefficient = state.lower(g, coefficient);
+            return self.spherical_damping(g, state, joint, coefficient);
+        }
+        let coordinates = state.coordinates(g, joint);
+        let (coordinate, force) = match passive {
+            Passive::Damping { coordinate, coefficient } => {
+                let coefficient = state.lower(g, coefficient);
+                let speed = coordinates.speed[*coordinate];
+                let force = g.mul(coefficient, speed);
+                let power = g.mul(force, speed);
+                self.dissipated = g.add(self.dissipated, power);
+                (*coordinate, g.neg(force))
+            }
+            Passive::Spring { coordinate, stiffness, rest } => {
+                let (stiffness, rest) = (state.lower(g, stiffness), state.lower(g, rest));
+                let stretch = g.sub(coordinates.position[*coordinate], rest);
+                let force = g.mul(stiffness, stretch);
+                let (half, work) = (g.constant(0.5), g.mul(force, stretch));
+                let energy = g.mul(half, work);
+                self.potential = g.add(self.potential, energy);
+                (*coordinate, g.neg(force))
+            }
+            Passive::Actuator { coordinate, force } => {
+                let force = state.lower(g, force);
+                let power = g.mul(force, coordinates.speed[*coordinate]);
+                self.supplied = g.add(self.supplied, power);
+                (*coordinate, force)
+            }
+        };
+        if let Some(link) = state.geometry.linkage.link_of_coordinate(joint, coordinate) {
+            let speed = state.geometry.linkage.links[link].first_speed;
+            self.joint[speed] = g.add(self.joint[speed], force);
+        } else {
+            let (moment, direction) = coordinates.duals[coordinate];
+            let across = state.across(g, joint);
+            let (moment, force) = (g.scale3(force, moment), g.scale3(force, direction));
+            self.pair(g, state, joint, &across, moment, force);
+        }
+    }
+
+    /// `-c omega_rel` on the child, its opposite on the parent.
+    fn spherical_damping(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, c: ExprId) {
+        let linkage = state.geometry.linkage;
+        if let Some(at) = linkage.link_of_joint[joint.index()] {
+            debug_assert_eq!(linkage.links[at].freedom, Freedom::Ball);
+            let omega = state.motion.relative_omega(g, linkage, at);
+            self.dissipate(g, c, omega);
+            let scaled = g.scale3(c, omega);
+            let moment = g.neg3(scaled);
+            let first = linkage.links[at].first_speed;
+            for (i, component) in moment.into_iter().enumerate() {
+                self.joint[first + i] = g.add(self.joint[first + i], component);
+            }
+            if let Some(parent) = linkage.links[at].parent {
+                let force = g.zero_vector();
+                let turned = g.mul_vec3(state.motion.poses.relative[at].rotation, scaled);
+                let reaction = Wrench { moment: turned, force };
+                self.reactions[parent] = self.reactions[parent].plus(g, reaction);
+            }
+        } else {
+            let across = state.across(g, joint);
+            self.dissipate(g, c, across.omega);
+            let scaled = g.scale3(c, across.omega);
+            let (moment, force) = (g.neg3(scaled), g.zero_vector());
+            self.pair(g, state, joint, &across, moment, force);
+        }
+    }
+
+    fn dissipate(&mut self, g: &mut Graph, coefficient: ExprId, rate: Vec3) {
+        let square = g.dot3(rate, rate);
+        let power = g.mul(coefficient, square);
+        self.dissipated = g.add(self.dissipated, power);
+    }
+
+    /// A wrench on the child of a joint and its opposite on the parent.
+    fn pair(
+        &mut self,
+        g: &mut Graph,
+        state: &JointStates<'_>,
+        joint: JointId,
+        across: &Across,
+        moment: Vec3,
+        force: Vec3,
+    ) {
+        let sides = sides_of(state.geometry, joint);
+        self.in_cuts.push((joint, moment, force));
+        let [child, parent] = link_wrenches(g, across, moment, force);
+        self.push(g, sides.child, child);
+        self.push(g, sides.parent, parent);
+    }
+
+    fn push(&mut self, g: &mut Graph, link: LinkIndex, wrench: Wrench) {
+        if let Some(at) = link {
+            self.external[at] = self.external[at].plus(g, wrench);
+        }
+    }
+
+    fn element(&mut self, g: &mut Graph, state: &JointStates<'_>, kind: &ForceKind) {
+        match kind {
+            ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } => {
+                let [stiffness, rest, damping, preload] =
+                    [stiffness, rest, damping, preload].map(|formula| state.lower(g, formula));
+                self.spring(g, state, *bodies, *at, [stiffness, rest, damping, preload]);
+            }
+            ForceKind::Force { body, reaction, at, components, axes } => {
+                let force = directed(g, state, components, *axes);
+                let links = [*body, *reaction].map(|carrier| state.geometry.linkage.link(carrier));
+                let local = state.geometry.local(g, links[0], *at);
+                let place = state.motion.poses.position(g, links[0], local);
+                let zero = g.zero_vector();
+                self.world_pair(g, state, links, place, [zero, force]);
+            }
+            ForceKind::Torque { body, reaction, components, axes } => {
+                let torque = directed(g, state, components, *axes);
+                let links = [*body, *reaction].map(|carrier| state.geometry.linkage.link(carrier));
+                let zero = g.zero_vector();
+                self.world_pair(g, state, links, zero, [torque, zero]);
+            }
+        }
+    }
+
+    /// Pull `k (l - rest) + c l̇ + preload` along the line between two points.
+    fn spring(
+        &mut self,
+        g: &mut Graph,
+        state: &JointStates<'_>,
+        bodies: [Carrier; 2],
+        at: [PointId; 2],
+        [stiffness, rest, damping, preload]: [ExprId; 4],
+    ) {
+        let links = bodies.map(|carrier| state.geometry.linkage.link(carrier));
+        let locals = [0, 1].map(|i| state.geometry.local(g, links[i], at[i]));
+        let places = [0, 1].map(|i| state.motion.poses.position(g, links[i], locals[i]));
+        let velocities = [0, 1].map(|i| state.motion.point_velocity_w(g, links[i], locals[i]));
+        let (apart, rate) = (g.sub3(places[1], places[0]), g.sub3(velocities[1], velocities[0]));
+        let square = g.dot3(apart, apart);
+        let length = g.sqrt(square);
+        let reciprocal = g.reciprocal(length);
+        let direction = g.scale3(reciprocal, apart);
+        let speed = g.dot3(direction, rate);
+        let stretch = g.sub(length, rest);
+        let (elastic, viscous) = (g.mul(stiffness, stretch), g.mul(damping, speed));
+        let (half, work) = (g.constant(0.5), g.mul(elastic, stretch));
+        let energy = g.mul(half, work);
+        let drawn = g.mul(preload, length);
+        let stored = g.add(energy, drawn);
+        self.potential = g.add(self.potential, stored);
+        let power = g.mul(viscous, speed);
+        self.dissipated = g.add(self.dissipated, power);
+        let sum = g.add(elastic, viscous);
+        let pull = g.add(sum, preload);
+        // On the first body towards the second, and the reverse.
+        let force = g.scale3(pull, direction);
+        for i in 0..2 {
+            let own = if i == 0 { force } else { g.neg3(force) };
+            let rotation = state.motion.poses.world_of(g, links[i]).rotation;
+            let force = g.transpose_mul_vec3(rotation, own);
+            let moment = g.cross3(locals[i], force);
+            self.push(g, links[i], Wrench { moment, force });
+        }
+    }
+
+    /// A wrench (moment, force) in W at a place in W on the first link and its opposite on the second.
+    fn world_pair(
+        &mut self,
+        g: &mut Graph,
+        state: &JointStates<'_>,
+        links: [LinkIndex; 2],
+        place: Vec3,
+        [moment, force]: [Vec3; 2],
+    ) {
+        for (i, link) in links.into_iter().enumerate() {
+            let Some(at) = link else { continue };
+            let pose = state.motion.poses.world[at];
+            let arm = g.sub3(place, pose.offset);
+            let lever = g.cross3(arm, force);
+            let is_force = force.iter().any(|component| !g.is_zero(*component));
+            let total = if is_force { g.add3(moment, lever) } else { moment };
+            let wrench = Wrench {
+                moment: g.transpose_mul_vec3(pose.rotation, total),
+                force: g.transpose_mul_vec3(pose.rotation, force),
+            };
+            let wrench = if i == 0 { wrench } else { wrench.negated(g) };
+            let twist = state.motion.twists[at];
+            let (turning, moving) = (g.dot3(wrench.moment, twist.omega), g.dot3(wrench.force, twist.origin));
+            let power = g.add(turning, moving);
+            self.supplied = g.add(self.supplied, power);
+            self.push(g, Some(at), wrench);
+        }
+    }
+}
+
+/// Components in W of a vector given in W or in axes that move with a body.
+fn directed(
+    g: &mut Graph,
+    state: &JointStates<'_>,
+    components: &[crate::model::Formula; 3],
+    axes: Carrier,
+) -> Vec3 {
+    let components = [0, 1, 2].map(|i| state.lower(g, &components[i]));
+    let Some(at) = state.geometry.linkage.link(axes) else { return components };
+    let local = state.geometry.turn(g, &state.geometry.linkage.links[at].frame, components);
+    g.mul_vec3(state.motion.poses.world[at].rotation, local)
+}

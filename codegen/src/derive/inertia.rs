@@ -1,0 +1,471 @@
+//! Mass properties of links and the mass matrix by composite bodies, [CS (6)].
+//! In: [`Linkage`], poses. Out: M as expressions. Never knows forces or closures.
+//!
+//! With the absolute angular velocity as speed of a ball link, turning the parent does not turn the
+//! child: a composite then passes only its mass inwards, and its own block of M stays constant.
+
+use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
+use crate::id::PointId;
+use crate::model::{Amount, Carrier, Inertia, Mechanism};
+
+use super::frame::Frame;
+use super::kinematics::{Pose, Poses};
+use super::linkage::{Freedom, Linkage};
+use super::lower::Inputs;
+
+/// Entries smaller than this share of the largest are rounding dust of frame changes.
+const DUST: f64 = 1e-14;
+
+/// Mass, first and second moments about the link's origin, in its frame.
+#[derive(Clone, Copy, Debug)]
+pub struct MassProperties {
+    /// Mass [kg].
+    pub mass: ExprId,
+    /// ∫ r dm [kg m].
+    pub first: Vec3,
+    /// ∫ r rᵀ dm [kg m²].
+    pub second: Mat3,
+}
+
+/// Where points of bodies are in the frames of their links.
+pub struct Geometry<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// Its links.
+    pub linkage: &'a Linkage,
+    /// Parameters and time.
+    pub inputs: &'a Inputs,
+}
+
+impl Geometry<'_> {
+    /// Position of a point as `carrier`'s branch describes it, in W at the reference pose [m].
+    pub fn described(&self, g: &mut Graph, point: PointId, carrier: Carrier) -> Vec3 {
+        self.inputs.lower3(g, self.mechanism.point(point).position_for(carrier))
+    }
+
+    /// A point of a link's body in the link's frame [m]; for the ground in W.
+    pub fn local(&self, g: &mut Graph, link: Option<usize>, point: PointId) -> Vec3 {
+        let Some(at) = link else { return self.described(g, point, Carrier::Ground) };
+        let link = &self.linkage.links[at];
+        let carrier = Carrier::Body(link.body);
+        let place = self.described(g, point, carrier);
+        let origin = self.described(g, self.mechanism.joint(link.joint).at, carrier);
+        let arm = g.sub3(place, origin);
+        let components = self.turn(g, &link.frame, arm);
+        without_dust(g, components)
+    }
+
+    /// Position of a link's inboard joint in the parent link's frame [m].
+    pub fn mount(&self, g: &mut Graph, at: usize) -> Vec3 {
+        let link = &self.linkage.links[at];
+        let first_of_chain = link.parent.is_none_or(|parent| self.linkage.links[parent].joint != link.joint);
+        if !first_of_chain {
+            return g.zero_vector();
+        }
+        self.local(g, link.parent, self.mechanism.joint(link.joint).at)
+    }
+
+    /// Components in a link's frame of a vector in W at the reference pose.
+    pub fn turn(&self, g: &mut Graph, frame: &Frame, vector: Vec3) -> Vec3 {
+        let matrix = g.matrix(frame.0);
+        g.transpose_mul_vec3(matrix, vector)
+    }
+
+    /// Mass properties of every link.
+    pub fn masses(&self, g: &mut Graph) -> Vec<MassProperties> {
+        (0..self.linkage.links.len()).map(|at| self.mass_of(g, at)).collect()
+    }
+
+    fn mass_of(&self, g: &mut Graph, at: usize) -> MassProperties {
+        let link = &self.linkage.links[at];
+        if link.mass_share == 0.0 {
+            let zero = g.zero();
+            return MassProperties { mass: zero, first: [zero; 3], second: [[zero; 3]; 3] };
+        }
+        let body = self.mechanism.body(link.body).inertia.clone();
+        let (mass, centre, central) = match &body {
+            Inertia::Rod { ends, radius, inner_radius, amount } => {
+                self.rod(g, at, *ends, [radius, inner_radius], amount)
+            }
+            Inertia::Box { ends, width, width_axis, amount } => {
+                self.cuboid(g, at, *ends, width, *width_axis, amount)
+            }
+            Inertia::Given { mass, centre, inertia, axes } => {
+                let centre = self.local(g, Some(at), *centre);
+                let mass = self.inputs.lower(g, mass);
+                let central = self.second_moment_of_inertia(g, at, inertia, axes);
+                (mass, centre, central)
+            }
+        };
+        let share = g.constant(link.mass_share);
+        let mass = g.mul(share, mass);
+        let central = central.map(|row| row.map(|x| g.mul(share, x)));
+        let first = g.scale3(mass, centre);
+        let first = without_dust(g, first);
+        let carried: Mat3 = core::array::from_fn(|i| core::array::from_fn(|j| g.mul(first[i], centre[j])));
+        let second = g.add_mat3(central, carried);
+        let second = matrix_without_dust(g, second);
+        MassProperties { mass, first, second }
+    }
+
+    /// Long axis of a body between two points: centre, unit vector, length; link frame.
+    fn axis_between(&self, g: &mut Graph, at: usize, ends: [PointId; 2]) -> (Vec3, Vec3, ExprId) {
+        let [a, b] = ends.map(|end| self.local(g, Some(at), end));
+        let along = g.sub3(b, a);
+        let square = g.dot3(along, along);
+        let length = g.sqrt(square);
+        let reciprocal = g.reciprocal(length);
+        let direction = g.scale3(reciprocal, along);
+        let direction = without_dust(g, direction);
+        let (half, sum) = (g.constant(0.5), g.add3(a, b));
+        (g.scale3(half, sum), direction, length)
+    }
+
+    /// Cylinder, solid or hollow.
+    fn rod(
+        &self,
+        g: &mut Graph,
+        at: usize,
+        ends: [PointId; 2],
+        radii: [&crate::model::Formula; 2],
+        amount: &Amount,
+    ) -> (ExprId, Vec3, Mat3) {
+        let (centre, axis, length) = self.axis_between(g, at, ends);
+        let [outer, inner] = radii.map(|radius| {
+            let radius = self.inputs.lower(g, radius);
+            g.square(radius)
+        });
+        let ring = g.sub(outer, inner);
+        let pi = g.constant(std::f64::consts::PI);
+        let section = g.mul(pi, ring);
+        let volume = g.mul(section, length);
+        let mass = self.amount(g, amount, volume);
+        let (twelfth, quarter) = (g.constant(1.0 / 12.0), g.constant(0.25));
+        let along = moment(g, mass, length, length, twelfth);
+        let squares = g.add(outer, inner);
+        let product = g.mul(mass, squares);
+        let across = g.mul(quarter, product);
+        (mass, centre, axial(g, axis, along, across))
+    }
+
+    fn cuboid(
+        &self,
+        g: &mut Graph,
+        at: usize,
+        ends: [PointId; 2],
+        width: &[crate::model::Formula; 2],
+        width_axis: [f64; 3],
+        amount: &Amount,
+    ) -> (ExprId, Vec3, Mat3) {
+        let (centre, axis, length) = self.axis_between(g, at, ends);
+        let [first, second] = [0, 1].map(|i| self.inputs.lower(g, &width[i]));
+        let area = g.mul(first, second);
+        let volume = g.mul(area, length);
+        let mass = self.amount(g, amount, volume);
+        let twelfth = g.constant(1.0 / 12.0);
+        let along = moment(g, mass, length, length, twelfth);
+        let across = moment(g, mass, first, first, twelfth);
+        let third = moment(g, mass, second, second, twelfth);
+        let side = g.vector(self.linkage.links[at].frame.to_local(width_axis));
+        let side = without_dust(g, side);
+        let other = g.cross3(axis, side);
+        let zero = g.zero();
+        let mut second_moment = [[zero; 3]; 3];
+        for (weight, direction) in [(along, axis), (across, side), (third, other)] {
+            let term = axial(g, direction, weight, zero);
+            second_moment = g.add_mat3(second_moment, term);
+        }
+        (mass, centre, second_moment)
+    }
+
+    fn amount(&self, g: &mut Graph, amount: &Amount, volume: ExprId) -> ExprId {
+        match amount {
+            Amount::Mass(mass) => self.inputs.lower(g, mass),
+            Amount::Density(density) => {
+                let density = self.inputs.lower(g, density);
+                g.mul(density, volume)
+            }
+        }
+    }
+
+    /// Second moment `tr(J)/2 - J` from an inertia tensor given about the centre in `axes`.
+    fn second_moment_of_inertia(
+        &self,
+        g: &mut Graph,
+        at: usize,
+        inertia: &[crate::model::Formula; 6],
+        axes: &[[f64; 3]; 3],
+    ) -> Mat3 {
+        let [xx, yy, zz, xy, xz, yz] = core::array::from_fn(|i| self.inputs.lower(g, &inertia[i]));
+        let (sum, half) = (g.dot(&[]), g.constant(0.5));
+        let trace = [xx, yy, zz].into_iter().fold(sum, |sum, x| g.add(sum, x));
+        let half_trace = g.mul(half, trace);
+        let [a, b, c] = [xx, yy, zz].map(|x| g.sub(half_trace, x));
+        let [d, e, f] = [xy, xz, yz].map(|x| g.neg(x));
+        let own: Mat3 = [[a, d, e], [d, b, f], [e, f, c]];
+        let columns = Frame::from_axes(axes[0], axes[1], axes[2]);
+        let turn = self.linkage.links[at].frame.transposed().times(&columns).snapped();
+        let turn = g.matrix(turn.0);
+        rotated(g, turn, own)
+    }
+}
+
+/// `factor * mass * a * b`.
+fn moment(g: &mut Graph, mass: ExprId, a: ExprId, b: ExprId, factor: ExprId) -> ExprId {
+    let square = g.mul(a, b);
+    let product = g.mul(mass, square);
+    g.mul(factor, product)
+}
+
+/// `along u uᵀ + across (1 - u uᵀ)`.
+fn axial(g: &mut Graph, u: Vec3, along: ExprId, across: ExprId) -> Mat3 {
+    let difference = g.sub(along, across);
+    let mut matrix: Mat3 = core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let dyad = g.mul(u[i], u[j]);
+            g.mul(difference, dyad)
+        })
+    });
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[i] = g.add(row[i], across);
+    }
+    matrix
+}
+
+/// `turn m turnᵀ`.
+fn rotated(g: &mut Graph, turn: Mat3, m: Mat3) -> Mat3 {
+    let half = g.mul_mat3(turn, m);
+    g.mul_mat3(half, transpose(turn))
+}
+
+/// Sets constants that are dust next to the largest constant to zero.
+fn without_dust(g: &mut Graph, v: Vec3) -> Vec3 {
+    let size = v.iter().filter_map(|x| g.as_constant(*x)).fold(0.0, |m: f64, x| m.max(x.abs()));
+    v.map(|x| match g.as_constant(x) {
+        Some(value) if value.abs() < DUST * size => g.zero(),
+        _ => x,
+    })
+}
+
+fn matrix_without_dust(g: &mut Graph, m: Mat3) -> Mat3 {
+    let all = m.concat();
+    let size = all.iter().filter_map(|x| g.as_constant(*x)).fold(0.0, |m: f64, x| m.max(x.abs()));
+    m.map(|row| {
+        row.map(|x| match g.as_constant(x) {
+            Some(value) if value.abs() < DUST * size => g.zero(),
+            _ => x,
+        })
+    })
+}
+
+/// `tr(P) 1 - P`: inertia tensor from the second moment.
+pub fn inertia_of_second_moment(g: &mut Graph, second: Mat3) -> Mat3 {
+    let mut inertia: Mat3 = second.map(|row| g.neg3(row));
+    for i in 0..3 {
+        inertia[i][i] = g.add(second[(i + 1) % 3][(i + 1) % 3], second[(i + 2) % 3][(i + 2) % 3]);
+    }
+    inertia
+}
+
+/// A wrench in a link's frame: force, and moment about the link's origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Wrench {
+    /// Moment [N m].
+    pub moment: Vec3,
+    /// Force [N].
+    pub force: Vec3,
+}
+
+impl Wrench {
+    /// No wrench.
+    pub fn zero(g: &mut Graph) -> Self {
+        Self { moment: g.zero_vector(), force: g.zero_vector() }
+    }
+
+    /// Sum.
+    pub fn plus(self, g: &mut Graph, other: Self) -> Self {
+        Self { moment: g.add3(self.moment, other.moment), force: g.add3(self.force, other.force) }
+    }
+
+    /// Opposite.
+    pub fn negated(self, g: &mut Graph) -> Self {
+        Self { moment: g.neg3(self.moment), force: g.neg3(self.force) }
+    }
+
+    /// The same wrench seen from the parent link.
+    pub fn on_parent(self, g: &mut Graph, pose: &Pose) -> Self {
+        let force = g.mul_vec3(pose.rotation, self.force);
+        let turned = g.mul_vec3(pose.rotation, self.moment);
+        let lever = g.cross3(pose.offset, force);
+        Self { moment: g.add3(turned, lever), force }
+    }
+
+    /// What the speeds inboard of the link feel of it: a ball link passes no moment, a free link nothing.
+    pub fn passed_inwards(self, g: &mut Graph, freedom: Freedom, pose: &Pose) -> Self {
+        match freedom {
+            Freedom::Free => Self::zero(g),
+            Freedom::Ball => {
+                let moment = g.zero_vector();
+                Self { moment, force: self.force }.on_parent(g, pose)
+            }
+            _ => self.on_parent(g, pose),
+        }
+    }
+
+    /// Its power per unit of each own speed of a link.
+    pub fn generalised(self, g: &mut Graph, freedom: Freedom) -> Vec<ExprId> {
+        match freedom {
+            Freedom::Rotation { advance, .. } => {
+                let rate = g.constant(advance);
+                let along = g.mul(rate, self.force[2]);
+                vec![g.add(self.moment[2], along)]
+            }
+            Freedom::Translation { axis } => {
+                let axis = g.vector(axis);
+                vec![g.dot3(axis, self.force)]
+            }
+            Freedom::Ball => self.moment.to_vec(),
+            Freedom::Free => [self.moment, self.force].concat(),
+            Freedom::Weld => Vec::new(),
+        }
+    }
+}
+
+/// Composite rigid body: everything outboard of a link's joint, frozen.
+#[derive(Clone, Copy, Debug)]
+struct Composite {
+    mass: ExprId,
+    first: Vec3,
+    inertia: Mat3,
+}
+
+/// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
+pub fn mass_matrix(
+    g: &mut Graph,
+    linkage: &Linkage,
+    poses: &Poses,
+    masses: &[MassProperties],
+) -> Vec<Vec<ExprId>> {
+    let zero = g.zero();
+    let n = linkage.speeds();
+    let mut matrix = vec![vec![zero; n]; n];
+    let mut composites: Vec<Composite> = masses
+        .iter()
+        .map(|own| Composite {
+            mass: own.mass,
+            first: own.first,
+            inertia: inertia_of_second_moment(g, own.second),
+        })
+        .collect();
+    for at in (0..linkage.links.len()).rev() {
+        let link = &linkage.links[at];
+        let composite = composites[at];
+        if let Some(parent) = link.parent {
+            let passed = pass_composite(g, link.freedom, &poses.relative[at], composite);
+            let sum = &mut composites[parent];
+            sum.mass = g.add(sum.mass, passed.mass);
+            sum.first = g.add3(sum.first, passed.first);
+            sum.inertia = g.add_mat3(sum.inertia, passed.inertia);
+        }
+        for (column, wrench) in momentum_columns(g, link.freedom, &composite).into_iter().enumerate() {
+            fill_column(g, linkage, poses, at, link.first_speed + column, wrench, &mut matrix);
+        }
+    }
+    matrix
+}
+
+fn pass_composite(g: &mut Graph, freedom: Freedom, pose: &Pose, own: Composite) -> Composite {
+    let zero = g.zero();
+    let (mass, first, inertia) = match freedom {
+        Freedom::Free => (zero, [zero; 3], [[zero; 3]; 3]),
+        Freedom::Ball => (own.mass, [zero; 3], [[zero; 3]; 3]),
+        _ => {
+            let inertia = rotated(g, pose.rotation, own.inertia);
+            (own.mass, g.mul_vec3(pose.rotation, own.first), inertia)
+        }
+    };
+    let p = pose.offset;
+    let weighted = g.scale3(mass, p);
+    // Parallel axes: (2 p.s + m p.p) 1 - (p sᵀ + s pᵀ + m p pᵀ), with u = 2 s + m p.
+    let shifted = g.add3(first, weighted);
+    let mut moved = inertia;
+    let pairs: Mat3 =
+        core::array::from_fn(|i| core::array::from_fn(|j| g.dot(&[(p[i], shifted[j]), (first[i], p[j])])));
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let sum = g.add(pairs[j][j], pairs[k][k]);
+        moved[i][i] = g.add(moved[i][i], sum);
+        moved[i][j] = g.sub(moved[i][j], pairs[i][j]);
+        moved[j][i] = moved[i][j];
+    }
+    Composite { mass, first: shifted, inertia: moved }
+}
+
+/// Momentum of the composite per unit of each own speed of its link.
+fn momentum_columns(g: &mut Graph, freedom: Freedom, own: &Composite) -> Vec<Wrench> {
+    let turn = |g: &mut Graph, axis: usize| {
+        let mut unit = g.zero_vector();
+        unit[axis] = g.one();
+        Wrench { moment: [0, 1, 2].map(|i| own.inertia[i][axis]), force: g.cross3(unit, own.first) }
+    };
+    let slide = |g: &mut Graph, direction: Vec3| Wrench {
+        moment: g.cross3(own.first, direction),
+        force: g.scale3(own.mass, direction),
+    };
+    let unit = |g: &mut Graph, axis: usize| {
+        let mut unit = g.zero_vector();
+        unit[axis] = g.one();
+        unit
+    };
+    match freedom {
+        Freedom::Rotation { advance, .. } => {
+            let turned = turn(g, 2);
+            let rate = g.constant(advance);
+            let axis = unit(g, 2);
+            let along = g.scale3(rate, axis);
+            let slid = slide(g, along);
+            vec![turned.plus(g, slid)]
+        }
+        Freedom::Translation { axis } => {
+            let axis = g.vector(axis);
+            vec![slide(g, axis)]
+        }
+        Freedom::Ball => (0..3).map(|axis| turn(g, axis)).collect(),
+        Freedom::Free => {
+            let mut columns: Vec<Wrench> = (0..3).map(|axis| turn(g, axis)).collect();
+            for axis in 0..3 {
+                let direction = unit(g, axis);
+                columns.push(slide(g, direction));
+            }
+            columns
+        }
+        Freedom::Weld => Vec::new(),
+    }
+}
+
+/// Carries one momentum column from its link to the ground and reads off the entries of M.
+fn fill_column(
+    g: &mut Graph,
+    linkage: &Linkage,
+    poses: &Poses,
+    from: usize,
+    column: usize,
+    wrench: Wrench,
+    matrix: &mut [Vec<ExprId>],
+) {
+    let mut carried = wrench;
+    let mut at = Some(from);
+    while let Some(link_index) = at {
+        let link = &linkage.links[link_index];
+        for (row, entry) in carried.generalised(g, link.freedom).into_iter().enumerate() {
+            let row = link.first_speed + row;
+            // Within a link, keep the entry computed first, so that M is symmetric to the bit.
+            if link_index != from || row <= column {
+                matrix[row][column] = entry;
+                matrix[column][row] = entry;
+            }
+        }
+        carried = carried.passed_inwards(g, link.freedom, &poses.relative[link_index]);
+        at = link.parent;
+    }
+}

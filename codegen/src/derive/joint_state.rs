@@ -1,0 +1,100 @@
+//! Coordinates, speeds and accelerations of joints and points, wherever they come from: a coordinate of the
+//! tree, or recomputed across a cut. In: link motion. Out: expressions. Never knows forces.
+
+use crate::expr::{ExprId, Graph, Vec3};
+use crate::id::{JointId, PointId};
+use crate::model::{Formula, JointKind, Term};
+
+use super::across::{Across, JointCoordinates, Motion, Place, joint_coordinates, sides_of};
+use super::inertia::Geometry;
+
+/// All a formula or an output column may ask of the state.
+pub struct JointStates<'a> {
+    /// Places and links.
+    pub geometry: &'a Geometry<'a>,
+    /// Motion of the links.
+    pub motion: &'a Motion,
+    /// All coordinates.
+    pub q: &'a [ExprId],
+    /// All speeds.
+    pub v: &'a [ExprId],
+    /// All speed derivatives (zero where they are not asked for).
+    pub v_dot: &'a [ExprId],
+}
+
+/// Number of scalar coordinates `q` of a joint kind, as columns and formulas name them.
+#[must_use]
+pub fn coordinate_count(kind: &JointKind) -> usize {
+    match kind {
+        JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
+        JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
+        JointKind::Planar { .. } => 3,
+        JointKind::Spherical | JointKind::Fixed | JointKind::Free => 0,
+    }
+}
+
+/// Whether a coordinate of a joint is an angle.
+#[must_use]
+pub fn is_angle(kind: &JointKind, coordinate: usize) -> bool {
+    match kind {
+        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Universal(..) => true,
+        JointKind::Cylindrical(_) => coordinate == 0,
+        JointKind::Planar { .. } => coordinate == 2,
+        _ => false,
+    }
+}
+
+impl JointStates<'_> {
+    /// Coordinates of a joint; for tree joints read from the state, else recomputed.
+    pub fn coordinates(&self, g: &mut Graph, joint: JointId) -> JointCoordinates {
+        let kind = &self.geometry.mechanism.joint(joint).kind;
+        let linkage = self.geometry.linkage;
+        let links: Vec<Option<usize>> =
+            (0..coordinate_count(kind)).map(|c| linkage.link_of_coordinate(joint, c)).collect();
+        if links.iter().all(Option::is_some) {
+            let links: Vec<usize> = links.into_iter().flatten().collect();
+            let pick = |values: &[ExprId], first: fn(&super::linkage::Link) -> usize| {
+                links.iter().map(|at| values[first(&linkage.links[*at])]).collect::<Vec<ExprId>>()
+            };
+            return JointCoordinates {
+                position: pick(self.q, |link| link.first_coordinate),
+                speed: pick(self.v, |link| link.first_speed),
+                acceleration: pick(self.v_dot, |link| link.first_speed),
+                wraps: vec![false; links.len()],
+                duals: Vec::new(),
+            };
+        }
+        let across = self.across(g, joint);
+        joint_coordinates(g, self.geometry, &across, sides_of(self.geometry, joint))
+    }
+
+    /// Relative motion across any joint.
+    pub fn across(&self, g: &mut Graph, joint: JointId) -> Across {
+        Across::new(g, self.geometry, self.motion, sides_of(self.geometry, joint), Place::Child)
+    }
+
+    /// Position of a named point in W [m].
+    pub fn point(&self, g: &mut Graph, point: PointId) -> Vec3 {
+        let link = self.geometry.linkage.link(self.geometry.mechanism.point(point).carrier);
+        let local = self.geometry.local(g, link, point);
+        self.motion.poses.position(g, link, local)
+    }
+
+    /// Velocity of a named point in W [m/s].
+    pub fn point_velocity(&self, g: &mut Graph, point: PointId) -> Vec3 {
+        let link = self.geometry.linkage.link(self.geometry.mechanism.point(point).carrier);
+        let local = self.geometry.local(g, link, point);
+        self.motion.point_velocity_w(g, link, local)
+    }
+
+    /// A formula over the state.
+    pub fn lower(&self, g: &mut Graph, formula: &Formula) -> ExprId {
+        self.geometry.inputs.lower_with(g, formula, &mut |g, term| match term {
+            Term::JointPosition(joint, c) => self.coordinates(g, *joint).position[*c],
+            Term::JointSpeed(joint, c) => self.coordinates(g, *joint).speed[*c],
+            Term::PointPosition(point, i) => self.point(g, *point)[*i],
+            Term::PointSpeed(point, i) => self.point_velocity(g, *point)[*i],
+            _ => g.zero(),
+        })
+    }
+}

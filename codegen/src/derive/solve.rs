@@ -1,0 +1,127 @@
+//! Sparse symbolic solution of the equations of motion, [CS (6)]: structure is found once, at generation.
+//! In: symmetric matrix and right-hand sides as expressions. Out: expressions. Never knows mechanics.
+//!
+//!   [ M   Jᵀ ] [  v̇      ]   [ f ]
+//!   [ J   0  ] [ -lambda ] = [ c ]
+//!
+//! L D Lᵀ without pivoting, speeds from the leaves of the tree to its root (no fill-in), then the loop
+//! rows, whose Schur complement J M⁻¹ Jᵀ is eliminated in order of least fill. One reciprocal a pivot.
+
+use crate::expr::{ExprId, Graph};
+
+/// The solution and the pivots of the loop rows.
+pub struct Solution {
+    /// Accelerations of the given speeds.
+    pub accelerations: Vec<ExprId>,
+    /// Multipliers, one per row.
+    pub multipliers: Vec<ExprId>,
+    /// Diagonal of D for the loop rows, positive in regular positions.
+    pub pivots: Vec<ExprId>,
+}
+
+/// Solves for accelerations and multipliers. `mass` and `jacobian` are over the same speeds, ordered root to
+/// leaves; `names` label the pivots.
+pub fn solve(
+    g: &mut Graph,
+    mass: &[Vec<ExprId>],
+    jacobian: &[Vec<ExprId>],
+    force: &[ExprId],
+    target: &[ExprId],
+) -> Solution {
+    let (n, m) = (mass.len(), jacobian.len());
+    let zero = g.zero();
+    let mut matrix = vec![vec![zero; n + m]; n + m];
+    for i in 0..n {
+        matrix[i][..n].copy_from_slice(&mass[i]);
+        for r in 0..m {
+            matrix[n + r][i] = jacobian[r][i];
+            matrix[i][n + r] = jacobian[r][i];
+        }
+    }
+    let mut right: Vec<ExprId> = force.iter().chain(target).copied().collect();
+    let mut system = Elimination { matrix, reciprocal: vec![zero; n + m], order: Vec::new() };
+    let mut left: Vec<usize> = (0..n + m).collect();
+    g.begin_section("elimination of speeds, from the leaves of the tree to its root");
+    for i in (0..n).rev() {
+        system.eliminate(g, i, &mut left, &mut right);
+    }
+    g.begin_section("elimination of loop rows");
+    while !left.is_empty() {
+        let next = system.least_fill(g, &left);
+        system.eliminate(g, next, &mut left, &mut right);
+    }
+    g.begin_section("back substitution");
+    let solution = system.substitute(g, &right);
+    let pivots = (n..n + m).map(|r| g.neg(system.matrix[r][r])).collect();
+    let multipliers = solution[n..].iter().map(|x| g.neg(*x)).collect();
+    Solution { accelerations: solution[..n].to_vec(), multipliers, pivots }
+}
+
+struct Elimination {
+    matrix: Vec<Vec<ExprId>>,
+    reciprocal: Vec<ExprId>,
+    order: Vec<usize>,
+}
+
+impl Elimination {
+    /// Takes unknown `k` out: updates the block of those left and the right-hand side.
+    fn eliminate(&mut self, g: &mut Graph, k: usize, left: &mut Vec<usize>, right: &mut [ExprId]) {
+        left.retain(|other| *other != k);
+        self.order.push(k);
+        self.reciprocal[k] = g.reciprocal(self.matrix[k][k]);
+        let neighbours: Vec<usize> =
+            left.iter().copied().filter(|i| !g.is_zero(self.matrix[*i][k])).collect();
+        for (position, &i) in neighbours.iter().enumerate() {
+            let factor = g.mul(self.matrix[i][k], self.reciprocal[k]);
+            for &j in &neighbours[position..] {
+                let product = g.mul(factor, self.matrix[j][k]);
+                let updated = g.sub(self.matrix[i][j], product);
+                self.matrix[i][j] = updated;
+                self.matrix[j][i] = updated;
+            }
+            let product = g.mul(factor, right[k]);
+            right[i] = g.sub(right[i], product);
+        }
+    }
+
+    /// Solves from the last eliminated unknown to the first.
+    fn substitute(&self, g: &mut Graph, right: &[ExprId]) -> Vec<ExprId> {
+        let mut solution = vec![g.zero(); right.len()];
+        for (position, &k) in self.order.iter().enumerate().rev() {
+            let mut sum = right[k];
+            for &j in &self.order[position + 1..] {
+                let product = g.mul(self.matrix[j][k], solution[j]);
+                sum = g.sub(sum, product);
+            }
+            solution[k] = g.mul(self.reciprocal[k], sum);
+        }
+        solution
+    }
+
+    /// The row with the fewest neighbours among those left; the first among equals.
+    fn least_fill(&self, g: &Graph, left: &[usize]) -> usize {
+        let degree = |k: usize| left.iter().filter(|i| **i != k && !g.is_zero(self.matrix[**i][k])).count();
+        left.iter().copied().min_by_key(|k| degree(*k)).expect("there are rows left")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constrained_system_of_numbers_is_solved() {
+        // Two unit masses held at equal acceleration, a force of 2 on the first: both accelerate with 1.
+        let mut g = Graph::new();
+        let (zero, one, two) = (g.zero(), g.one(), g.constant(2.0));
+        let minus = g.neg(one);
+        let solution =
+            solve(&mut g, &[vec![one, zero], vec![zero, one]], &[vec![one, minus]], &[two, zero], &[zero]);
+        assert_eq!(
+            solution.accelerations.iter().map(|x| g.as_constant(*x)).collect::<Vec<_>>(),
+            [Some(1.0), Some(1.0)]
+        );
+        // M v̇ = f + Jᵀ lambda: 1 = 2 + lambda.
+        assert_eq!(g.as_constant(solution.multipliers[0]), Some(-1.0));
+    }
+}

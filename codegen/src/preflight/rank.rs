@@ -1,0 +1,141 @@
+//! Generic rank of the constraint rows, a well-conditioned independent subset, drivers in conflict.
+//! In: Jacobians at closed positions. Out: which rows to keep. Never knows joints.
+
+use linkwear_runtime::Description;
+use nalgebra::{DMatrix, DVector, RowDVector};
+
+use super::samples::{ClosedPositions, RANK_TOLERANCE};
+
+/// Normalised rows at every position tried.
+pub struct Rows {
+    samples: Vec<DMatrix<f64>>,
+    driven: Vec<usize>,
+}
+
+impl Rows {
+    /// Scales every row to its largest length over all positions, so that rad and m compare.
+    #[must_use]
+    pub fn new(positions: &ClosedPositions, description: &Description) -> Self {
+        let m = description.rows.len();
+        let mut samples: Vec<DMatrix<f64>> =
+            positions.positions.iter().map(|position| position.jacobian.clone()).collect();
+        for row in 0..m {
+            let size = samples.iter().map(|sample| sample.row(row).norm()).fold(0.0, f64::max);
+            if size > 0.0 {
+                for sample in &mut samples {
+                    sample.row_mut(row).scale_mut(1.0 / size);
+                }
+            }
+        }
+        Self { samples, driven: positions.driven_speeds.clone() }
+    }
+
+    /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
+    /// full rank; so the kept rows stay independent along the motion.
+    #[must_use]
+    pub fn independent(&self) -> Vec<bool> {
+        let m = self.samples.first().map_or(0, DMatrix::nrows);
+        let generic = self.generic_samples();
+        let mut rests: Vec<DMatrix<f64>> = generic.iter().map(|at| self.samples[*at].clone()).collect();
+        let mut keep = vec![false; m];
+        loop {
+            let gain =
+                |row: usize| rests.iter().map(|rest| rest.row(row).norm()).fold(f64::INFINITY, f64::min);
+            // Rows within a tenth of the best count as equal: the first in the file's order wins.
+            let gains: Vec<f64> = (0..m).map(|row| if keep[row] { 0.0 } else { gain(row) }).collect();
+            let best = gains.iter().copied().fold(0.0, f64::max);
+            if best <= RANK_TOLERANCE {
+                return keep;
+            }
+            let next = gains.iter().position(|gain| *gain > 0.9 * best).expect("the best is among them");
+            keep[next] = true;
+            for rest in &mut rests {
+                let direction: RowDVector<f64> = rest.row(next).normalize();
+                let along: DVector<f64> = &*rest * direction.transpose();
+                *rest -= along * direction;
+            }
+        }
+    }
+
+    /// Positions where the rank is highest.
+    fn generic_samples(&self) -> Vec<usize> {
+        let ranks: Vec<usize> = self.samples.iter().map(rank).collect();
+        let highest = ranks.iter().copied().max().unwrap_or(0);
+        (0..ranks.len()).filter(|at| ranks[*at] == highest).collect()
+    }
+
+    /// Groups of drivers that the loops couple, each as small as one driver that breaks independence together
+    /// with those it depends on.
+    #[must_use]
+    pub fn driver_conflicts(&self) -> Vec<Vec<usize>> {
+        let Some(at) = self.generic_samples().first().copied() else { return Vec::new() };
+        let n = self.samples[at].ncols();
+        let mut rows = self.samples[at].clone();
+        let mut taken: Vec<usize> = Vec::new();
+        let mut conflicts = Vec::new();
+        for (driver, speed) in self.driven.iter().enumerate() {
+            let before = rank(&rows);
+            let mut with = rows.clone().insert_row(rows.nrows(), 0.0);
+            with[(rows.nrows(), *speed)] = 1.0;
+            if rank(&with) > before {
+                rows = with;
+                taken.push(driver);
+                continue;
+            }
+            let mut group: Vec<usize> =
+                taken.iter().copied().filter(|other| self.coupled(at, n, &taken, *other, *speed)).collect();
+            group.push(driver);
+            conflicts.push(group);
+        }
+        conflicts
+    }
+
+    /// Whether releasing driver `other` frees the speed again.
+    fn coupled(&self, at: usize, n: usize, taken: &[usize], other: usize, speed: usize) -> bool {
+        let held: Vec<usize> =
+            taken.iter().copied().filter(|d| *d != other).map(|d| self.driven[d]).collect();
+        let unit = |index: usize| DMatrix::from_fn(1, n, |_, j| f64::from(u8::from(j == index)));
+        let mut rows = self.samples[at].clone();
+        for index in held {
+            rows = stack(&rows, &unit(index));
+        }
+        rank(&stack(&rows, &unit(speed))) > rank(&rows)
+    }
+}
+
+fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(a.nrows() + b.nrows(), a.ncols(), |i, j| {
+        if i < a.nrows() { a[(i, j)] } else { b[(i - a.nrows(), j)] }
+    })
+}
+
+fn rank(matrix: &DMatrix<f64>) -> usize {
+    if matrix.is_empty() {
+        return 0;
+    }
+    let values = matrix.clone().singular_values();
+    let largest = values.amax();
+    values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_that_repeats_another_is_dropped_and_the_first_kept() {
+        let sample = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0]);
+        let positions = ClosedPositions {
+            positions: vec![super::super::samples::Position { q: Vec::new(), jacobian: sample }],
+            start: Vec::new(),
+            driven_speeds: vec![2],
+        };
+        let rows = Rows {
+            samples: positions.positions.iter().map(|p| p.jacobian.clone()).collect(),
+            driven: vec![2],
+        };
+        assert_eq!(rows.independent().iter().filter(|kept| **kept).count(), 2);
+        // The third speed is held by the third row: driving it is a conflict of one.
+        assert_eq!(rows.driver_conflicts(), vec![vec![0]]);
+    }
+}

@@ -1,0 +1,289 @@
+//! The equations for people: named steps and outputs as text, Markdown or LaTeX, with operation counts.
+//! In: [`Equations`]. Out: text. Never knows tapes' order or Rust syntax.
+
+mod formula;
+
+use std::collections::{BTreeSet, HashMap};
+use std::fmt::Write as _;
+
+use crate::derive::{Block, Equations, Function};
+use crate::expr::{ExprId, Graph, Node};
+use crate::tape::{Operations, Tape, unshared_operations};
+
+use formula::Formula;
+
+/// How equations are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextFormat {
+    /// Plain text.
+    Text,
+    /// Markdown with code blocks.
+    Markdown,
+    /// LaTeX, ready to be included.
+    Latex,
+}
+
+/// One output of one function, with its cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputInfo {
+    /// Function that computes it.
+    pub function: String,
+    /// Name of the output.
+    pub name: String,
+    /// Rows.
+    pub rows: usize,
+    /// Columns.
+    pub cols: usize,
+    /// Operations it needs on its own, common subexpressions computed once.
+    pub operations: Operations,
+    /// Operations with every formula written out in full.
+    pub operations_unshared: Operations,
+}
+
+/// All outputs with their costs, in the order of the functions.
+#[must_use]
+pub fn outputs(equations: &Equations, tapes: &[Tape]) -> Vec<OutputInfo> {
+    let mut list = Vec::new();
+    for (function, tape) in equations.functions.iter().zip(tapes) {
+        for (index, block) in function.outputs.iter().enumerate() {
+            list.push(OutputInfo {
+                function: function.name.clone(),
+                name: block.name.clone(),
+                rows: block.rows,
+                cols: block.columns,
+                operations: tape.operations_of(index),
+                operations_unshared: unshared_operations(&equations.graph, &block.entries),
+            });
+        }
+    }
+    list
+}
+
+/// Whether a user's name means an output: its name, its function's, or `function.output`.
+#[must_use]
+pub fn is_meant(function: &str, output: &str, name: &str) -> bool {
+    output == name || function == name || name.split_once('.') == Some((function, output))
+}
+
+/// Formulas longer than this become a named step.
+const LONG: usize = 48;
+
+/// Writes the chosen outputs (all if `only` is empty).
+#[must_use]
+pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: TextFormat) -> String {
+    let costs = outputs(equations, tapes);
+    let mut text = String::new();
+    for function in &equations.functions {
+        let chosen: Vec<&Block> = function
+            .outputs
+            .iter()
+            .filter(|block| {
+                !block.entries.is_empty()
+                    && (only.is_empty()
+                        || only.iter().any(|name| is_meant(&function.name, &block.name, name)))
+            })
+            .collect();
+        if !chosen.is_empty() {
+            let writer = Writer::new(equations, function, &chosen, format);
+            writer.write(&mut text, &costs);
+        }
+    }
+    text
+}
+
+struct Writer<'a> {
+    graph: &'a Graph,
+    equations: &'a Equations,
+    function: &'a Function,
+    chosen: &'a [&'a Block],
+    format: TextFormat,
+    /// Steps in order, with their names.
+    steps: Vec<ExprId>,
+    names: HashMap<ExprId, String>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(
+        equations: &'a Equations,
+        function: &'a Function,
+        chosen: &'a [&'a Block],
+        format: TextFormat,
+    ) -> Self {
+        let mut writer = Self {
+            graph: &equations.graph,
+            equations,
+            function,
+            chosen,
+            format,
+            steps: Vec::new(),
+            names: HashMap::new(),
+        };
+        writer.choose_steps();
+        writer
+    }
+
+    /// Shared, labelled and long formulas become steps.
+    fn choose_steps(&mut self) {
+        let mut live: BTreeSet<ExprId> = BTreeSet::new();
+        let mut uses: HashMap<ExprId, usize> = HashMap::new();
+        let mut stack: Vec<ExprId> = self.chosen.iter().flat_map(|block| block.entries.clone()).collect();
+        while let Some(id) = stack.pop() {
+            if live.insert(id) {
+                for child in children(self.graph.node(id)) {
+                    *uses.entry(child).or_default() += 1;
+                    stack.push(child);
+                }
+            }
+        }
+        let mut taken: BTreeSet<String> = BTreeSet::new();
+        let mut lengths: HashMap<ExprId, usize> = HashMap::new();
+        let mut number = 0;
+        for id in live {
+            let node = self.graph.node(id);
+            let below: Vec<ExprId> = children(node).collect();
+            if below.is_empty() {
+                lengths.insert(id, 4);
+                continue;
+            }
+            let length = below.iter().map(|child| lengths[child]).sum::<usize>() + 3;
+            let shared = uses.get(&id).copied().unwrap_or(0) > 1 && !self.is_cheap(id);
+            if shared || self.graph.label_of(id).is_some() || length > LONG {
+                let wanted = self.graph.label_of(id).map_or_else(
+                    || {
+                        number += 1;
+                        format!("t{number}")
+                    },
+                    str::to_owned,
+                );
+                let mut name = wanted.clone();
+                let mut again = 2;
+                while !taken.insert(name.clone()) {
+                    name = format!("{wanted}_{again}");
+                    again += 1;
+                }
+                self.names.insert(id, name);
+                self.steps.push(id);
+                lengths.insert(id, 4);
+            } else {
+                lengths.insert(id, length);
+            }
+        }
+    }
+
+    /// A change of sign reads well anywhere.
+    fn is_cheap(&self, id: ExprId) -> bool {
+        matches!(self.graph.node(id), Node::Unary(crate::expr::Unary::Neg, _))
+    }
+
+    fn write(&self, text: &mut String, costs: &[OutputInfo]) {
+        self.heading(text, &self.function.name, &self.function.doc);
+        self.begin_block(text);
+        let mut section = "";
+        for id in &self.steps {
+            let title = self.graph.section(*id);
+            if title != section {
+                section = title;
+                self.comment(text, title);
+            }
+            let right = self.formula().without_name(*id);
+            self.line(text, &self.formula().name(&self.names[id]), &right);
+        }
+        for block in self.chosen {
+            let cost = costs
+                .iter()
+                .find(|info| info.function == self.function.name && info.name == block.name)
+                .expect("every output has a cost");
+            let shape = if block.columns == 1 {
+                block.rows.to_string()
+            } else {
+                format!("{} x {}", block.rows, block.columns)
+            };
+            let citation =
+                if block.citation.is_empty() { String::new() } else { format!(" {}", block.citation) };
+            self.comment(
+                text,
+                &format!(
+                    "{} ({shape}){citation}: {} {} operations shared, {} written out",
+                    block.name, block.doc, cost.operations.total, cost.operations_unshared.total
+                ),
+            );
+            for (index, id) in block.entries.iter().enumerate() {
+                let left = self.formula().entry(&block.name, &self.entry_name(block, index));
+                self.line(text, &left, &self.formula().write(*id));
+            }
+        }
+        self.end_block(text);
+    }
+
+    fn formula(&self) -> Formula<'_> {
+        Formula { graph: self.graph, names: &self.names, format: self.format }
+    }
+
+    /// What an entry is called: after the symbol of the same block where another function reads it.
+    fn entry_name(&self, block: &Block, index: usize) -> String {
+        let read = self.equations.functions.iter().flat_map(|function| &function.inputs).find(|input| {
+            input.entries.len() == block.entries.len()
+                && (input.name == block.name || format!("{}_dot", input.name) == block.name)
+        });
+        let symbol = read.and_then(|input| self.graph.as_symbol(input.entries[index]));
+        match symbol {
+            Some(symbol) => self.graph.symbol_name(symbol).to_owned(),
+            None if block.columns > 1 => {
+                format!("{},{}", index / block.columns + 1, index % block.columns + 1)
+            }
+            None => (index + 1).to_string(),
+        }
+    }
+
+    fn heading(&self, text: &mut String, name: &str, doc: &str) {
+        let escaped = self.formula().plain(doc);
+        let _ = match self.format {
+            TextFormat::Text => writeln!(text, "{name}: {doc}"),
+            TextFormat::Markdown => writeln!(text, "## {name}\n\n{escaped}\n"),
+            TextFormat::Latex => {
+                writeln!(text, "\\subsection*{{{}}}\n{escaped}", self.formula().plain(name))
+            }
+        };
+    }
+
+    fn begin_block(&self, text: &mut String) {
+        match self.format {
+            TextFormat::Text => {}
+            TextFormat::Markdown => text.push_str("```text\n"),
+            TextFormat::Latex => text.push_str("\\begin{flalign*}\n"),
+        }
+    }
+
+    fn end_block(&self, text: &mut String) {
+        text.push_str(match self.format {
+            TextFormat::Text => "\n",
+            TextFormat::Markdown => "```\n\n",
+            TextFormat::Latex => "\\end{flalign*}\n\n",
+        });
+    }
+
+    fn comment(&self, text: &mut String, comment: &str) {
+        let _ = match self.format {
+            TextFormat::Latex => {
+                writeln!(text, "&\\text{{{}}}&\\\\", self.formula().plain(comment))
+            }
+            _ => writeln!(text, "  # {comment}"),
+        };
+    }
+
+    fn line(&self, text: &mut String, left: &str, right: &str) {
+        let _ = match self.format {
+            TextFormat::Latex => writeln!(text, "&{left} = {right}&\\\\"),
+            _ => writeln!(text, "  {left} = {right}"),
+        };
+    }
+}
+
+fn children(node: Node) -> impl Iterator<Item = ExprId> {
+    let (first, second) = match node {
+        Node::Constant(_) | Node::Symbol(_) => (None, None),
+        Node::Unary(_, a) => (Some(a), None),
+        Node::Binary(_, a, b) => (Some(a), Some(b)),
+    };
+    first.into_iter().chain(second)
+}

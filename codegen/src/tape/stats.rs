@@ -1,0 +1,141 @@
+//! Operation counts of tapes, and of expressions before sharing.
+//! In: tapes or graph nodes. Out: [`Operations`].
+
+use std::collections::HashMap;
+use std::ops::AddAssign;
+
+use serde::Serialize;
+
+use crate::expr::{Binary, ExprId, Graph, Node, Unary};
+
+use super::{Op, Tape};
+
+/// Operations by kind. Counts before sharing can be astronomic: sums saturate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Operations {
+    /// Multiplications.
+    pub mul: u64,
+    /// Additions, subtractions and changes of sign.
+    pub add: u64,
+    /// Divisions.
+    pub div: u64,
+    /// Square roots.
+    pub sqrt: u64,
+    /// Sine-cosine pairs.
+    pub sincos: u64,
+    /// Everything else: exp, ln, atan2, intrinsics.
+    pub other: u64,
+    /// Sum.
+    pub total: u64,
+}
+
+impl AddAssign for Operations {
+    fn add_assign(&mut self, other: Self) {
+        self.mul = self.mul.saturating_add(other.mul);
+        self.add = self.add.saturating_add(other.add);
+        self.div = self.div.saturating_add(other.div);
+        self.sqrt = self.sqrt.saturating_add(other.sqrt);
+        self.sincos = self.sincos.saturating_add(other.sincos);
+        self.other = self.other.saturating_add(other.other);
+        self.total = self.total.saturating_add(other.total);
+    }
+}
+
+impl Operations {
+    fn count(&mut self, op: &Op) {
+        match op {
+            Op::Binary(Binary::Mul, ..) => self.mul += 1,
+            Op::Binary(Binary::Add | Binary::Sub, ..) | Op::Unary(Unary::Neg, _) => self.add += 1,
+            Op::Binary(Binary::Div, ..) => self.div += 1,
+            Op::Unary(Unary::Sqrt, _) => self.sqrt += 1,
+            Op::SinCos(_) | Op::Unary(Unary::Sin | Unary::Cos, _) => self.sincos += 1,
+            Op::Unary(..) | Op::Binary(..) => self.other += 1,
+        }
+        self.total += 1;
+    }
+}
+
+impl Tape {
+    /// Operations of the whole tape.
+    #[must_use]
+    pub fn operations(&self) -> Operations {
+        let mut counts = Operations::default();
+        for statement in &self.statements {
+            counts.count(&statement.op);
+        }
+        counts
+    }
+
+    /// Operations that one output block needs on its own.
+    #[must_use]
+    pub fn operations_of(&self, output: usize) -> Operations {
+        let slot = &self.outputs[output];
+        let range = slot.first as u32..(slot.first + slot.len()) as u32;
+        let mut needed = vec![false; self.values as usize];
+        let mark = |needed: &mut Vec<bool>, operand: super::Operand| {
+            if let super::Operand::Value(value) = operand {
+                needed[value as usize] = true;
+            }
+        };
+        let mut counts = Operations::default();
+        for statement in self.statements.iter().rev() {
+            for (index, operand) in &statement.stores {
+                if range.contains(index) {
+                    mark(&mut needed, *operand);
+                }
+            }
+            let results = statement.first..statement.first + statement.op.results();
+            if results.into_iter().any(|value| needed[value as usize]) {
+                counts.count(&statement.op);
+                for operand in statement.op.operands() {
+                    mark(&mut needed, operand);
+                }
+            }
+        }
+        counts
+    }
+}
+
+/// Operations of expressions written out in full, with nothing shared.
+#[must_use]
+pub fn unshared_operations(graph: &Graph, roots: &[ExprId]) -> Operations {
+    let mut known: HashMap<ExprId, Operations> = HashMap::new();
+    let mut sum = Operations::default();
+    for root in roots {
+        sum += tree(graph, *root, &mut known);
+    }
+    sum
+}
+
+fn tree(graph: &Graph, root: ExprId, known: &mut HashMap<ExprId, Operations>) -> Operations {
+    let mut stack = vec![root];
+    while let Some(id) = stack.last().copied() {
+        if known.contains_key(&id) {
+            stack.pop();
+            continue;
+        }
+        let below: Vec<ExprId> = match graph.node(id) {
+            Node::Constant(_) | Node::Symbol(_) => Vec::new(),
+            Node::Unary(_, a) => vec![a],
+            Node::Binary(_, a, b) => vec![a, b],
+        };
+        let missing: Vec<ExprId> = below.iter().copied().filter(|child| !known.contains_key(child)).collect();
+        if !missing.is_empty() {
+            stack.extend(missing);
+            continue;
+        }
+        let mut counts = Operations::default();
+        let zero = super::Operand::Constant(0.0);
+        match graph.node(id) {
+            Node::Unary(operation, _) => counts.count(&Op::Unary(operation, zero)),
+            Node::Binary(operation, ..) => counts.count(&Op::Binary(operation, zero, zero)),
+            _ => {}
+        }
+        for child in below {
+            counts += known[&child];
+        }
+        known.insert(id, counts);
+        stack.pop();
+    }
+    known[&root]
+}

@@ -1,0 +1,49 @@
+//! Draws the picture of the README from a run of the shipped RSSR linkage.
+//! `cargo run --release --example readme_picture` writes `docs/rssr.svg`.
+
+mod drawing;
+
+use std::ops::ControlFlow;
+
+use linkwear::mechanisms::rssr_rigid;
+use linkwear::runtime::{Description, Run, Settings, Span, simulate};
+
+use drawing::Curves;
+
+/// The first turn starts from a guess of the coupler's spin; the picture shows the second.
+const TURNS: f64 = 2.0;
+/// Rows of one turn; a multiple of the number of ghost positions.
+const ROWS_PER_TURN: usize = 240;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mechanism = rssr_rigid::Mechanism::default();
+    let description = rssr_rigid::description();
+    let settings =
+        Settings { span: Span::Turns(TURNS), samples: 2 * ROWS_PER_TURN + 1, ..Settings::default() };
+    let run = simulate(&mechanism, description, &mechanism.parameters(), &settings, &mut |_| {
+        ControlFlow::Continue(())
+    })?;
+    let last = |name: String| -> Result<Vec<f64>, String> {
+        Ok(column(description, &run, &name)?[ROWS_PER_TURN..].to_vec())
+    };
+    let vector = |stem: &str| -> Result<Vec<[f64; 3]>, String> {
+        let (x, y, z) = (last(format!("{stem}x"))?, last(format!("{stem}y"))?, last(format!("{stem}z"))?);
+        Ok((0..x.len()).map(|row| [x[row], y[row], z[row]]).collect())
+    };
+    let length = |v: &[f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let curves = Curves {
+        crank_tip: vector("A.")?,
+        rocker_tip: vector("B.")?,
+        torque: last("R1.drive".to_owned())?,
+        force: vector("R1.F")?.iter().map(length).collect(),
+    };
+    std::fs::write("docs/rssr.svg", drawing::svg(&curves))?;
+    println!("docs/rssr.svg written");
+    Ok(())
+}
+
+fn column(description: &Description, run: &Run, name: &str) -> Result<Vec<f64>, String> {
+    let at = description.channels.iter().position(|channel| channel.name == name);
+    let at = at.ok_or_else(|| format!("no column `{name}`"))?;
+    Ok(run.rows.iter().map(|row| row[at]).collect())
+}

@@ -1,0 +1,167 @@
+//! Applied forces: gravity, joint springs, dampers and actuators, force elements; their powers and
+//! potentials. In: a state. Out: loads on bodies, watts, joules. Never knows constraints.
+
+use linkwear_codegen::id::{JointId, PointId};
+use linkwear_codegen::model::{Carrier, Force, ForceKind, Formula, Passive};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::frame::{BodyState, Load};
+use crate::model::{Frames, Oracle};
+use crate::row::Row;
+
+/// What all applied forces do at one instant.
+#[derive(Clone, Debug)]
+pub(crate) struct Applied {
+    /// Load on every body.
+    pub loads: Vec<Load>,
+    /// Per joint: what springs, dampers and actuators in it do to the child, about the child's centre
+    /// (about W's origin for the ground).
+    pub passive: Vec<Load>,
+    /// By actuators and by point forces and torques [W].
+    pub power_supplied: f64,
+    /// Taken by dampers [W], not negative for positive coefficients.
+    pub power_dissipated: f64,
+    /// Of gravity and springs [J].
+    pub potential: f64,
+}
+
+impl Oracle {
+    /// Potential energy of gravity, joint springs and spring elements [J]; zero for masses at W's origin
+    /// and springs of rest length (of no length, for a preload).
+    #[must_use]
+    pub fn potential_energy(&self, t: f64, states: &[BodyState]) -> f64 {
+        self.applied(t, states).potential
+    }
+
+    /// Power that dampers take away [W].
+    #[must_use]
+    pub fn power_dissipated(&self, t: f64, states: &[BodyState]) -> f64 {
+        self.applied(t, states).power_dissipated
+    }
+
+    pub(crate) fn applied(&self, t: f64, states: &[BodyState]) -> Applied {
+        let mut applied = Applied {
+            loads: vec![Load::default(); self.bodies.len()],
+            passive: Vec::new(),
+            power_supplied: 0.0,
+            power_dissipated: 0.0,
+            potential: 0.0,
+        };
+        for (index, (body, state)) in self.bodies.iter().zip(states).enumerate() {
+            let weight = body.mass * self.gravity;
+            applied.loads[index].force += weight;
+            applied.potential -= weight.dot(&state.centre);
+        }
+        let frames = self.frames(states);
+        for index in 0..self.joints.len() {
+            self.add_passive(JointId::new(index), t, &frames, &mut applied);
+        }
+        for force in &self.mechanism.forces {
+            self.add_element(force, t, &frames, &mut applied);
+        }
+        applied
+    }
+
+    fn add_passive(&self, joint: JointId, t: f64, frames: &Frames<'_>, applied: &mut Applied) {
+        let geometry = &self.joints[joint.index()];
+        let pair = frames.pair(joint);
+        let mut on_child = Load::default();
+        for passive in &self.mechanism.joint(joint).passive {
+            let (row, force) = match passive {
+                Passive::Damping { coefficient, .. } if geometry.scalars() == 0 => {
+                    let c = self.number(coefficient);
+                    for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                        let row = pair.turn(0.0, &axis, &Vector3::zeros());
+                        applied.power_dissipated += c * row.rate * row.rate;
+                        on_child.add(-c * row.rate, &row.child);
+                        applied.push(geometry.parent, geometry.child, -c * row.rate, &row);
+                    }
+                    continue;
+                }
+                Passive::Damping { coordinate, coefficient } => {
+                    let row = geometry.coordinate(*coordinate, &pair);
+                    let force = -self.number(coefficient) * row.rate;
+                    applied.power_dissipated -= force * row.rate;
+                    (row, force)
+                }
+                Passive::Spring { coordinate, stiffness, rest } => {
+                    let row = geometry.coordinate(*coordinate, &pair);
+                    let (k, stretch) = (self.number(stiffness), row.residual - self.number(rest));
+                    applied.potential += 0.5 * k * stretch * stretch;
+                    (row, -k * stretch)
+                }
+                Passive::Actuator { coordinate, force } => {
+                    let row = geometry.coordinate(*coordinate, &pair);
+                    let force = self.law(force, t, frames.states).value;
+                    applied.power_supplied += force * row.rate;
+                    (row, force)
+                }
+            };
+            on_child.add(force, &row.child);
+            applied.push(geometry.parent, geometry.child, force, &row);
+        }
+        applied.passive.push(on_child);
+    }
+
+    fn add_element(&self, force: &Force, t: f64, frames: &Frames<'_>, applied: &mut Applied) {
+        let vector = |components: &[Formula; 3], axes: Carrier| -> Vector3<f64> {
+            let value = Vector3::from(components.each_ref().map(|f| self.law(f, t, frames.states).value));
+            frames.of(axes).state.rotation * value
+        };
+        match &force.kind {
+            ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } => {
+                let ends = [0, 1].map(|k| self.end(bodies[k], at[k], frames));
+                let apart = ends[1].position - ends[0].position;
+                let length = apart.norm();
+                let line = apart / length;
+                let rate = line.dot(&(ends[1].velocity - ends[0].velocity));
+                let stretch = length - self.number(rest);
+                let [k, c, p] = [stiffness, damping, preload].map(|f| self.number(f));
+                let pull = k * stretch + c * rate + p;
+                applied.load(bodies[0], 1.0, &Load::at(&ends[0].arm, &(pull * line)));
+                applied.load(bodies[1], -1.0, &Load::at(&ends[1].arm, &(pull * line)));
+                applied.potential += 0.5 * k * stretch * stretch + p * length;
+                applied.power_dissipated += c * rate * rate;
+            }
+            ForceKind::Force { body, reaction, at, components, axes } => {
+                let push = vector(components, *axes);
+                let place = self.end(*body, *at, frames);
+                let base = frames.of(*reaction);
+                applied.load(*body, 1.0, &Load::at(&place.arm, &push));
+                applied.load(*reaction, -1.0, &Load::at(&(place.position - base.state.centre), &push));
+                let slip = place.velocity - base.velocity_at(&place.position);
+                applied.power_supplied += push.dot(&slip);
+            }
+            ForceKind::Torque { body, reaction, components, axes } => {
+                let torque = vector(components, *axes);
+                let load = Load { force: Vector3::zeros(), torque };
+                applied.load(*body, 1.0, &load);
+                applied.load(*reaction, -1.0, &load);
+                let slip = frames.of(*body).state.omega - frames.of(*reaction).state.omega;
+                applied.power_supplied += torque.dot(&slip);
+            }
+        }
+    }
+
+    fn end(&self, body: Carrier, point: PointId, frames: &Frames<'_>) -> crate::frame::MovingPoint {
+        frames.of(body).point(&self.reference(point, body))
+    }
+
+    /// Inertia of a body about its centre in W axes now [kg m²].
+    pub(crate) fn inertia_now(&self, body: usize, state: &BodyState) -> Matrix3<f64> {
+        state.rotation * self.bodies[body].inertia * state.rotation.transpose()
+    }
+}
+
+impl Applied {
+    fn load(&mut self, carrier: Carrier, scale: f64, load: &Load) {
+        if let Carrier::Body(id) = carrier {
+            self.loads[id.index()].add(scale, load);
+        }
+    }
+
+    fn push(&mut self, parent: Carrier, child: Carrier, force: f64, row: &Row) {
+        self.load(parent, force, &row.parent);
+        self.load(child, force, &row.child);
+    }
+}

@@ -1,0 +1,449 @@
+//! Geometry of one joint: its constraint rows, its coordinates, and placing the child from them.
+//! In: a [`Joint`] and two moving frames. Out: rows and numbers. Never knows trees, cuts or forces.
+
+use std::f64::consts::TAU;
+
+use linkwear_codegen::model::{Axis, Carrier, Joint, JointKind};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use crate::frame::{BodyState, Frame, across, angle_about, rotation_about};
+use crate::row::{Pair, Row};
+
+/// Coordinates and speeds of one joint, child relative to parent.
+///
+/// Revolute `[angle]`, prismatic `[distance]`, cylindrical `[angle, distance]`, screw `[angle]`,
+/// universal `[angle about the parent's axis, angle about the child's axis]`, planar
+/// `[first, second, angle]`: position and speed of equal length, rad and m. Spherical: quaternion of the
+/// relative rotation (scalar first) and relative angular velocity in W. Free: the same, followed by the
+/// child's point relative to the parent's in W [m], and by the velocity, in W, of the child's point
+/// relative to the parent's material there [m/s].
+/// Angles are in (-pi, pi], except a screw's, which its slide makes unique.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointMotion {
+    /// Coordinates.
+    pub position: Vec<f64>,
+    /// Speeds.
+    pub speed: Vec<f64>,
+}
+
+/// A joint with numbers instead of formulas.
+#[derive(Clone, Debug)]
+pub(crate) struct JointGeometry {
+    pub parent: Carrier,
+    pub child: Carrier,
+    pub kind: JointKind,
+    /// Joint point at the reference pose, on the parent's branch and on the child's [m].
+    pub points: [Vector3<f64>; 2],
+    /// Columns: the same right-handed triad as the parent's and as the child's branch describe it. The
+    /// third is the joint's (first) axis.
+    triads: [Matrix3<f64>; 2],
+}
+
+impl JointGeometry {
+    pub fn new(joint: &Joint, points: [Vector3<f64>; 2]) -> Self {
+        let triads = match &joint.kind {
+            JointKind::Revolute(axis)
+            | JointKind::Prismatic(axis)
+            | JointKind::Cylindrical(axis)
+            | JointKind::Screw(axis, _) => triads_about(axis),
+            JointKind::Universal(first, second) => [
+                triad(&Vector3::from(second.parent), &Vector3::from(first.parent)),
+                triad(&Vector3::from(second.child), &Vector3::from(first.child)),
+            ],
+            JointKind::Planar { normal, first } => [
+                triad(&Vector3::from(first.parent), &Vector3::from(normal.parent)),
+                triad(&Vector3::from(first.child), &Vector3::from(normal.child)),
+            ],
+            JointKind::Spherical | JointKind::Fixed | JointKind::Free => [Matrix3::identity(); 2],
+        };
+        Self { parent: joint.parent, child: joint.child, kind: joint.kind.clone(), points, triads }
+    }
+
+    fn parent_axis(&self, k: usize) -> Vector3<f64> {
+        self.triads[0].column(k).into()
+    }
+
+    fn child_axis(&self, k: usize) -> Vector3<f64> {
+        self.triads[1].column(k).into()
+    }
+
+    /// Number of scalar coordinates that may be driven, sprung and damped.
+    pub fn scalars(&self) -> usize {
+        match self.kind {
+            JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
+            JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
+            JointKind::Planar { .. } => 3,
+            JointKind::Spherical | JointKind::Fixed | JointKind::Free => 0,
+        }
+    }
+
+    /// What the joint forbids.
+    pub fn rows(&self, pair: &Pair) -> Vec<Row> {
+        let slides =
+            |axes: &[usize]| -> Vec<Row> { axes.iter().map(|k| pair.slide(&self.parent_axis(*k))).collect() };
+        let upright = || pair.parallel(&self.parent_axis(2), &self.child_axis(2)).to_vec();
+        let locked = || -> Vec<Row> {
+            let cosine = |a, b| pair.cosine(&self.parent_axis(a), &self.child_axis(b), 0.0);
+            vec![cosine(1, 2), cosine(2, 0), cosine(0, 1)]
+        };
+        let together = || pair.together().to_vec();
+        match &self.kind {
+            JointKind::Revolute(_) => [together(), upright()].concat(),
+            JointKind::Prismatic(_) => [slides(&[0, 1]), locked()].concat(),
+            JointKind::Cylindrical(_) => [slides(&[0, 1]), upright()].concat(),
+            JointKind::Screw(_, lead) => {
+                let mut rows = [slides(&[0, 1]), upright()].concat();
+                let along = pair.slide(&self.parent_axis(2));
+                let mut turn = self.turn_about_axis(pair);
+                // The angle is known up to whole turns; the slide says which.
+                let turns = (along.residual / lead - turn.residual / TAU).round();
+                turn.residual += TAU * turns;
+                rows.push(along.plus(-lead / TAU, &turn));
+                rows
+            }
+            JointKind::Universal(first, second) => {
+                let (a, b) = (Vector3::from(first.parent), Vector3::from(second.parent));
+                let mut rows = together();
+                rows.push(pair.cosine(&a, &Vector3::from(second.child), a.dot(&b)));
+                rows
+            }
+            JointKind::Spherical => together(),
+            JointKind::Planar { .. } => [slides(&[2]), upright()].concat(),
+            JointKind::Fixed => [together(), locked()].concat(),
+            JointKind::Free => Vec::new(),
+        }
+    }
+
+    fn turn_about_axis(&self, pair: &Pair) -> Row {
+        let [axis, rate, _] = pair.parent.direction(&self.parent_axis(2));
+        let from = pair.parent.direction(&self.parent_axis(0))[0];
+        let to = pair.child.direction(&self.child_axis(0))[0];
+        pair.turn(angle_about(&axis, &from, &to), &axis, &rate)
+    }
+
+    /// Scalar coordinate `k` as a row: its value, its rate and what moves it.
+    pub fn coordinate(&self, k: usize, pair: &Pair) -> Row {
+        match (&self.kind, k) {
+            (JointKind::Revolute(_), 0) | (JointKind::Cylindrical(_), 0) | (JointKind::Planar { .. }, 2) => {
+                self.turn_about_axis(pair)
+            }
+            (JointKind::Prismatic(_), 0) | (JointKind::Cylindrical(_), 1) => pair.slide(&self.parent_axis(2)),
+            (JointKind::Planar { .. }, _) => pair.slide(&self.parent_axis(k)),
+            (JointKind::Screw(_, lead), 0) => {
+                let mut turn = self.turn_about_axis(pair);
+                turn.residual = pair.slide(&self.parent_axis(2)).residual * TAU / lead;
+                turn
+            }
+            (JointKind::Universal(first, second), _) => universal(first, second, k, pair),
+            _ => unreachable!("`scalars` says how many coordinates there are"),
+        }
+    }
+
+    /// Coordinates and speeds of the joint.
+    pub fn motion(&self, pair: &Pair) -> JointMotion {
+        if matches!(self.kind, JointKind::Spherical | JointKind::Free) {
+            let rotation = pair.parent.state.rotation.transpose() * pair.child.state.rotation;
+            let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+            let mut position = vec![q.w, q.i, q.j, q.k];
+            let mut speed: Vec<f64> = pair.relative_omega().iter().copied().collect();
+            if self.kind == JointKind::Free {
+                let (p, c) = (&pair.parent_point, &pair.child_point);
+                position.extend((c.position - p.position).iter());
+                speed.extend((c.velocity - pair.parent.velocity_at(&c.position)).iter());
+            }
+            return JointMotion { position, speed };
+        }
+        let rows: Vec<Row> = (0..self.scalars()).map(|k| self.coordinate(k, pair)).collect();
+        JointMotion {
+            position: rows.iter().map(|row| row.residual).collect(),
+            speed: rows.iter().map(|row| row.rate).collect(),
+        }
+    }
+
+    /// State of the child (`outward`), or of the parent, that gives the joint this motion when the other
+    /// body moves like `known`. `reference` is the sought body's mass centre at its reference pose.
+    pub fn place(
+        &self,
+        known: &Frame,
+        outward: bool,
+        reference: &Vector3<f64>,
+        motion: &JointMotion,
+    ) -> BodyState {
+        let (turn, shift) = self.displacement(&motion.position);
+        let k = &known.state;
+        let near = usize::from(!outward);
+        let rotation = k.rotation * if outward { turn } else { turn.transpose() };
+        let parent_rotation = if outward { k.rotation } else { rotation };
+        // A free joint's displacement is in W already.
+        let d = if self.kind == JointKind::Free { shift } else { parent_rotation * shift };
+        let point = known.point(&self.points[near]).position + if outward { d } else { -d };
+        let centre = point - rotation * (self.points[1 - near] - reference);
+        // Joint's relative twist at the child's point, in W.
+        let (spin, slip) = self.relative_twist(&parent_rotation, motion);
+        let child_point = if outward { point } else { known.point(&self.points[1]).position };
+        let sign = if outward { 1.0 } else { -1.0 };
+        let omega = k.omega + sign * spin;
+        let meeting = known.velocity_at(&child_point) + sign * slip;
+        let velocity = meeting + omega.cross(&(centre - child_point));
+        BodyState { rotation, centre, omega, velocity }
+    }
+
+    /// Rotation of the child relative to the parent, and the child's point relative to the parent's in
+    /// parent axes (for a free joint in W).
+    fn displacement(&self, q: &[f64]) -> (Matrix3<f64>, Vector3<f64>) {
+        let axis = self.parent_axis(2);
+        let align = self.triads[0] * self.triads[1].transpose();
+        let none = Vector3::zeros();
+        match &self.kind {
+            JointKind::Revolute(_) => (rotation_about(&axis, q[0]) * align, none),
+            JointKind::Prismatic(_) => (align, q[0] * axis),
+            JointKind::Cylindrical(_) => (rotation_about(&axis, q[0]) * align, q[1] * axis),
+            JointKind::Screw(_, lead) => (rotation_about(&axis, q[0]) * align, lead / TAU * q[0] * axis),
+            JointKind::Universal(first, second) => {
+                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+                (rotation_about(&a, q[0]) * rotation_about(&b, q[1]) * align, none)
+            }
+            JointKind::Planar { .. } => {
+                let shift = q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1);
+                (rotation_about(&axis, q[2]) * align, shift)
+            }
+            JointKind::Fixed => (align, none),
+            JointKind::Spherical | JointKind::Free => {
+                let q4 = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+                let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
+                (q4.to_rotation_matrix().into_inner(), shift)
+            }
+        }
+    }
+
+    fn relative_twist(&self, parent: &Matrix3<f64>, motion: &JointMotion) -> (Vector3<f64>, Vector3<f64>) {
+        let v = &motion.speed;
+        let axis = parent * self.parent_axis(2);
+        let none = Vector3::zeros();
+        match &self.kind {
+            JointKind::Revolute(_) => (v[0] * axis, none),
+            JointKind::Prismatic(_) => (none, v[0] * axis),
+            JointKind::Cylindrical(_) => (v[0] * axis, v[1] * axis),
+            JointKind::Screw(_, lead) => (v[0] * axis, lead / TAU * v[0] * axis),
+            JointKind::Universal(first, second) => {
+                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+                let b_now = parent * rotation_about(&a, motion.position[0]) * b;
+                (v[0] * axis + v[1] * b_now, none)
+            }
+            JointKind::Planar { .. } => {
+                let slip = parent * (v[0] * self.parent_axis(0) + v[1] * self.parent_axis(1));
+                (v[2] * axis, slip)
+            }
+            JointKind::Fixed => (none, none),
+            JointKind::Spherical | JointKind::Free => {
+                let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);
+                (Vector3::from_column_slice(&v[..3]), slip)
+            }
+        }
+    }
+}
+
+/// Angle `k` of a universal joint. With `omega = a q1' + b q2'`, a and b at a constant angle, the rate of
+/// one is found by a direction at right angles to the other axis.
+fn universal(first: &Axis, second: &Axis, k: usize, pair: &Pair) -> Row {
+    let parent = |v: &[f64; 3]| pair.parent.direction(&Vector3::from(*v));
+    let child = |v: &[f64; 3]| pair.child.direction(&Vector3::from(*v));
+    let [a, a_rate, _] = parent(&first.parent);
+    let [b, b_rate, _] = child(&second.child);
+    let cosine = Vector3::from(first.parent).dot(&Vector3::from(second.parent));
+    let scale = 1.0 / (1.0 - cosine * cosine);
+    if k == 0 {
+        let value = angle_about(&a, &parent(&second.parent)[0], &b);
+        pair.turn(value, &(scale * (a - cosine * b)), &(scale * (a_rate - cosine * b_rate)))
+    } else {
+        let value = angle_about(&b, &a, &child(&first.child)[0]);
+        pair.turn(value, &(scale * (b - cosine * a)), &(scale * (b_rate - cosine * a_rate)))
+    }
+}
+
+/// Right-handed triad whose third axis is `third` and whose first lies nearest to `first`.
+fn triad(first: &Vector3<f64>, third: &Vector3<f64>) -> Matrix3<f64> {
+    let x = (first - third * third.dot(first)).normalize();
+    Matrix3::from_columns(&[x, third.cross(&x), *third])
+}
+
+/// The same triad about `axis` on both branches; where they differ, the shortest turn takes the child's
+/// axis to the parent's.
+fn triads_about(axis: &Axis) -> [Matrix3<f64>; 2] {
+    let (p, c) = (Vector3::from(axis.parent), Vector3::from(axis.child));
+    let [first, _] = across(&p);
+    let parent = triad(&first, &p);
+    let (v, cosine) = (p.cross(&c), p.dot(&c));
+    let shortest = if cosine < -1.0 + 1e-12 {
+        rotation_about(&first, std::f64::consts::PI)
+    } else {
+        let k = v.cross_matrix();
+        Matrix3::identity() + k + k * k / (1.0 + cosine)
+    };
+    [parent, shortest * parent]
+}
+
+#[cfg(test)]
+mod tests {
+    use linkwear_codegen::id::PointId;
+    use linkwear_codegen::source::Span;
+
+    use super::*;
+    use crate::frame::rotation_by;
+
+    fn kinds() -> Vec<JointKind> {
+        let axis = |v: [f64; 3]| {
+            let unit: [f64; 3] = Vector3::from(v).normalize().into();
+            Axis { parent: unit, child: unit }
+        };
+        let main = axis([0.3, -0.5, 0.8]);
+        vec![
+            JointKind::Revolute(main),
+            JointKind::Prismatic(main),
+            JointKind::Cylindrical(main),
+            JointKind::Screw(main, 0.3),
+            JointKind::Universal(main, axis([0.9, 0.4, -0.2])),
+            JointKind::Spherical,
+            JointKind::Planar { normal: main, first: axis([0.8, 0.0, -0.3]) },
+            JointKind::Fixed,
+            JointKind::Free,
+        ]
+    }
+
+    fn geometry(kind: JointKind) -> JointGeometry {
+        let joint = Joint {
+            name: String::new(),
+            kind,
+            parent: Carrier::Ground,
+            child: Carrier::Ground,
+            at: PointId::new(0),
+            drives: Vec::new(),
+            passive: Vec::new(),
+            span: Span::default(),
+        };
+        JointGeometry::new(&joint, [Vector3::new(0.2, 0.1, -0.3), Vector3::new(0.25, 0.0, -0.1)])
+    }
+
+    /// A body that moves with constant angular velocity and velocity: its accelerations are zero.
+    fn drifting(seed: f64, t: f64) -> Frame {
+        let wave = |k: f64| (7.3 * seed + 2.1 * k).sin();
+        let omega = Vector3::new(wave(1.0), wave(2.0), wave(3.0));
+        let velocity = Vector3::new(wave(4.0), wave(5.0), wave(6.0));
+        let start = rotation_by(&Vector3::new(0.2 * wave(7.0), 0.3 * wave(8.0), 0.2 * wave(9.0)));
+        let state = BodyState {
+            rotation: rotation_by(&(t * omega)) * start,
+            centre: 0.1 * velocity + t * velocity,
+            omega,
+            velocity,
+        };
+        Frame { state, reference: Vector3::new(wave(10.0), wave(11.0), 0.4) }
+    }
+
+    #[test]
+    fn rates_and_biases_are_derivatives_for_every_joint() {
+        for kind in kinds() {
+            let joint = geometry(kind);
+            let rows = |t: f64| {
+                let pair = Pair::new(drifting(0.1, t), drifting(0.4, t), &joint.points);
+                (joint.rows(&pair), pair)
+            };
+            let h = 1e-5;
+            let ((low, _), (now, pair), (high, _)) = (rows(-h), rows(0.0), rows(h));
+            for (k, row) in now.iter().enumerate() {
+                let dot = |load: &crate::frame::Load, frame: &Frame| {
+                    load.force.dot(&frame.state.velocity) + load.torque.dot(&frame.state.omega)
+                };
+                let by_coefficients = dot(&row.parent, &pair.parent) + dot(&row.child, &pair.child);
+                assert!((by_coefficients - row.rate).abs() < 1e-14, "{:?} {k}", joint.kind);
+                // A screw's angle is one only where its axes are parallel; see the next test.
+                if matches!(joint.kind, JointKind::Screw(..)) && k == 4 {
+                    continue;
+                }
+                // Central differences of numbers of order 1: h² and rounding / h, both about 1e-10.
+                let rate = (high[k].residual - low[k].residual) / (2.0 * h);
+                let bias = (high[k].rate - low[k].rate) / (2.0 * h);
+                assert!((rate - row.rate).abs() < 1e-9, "{:?} {k}: {rate} {}", joint.kind, row.rate);
+                assert!((bias - row.bias).abs() < 1e-9, "{:?} {k}: {bias} {}", joint.kind, row.bias);
+            }
+        }
+    }
+
+    #[test]
+    fn accelerations_of_a_placed_body_fit_rows_and_coordinates() {
+        let reference = Vector3::new(0.5, -0.2, 0.3);
+        let (q, v, a) = ([0.4, -0.7, 0.9], [1.3, 0.6, -0.8], [-0.5, 2.0, 0.7]);
+        for kind in kinds() {
+            let joint = geometry(kind);
+            if matches!(joint.kind, JointKind::Spherical | JointKind::Free) {
+                continue;
+            }
+            let placed = |t: f64| {
+                let motion = JointMotion {
+                    position: (0..joint.scalars()).map(|k| q[k] + v[k] * t + 0.5 * a[k] * t * t).collect(),
+                    speed: (0..joint.scalars()).map(|k| v[k] + a[k] * t).collect(),
+                };
+                joint.place(&drifting(0.7, t), true, &reference, &motion)
+            };
+            // Central differences of numbers of order 1: h² and rounding / h, both about 1e-10.
+            let h = 1e-5;
+            let (low, state, high) = (placed(-h), placed(0.0), placed(h));
+            let alpha = (high.omega - low.omega) / (2.0 * h);
+            let acceleration = (high.velocity - low.velocity) / (2.0 * h);
+            let drift = (high.centre - low.centre) / (2.0 * h) - state.velocity;
+            assert!(drift.norm() < 1e-9, "{:?}", joint.kind);
+            let pair = Pair::new(drifting(0.7, 0.0), Frame { state, reference }, &joint.points);
+            let second =
+                |row: &Row| row.child.torque.dot(&alpha) + row.child.force.dot(&acceleration) + row.bias;
+            for row in joint.rows(&pair) {
+                assert!(second(&row).abs() < 1e-8, "{:?} {}", joint.kind, second(&row));
+            }
+            for (k, asked) in a.iter().enumerate().take(joint.scalars()) {
+                let row = joint.coordinate(k, &pair);
+                assert!((second(&row) - asked).abs() < 1e-8, "{:?} {k} {}", joint.kind, second(&row));
+            }
+        }
+    }
+
+    #[test]
+    fn placing_a_body_gives_the_joint_the_motion_asked_for() {
+        for kind in kinds() {
+            let joint = geometry(kind);
+            let known = drifting(0.7, 0.3);
+            let reference = Vector3::new(0.5, -0.2, 0.3);
+            let round = matches!(joint.kind, JointKind::Spherical | JointKind::Free);
+            let (mut position, mut speed) = (vec![0.4, -0.7, 0.9], vec![1.3, 0.6, -0.8]);
+            if round {
+                let q = UnitQuaternion::new(Vector3::new(0.4, -0.7, 0.9));
+                position = vec![q.w, q.i, q.j, q.k, 0.3, 0.2, -0.5];
+                speed.extend([0.4, 1.2, -0.3]);
+                if joint.kind == JointKind::Spherical {
+                    position.truncate(4);
+                    speed.truncate(3);
+                }
+            } else {
+                position.truncate(joint.scalars());
+                speed.truncate(joint.scalars());
+            }
+            let asked = JointMotion { position, speed };
+            for outward in [true, false] {
+                let state = joint.place(&known, outward, &reference, &asked);
+                let found = Frame { state, reference };
+                let pair = if outward {
+                    Pair::new(known, found, &joint.points)
+                } else {
+                    Pair::new(found, known, &joint.points)
+                };
+                let got = joint.motion(&pair);
+                let pairs =
+                    asked.position.iter().zip(&got.position).chain(asked.speed.iter().zip(&got.speed));
+                for (a, b) in pairs {
+                    // Rounding of a few matrix products.
+                    assert!((a - b).abs() < 1e-13, "{:?} {outward}: {asked:?} {got:?}", joint.kind);
+                }
+                for row in joint.rows(&pair) {
+                    assert!(row.residual.abs() < 1e-14 && row.rate.abs() < 1e-14, "{:?}", joint.kind);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! An independent numeric model of a mechanism: the oracle of linkwear's tests.
+//!
+//! The generator derives equations symbolically, in joint coordinates, along a spanning tree. This crate
+//! answers the same questions in another way, so that a mistake in one is not repeated in the other:
+//! every body has six absolute coordinates, every joint is a set of constraint rows, and
+//! `[M Gᵀ; G 0]` is solved by singular values. It knows no tree, no cut joint and no symbol.
+//! Both share only the description, [`linkwear_codegen::model::Mechanism`].
+//!
+//! In: a mechanism and parameter values. Out: accelerations, wrenches, energies, trajectories.
+
+mod assemble;
+mod channels;
+pub mod closed_form;
+mod force;
+mod frame;
+mod integrate;
+mod jet;
+mod joint;
+mod least_norm;
+mod mass;
+mod model;
+pub mod random;
+mod row;
+mod solve;
+
+pub use assemble::{AssemblyError, Wish};
+pub use frame::{BodyState, Load};
+pub use integrate::{IntegrationError, Tolerance};
+pub use jet::{Jet, State, evaluate};
+pub use joint::JointMotion;
+pub use mass::MassProperties;
+pub use model::{Oracle, OracleError};
+pub use solve::{Solution, Wrench};

@@ -1,0 +1,330 @@
+//! The oracle: a mechanism with numbers, and what can be read off its state.
+//! In: [`Mechanism`] and parameter values. Out: positions, joint coordinates, residuals, energies.
+//! Never knows how accelerations are solved for.
+
+use linkwear_codegen::id::{BodyId, JointId, PointId};
+use linkwear_codegen::model::{Carrier, Formula, JointKind, Mechanism, Passive};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::frame::{BodyState, Frame};
+use crate::jet::{Jet, State, evaluate};
+use crate::joint::{JointGeometry, JointMotion};
+use crate::mass::MassProperties;
+use crate::row::{Pair, Row};
+
+/// Why a mechanism cannot be modelled.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum OracleError {
+    /// A mass is not positive or an inertia not positive definite.
+    #[error("body {body}: mass {mass} kg or its inertia is not positive")]
+    NotPositive {
+        /// Name of the body.
+        body: String,
+        /// Its mass [kg].
+        mass: f64,
+    },
+    /// A formula that must be constant depends on time or state.
+    #[error("a formula of {element} must not depend on time or state")]
+    NotConstant {
+        /// Name of the element.
+        element: String,
+    },
+    /// A drive, spring, damper or actuator on a coordinate that the joint does not have.
+    #[error("joint {joint} has no scalar coordinate {coordinate}")]
+    NoCoordinate {
+        /// Name of the joint.
+        joint: String,
+        /// The coordinate asked for.
+        coordinate: usize,
+    },
+}
+
+/// A mechanism with numbers in place of formulas that are constant.
+#[derive(Clone, Debug)]
+pub struct Oracle {
+    /// The description.
+    pub mechanism: Mechanism,
+    /// Values of all parameters, file order, SI.
+    pub parameters: Vec<f64>,
+    /// Bodies in file order.
+    pub bodies: Vec<MassProperties>,
+    /// Singular values below this share of the largest count as zero. Rows are scaled to equal length
+    /// first. Default 1e-9: redundant rows of a closed configuration leave about 1e-12.
+    pub rank_tolerance: f64,
+    pub(crate) gravity: Vector3<f64>,
+    pub(crate) joints: Vec<JointGeometry>,
+}
+
+/// States of all bodies, with the ground beside them.
+#[derive(Clone, Copy)]
+pub(crate) struct Frames<'a> {
+    pub oracle: &'a Oracle,
+    pub states: &'a [BodyState],
+}
+
+impl Oracle {
+    /// A numeric model of `mechanism` with `parameters` (all of them, file order, SI).
+    ///
+    /// # Errors
+    /// If a mass is not positive, or a formula that must be constant is not.
+    pub fn new(mechanism: &Mechanism, parameters: &[f64]) -> Result<Self, OracleError> {
+        check_constants(mechanism, parameters)?;
+        let place =
+            |formulas: &[Formula; 3]| Vector3::from(formulas.each_ref().map(|f| number(f, parameters)));
+        let position = |point: PointId, carrier| place(mechanism.point(point).position_for(carrier));
+        let mut bodies = Vec::new();
+        for (index, body) in mechanism.bodies.iter().enumerate() {
+            let carrier = Carrier::Body(BodyId::new(index));
+            let at = |point| position(point, carrier);
+            let matter = MassProperties::new(&body.inertia, &at, &|f| number(f, parameters));
+            if matter.mass.is_nan() || matter.mass <= 0.0 || matter.inertia.cholesky().is_none() {
+                return Err(OracleError::NotPositive { body: body.name.clone(), mass: matter.mass });
+            }
+            bodies.push(matter);
+        }
+        let joints = mechanism
+            .joints
+            .iter()
+            .map(|joint| {
+                let points = [joint.parent, joint.child].map(|carrier| position(joint.at, carrier));
+                JointGeometry::new(joint, points)
+            })
+            .collect::<Vec<_>>();
+        check_coordinates(mechanism, &joints)?;
+        Ok(Self {
+            gravity: place(&mechanism.gravity),
+            mechanism: mechanism.clone(),
+            parameters: parameters.to_vec(),
+            bodies,
+            rank_tolerance: 1e-9,
+            joints,
+        })
+    }
+
+    /// As [`Oracle::new`], with the parameter values of the file.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn with_defaults(mechanism: &Mechanism) -> Result<Self, OracleError> {
+        let values: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
+        Self::new(mechanism, &values)
+    }
+
+    /// All bodies at rest in their reference poses; loops may be open.
+    #[must_use]
+    pub fn reference_states(&self) -> Vec<BodyState> {
+        let rest = Frame::ground().state;
+        self.bodies.iter().map(|body| BodyState { centre: body.centre, ..rest }).collect()
+    }
+
+    /// Position [m] and velocity [m/s] in W of a named point, as material of its carrier.
+    #[must_use]
+    pub fn point(&self, point: PointId, states: &[BodyState]) -> (Vector3<f64>, Vector3<f64>) {
+        let frames = self.frames(states);
+        let carrier = self.mechanism.point(point).carrier;
+        let moving = frames.of(carrier).point(&self.reference(point, carrier));
+        (moving.position, moving.velocity)
+    }
+
+    /// Coordinates and speeds of a joint, tree or cut alike.
+    #[must_use]
+    pub fn joint_motion(&self, joint: JointId, states: &[BodyState]) -> JointMotion {
+        self.joints[joint.index()].motion(&self.frames(states).pair(joint))
+    }
+
+    /// Position in W [m] of a joint's point on the child.
+    #[must_use]
+    pub fn joint_point(&self, joint: JointId, states: &[BodyState]) -> Vector3<f64> {
+        self.frames(states).pair(joint).child_point.position
+    }
+
+    /// Largest violation of joints and drives [m or rad] at time `t`.
+    #[must_use]
+    pub fn constraint_residual(&self, t: f64, states: &[BodyState]) -> f64 {
+        self.rows(t, states).iter().fold(0.0, |worst, (_, row)| worst.max(row.residual.abs()))
+    }
+
+    /// Largest violation of joints and drives by speeds [m/s or rad/s] at time `t`.
+    #[must_use]
+    pub fn velocity_residual(&self, t: f64, states: &[BodyState]) -> f64 {
+        self.rows(t, states).iter().fold(0.0, |worst, (_, row)| worst.max(row.rate.abs()))
+    }
+
+    /// Kinetic energy [J].
+    #[must_use]
+    pub fn kinetic_energy(&self, states: &[BodyState]) -> f64 {
+        let energy = |(body, s): (&MassProperties, &BodyState)| {
+            let spin = s.rotation.transpose() * s.omega;
+            0.5 * (body.mass * s.velocity.norm_squared() + spin.dot(&(body.inertia * spin)))
+        };
+        self.bodies.iter().zip(states).map(energy).sum()
+    }
+
+    /// All rows with the joint they belong to, joint by joint: constraints first, then drives.
+    pub(crate) fn rows(&self, t: f64, states: &[BodyState]) -> Vec<(JointId, Row)> {
+        let frames = self.frames(states);
+        let mut rows = Vec::new();
+        for index in 0..self.joints.len() {
+            let joint = JointId::new(index);
+            let pair = frames.pair(joint);
+            rows.extend(self.joints[index].rows(&pair).into_iter().map(|row| (joint, row)));
+            for drive in &self.mechanism.joints[index].drives {
+                let law = self.law(&drive.law, t, states);
+                let coordinate = self.joints[index].coordinate(drive.coordinate, &pair);
+                rows.push((joint, self.driven(joint, drive.coordinate, coordinate, &law)));
+            }
+        }
+        rows
+    }
+
+    /// The row `coordinate - law`, to the nearest whole turn.
+    pub(crate) fn driven(&self, joint: JointId, k: usize, mut coordinate: Row, law: &Jet) -> Row {
+        coordinate.residual -= law.value;
+        if self.wraps(joint, k) {
+            let turns = (coordinate.residual / std::f64::consts::TAU).round();
+            coordinate.residual -= turns * std::f64::consts::TAU;
+        }
+        coordinate.rate -= law.first;
+        coordinate.bias -= law.second;
+        coordinate
+    }
+
+    /// Whether a coordinate is an angle known only up to whole turns.
+    fn wraps(&self, joint: JointId, k: usize) -> bool {
+        matches!(
+            (&self.joints[joint.index()].kind, k),
+            (JointKind::Revolute(_) | JointKind::Universal(..), _)
+                | (JointKind::Cylindrical(_), 0)
+                | (JointKind::Planar { .. }, 2)
+        )
+    }
+
+    /// Value and time derivatives of a formula in the present state.
+    pub(crate) fn law(&self, formula: &Formula, t: f64, states: &[BodyState]) -> Jet {
+        evaluate(&formula.term, &self.parameters, t, &self.frames(states))
+    }
+
+    /// Value of a constant formula; checked by `new`.
+    pub(crate) fn number(&self, formula: &Formula) -> f64 {
+        number(formula, &self.parameters)
+    }
+
+    /// Where a point is at the reference pose of `carrier`'s branch.
+    pub(crate) fn reference(&self, point: PointId, carrier: Carrier) -> Vector3<f64> {
+        let position = self.mechanism.point(point).position_for(carrier);
+        Vector3::from(position.each_ref().map(|f| self.number(f)))
+    }
+
+    pub(crate) fn frames<'a>(&'a self, states: &'a [BodyState]) -> Frames<'a> {
+        Frames { oracle: self, states }
+    }
+}
+
+impl Frames<'_> {
+    pub fn of(&self, carrier: Carrier) -> Frame {
+        match carrier {
+            Carrier::Ground => Frame::ground(),
+            Carrier::Body(id) => {
+                let reference = self.oracle.bodies[id.index()].centre;
+                Frame { state: self.states[id.index()], reference }
+            }
+        }
+    }
+
+    pub fn pair(&self, joint: JointId) -> Pair {
+        let geometry = &self.oracle.joints[joint.index()];
+        Pair::new(self.of(geometry.parent), self.of(geometry.child), &geometry.points)
+    }
+}
+
+impl State for Frames<'_> {
+    fn joint_position(&self, joint: JointId, coordinate: usize) -> f64 {
+        self.oracle.joint_motion(joint, self.states).position[coordinate]
+    }
+    fn joint_speed(&self, joint: JointId, coordinate: usize) -> f64 {
+        self.oracle.joint_motion(joint, self.states).speed[coordinate]
+    }
+    fn point_position(&self, point: PointId, component: usize) -> f64 {
+        self.oracle.point(point, self.states).0[component]
+    }
+    fn point_speed(&self, point: PointId, component: usize) -> f64 {
+        self.oracle.point(point, self.states).1[component]
+    }
+}
+
+/// Value of a formula that `check_constants` has seen.
+fn number(formula: &Formula, parameters: &[f64]) -> f64 {
+    formula.value(parameters).unwrap_or(f64::NAN)
+}
+
+fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Result<(), OracleError> {
+    use linkwear_codegen::model::{Amount, ForceKind, Inertia, Position};
+    let check = |element: &str, formulas: &[&Formula]| {
+        if formulas.iter().all(|formula| formula.value(parameters).is_some()) {
+            Ok(())
+        } else {
+            Err(OracleError::NotConstant { element: element.to_owned() })
+        }
+    };
+    check("gravity", &mechanism.gravity.each_ref())?;
+    for point in &mechanism.points {
+        match &point.position {
+            Position::Shared(position) => check(&point.name, &position.each_ref())?,
+            Position::PerBody(positions) => {
+                positions.iter().try_for_each(|(_, p)| check(&point.name, &p.each_ref()))?;
+            }
+        }
+    }
+    for body in &mechanism.bodies {
+        let amount = |amount: &Amount| match amount {
+            Amount::Density(formula) | Amount::Mass(formula) => check(&body.name, &[formula]),
+        };
+        match &body.inertia {
+            Inertia::Rod { radius, inner_radius, amount: much, .. } => {
+                amount(much)?;
+                check(&body.name, &[radius, inner_radius])?;
+            }
+            Inertia::Box { width, amount: much, .. } => {
+                amount(much)?;
+                check(&body.name, &width.each_ref())?;
+            }
+            Inertia::Given { mass, inertia, .. } => {
+                check(&body.name, &[mass])?;
+                check(&body.name, &inertia.each_ref())?;
+            }
+        }
+    }
+    for joint in &mechanism.joints {
+        for passive in &joint.passive {
+            match passive {
+                Passive::Damping { coefficient, .. } => check(&joint.name, &[coefficient])?,
+                Passive::Spring { stiffness, rest, .. } => check(&joint.name, &[stiffness, rest])?,
+                Passive::Actuator { .. } => {}
+            }
+        }
+    }
+    for force in &mechanism.forces {
+        if let ForceKind::Spring { stiffness, rest, damping, preload, .. } = &force.kind {
+            check(&force.name, &[stiffness, rest, damping, preload])?;
+        }
+    }
+    Ok(())
+}
+
+fn check_coordinates(mechanism: &Mechanism, joints: &[JointGeometry]) -> Result<(), OracleError> {
+    for (joint, geometry) in mechanism.joints.iter().zip(joints) {
+        let round = matches!(geometry.kind, JointKind::Spherical);
+        let drives = joint.drives.iter().map(|drive| drive.coordinate);
+        let passive = joint.passive.iter().filter_map(|passive| match passive {
+            Passive::Damping { coordinate, .. } if round && *coordinate == 0 => None,
+            Passive::Damping { coordinate, .. }
+            | Passive::Spring { coordinate, .. }
+            | Passive::Actuator { coordinate, .. } => Some(*coordinate),
+        });
+        if let Some(coordinate) = drives.chain(passive).find(|k| *k >= geometry.scalars()) {
+            return Err(OracleError::NoCoordinate { joint: joint.name.clone(), coordinate });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! Energy balance of the oracle: what is supplied, dissipated and stored adds up, for every joint kind
+//! and force element.
+
+mod sketch;
+
+use linkwear_codegen::model::{Carrier, ForceKind, Function, JointKind, Passive, Term};
+use linkwear_oracle::{BodyState, Oracle};
+use nalgebra::Vector3;
+use sketch::{Sketch, axis, formula, law, number};
+
+/// All joint kinds, oblique axes.
+fn kinds() -> Vec<JointKind> {
+    let main = axis([0.3, -0.5, 0.8]);
+    vec![
+        JointKind::Revolute(main),
+        JointKind::Prismatic(main),
+        JointKind::Cylindrical(main),
+        JointKind::Screw(main, 0.7),
+        JointKind::Universal(main, axis([0.9, 0.4, -0.2])),
+        JointKind::Spherical,
+        JointKind::Planar { normal: main, first: axis([0.8, 0.0, -0.3]) },
+        JointKind::Fixed,
+        JointKind::Free,
+    ]
+}
+
+fn scalars(kind: &JointKind) -> usize {
+    match kind {
+        JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
+        JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
+        JointKind::Planar { .. } => 3,
+        _ => 0,
+    }
+}
+
+/// Ground - spherical - body - `kind` - body, everything applied at once.
+fn two_bodies(kind: JointKind) -> Oracle {
+    let mut s = Sketch::new([0.4, -9.0, 1.0]);
+    let a = s.body(1.2, [0.2, -0.1, 0.3], [0.03, 0.05, 0.04]);
+    let b = s.body(0.7, [0.6, 0.1, 0.2], [0.02, 0.01, 0.025]);
+    let ball = s.joint(JointKind::Spherical, Carrier::Ground, a, [0.0; 3]);
+    s.passive(ball, Passive::Damping { coordinate: 0, coefficient: number(0.05) });
+    let count = scalars(&kind);
+    let round = kind == JointKind::Spherical;
+    let at = [0.4, 0.0, 0.25];
+    let joint = s.joint(kind, a, b, at);
+    for k in 0..count {
+        let k64 = k as f64;
+        s.passive(joint, Passive::Damping { coordinate: k, coefficient: number(0.1 + 0.02 * k64) });
+        let rest = number(0.1 * k64);
+        s.passive(joint, Passive::Spring { coordinate: k, stiffness: number(3.0 + k64), rest });
+        s.passive(joint, Passive::Actuator { coordinate: k, force: law(0.2, 0.1, 0.3) });
+    }
+    if round {
+        s.passive(joint, Passive::Damping { coordinate: 0, coefficient: number(0.1) });
+    }
+    let (p, q) = (s.point([0.3, 0.2, 0.1]), s.point([0.9, -0.2, 0.4]));
+    s.force(ForceKind::Spring {
+        bodies: [a, b],
+        at: [p, q],
+        stiffness: number(20.0),
+        rest: number(0.4),
+        damping: number(0.6),
+        preload: number(1.5),
+    });
+    let speed = Term::PointSpeed(q, 1);
+    let slowing = formula(Term::Neg(Box::new(Term::Call(Function::Tanh, vec![speed]))));
+    s.force(ForceKind::Force {
+        body: b,
+        reaction: a,
+        at: q,
+        components: [law(0.5, 0.0, 1.0), slowing, number(0.3)],
+        axes: a,
+    });
+    s.force(ForceKind::Torque {
+        body: a,
+        reaction: b,
+        components: [number(0.1), law(0.0, 0.0, 0.2), number(-0.1)],
+        axes: b,
+    });
+    Oracle::with_defaults(&s.0).expect("a sound sketch")
+}
+
+fn moving(oracle: &Oracle) -> Vec<BodyState> {
+    let mut guess = oracle.reference_states();
+    for (k, state) in guess.iter_mut().enumerate() {
+        let k = k as f64;
+        state.omega = Vector3::new(0.5 - k, 1.1, 0.3 + 0.4 * k);
+        state.velocity = Vector3::new(0.2, -0.3 * k, 0.7);
+    }
+    oracle.assemble(0.0, &guess, &[]).expect("one joint in reach of the reference pose")
+}
+
+/// Power balance at one state: d/dt (T + V) by central difference along the motion.
+fn imbalance(oracle: &Oracle, t: f64, states: &[BodyState]) -> f64 {
+    let solution = oracle.accelerations(t, states);
+    let shifted = |h: f64| -> Vec<BodyState> {
+        let step = |(body, s): (usize, &BodyState)| {
+            let (alpha, acceleration) = (solution.alpha[body], solution.acceleration[body]);
+            let turn = h * s.omega + 0.5 * h * h * alpha;
+            let rotation = nalgebra::Rotation3::from_scaled_axis(turn).into_inner() * s.rotation;
+            BodyState {
+                rotation,
+                centre: s.centre + h * s.velocity + 0.5 * h * h * acceleration,
+                omega: s.omega + h * alpha,
+                velocity: s.velocity + h * acceleration,
+            }
+        };
+        states.iter().enumerate().map(step).collect()
+    };
+    let energy = |h: f64| {
+        let states = shifted(h);
+        oracle.kinetic_energy(&states) + oracle.potential_energy(t, &states)
+    };
+    // Richardson's fourth-order difference: the shifted states lack jerk, an error of order h².
+    let h = 1e-4;
+    let slope = |h: f64| (energy(h) - energy(-h)) / (2.0 * h);
+    (4.0 * slope(h) - slope(2.0 * h)) / 3.0 - (solution.power_supplied - solution.power_dissipated)
+}
+
+#[test]
+fn power_is_balanced_for_every_joint_kind() {
+    for kind in kinds() {
+        let oracle = two_bodies(kind.clone());
+        let states = moving(&oracle);
+        assert!(oracle.power_dissipated(0.0, &states) > 0.0);
+        // Difference of joules of order 10: rounding / h is 1e-11, h⁴ times fifth derivatives is less.
+        let off = imbalance(&oracle, 0.3, &states);
+        assert!(off.abs() < 1e-9, "{kind:?}: {off} W");
+    }
+}
+
+#[test]
+fn joints_move_as_drives_say_and_drives_pay_for_it() {
+    for kind in kinds().into_iter().filter(|kind| scalars(kind) > 0) {
+        let mut sketch = two_bodies(kind.clone()).mechanism;
+        for k in 0..scalars(&kind) {
+            let law = law(0.0, 0.3, 0.2 + 0.1 * k as f64);
+            sketch.joints[1].drives.push(linkwear_codegen::model::Drive { coordinate: k, law });
+        }
+        let oracle = Oracle::with_defaults(&sketch).expect("a sound sketch");
+        let states = moving(&oracle);
+        let off = imbalance(&oracle, 0.0, &states);
+        // As above.
+        assert!(off.abs() < 1e-9, "{kind:?}: {off} W");
+        let solution = oracle.accelerations(0.0, &states);
+        assert_eq!(solution.drives.len(), scalars(&kind));
+        assert_eq!(solution.rank, solution.rows, "{kind:?}");
+    }
+}
+
+#[test]
+fn conservative_motion_keeps_its_energy_along_a_trajectory() {
+    let mut mechanism = two_bodies(kinds()[4].clone()).mechanism;
+    for joint in &mut mechanism.joints {
+        joint.passive.retain(|passive| matches!(passive, Passive::Spring { .. }));
+    }
+    mechanism.forces.clear();
+    let oracle = Oracle::with_defaults(&mechanism).expect("a sound sketch");
+    let start = moving(&oracle);
+    let total = |t: f64, s: &[BodyState]| oracle.kinetic_energy(s) + oracle.potential_energy(t, s);
+    let end = oracle.integrate(0.0, 1.0, &start, linkwear_oracle::Tolerance(1e-12)).expect("smooth");
+    // 1e-12 per step, some ten steps, joules of order 10.
+    assert!((total(1.0, &end) - total(0.0, &start)).abs() < 1e-9);
+    assert!(oracle.constraint_residual(1.0, &end) < 1e-12);
+    assert!(oracle.velocity_residual(1.0, &end) < 1e-10);
+}

@@ -1,0 +1,226 @@
+//! Gauss-Newton on the loop residuals. In: a guess and which coordinates are held. Out: closed loops.
+//! Works on all rows, because kept rows alone can vanish at a position the dropped ones forbid (a Bennett
+//! linkage keeps 2 of 5); the Jacobian of dropped rows comes from central differences. Kept rows polish.
+
+use super::{ASSEMBLED, frozen};
+use crate::layout::turn;
+use crate::linear::{Orthogonal, dot, largest};
+use crate::{AssemblyError, Evaluator};
+
+const MAX_ITERATIONS: usize = 60;
+/// Singular values below this part of the largest are not followed; first strict, then bolder when stuck.
+const TOLERANCES: [f64; 3] = [1e-8, 1e-4, 1e-2];
+/// Longest step of an angle [rad]; lengths may move by this much times the longest lever arm.
+const LONGEST_STEP: f64 = 0.5;
+/// Half width of the central differences: truncation 1e-12, rounding 1e-10, of the arm's length.
+const DIFFERENCE: f64 = 1e-6;
+/// All rows this small: only kept rows, whose Jacobian is exact, go on.
+const POLISH: f64 = 1e-9;
+
+/// One attempt to close the loops.
+pub(super) struct Newton<'e, 'a> {
+    evaluator: &'e mut Evaluator<'a>,
+    t: f64,
+    guess: Vec<f64>,
+    wish: Vec<f64>,
+    held: Vec<bool>,
+    columns: Vec<bool>,
+    pose_rows: Vec<(usize, usize, usize)>,
+    angles: Vec<bool>,
+    iterations: usize,
+    decomposition: Orthogonal,
+}
+
+impl<'e, 'a> Newton<'e, 'a> {
+    pub(super) fn new(
+        evaluator: &'e mut Evaluator<'a>,
+        t: f64,
+        guess: &[f64],
+        wish: &[f64],
+        held: &[bool],
+    ) -> Self {
+        let (columns, pose_rows) = frozen(evaluator, held);
+        let angles =
+            evaluator.description().speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect();
+        let rows = evaluator.sizes().all_rows + pose_rows.len();
+        let decomposition = Orthogonal::new(rows, evaluator.sizes().speeds);
+        Self {
+            evaluator,
+            t,
+            guess: guess.to_vec(),
+            wish: wish.to_vec(),
+            held: held.to_vec(),
+            columns,
+            pose_rows,
+            angles,
+            iterations: 0,
+            decomposition,
+        }
+    }
+
+    pub(super) fn run(mut self) -> Result<Vec<f64>, AssemblyError> {
+        let mut q = self.guess.clone();
+        let mut residual = self.residuals(&q);
+        if let Some(row) = residual.iter().position(|x| !x.is_finite()) {
+            let joint = self.evaluator.joint_of_row(row);
+            return Err(AssemblyError::NonFinite { what: format!("loop residual of {joint}") });
+        }
+        let mut boldness = 0;
+        while largest(&residual) > POLISH && self.iterations < MAX_ITERATIONS && boldness < TOLERANCES.len() {
+            self.iterations += 1;
+            let delta = self.step(&q, &residual, TOLERANCES[boldness]);
+            match self.search(&q, &residual, &delta) {
+                Some(better) => (q, residual) = better,
+                None => boldness += 1,
+            }
+        }
+        if largest(&residual) <= POLISH {
+            self.polish(&mut q);
+        }
+        self.evaluator.closure(self.t, &q, &self.wish);
+        let error = self.evaluator.loop_error();
+        // Rounding of large coordinates moves the loops by about their last place.
+        if error.metres.max(error.radians) <= ASSEMBLED + 4.0 * f64::EPSILON * largest(&q) {
+            return Ok(q);
+        }
+        Err(AssemblyError::NoConvergence {
+            iterations: self.iterations,
+            joint: self.evaluator.joint_of_row(error.worst),
+            meaning: self.evaluator.description().rows[error.worst].meaning.to_string(),
+            residual_m: error.metres,
+            residual_rad: error.radians,
+        })
+    }
+
+    fn residuals(&mut self, q: &[f64]) -> Vec<f64> {
+        self.evaluator.closure(self.t, q, &self.wish).positions.to_vec()
+    }
+
+    /// Minimum-norm step, limited in length.
+    fn step(&mut self, q: &[f64], residual: &[f64], tolerance: f64) -> Vec<f64> {
+        let jacobian = self.full_jacobian(q);
+        let longest_arm = jacobian.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let mut delta = self.least_squares(q, jacobian, residual, tolerance);
+        let shrink = delta.iter().zip(&self.angles).fold(1.0_f64, |shrink, (step, angle)| {
+            let limit = if *angle { LONGEST_STEP } else { LONGEST_STEP * longest_arm };
+            if step.abs() > limit { shrink.min(limit / step.abs()) } else { shrink }
+        });
+        delta.iter_mut().for_each(|x| *x *= shrink);
+        delta
+    }
+
+    fn least_squares(
+        &mut self,
+        q: &[f64],
+        mut jacobian: Vec<f64>,
+        residual: &[f64],
+        tolerance: f64,
+    ) -> Vec<f64> {
+        let n = self.columns.len();
+        let mut delta = vec![0.0; n];
+        if n == 0 {
+            return delta;
+        }
+        for row in jacobian.chunks_exact_mut(n) {
+            for (entry, frozen) in row.iter_mut().zip(&self.columns) {
+                if *frozen {
+                    *entry = 0.0;
+                }
+            }
+        }
+        let mut right: Vec<f64> = residual.iter().map(|x| -x).collect();
+        for (at, speed, component) in &self.pose_rows {
+            // The held component in W is a row of the rotation matrix times the body's velocity.
+            let mut row = vec![0.0; n];
+            let quaternion = [q[*at], q[at + 1], q[at + 2], q[at + 3]];
+            for axis in 0..3 {
+                let unit = core::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
+                row[speed + 3 + axis] = turn(quaternion, unit)[*component];
+            }
+            jacobian.extend(row);
+            right.push(0.0);
+        }
+        self.decomposition.factor(&jacobian, right.len(), n, tolerance);
+        self.decomposition.solve(&right, &mut delta);
+        delta
+    }
+
+    /// Jacobian of all rows: exact for kept ones, central differences for dropped ones.
+    fn full_jacobian(&mut self, q: &[f64]) -> Vec<f64> {
+        let (n, all) = (self.columns.len(), self.evaluator.sizes().all_rows);
+        let mut jacobian = vec![0.0; all * n];
+        if self.evaluator.kept().len() < all {
+            for j in 0..n {
+                let mut delta = vec![0.0; n];
+                let mut sides = [DIFFERENCE, -DIFFERENCE].map(|step| {
+                    delta[j] = step;
+                    let mut moved = q.to_vec();
+                    self.evaluator.layout().advance(&mut moved, &delta);
+                    self.residuals(&moved).into_iter()
+                });
+                let [plus, minus] = &mut sides;
+                for (i, (a, b)) in plus.zip(minus).enumerate() {
+                    jacobian[i * n + j] = (a - b) / (2.0 * DIFFERENCE);
+                }
+            }
+        }
+        self.evaluator.closure(self.t, q, &self.wish);
+        let exact = self.evaluator.last_closure().jacobian;
+        for (k, row) in self.evaluator.kept().iter().enumerate() {
+            jacobian[row * n..(row + 1) * n].copy_from_slice(&exact[k * n..(k + 1) * n]);
+        }
+        jacobian
+    }
+
+    /// The longest of a few parts of the step that brings the loops nearer; `None` if none does.
+    fn search(&mut self, q: &[f64], residual: &[f64], delta: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let before = dot(residual, residual);
+        let mut part = 1.0;
+        for _ in 0..12 {
+            let moved = self.moved(q, delta, part);
+            let after = self.residuals(&moved);
+            // Not a number counts as no better.
+            if dot(&after, &after) <= (1.0 - 1e-4 * part) * before {
+                return Some((moved, after));
+            }
+            part *= 0.5;
+        }
+        None
+    }
+
+    fn moved(&mut self, q: &[f64], delta: &[f64], part: f64) -> Vec<f64> {
+        let step: Vec<f64> = delta.iter().map(|x| part * x).collect();
+        let mut moved = q.to_vec();
+        self.evaluator.layout().advance(&mut moved, &step);
+        self.evaluator.layout().normalize(&mut moved);
+        // Held values are exact, not exact up to the rounding of a solve.
+        for (i, held) in self.held.iter().enumerate() {
+            if *held {
+                moved[i] = self.guess[i];
+            }
+        }
+        moved
+    }
+
+    /// Newton on the kept rows until rounding stops it.
+    fn polish(&mut self, q: &mut Vec<f64>) {
+        let mut before = f64::INFINITY;
+        for _ in 0..8 {
+            let n = self.columns.len();
+            let closure = self.evaluator.closure(self.t, q, &self.wish);
+            let (positions, jacobian) = (closure.positions.to_vec(), closure.jacobian.to_vec());
+            let kept: Vec<f64> = self.evaluator.kept().iter().map(|row| positions[*row]).collect();
+            let size = largest(&kept);
+            if size == 0.0 || size > 0.5 * before || n == 0 {
+                return;
+            }
+            before = size;
+            let delta = self.least_squares(q, jacobian, &kept, TOLERANCES[0]);
+            let moved = self.moved(q, &delta, 1.0);
+            let after = self.evaluator.closure(self.t, &moved, &self.wish).positions.to_vec();
+            if self.evaluator.kept().iter().all(|row| after[*row].abs() <= size) {
+                *q = moved;
+            }
+        }
+    }
+}

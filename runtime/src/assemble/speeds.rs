@@ -1,0 +1,76 @@
+//! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
+
+use crate::linear::{Orthogonal, add_scaled, largest};
+use crate::{AssemblyError, Evaluator};
+
+/// Largest residual [m/s, rad/s] per unit of the largest speed (at least 1).
+const CONSISTENT: f64 = 1e-10;
+/// Singular values below this part of the largest count as zero.
+const TOLERANCE: f64 = 1e-10;
+
+/// Minimises |v - wish| subject to the velocity rows, held speeds exact.
+pub(super) fn consistent(
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+    q: &[f64],
+    wish: &[f64],
+) -> Result<Vec<f64>, AssemblyError> {
+    let held: Vec<bool> = evaluator.description().speeds.iter().map(|speed| speed.held).collect();
+    let (v, worst, residual) = solve(evaluator, t, q, wish, &held);
+    let limit = CONSISTENT * largest(wish).max(largest(&v)).max(1.0);
+    if residual <= limit {
+        return Ok(v);
+    }
+    let joint = evaluator.kept().get(worst).map(|row| evaluator.joint_of_row(*row)).unwrap_or_default();
+    if residual.is_nan() {
+        return Err(AssemblyError::NonFinite { what: format!("speed residual of {joint}") });
+    }
+    if held.contains(&true) {
+        let (free, _, open) = solve(evaluator, t, q, wish, &vec![false; held.len()]);
+        if open <= limit {
+            let names = evaluator
+                .description()
+                .speeds
+                .iter()
+                .enumerate()
+                // Far above rounding, far below what a user would call different.
+                .filter(|(i, _)| held[*i] && (wish[*i] - free[*i]).abs() > 1e-8 * wish[*i].abs().max(1.0))
+                .map(|(i, s)| format!("`{}` ({} {}, reachable {})", s.name, wish[i], s.unit, free[i]))
+                .collect();
+            return Err(AssemblyError::HeldSpeeds { names, joint, residual });
+        }
+    }
+    Err(AssemblyError::SpeedsImpossible { joint, residual })
+}
+
+/// Speeds, kept row with the largest residual left, and that residual.
+fn solve(
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+    q: &[f64],
+    wish: &[f64],
+    held: &[bool],
+) -> (Vec<f64>, usize, f64) {
+    let (n, m) = (wish.len(), evaluator.sizes().rows);
+    let mut v = wish.to_vec();
+    let mut delta = vec![0.0; n];
+    let mut decomposition = Orthogonal::new(m, n);
+    // The second pass removes what rounding of a large first correction left.
+    for _ in 0..2 {
+        let closure = evaluator.closure(t, q, &v);
+        let mut jacobian = closure.jacobian.to_vec();
+        let right: Vec<f64> = closure.speeds.iter().map(|x| -x).collect();
+        if n > 0 {
+            for row in jacobian.chunks_exact_mut(n) {
+                row.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(entry, _)| *entry = 0.0);
+            }
+        }
+        decomposition.factor(&jacobian, m, n, TOLERANCE);
+        decomposition.solve(&right, &mut delta);
+        add_scaled(&mut v, 1.0, &delta);
+    }
+    let left = evaluator.closure(t, q, &v).speeds;
+    let residual = largest(left);
+    let worst = left.iter().position(|x| x.abs() >= residual || x.is_nan()).unwrap_or(0);
+    (v, worst, residual)
+}

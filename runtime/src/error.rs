@@ -1,0 +1,211 @@
+//! What can go wrong when a mechanism is set up or run, as data. Every message says what happened,
+//! where, and what to try. In: nothing. Out: error types.
+
+use thiserror::Error;
+
+/// Numbers that do not belong to the mechanism, found before anything runs.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SetupError {
+    /// A slice or list has the wrong length.
+    #[error(
+        "{found} {what} given, the mechanism has {expected}; pass one value per entry of its description"
+    )]
+    Length {
+        /// What was counted.
+        what: &'static str,
+        /// Length that fits.
+        expected: usize,
+        /// Length that was given.
+        found: usize,
+    },
+    /// A parameter is infinite or not a number.
+    #[error("parameter `{name}` is {value}; give it a finite value")]
+    Parameter {
+        /// Name of the parameter.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
+    /// A setting of the run makes no sense.
+    #[error("setting `{name}` is {value}; it must be {need}")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        need: &'static str,
+    },
+}
+
+/// No consistent start was found.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum AssemblyError {
+    /// Newton did not close the loops.
+    #[error(
+        "the loops do not close: after {iterations} iterations joint `{joint}` ({meaning}) is worst, largest \
+         residuals {residual_m:.3e} m and {residual_rad:.3e} rad; check lengths and points of that loop, or \
+         give start values nearer to the wanted position"
+    )]
+    NoConvergence {
+        /// Iterations spent.
+        iterations: usize,
+        /// Cut joint with the largest residual.
+        joint: String,
+        /// What its row forbids.
+        meaning: String,
+        /// Largest residual of a row in metres.
+        residual_m: f64,
+        /// Largest residual of a row in radians.
+        residual_rad: f64,
+    },
+    /// The loops close, but not with the demanded start values.
+    #[error(
+        "the start values of {} cannot all be met: with them the loops stay open by {residual_m:.3e} m and \
+         {residual_rad:.3e} rad; make some of them guesses, or change them",
+        list(names)
+    )]
+    HeldPositions {
+        /// Coordinates whose demanded values cannot be met, with the nearest reachable value.
+        names: Vec<String>,
+        /// Largest residual of a row in metres.
+        residual_m: f64,
+        /// Largest residual of a row in radians.
+        residual_rad: f64,
+    },
+    /// Consistent speeds exist, but not with the demanded start speeds.
+    #[error(
+        "the start speeds of {} contradict the loops at joint `{joint}` (residual {residual:.3e} m/s or rad/s); \
+         make some of them guesses, or change them",
+        list(names)
+    )]
+    HeldSpeeds {
+        /// Speeds whose demanded values cannot be met, with the nearest reachable value.
+        names: Vec<String>,
+        /// Cut joint with the largest residual.
+        joint: String,
+        /// That residual [m/s or rad/s].
+        residual: f64,
+    },
+    /// The drivers demand speeds that the loops forbid in the start position.
+    #[error(
+        "no speeds fit the loops at joint `{joint}` in the start position (residual {residual:.3e} m/s or rad/s); \
+         a driver pushes against a dead point: start elsewhere, or drive another joint"
+    )]
+    SpeedsImpossible {
+        /// Cut joint with the largest residual.
+        joint: String,
+        /// That residual [m/s or rad/s].
+        residual: f64,
+    },
+    /// The start values or the residuals are infinite or not numbers.
+    #[error(
+        "{what} is not a finite number in the start position; check parameters, start values and drivers"
+    )]
+    NonFinite {
+        /// What it was.
+        what: String,
+    },
+    /// The numbers given do not fit the mechanism.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+}
+
+/// Why a run could not start or go on. Times in seconds.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RunError {
+    /// The numbers given do not fit the mechanism.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// No consistent start.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
+    /// Turns were asked for, but no revolute joint is driven.
+    #[error("no revolute joint is driven, so turns cannot be counted; ask for a time span")]
+    NoTurns,
+    /// The driver never gets round as often as asked.
+    #[error(
+        "the driver made {reached:.4} of {wanted} turns until t = {t} s and does not get further; ask for a \
+         time span, or change the driver's law"
+    )]
+    TurnsNotReached {
+        /// Turns asked for.
+        wanted: f64,
+        /// Turns made.
+        reached: f64,
+        /// Time up to which was searched.
+        t: f64,
+    },
+    /// The step size control found no step that meets the tolerance.
+    #[error(
+        "at t = {t} s the step had to shrink below {step:.3e} s, because of `{variable}`; the mechanism may pass \
+         a singular position or a very stiff force acts there: loosen the tolerance, or soften the force"
+    )]
+    StepTooSmall {
+        /// Time reached.
+        t: f64,
+        /// Last step tried.
+        step: f64,
+        /// Variable with the largest error.
+        variable: String,
+    },
+    /// A loop can no longer be closed.
+    #[error(
+        "at t = {t} s joint `{joint}` cannot be closed any more ({residual_m:.3e} m, {residual_rad:.3e} rad); the \
+         driver pushes past a dead point, or the step is too long: check the driver's range, or shorten the step"
+    )]
+    LostAssembly {
+        /// Time at which closing failed.
+        t: f64,
+        /// Cut joint with the largest residual.
+        joint: String,
+        /// Largest residual of a row in metres.
+        residual_m: f64,
+        /// Largest residual of a row in radians.
+        residual_rad: f64,
+    },
+    /// Closing the loops moved the mechanism by more than the step can explain.
+    #[error(
+        "at t = {t} s closing the loops moved `{variable}` by {jump:.3e} in one step: the mechanism jumps to \
+         another branch; shorten the step or the tolerance, or avoid the singular position"
+    )]
+    BranchChange {
+        /// Time of the jump.
+        t: f64,
+        /// Variable that jumped most.
+        variable: String,
+        /// Size of the jump in its unit.
+        jump: f64,
+    },
+    /// Something became infinite or not a number.
+    #[error("at t = {t} s `{what}` is not a finite number; check the forces and expressions that act on it")]
+    NonFinite {
+        /// Time at which it was evaluated.
+        t: f64,
+        /// What it was.
+        what: String,
+    },
+    /// The Newton iteration of an implicit step failed.
+    #[error(
+        "at t = {t} s the implicit step of {step:.3e} s did not converge (last correction {correction:.3e}); \
+         shorten the step"
+    )]
+    NewtonFailed {
+        /// Time at the beginning of the step.
+        t: f64,
+        /// Step size.
+        step: f64,
+        /// Largest component of the last correction.
+        correction: f64,
+    },
+    /// The caller asked to stop.
+    #[error("stopped on request at t = {t} s; the samples up to then are kept")]
+    Interrupted {
+        /// Time reached.
+        t: f64,
+    },
+}
+
+fn list(names: &[String]) -> String {
+    names.join(", ")
+}

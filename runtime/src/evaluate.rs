@@ -1,0 +1,308 @@
+//! Asking a mechanism its questions without allocating: one set of parameters, one buffer per answer.
+//! In: a [`System`], its [`Description`], parameter values. Out: slices by [`Entry`].
+//! Never knows integrators.
+
+use crate::{Description, Entry, Layout, SetupError, Sizes, System};
+
+/// A mechanism with fixed parameters and the storage to evaluate it.
+pub struct Evaluator<'a> {
+    system: &'a dyn System<f64>,
+    description: &'a Description,
+    layout: Layout,
+    sizes: Sizes,
+    /// Row of the description behind each kept row.
+    kept: Vec<usize>,
+    input: Vec<f64>,
+    workspace: Vec<f64>,
+    outputs: [Vec<f64>; Entry::ALL.len()],
+}
+
+/// Answer of [`Entry::ForwardDynamics`].
+#[derive(Clone, Copy, Debug)]
+pub struct Forward<'a> {
+    /// Accelerations of the free speeds.
+    pub accelerations: &'a [f64],
+    /// Multipliers of the kept rows.
+    pub multipliers: &'a [f64],
+    /// Drive forces.
+    pub drives: &'a [f64],
+    /// Loop pivots, one per kept row.
+    pub pivots: &'a [f64],
+}
+
+/// Answer of [`Entry::Closure`].
+#[derive(Clone, Copy, Debug)]
+pub struct Closure<'a> {
+    /// Position residuals of all rows [m, rad].
+    pub positions: &'a [f64],
+    /// Velocity residuals of the kept rows [m/s, rad/s].
+    pub speeds: &'a [f64],
+    /// Jacobian of the kept rows by the free speeds, row major.
+    pub jacobian: &'a [f64],
+}
+
+/// Answer of [`Entry::Rates`].
+#[derive(Clone, Copy, Debug)]
+pub struct Rates<'a> {
+    /// Derivatives of the free coordinates.
+    pub coordinates: &'a [f64],
+    /// Power put in by drivers and prescribed forces [W].
+    pub supplied: f64,
+    /// Power taken out by dampers and friction [W].
+    pub dissipated: f64,
+}
+
+/// Answer of [`Entry::EquationsOfMotion`], over all speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct Equations<'a> {
+    /// Upper triangle of the mass matrix, row by row.
+    pub mass: &'a [f64],
+    /// Velocity terms, gravity, springs and damping, on the left side.
+    pub bias: &'a [f64],
+    /// Position residuals of the kept rows.
+    pub positions: &'a [f64],
+    /// Jacobian of the kept rows, row major.
+    pub jacobian: &'a [f64],
+    /// Right side of the acceleration constraints.
+    pub gamma: &'a [f64],
+}
+
+impl Equations<'_> {
+    /// Writes the full mass matrix, row major, `n` x `n`.
+    pub fn unpack_mass(&self, n: usize, full: &mut [f64]) {
+        let mut packed = self.mass.iter();
+        for i in 0..n {
+            for (j, value) in (i..n).zip(&mut packed) {
+                full[i * n + j] = *value;
+                full[j * n + i] = *value;
+            }
+        }
+    }
+}
+
+/// How far loops are open, over all rows, dropped ones too.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoopError {
+    /// Largest residual of a row in metres.
+    pub metres: f64,
+    /// Largest residual of a row in radians.
+    pub radians: f64,
+    /// The row with the largest number.
+    pub worst: usize,
+}
+
+impl<'a> Evaluator<'a> {
+    /// Checks that the numbers fit and prepares the storage.
+    ///
+    /// # Errors
+    /// If the parameters are not finite, or lengths disagree between system, description and parameters.
+    pub fn new(
+        system: &'a dyn System<f64>,
+        description: &'a Description,
+        parameters: &[f64],
+    ) -> Result<Self, SetupError> {
+        let sizes = system.sizes();
+        let layout = Layout::new(&description.motions);
+        let kept: Vec<usize> = (0..sizes.rows)
+            .filter_map(|k| description.rows.iter().position(|row| row.kept == Some(k)))
+            .collect();
+        let same = |what, expected, found| {
+            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
+        };
+        same("parameters", sizes.parameters, parameters.len())?;
+        same("parameters in its description", sizes.parameters, description.parameters.len())?;
+        same("coordinates in its motions", sizes.coordinates, layout.coordinates)?;
+        same("speeds in its motions", sizes.speeds, layout.speeds)?;
+        same("coordinates in all its motions", sizes.all_coordinates, layout.all_coordinates)?;
+        same("speeds in all its motions", sizes.all_speeds, layout.all_speeds)?;
+        same("described coordinates", sizes.coordinates, description.coordinates.len())?;
+        same("described speeds", sizes.speeds, description.speeds.len())?;
+        same("described rows", sizes.all_rows, description.rows.len())?;
+        same("kept rows", sizes.rows, kept.len())?;
+        same("described drivers", sizes.drivers, description.drivers.len())?;
+        same("described channels", sizes.channels, description.channels.len())?;
+        if let Some(at) = parameters.iter().position(|value| !value.is_finite()) {
+            let name = description.parameters[at].name.to_string();
+            return Err(SetupError::Parameter { name, value: parameters[at] });
+        }
+        let longest = Entry::ALL.iter().map(|entry| sizes.input(*entry)).max().unwrap_or(0);
+        let mut input = vec![0.0; longest];
+        input[..parameters.len()].copy_from_slice(parameters);
+        Ok(Self {
+            system,
+            description,
+            layout,
+            sizes,
+            kept,
+            input,
+            workspace: vec![0.0; sizes.workspace],
+            outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
+        })
+    }
+
+    /// The counts of the mechanism.
+    #[must_use]
+    pub fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    /// The mechanism's description.
+    #[must_use]
+    pub fn description(&self) -> &'a Description {
+        self.description
+    }
+
+    /// Places of the coordinates and speeds.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// For every kept row, its row in the description.
+    #[must_use]
+    pub fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
+    fn ask(&mut self, entry: Entry, t: f64, blocks: &[&[f64]]) -> &[f64] {
+        let mut at = self.sizes.parameters;
+        self.input[at] = t;
+        at += 1;
+        for block in blocks {
+            self.input[at..at + block.len()].copy_from_slice(block);
+            at += block.len();
+        }
+        debug_assert_eq!(at, self.sizes.input(entry));
+        let output = &mut self.outputs[entry as usize];
+        self.system.evaluate(entry, &self.input[..at], output, &mut self.workspace);
+        output
+    }
+
+    /// Position, speed and acceleration of every driver, driver by driver.
+    pub fn prescribed(&mut self, t: f64) -> &[f64] {
+        self.ask(Entry::Prescribed, t, &[])
+    }
+
+    /// Guess of the free coordinates and wish for the free speeds.
+    pub fn start(&mut self, t: f64) -> (&[f64], &[f64]) {
+        let n = self.sizes.coordinates;
+        self.ask(Entry::Start, t, &[]).split_at(n)
+    }
+
+    /// Accelerations, multipliers, drive forces and pivots.
+    pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
+        self.ask(Entry::ForwardDynamics, t, &[q, v]);
+        self.last_forward()
+    }
+
+    /// The last answer of [`Self::forward`] or the numbers put in its place.
+    #[must_use]
+    pub fn last_forward(&self) -> Forward<'_> {
+        let output = &self.outputs[Entry::ForwardDynamics as usize];
+        let (accelerations, rest) = output.split_at(self.sizes.speeds);
+        let (multipliers, rest) = rest.split_at(self.sizes.rows);
+        let (drives, pivots) = rest.split_at(self.sizes.drivers);
+        Forward { accelerations, multipliers, drives, pivots }
+    }
+
+    /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.
+    pub fn forward_mut(&mut self) -> &mut [f64] {
+        &mut self.outputs[Entry::ForwardDynamics as usize]
+    }
+
+    /// Rates of the coordinates and powers, with the drive forces of the last forward dynamics.
+    pub fn rates(&mut self, t: f64, q: &[f64], v: &[f64]) -> Rates<'_> {
+        let first = self.sizes.speeds + self.sizes.rows;
+        let forward = core::mem::take(&mut self.outputs[Entry::ForwardDynamics as usize]);
+        self.ask(Entry::Rates, t, &[q, v, &forward[first..first + self.sizes.drivers]]);
+        self.outputs[Entry::ForwardDynamics as usize] = forward;
+        let (coordinates, powers) = self.outputs[Entry::Rates as usize].split_at(self.sizes.coordinates);
+        Rates { coordinates, supplied: powers[0], dissipated: powers[1] }
+    }
+
+    /// Residuals of the loops and their Jacobian.
+    pub fn closure(&mut self, t: f64, q: &[f64], v: &[f64]) -> Closure<'_> {
+        self.ask(Entry::Closure, t, &[q, v]);
+        self.last_closure()
+    }
+
+    /// The last answer of [`Self::closure`].
+    #[must_use]
+    pub fn last_closure(&self) -> Closure<'_> {
+        let (positions, rest) = self.outputs[Entry::Closure as usize].split_at(self.sizes.all_rows);
+        let (speeds, jacobian) = rest.split_at(self.sizes.rows);
+        Closure { positions, speeds, jacobian }
+    }
+
+    /// Loop error of the last answer of [`Self::closure`].
+    #[must_use]
+    pub fn loop_error(&self) -> LoopError {
+        let mut error = LoopError::default();
+        let mut most = 0.0;
+        for (i, (row, residual)) in
+            self.description.rows.iter().zip(self.last_closure().positions).enumerate()
+        {
+            let size = residual.abs();
+            let side = if row.angular { &mut error.radians } else { &mut error.metres };
+            // What is not a number wins.
+            if size.is_nan() || size > *side {
+                *side = size;
+            }
+            if size.is_nan() || size > most {
+                (most, error.worst) = (size, i);
+            }
+        }
+        error
+    }
+
+    /// Kinetic and potential energy [J].
+    pub fn energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
+        let output = self.ask(Entry::Energy, t, &[q, v]);
+        (output[0], output[1])
+    }
+
+    /// One value per channel, with the last forward dynamics.
+    pub fn observe(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
+        let length = self.sizes.speeds + self.sizes.rows + self.sizes.drivers;
+        let forward = core::mem::take(&mut self.outputs[Entry::ForwardDynamics as usize]);
+        self.ask(Entry::Observe, t, &[q, v, &forward[..length]]);
+        self.outputs[Entry::ForwardDynamics as usize] = forward;
+        &self.outputs[Entry::Observe as usize]
+    }
+
+    /// Fills the slices of all coordinates and speeds from the free ones and the drivers; leaves the
+    /// drivers' values in [`Self::last_prescribed`].
+    pub fn expand(&mut self, t: f64, q: &[f64], v: &[f64], all_q: &mut [f64], all_v: &mut [f64]) {
+        self.prescribed(t);
+        self.layout.expand((q, v), self.last_prescribed(), (all_q, all_v));
+    }
+
+    /// The last answer of [`Self::prescribed`].
+    #[must_use]
+    pub fn last_prescribed(&self) -> &[f64] {
+        &self.outputs[Entry::Prescribed as usize]
+    }
+
+    /// Mass matrix, bias, constraint rows of all coordinates.
+    pub fn equations(&mut self, t: f64, all_q: &[f64], all_v: &[f64]) -> Equations<'_> {
+        let (n, m) = (self.sizes.all_speeds, self.sizes.rows);
+        let output = self.ask(Entry::EquationsOfMotion, t, &[all_q, all_v]);
+        let (mass, rest) = output.split_at(n * (n + 1) / 2);
+        let (bias, rest) = rest.split_at(n);
+        let (positions, rest) = rest.split_at(m);
+        let (jacobian, gamma) = rest.split_at(m * n);
+        Equations { mass, bias, positions, jacobian, gamma }
+    }
+
+    /// Name of the free speed `index`.
+    #[must_use]
+    pub fn speed_name(&self, index: usize) -> String {
+        self.description.speeds[index].name.to_string()
+    }
+
+    /// Name of the joint of row `index` of the description.
+    #[must_use]
+    pub fn joint_of_row(&self, index: usize) -> String {
+        self.description.rows.get(index).map(|row| row.joint.to_string()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,267 @@
+//! Dormand-Prince 5(4): adaptive, first same as last, dense output of order 4.
+//! In: a problem and a start. Out: accepted steps, and states anywhere within the last one.
+//!
+//! Tableau: Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19-26. Dense output, starting step and PI
+//! control of the step: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4-II.6
+//! (code DOPRI5). The error norm is the largest component, not the mean, so that idle ones hide nothing.
+//!
+//! A projection comes before the last stage: the slope carried over to the next step belongs to the
+//! projected state, and nothing is evaluated twice.
+
+use super::Problem;
+use crate::RunError;
+
+const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
+const A: [[f64; 6]; 7] = [
+    [0.0; 6],
+    [0.2, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19_372.0 / 6_561.0, -25_360.0 / 2_187.0, 64_448.0 / 6_561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9_017.0 / 3_168.0, -355.0 / 33.0, 46_732.0 / 5_247.0, 49.0 / 176.0, -5_103.0 / 18_656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1_113.0, 125.0 / 192.0, -2_187.0 / 6_784.0, 11.0 / 84.0],
+];
+/// Difference of the solutions of order 5 and 4.
+const E: [f64; 7] = [
+    71.0 / 57_600.0,
+    0.0,
+    -71.0 / 16_695.0,
+    71.0 / 1_920.0,
+    -17_253.0 / 339_200.0,
+    22.0 / 525.0,
+    -1.0 / 40.0,
+];
+/// Weights of the fifth coefficient of the dense output.
+const D: [f64; 7] = [
+    -12_715_105_075.0 / 11_282_082_432.0,
+    0.0,
+    87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0,
+    701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0,
+    69_997_945.0 / 29_380_423.0,
+];
+
+const SAFETY: f64 = 0.9;
+const SHRINK_MOST: f64 = 0.2;
+const GROW_MOST: f64 = 10.0;
+/// Weight of the previous error in the step control.
+const PI_WEIGHT: f64 = 0.04;
+/// Steps below this part of the time (or of the whole span) are at the limit of rounding.
+const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
+
+/// State of an adaptive integration.
+#[derive(Clone, Debug)]
+pub struct Dopri5 {
+    tolerance: f64,
+    longest_step: f64,
+    span: f64,
+    /// Beginning of the last accepted step.
+    before: f64,
+    t: f64,
+    step: f64,
+    last_step: f64,
+    last_error: f64,
+    y: Vec<f64>,
+    next: Vec<f64>,
+    slopes: [Vec<f64>; 7],
+    dense: [Vec<f64>; 5],
+    rejected: u64,
+}
+
+impl Dopri5 {
+    /// Starts at (`t`, `y`), to go to `end`; `longest_step` limits every step. Chooses the first step.
+    ///
+    /// # Errors
+    /// What the problem reports for the start.
+    pub fn start(
+        problem: &mut dyn Problem,
+        (t, end): (f64, f64),
+        y: &[f64],
+        tolerance: f64,
+        longest_step: f64,
+    ) -> Result<Self, RunError> {
+        let zero = || vec![0.0; y.len()];
+        let mut method = Self {
+            tolerance,
+            longest_step: longest_step.min(end - t),
+            span: end - t,
+            before: t,
+            t,
+            step: 0.0,
+            last_step: 0.0,
+            last_error: 1e-4,
+            y: y.to_vec(),
+            next: zero(),
+            slopes: std::array::from_fn(|_| zero()),
+            dense: std::array::from_fn(|_| zero()),
+            rejected: 0,
+        };
+        problem.derivative(t, &method.y, &mut method.slopes[0])?;
+        method.step = method.first_step(problem);
+        Ok(method)
+    }
+
+    /// Time reached.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Time at the beginning of the last accepted step.
+    #[must_use]
+    pub fn before(&self) -> f64 {
+        self.before
+    }
+
+    /// State reached.
+    #[must_use]
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Steps tried and not accepted.
+    #[must_use]
+    pub fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    /// Goes one accepted step further, never beyond `end` and onto it exactly.
+    ///
+    /// # Errors
+    /// [`RunError::StepTooSmall`], or what the problem reports however short the step.
+    pub fn step(&mut self, problem: &mut dyn Problem, end: f64) -> Result<(), RunError> {
+        let mut just_rejected = false;
+        loop {
+            let left = end - self.t;
+            // A last crumb of a step would be all rounding: stretch this one.
+            let last = 1.01 * self.step >= left;
+            let step = if last { left } else { self.step };
+            let next_t = if last { end } else { self.t + step };
+            let outcome = self.attempt(problem, step, next_t);
+            let smallest = SMALLEST_STEP * self.span.max(self.t.abs());
+            match outcome {
+                Ok((error, _)) if error <= 1.0 => {
+                    self.accept(step, next_t, error, just_rejected);
+                    return Ok(());
+                }
+                Ok((error, worst)) => {
+                    if step <= smallest {
+                        return Err(RunError::StepTooSmall {
+                            t: self.t,
+                            step,
+                            variable: problem.name(worst),
+                        });
+                    }
+                    self.step = step * (SAFETY * libm::pow(error, -0.2)).max(SHRINK_MOST);
+                }
+                Err(reason) => {
+                    if step <= smallest {
+                        return Err(reason);
+                    }
+                    self.step = 0.25 * step;
+                }
+            }
+            just_rejected = true;
+            self.rejected += 1;
+        }
+    }
+
+    /// Error (1 is just accepted) of a step, and the component it belongs to.
+    fn attempt(
+        &mut self,
+        problem: &mut dyn Problem,
+        step: f64,
+        next_t: f64,
+    ) -> Result<(f64, usize), RunError> {
+        for stage in 1..7 {
+            let (known, unknown) = self.slopes.split_at_mut(stage);
+            combine(&mut self.next, &self.y, step, &A[stage], known);
+            if stage == 6 {
+                problem.project(next_t, &self.y, &mut self.next)?;
+            }
+            let t = if stage >= 5 { next_t } else { self.t + C[stage] * step };
+            problem.derivative(t, &self.next, &mut unknown[0])?;
+        }
+        let (mut most, mut worst) = (0.0, 0);
+        for i in 0..self.y.len() {
+            let size = self.y[i].abs().max(self.next[i].abs()).max(problem.scale(i));
+            let error: f64 = E.iter().zip(&self.slopes).map(|(e, k)| e * k[i]).sum();
+            let error = (step * error / (self.tolerance * size)).abs();
+            if error.is_nan() {
+                return Err(RunError::NonFinite { t: next_t, what: problem.name(i) });
+            }
+            if error > most {
+                (most, worst) = (error, i);
+            }
+        }
+        Ok((most, worst))
+    }
+
+    fn accept(&mut self, step: f64, next_t: f64, error: f64, just_rejected: bool) {
+        for i in 0..self.y.len() {
+            let difference = self.next[i] - self.y[i];
+            let bend = step * self.slopes[0][i] - difference;
+            self.dense[0][i] = self.y[i];
+            self.dense[1][i] = difference;
+            self.dense[2][i] = bend;
+            self.dense[3][i] = difference - step * self.slopes[6][i] - bend;
+            self.dense[4][i] = step * D.iter().zip(&self.slopes).map(|(d, k)| d * k[i]).sum::<f64>();
+        }
+        core::mem::swap(&mut self.y, &mut self.next);
+        self.slopes.swap(0, 6);
+        (self.before, self.t, self.last_step) = (self.t, next_t, step);
+        let error = error.max(1e-10);
+        let growth =
+            SAFETY * libm::pow(self.last_error, PI_WEIGHT) / libm::pow(error, 0.2 - 0.75 * PI_WEIGHT);
+        let most = if just_rejected { 1.0 } else { GROW_MOST };
+        self.step = (step * growth.clamp(SHRINK_MOST, most)).min(self.longest_step);
+        self.last_error = error.max(1e-4);
+    }
+
+    /// The state at a time within the last accepted step.
+    pub fn interpolate(&self, t: f64, y: &mut [f64]) {
+        let s = (t - self.before) / self.last_step;
+        let r = 1.0 - s;
+        for (i, value) in y.iter_mut().enumerate() {
+            let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|k| self.dense[k][i]);
+            *value = a + s * (b + r * (c + s * (d + r * e)));
+        }
+    }
+
+    /// Hairer's choice: one explicit Euler step tells the second derivative.
+    fn first_step(&mut self, problem: &mut dyn Problem) -> f64 {
+        let weigh = |problem: &dyn Problem, values: &[f64], y: &[f64]| {
+            let weighed = values.iter().zip(y).enumerate();
+            weighed.fold(0.0_f64, |most, (i, (x, y))| most.max(x.abs() / y.abs().max(problem.scale(i))))
+        };
+        let slope = weigh(problem, &self.slopes[0], &self.y);
+        let size = weigh(problem, &self.y, &self.y);
+        let trial = if slope < 1e-10 || size < 1e-10 { 1e-6 } else { 0.01 * size / slope };
+        let trial = trial.min(self.longest_step);
+        for (next, (y, k)) in self.next.iter_mut().zip(self.y.iter().zip(&self.slopes[0])) {
+            *next = y + trial * k;
+        }
+        if problem.derivative(self.t + trial, &self.next, &mut self.slopes[1]).is_err() {
+            // Too far already: the step control finds its way from here.
+            return 1e-3 * trial;
+        }
+        for (bend, (a, b)) in self.dense[0].iter_mut().zip(self.slopes[1].iter().zip(&self.slopes[0])) {
+            *bend = (a - b) / trial;
+        }
+        let steepest = slope.max(weigh(problem, &self.dense[0], &self.y));
+        let step = if steepest <= 1e-15 {
+            (1e-3 * trial).max(1e-6)
+        } else {
+            libm::pow(0.01 * self.tolerance / steepest, 0.2)
+        };
+        step.min(100.0 * trial).min(self.longest_step)
+    }
+}
+
+fn combine(next: &mut [f64], y: &[f64], step: f64, weights: &[f64; 6], slopes: &[Vec<f64>]) {
+    for (i, (next, y)) in next.iter_mut().zip(y).enumerate() {
+        let slope: f64 = weights.iter().zip(slopes).map(|(a, k)| a * k[i]).sum();
+        *next = y + step * slope;
+    }
+}

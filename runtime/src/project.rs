@@ -1,0 +1,243 @@
+//! Puts a state back onto the constraints after a step: positions on the manifold, then speeds.
+//! In: time and a state near the constraints. Out: the state on them, and how far it moved.
+//! Never knows integrators; allocates only when made.
+//!
+//! Corrections have minimum norm. Directions in which the rows are nearly singular are left alone as long
+//! as the residual can be met without them: near a singular position an error of 1e-15 m there would
+//! move the mechanism by far more, perhaps to another branch.
+
+use crate::linear::{Cholesky, Orthogonal, largest};
+use crate::{Evaluator, LoopError};
+
+/// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
+pub const POSITION_TOLERANCE: f64 = 1e-14;
+
+/// Residual of the kept rows' speeds after a projection, per unit of the largest speed (at least 1).
+pub const SPEED_TOLERANCE: f64 = 1e-13;
+
+/// Newton that makes no more progress below this residual [m, rad] has met rounding, not an open loop.
+const SETTLED: f64 = 1e-11;
+
+/// A loop open by more than this [m, rad] counts as lost. Rows that were dropped as redundant follow the kept
+/// ones with the conditioning of the position, so this is far above the tolerance of the kept rows.
+pub const LOST: f64 = 1e-7;
+
+/// Corrections that the normal equations may be trusted with: ratio of pivots, about 1e-4 in singular values.
+const TRUSTED_PIVOT: f64 = 1e-8;
+/// Singular values, relative to the largest, down to which directions are corrected, one after the other.
+const LEVELS: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
+const MAX_ITERATIONS: usize = 25;
+
+/// How far a projection moved the state: largest component of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Correction {
+    /// Of the coordinates [rad, m].
+    pub position: f64,
+    /// Index of the free speed that belongs to it.
+    pub worst: usize,
+    /// Of the speeds [rad/s, m/s].
+    pub speed: f64,
+    /// Index of the free speed corrected most.
+    pub worst_speed: usize,
+}
+
+impl Correction {
+    /// Whether anything was moved.
+    #[must_use]
+    pub fn moved(&self) -> bool {
+        self.position > 0.0 || self.speed > 0.0
+    }
+}
+
+/// The loops cannot be closed from here (or the residual is not a number).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NotClosed {
+    /// Where the loops stayed open.
+    pub error: LoopError,
+}
+
+/// Storage of the projection of one mechanism.
+pub struct Projector {
+    jacobian: Vec<f64>,
+    residual: Vec<f64>,
+    delta: Vec<f64>,
+    right: Vec<f64>,
+    gram: Cholesky,
+    orthogonal: Orthogonal,
+    factored: Factored,
+    error: LoopError,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Factored {
+    No,
+    Gram,
+    Orthogonal { level: usize },
+}
+
+impl Projector {
+    /// Storage for the evaluator's mechanism.
+    #[must_use]
+    pub fn new(evaluator: &Evaluator<'_>) -> Self {
+        let (m, n) = (evaluator.sizes().rows, evaluator.sizes().speeds);
+        Self {
+            jacobian: vec![0.0; m * n],
+            residual: vec![0.0; m],
+            delta: vec![0.0; n],
+            right: vec![0.0; m],
+            gram: Cholesky::new(m),
+            orthogonal: Orthogonal::new(m, n),
+            factored: Factored::No,
+            error: LoopError::default(),
+        }
+    }
+
+    /// Loop error over all rows after the last projection.
+    #[must_use]
+    pub fn loop_error(&self) -> LoopError {
+        self.error
+    }
+
+    /// Moves `q` and `v` onto the constraints at time `t`. Quaternions come out with unit length.
+    ///
+    /// # Errors
+    /// If the loops stay open by more than [`LOST`], or a residual is not a number.
+    pub fn project(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<Correction, NotClosed> {
+        let mut correction = Correction::default();
+        evaluator.layout().normalize(q);
+        self.factored = Factored::No;
+        self.error = LoopError::default();
+        if evaluator.sizes().all_rows == 0 {
+            return Ok(correction);
+        }
+        self.close(evaluator, t, q, v, &mut correction)?;
+        self.match_speeds(evaluator, t, q, v, &mut correction);
+        Ok(correction)
+    }
+
+    fn close(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        t: f64,
+        q: &mut [f64],
+        v: &[f64],
+        correction: &mut Correction,
+    ) -> Result<(), NotClosed> {
+        // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
+        let tolerance = POSITION_TOLERANCE + 4.0 * f64::EPSILON * largest(q);
+        let mut before = f64::INFINITY;
+        for iteration in 0..=MAX_ITERATIONS {
+            self.load(evaluator, t, q, v);
+            let size = largest(&self.residual);
+            let stalled = size > 0.25 * before;
+            if size <= tolerance || (stalled && size <= SETTLED) {
+                break;
+            }
+            if size.is_nan() || iteration == MAX_ITERATIONS {
+                return Err(NotClosed { error: evaluator.loop_error() });
+            }
+            match (self.factored, stalled) {
+                (Factored::No, _) | (Factored::Gram, true) => self.factor(evaluator, 0),
+                (Factored::Orthogonal { level }, true) => {
+                    let full = self.orthogonal.rank() == self.residual.len();
+                    self.factor(evaluator, if full { level } else { level + 1 });
+                }
+                (_, false) => {}
+            }
+            before = size;
+            self.solve();
+            evaluator.layout().advance(q, &self.delta);
+            note(&mut correction.position, &mut correction.worst, &self.delta);
+        }
+        self.error = evaluator.loop_error();
+        let open = self.error.metres.max(self.error.radians);
+        if open.is_nan() || open > LOST + tolerance { Err(NotClosed { error: self.error }) } else { Ok(()) }
+    }
+
+    fn match_speeds(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        t: f64,
+        q: &[f64],
+        v: &mut [f64],
+        correction: &mut Correction,
+    ) {
+        let tolerance = SPEED_TOLERANCE * largest(v).max(1.0);
+        for _ in 0..=LEVELS.len() {
+            self.residual.copy_from_slice(evaluator.last_closure().speeds);
+            if largest(&self.residual) <= tolerance {
+                return;
+            }
+            match self.factored {
+                Factored::No => self.factor(evaluator, 0),
+                Factored::Orthogonal { level } if correction.speed > 0.0 => self.factor(evaluator, level + 1),
+                _ => {}
+            }
+            self.solve();
+            crate::linear::add_scaled(v, 1.0, &self.delta);
+            note(&mut correction.speed, &mut correction.worst_speed, &self.delta);
+            let complete = match self.factored {
+                Factored::Orthogonal { .. } => self.orthogonal.rank() == self.residual.len(),
+                _ => true,
+            };
+            if complete {
+                // Speeds enter linearly: one solve with all directions is enough.
+                return;
+            }
+            evaluator.closure(t, q, v);
+        }
+    }
+
+    fn load(&mut self, evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) {
+        evaluator.closure(t, q, v);
+        let closure = evaluator.last_closure();
+        for (residual, row) in self.residual.iter_mut().zip(evaluator.kept()) {
+            *residual = closure.positions[*row];
+        }
+    }
+
+    /// Factors the Jacobian of the last closure; from the second try on (or near a singular position)
+    /// with an orthogonal decomposition that leaves out directions below the level.
+    fn factor(&mut self, evaluator: &Evaluator<'_>, level: usize) {
+        self.jacobian.copy_from_slice(evaluator.last_closure().jacobian);
+        let n = self.delta.len();
+        if level == 0 && self.gram.factor_gram(&self.jacobian, n) > TRUSTED_PIVOT {
+            self.factored = Factored::Gram;
+            return;
+        }
+        let level = level.min(LEVELS.len() - 1);
+        self.orthogonal.factor(&self.jacobian, self.residual.len(), n, LEVELS[level]);
+        self.factored = Factored::Orthogonal { level };
+    }
+
+    /// `delta`: the shortest solution of `J delta = -residual`.
+    fn solve(&mut self) {
+        let n = self.delta.len();
+        for (right, residual) in self.right.iter_mut().zip(&self.residual) {
+            *right = -residual;
+        }
+        if self.factored == Factored::Gram {
+            self.gram.solve(&mut self.right);
+            self.delta.fill(0.0);
+            for (amount, row) in self.right.iter().zip(self.jacobian.chunks_exact(n.max(1))) {
+                crate::linear::add_scaled(&mut self.delta, *amount, row);
+            }
+        } else {
+            self.orthogonal.solve(&self.right, &mut self.delta);
+        }
+    }
+}
+
+fn note(most: &mut f64, worst: &mut usize, delta: &[f64]) {
+    for (i, step) in delta.iter().enumerate() {
+        if step.abs() > *most {
+            (*most, *worst) = (step.abs(), i);
+        }
+    }
+}

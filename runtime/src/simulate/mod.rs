@@ -1,0 +1,121 @@
+//! Runs a mechanism through time: consistent start, steps, samples, statistics.
+//! In: a system, its description, parameters, [`Settings`]. Out: a [`Run`].
+//! Never knows files or terminals; progress goes to the caller's closure, which may stop the run.
+
+mod motion;
+mod sampler;
+mod schedule;
+mod settings;
+
+pub use motion::{BRANCH_PART, JUMP_FLOOR};
+pub use settings::{Integrator, Run, Settings, Span, Statistics};
+
+use std::ops::ControlFlow;
+
+use crate::integrate::{Dopri5, Rk4};
+use crate::{Description, Dynamics, Evaluator, RunError, System, assemble_with};
+use motion::ConstrainedMotion;
+use sampler::Sampler;
+use schedule::Schedule;
+
+/// Called after every step with the finished part of the run (0 to 1); `Break` stops the run.
+pub type Progress<'p> = &'p mut dyn FnMut(f64) -> ControlFlow<()>;
+
+/// Simulates from a consistent start at t = 0.
+///
+/// A run that cannot go on is no error here: it keeps its samples, and [`Run::stopped`] says why.
+///
+/// # Errors
+/// If it cannot start: settings, parameters, a span in turns without a turning driver, or assembly.
+pub fn simulate(
+    system: &dyn System<f64>,
+    description: &Description,
+    parameters: &[f64],
+    settings: &Settings,
+    progress: Progress<'_>,
+) -> Result<Run, RunError> {
+    settings.check()?;
+    let mut evaluator = Evaluator::new(system, description, parameters)?;
+    let schedule = Schedule::new(&mut evaluator, settings)?;
+    let start = assemble_with(&mut evaluator, 0.0)?;
+    let dynamics = Dynamics::new(evaluator, settings.singular_pivot);
+    let mut motion = ConstrainedMotion::new(dynamics);
+    let mut state = motion.join(&start);
+    let mut sampler = Sampler::new(&mut motion, schedule, &state);
+    let stopped = match settings.integrator {
+        Integrator::Rk4 { step } => run_rk4(&mut motion, &mut sampler, &mut state, step, progress),
+        Integrator::Dopri5 { tolerance, max_step } => {
+            let longest = max_step.unwrap_or(schedule.end / 10.0);
+            run_dopri5(&mut motion, &mut sampler, &state, tolerance, longest, progress)
+        }
+        Integrator::GeneralizedAlpha { step, rho } => {
+            let _ = (step, rho);
+            Ok(())
+        }
+    };
+    Ok(sampler.finish(&motion, stopped.err()))
+}
+
+/// Equal steps no longer than asked for, that land on every sample.
+fn run_rk4(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    state: &mut [f64],
+    longest: f64,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    let mut method = Rk4::new(state.len());
+    let mut t = 0.0;
+    sampler.sample_at_start(motion, state)?;
+    while let Some(target) = sampler.next_stop(t) {
+        let (from, steps) = (t, steps_between(t, target, longest));
+        for i in 1..=steps {
+            let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
+            method.step(motion, t, state, next - t)?;
+            t = next;
+            sampler.note_loop_error(motion);
+            sampler.step_done(motion, t, state)?;
+            if sampler.is_due(t) {
+                sampler.sample(motion, t, state)?;
+            }
+            sampler.report(t, progress)?;
+        }
+    }
+    Ok(())
+}
+
+/// Number of equal steps; a hair of slack keeps a span that is a multiple of the step from one step more.
+fn steps_between(from: f64, to: f64, longest: f64) -> u64 {
+    (((to - from) / longest) * (1.0 - 1e-9)).ceil().max(1.0) as u64
+}
+
+fn run_dopri5(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    state: &[f64],
+    tolerance: f64,
+    longest: f64,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    let end = sampler.end();
+    let mut between = state.to_vec();
+    sampler.sample_at_start(motion, state)?;
+    let mut method = Dopri5::start(motion, (0.0, end), state, tolerance, longest)?;
+    while method.t() < end {
+        let outcome = method.step(motion, end);
+        sampler.statistics.rejected = method.rejected();
+        outcome?;
+        sampler.note_loop_error(motion);
+        while let Some(t) = sampler.due_before(method.t()) {
+            method.interpolate(t, &mut between);
+            sampler.sample(motion, t, &mut between)?;
+        }
+        sampler.step_done(motion, method.t(), method.y())?;
+        if sampler.is_due(method.t()) {
+            between.copy_from_slice(method.y());
+            sampler.sample(motion, method.t(), &mut between)?;
+        }
+        sampler.report(method.t(), progress)?;
+    }
+    Ok(())
+}

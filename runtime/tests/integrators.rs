@@ -1,0 +1,128 @@
+//! Order of convergence and step control, on problems with closed forms.
+
+use linkwear_runtime::RunError;
+use linkwear_runtime::integrate::{Dopri5, Problem, Rk4};
+
+/// y1' = y2 cos t, y2' = -y1 cos t: y1 = sin(sin t), y2 = cos(sin t).
+struct Swing;
+
+impl Problem for Swing {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        (dy[0], dy[1]) = (y[1] * t.cos(), -y[0] * t.cos());
+        Ok(())
+    }
+}
+
+fn exact(t: f64) -> [f64; 2] {
+    [t.sin().sin(), t.sin().cos()]
+}
+
+fn error(t: f64, y: &[f64]) -> f64 {
+    exact(t).iter().zip(y).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+fn rk4_error(steps: u32) -> f64 {
+    let step = 3.0 / f64::from(steps);
+    let (mut method, mut y) = (Rk4::new(2), exact(0.0));
+    for i in 0..steps {
+        method.step(&mut Swing, f64::from(i) * step, &mut y, step).expect("smooth");
+    }
+    error(3.0, &y)
+}
+
+#[test]
+fn rk4_has_order_four() {
+    let order = (rk4_error(60) / rk4_error(120)).log2();
+    // Asymptotic up to a tenth at these steps (errors 1e-6 and 7e-8, far from rounding).
+    assert!((3.8..4.3).contains(&order), "{order}");
+}
+
+/// Fixed steps: a tolerance so loose that only the longest step counts.
+fn dopri5_errors(steps: u32) -> (f64, f64) {
+    let longest = 3.0 / f64::from(steps);
+    let mut method =
+        Dopri5::start(&mut Swing, (0.0, 3.0), &exact(0.0), 0.1, longest).expect("smooth at the start");
+    let (mut between, mut dense) = ([0.0; 2], 0.0_f64);
+    while method.t() < 3.0 {
+        method.step(&mut Swing, 3.0).expect("smooth");
+        for part in [0.25, 0.5, 0.75] {
+            let t = method.before() + part * (method.t() - method.before());
+            method.interpolate(t, &mut between);
+            dense = dense.max(error(t, &between));
+        }
+    }
+    (error(3.0, method.y()), dense)
+}
+
+#[test]
+fn dopri5_has_order_five_and_its_dense_output_order_four() {
+    let ((coarse, coarse_dense), (fine, fine_dense)) = (dopri5_errors(60), dopri5_errors(120));
+    let (order, dense_order) = ((coarse / fine).log2(), (coarse_dense / fine_dense).log2());
+    // Asymptotic up to a few tenths; the dense output's local error is of order 5, and so is what
+    // shows here, because the steps' own error is smaller.
+    assert!((4.7..6.0).contains(&order), "{order}");
+    assert!((3.8..6.0).contains(&dense_order), "{dense_order}");
+}
+
+#[test]
+fn dopri5_error_follows_the_tolerance() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let mut method = Dopri5::start(&mut Swing, (0.0, 3.0), &exact(0.0), tolerance, 3.0).expect("smooth");
+        while method.t() < 3.0 {
+            method.step(&mut Swing, 3.0).expect("smooth");
+        }
+        // Some tens of steps, each within the tolerance, no growth of errors in this problem.
+        assert!(error(3.0, method.y()) < 30.0 * tolerance);
+        assert_eq!(method.t(), 3.0);
+    }
+}
+
+/// The slope jumps by 1e9 at t = 0.5.
+struct Jump;
+
+impl Problem for Jump {
+    fn derivative(&mut self, t: f64, _: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        dy[0] = if t < 0.5 { 0.0 } else { 1e9 };
+        Ok(())
+    }
+}
+
+#[test]
+fn step_size_underflow_names_time_and_variable() {
+    let mut method = Dopri5::start(&mut Jump, (0.0, 1.0), &[1.0], 1e-12, 1.0).expect("smooth at the start");
+    let stopped = loop {
+        if let Err(stopped) = method.step(&mut Jump, 1.0) {
+            break stopped;
+        }
+    };
+    let RunError::StepTooSmall { t, step, variable } = stopped else { panic!("{stopped}") };
+    // Steps end within the shortest step of the jump.
+    assert!((t - 0.5).abs() < 1e-14 && step < 1e-14, "{t} {step}");
+    assert_eq!(variable, "y0");
+}
+
+/// Has no value beyond t = 0.5.
+struct Cliff;
+
+impl Problem for Cliff {
+    fn derivative(&mut self, t: f64, _: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        dy[0] = 1.0;
+        if t <= 0.5 { Ok(()) } else { Err(RunError::NonFinite { t, what: "cliff".to_owned() }) }
+    }
+}
+
+#[test]
+fn a_problem_without_value_ends_at_the_edge_with_its_own_reason() {
+    let mut method = Dopri5::start(&mut Cliff, (0.0, 1.0), &[0.0], 1e-9, 1.0).expect("smooth at the start");
+    let stopped = loop {
+        if let Err(stopped) = method.step(&mut Cliff, 1.0) {
+            break stopped;
+        }
+    };
+    assert!(matches!(stopped, RunError::NonFinite { .. }));
+    assert!((method.t() - 0.5).abs() < 1e-12);
+    let mut y = [0.0];
+    let failed = Rk4::new(1).step(&mut Cliff, 0.45, &mut y, 0.1).expect_err("the step ends at 0.55");
+    assert!(matches!(failed, RunError::NonFinite { .. }));
+    assert_eq!(y, [0.0]);
+}

@@ -1,0 +1,250 @@
+//! The command line: what can be asked (clap definitions), and who answers.
+//! In: arguments. Out: text or one JSON object on stdout, everything else on stderr, an exit code
+//! (0 done, 1 the input or the run failed, 2 wrong usage). Never knows how a stage works.
+
+mod check;
+mod equations;
+mod failure;
+mod file;
+mod generate;
+mod input;
+mod new;
+mod packaging;
+mod plot;
+mod progress;
+mod simulate;
+mod summary;
+mod table;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use failure::Failure;
+
+/// Compiles a linkage into its life: specialised dynamics from a TOML file.
+#[derive(Debug, Parser)]
+#[command(name = "linkwear", version, arg_required_else_help = true)]
+struct Arguments {
+    /// `json`: one JSON object on stdout, nothing else there.
+    #[arg(long, global = true, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// For whom the answer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Read a mechanism and say what it is: mobility, redundant rows, idle freedoms, warnings.
+    #[command(after_help = "Example:\n  linkwear check mechanisms/rssr_rigid.toml")]
+    Check(Input),
+    /// Print the symbolic equations, with operation counts before and after sharing.
+    #[command(after_help = "Example:\n  linkwear equations mechanisms/pendulum.toml --only mass --as latex")]
+    Equations(EquationsArguments),
+    /// Write the specialised source code.
+    #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \
+                      linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check")]
+    Generate(GenerateArguments),
+    /// Turn the mechanism and record what happens.
+    #[command(
+        after_help = "Example:\n  linkwear simulate mechanisms/rssr_rigid.toml --turns 2 --out rssr.csv"
+    )]
+    Simulate(SimulateArguments),
+    /// Write a commented starter file to edit.
+    #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
+    New(NewArguments),
+    /// Print a completion script for a shell.
+    #[command(after_help = "Example:\n  linkwear completions bash > \
+                      ~/.local/share/bash-completion/completions/linkwear")]
+    Completions {
+        /// Which shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page (troff).
+    #[command(after_help = "Example:\n  linkwear man > linkwear.1")]
+    Man,
+}
+
+/// A mechanism file and changes to it.
+#[derive(Debug, Args)]
+struct Input {
+    /// Mechanism (TOML).
+    file: PathBuf,
+    /// Override a parameter; units as in the file: --set speed="10 Hz". Repeatable.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = input::assignment)]
+    overrides: Vec<(String, String)>,
+    /// How loops are closed: only the rows a cut joint takes away, or six rows of a logarithm.
+    #[arg(long, value_enum)]
+    closure: Option<ClosureName>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ClosureName {
+    Joint,
+    Log,
+}
+
+#[derive(Debug, Args)]
+struct EquationsArguments {
+    #[command(flatten)]
+    input: Input,
+    /// Only these outputs or functions, separated by commas.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Notation.
+    #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
+    notation: Notation,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Notation {
+    Text,
+    Markdown,
+    Latex,
+}
+
+#[derive(Debug, Args)]
+struct GenerateArguments {
+    #[command(flatten)]
+    input: Input,
+    /// File to write; without it the source goes to stdout.
+    #[arg(short, long, value_name = "OUT.rs")]
+    out: Option<PathBuf>,
+    /// Write nothing; fail if OUT.rs is not what would be written.
+    #[arg(long, requires = "out")]
+    check: bool,
+    /// Language.
+    #[arg(long, value_enum, default_value_t = Target::Rust)]
+    target: Target,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Target {
+    Rust,
+}
+
+#[derive(Debug, Args)]
+struct SimulateArguments {
+    #[command(flatten)]
+    input: Input,
+    #[command(flatten)]
+    length: LengthArguments,
+    /// Rows of the output, evenly spaced over the run, both ends included.
+    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
+    samples: u32,
+    /// File for the rows (CSV). It appears only when it is complete.
+    #[arg(long, value_name = "CSV")]
+    out: Option<PathBuf>,
+    /// Method [default: dopri5, or rk4 if --step is given].
+    #[arg(long, value_enum)]
+    integrator: Option<IntegratorName>,
+    /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
+    #[arg(long, value_name = "S", value_parser = input::positive, conflicts_with = "tol")]
+    step: Option<f64>,
+    /// Error tolerance of dopri5 [default: 1e-9].
+    #[arg(long, value_name = "E", value_parser = input::positive)]
+    tol: Option<f64>,
+    /// What runs the equations. `auto`: compiled if the file is a shipped mechanism, byte for byte, with
+    /// no generation-time parameter set; else the interpreter.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    backend: Backend,
+    /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
+    #[arg(long)]
+    rigid: bool,
+}
+
+/// How long to run: at most one of the two.
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+struct LengthArguments {
+    /// Turns of the first driven revolute joint [default: 1, if there is one].
+    #[arg(long, value_name = "N", value_parser = input::positive)]
+    turns: Option<f64>,
+    /// Time [s] [default: 1, if no revolute joint is driven].
+    #[arg(long, value_name = "T", value_parser = input::positive)]
+    time: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum IntegratorName {
+    Rk4,
+    Dopri5,
+    #[value(name = "generalized-alpha")]
+    GeneralizedAlpha,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    Auto,
+    Compiled,
+    Jit,
+    Interpreter,
+}
+
+#[derive(Debug, Args)]
+struct NewArguments {
+    /// Name of the mechanism; the file is NAME.toml in the current folder.
+    name: String,
+}
+
+/// Reads the arguments of this process, answers, and says how it ended.
+pub fn run() -> ExitCode {
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    let parsed = match Arguments::try_parse_from(&arguments) {
+        Ok(parsed) => parsed,
+        Err(error) => return failure::wrong_arguments(&error, wants_json(&arguments)),
+    };
+    let format = parsed.format;
+    match answer(parsed) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(format),
+    }
+}
+
+fn answer(arguments: Arguments) -> Result<(), Failure> {
+    let format = arguments.format;
+    match arguments.command {
+        Command::Check(input) => check::run(&input, format),
+        Command::Equations(arguments) => equations::run(&arguments, format),
+        Command::Generate(arguments) => generate::run(&arguments, format),
+        Command::Simulate(arguments) => simulate::run(&arguments, format),
+        Command::New(arguments) => new::run(&arguments, format),
+        Command::Completions { shell } => packaging::completions(shell, format),
+        Command::Man => packaging::manual(format),
+    }
+}
+
+/// Whether JSON was asked for, on a command line that clap could not read.
+fn wants_json(arguments: &[OsString]) -> bool {
+    let is = |argument: &OsString, text: &str| argument.to_str() == Some(text);
+    arguments.iter().any(|argument| is(argument, "--format=json"))
+        || arguments.windows(2).any(|pair| is(&pair[0], "--format") && is(&pair[1], "json"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn definitions_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_subcommand_shows_an_example() {
+        for command in Arguments::command().get_subcommands() {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.contains(&format!("linkwear {}", command.get_name())), "{}", command.get_name());
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! `check`: what a mechanism is, before anything moves.
+
+use std::fmt::Write as _;
+
+use linkwear_codegen::Compiled;
+use linkwear_codegen::model::{Joint, JointKind, Parameter};
+use linkwear_codegen::spec::Dimension;
+use serde_json::{Value, json};
+
+use super::failure::Failure;
+use super::file::print;
+use super::input::{Loaded, load};
+use super::table::{number, plural, table};
+use super::{Format, Input};
+
+/// Answers `check`.
+pub fn run(input: &Input, format: Format) -> Result<(), Failure> {
+    let loaded = load(input)?;
+    match format {
+        Format::Text => print(&text(&loaded.compiled).trim_end()),
+        Format::Json => print(&machine(&loaded)),
+    }
+}
+
+fn machine(loaded: &Loaded) -> Value {
+    let (mechanism, analysis) = (&loaded.compiled.mechanism, &loaded.compiled.analysis);
+    let redundant: Vec<Value> = analysis
+        .redundant
+        .iter()
+        .map(|row| json!({ "joint": row.joint, "row": row.row, "reason": row.reason }))
+        .collect();
+    let cuts: Vec<&str> =
+        loaded.compiled.topology.cuts.iter().map(|id| mechanism.joint(*id).name.as_str()).collect();
+    json!({
+        "name": mechanism.name,
+        "bodies": mechanism.bodies.len(),
+        "joints": mechanism.joints.len(),
+        "coordinates": analysis.coordinates,
+        "speeds": analysis.speeds,
+        "constraint_rows": analysis.constraint_rows,
+        "independent_rows": analysis.independent_rows,
+        "mobility": analysis.mobility,
+        "grubler": analysis.grubler,
+        "drivers": analysis.drivers,
+        "idle": analysis.idle,
+        "redundant": redundant,
+        "non_unique": analysis.non_unique,
+        "cut_joints": cuts,
+        "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
+        "warnings": loaded.warnings(),
+    })
+}
+
+fn parameter_entry(parameter: &Parameter) -> Value {
+    json!({
+        "name": parameter.name, "value": parameter.value, "unit": unit(parameter.dimension),
+        "tunable": parameter.tunable, "assumed": parameter.assumed,
+    })
+}
+
+fn text(compiled: &Compiled) -> String {
+    let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
+    let mut text = format!(
+        "{}: {}, {}\n\n",
+        mechanism.name,
+        plural(mechanism.bodies.len() as u64, "body", "bodies"),
+        plural(mechanism.joints.len() as u64, "joint", "joints"),
+    );
+    let dropped = analysis.constraint_rows - analysis.independent_rows;
+    let facts = [
+        ("coordinates", analysis.coordinates.to_string(), "of the spanning tree, 4 per quaternion".into()),
+        ("speeds", analysis.speeds.to_string(), String::new()),
+        (
+            "constraint rows",
+            analysis.constraint_rows.to_string(),
+            match dropped {
+                0 => "all independent".into(),
+                _ => format!("{} independent, {dropped} redundant", analysis.independent_rows),
+            },
+        ),
+        ("mobility", analysis.mobility.to_string(), mobility_note(compiled)),
+    ];
+    let facts = facts.map(|(name, value, note)| vec![name.to_owned(), value, note]);
+    text.push_str(&table(&["", "", ""], &facts));
+    list(&mut text, "Driven", &analysis.drivers);
+    list(&mut text, "Idle freedoms", &analysis.idle);
+    if !analysis.redundant.is_empty() {
+        let rows = analysis.redundant.iter().map(|r| vec![r.joint.clone(), r.row.clone(), r.reason.clone()]);
+        let _ =
+            write!(text, "\nRedundant rows\n{}", table(&["joint", "row", "why"], &rows.collect::<Vec<_>>()));
+    }
+    list(&mut text, "Reactions that are not unique", &analysis.non_unique);
+    if !mechanism.joints.is_empty() {
+        let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
+        let _ = write!(text, "\nJoints\n{}", table(&["name", "kind", "parent", "child", ""], &rows));
+    }
+    if !mechanism.parameters.is_empty() {
+        let rows: Vec<_> = mechanism.parameters.iter().map(parameter_row).collect();
+        let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
+    }
+    text
+}
+
+fn mobility_note(compiled: &Compiled) -> String {
+    let analysis = &compiled.analysis;
+    let mut note = format!("Grübler counts {}", analysis.grubler);
+    match analysis.drivers.len() {
+        0 => {}
+        driven => {
+            let _ = write!(note, "; {driven} driven");
+        }
+    }
+    if !analysis.idle.is_empty() {
+        let _ = write!(note, ", {} idle", analysis.idle.len());
+    }
+    note
+}
+
+fn list(text: &mut String, title: &str, items: &[String]) {
+    if !items.is_empty() {
+        let _ = writeln!(text, "\n{title}");
+        for item in items {
+            let _ = writeln!(text, "  {item}");
+        }
+    }
+}
+
+fn joint_row(compiled: &Compiled, joint: &Joint) -> Vec<String> {
+    let mechanism = &compiled.mechanism;
+    let is_cut = compiled.topology.cuts.iter().any(|id| mechanism.joint(*id).name == joint.name);
+    let kind = match joint.kind {
+        JointKind::Revolute(_) => "revolute",
+        JointKind::Prismatic(_) => "prismatic",
+        JointKind::Cylindrical(_) => "cylindrical",
+        JointKind::Screw(..) => "screw",
+        JointKind::Universal(..) => "universal",
+        JointKind::Spherical => "spherical",
+        JointKind::Planar { .. } => "planar",
+        JointKind::Fixed => "fixed",
+        JointKind::Free => "free",
+    };
+    let note = match (is_cut, joint.drives.is_empty()) {
+        (true, _) => "closes a loop",
+        (false, false) => "driven",
+        (false, true) => "",
+    };
+    let carrier = |carrier| mechanism.carrier_name(carrier).to_owned();
+    vec![joint.name.clone(), kind.into(), carrier(joint.parent), carrier(joint.child), note.into()]
+}
+
+fn parameter_row(parameter: &Parameter) -> Vec<String> {
+    let marks: Vec<&str> = [(parameter.tunable, "tunable"), (parameter.assumed, "assumed")]
+        .into_iter()
+        .filter_map(|(holds, mark)| holds.then_some(mark))
+        .collect();
+    vec![parameter.name.clone(), number(parameter.value), unit(parameter.dimension), marks.join(", ")]
+}
+
+/// SI unit of a dimension in base units: `kg m^-3`.
+fn unit(dimension: Dimension) -> String {
+    let parts = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
+    let shown: Vec<String> = parts
+        .into_iter()
+        .filter(|(_, exponent)| *exponent != 0)
+        .map(|(name, exponent)| if exponent == 1 { name.to_owned() } else { format!("{name}^{exponent}") })
+        .collect();
+    if shown.is_empty() { "1".to_owned() } else { shown.join(" ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_written_in_base_units() {
+        assert_eq!(unit(Dimension { length: -3, mass: 1, time: 0 }), "kg m^-3");
+        assert_eq!(unit(Dimension { length: 1, mass: 0, time: -2 }), "m s^-2");
+        assert_eq!(unit(Dimension::default()), "1");
+    }
+}

@@ -1,0 +1,259 @@
+//! `simulate`: choose a back end, integrate, record.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use linkwear::mechanisms::{SHIPPED, Shipped};
+use linkwear_codegen::{Options, compile};
+use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, System, simulate, write_csv};
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
+
+use super::failure::Failure;
+use super::file::{print, refuse_same, write_whole};
+use super::input::{Loaded, load};
+use super::progress::{Progress, catch_interrupts, stop_requested};
+use super::table::{number, plural};
+use super::{Backend, Format, IntegratorName, SimulateArguments, summary};
+
+/// Step of the fixed-step methods unless one is given [s].
+const DEFAULT_STEP: f64 = 1e-4;
+/// Tolerance of the adaptive method unless one is given.
+const DEFAULT_TOLERANCE: f64 = 1e-9;
+/// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
+const DEFAULT_RHO: f64 = 0.8;
+
+/// Answers `simulate`.
+pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure> {
+    let integrator = integrator(arguments)?;
+    if let Some(out) = &arguments.out {
+        refuse_same(&arguments.input.file, out)?;
+    }
+    let loaded = load(&arguments.input)?;
+    let description = loaded.compiled.description();
+    let span = span(arguments, description)?;
+    let settings = Settings::new(integrator, span, arguments.samples as usize);
+    let (backend, system) = choose_backend(arguments, &loaded)?;
+    let parameters = loaded.compiled.parameters();
+
+    catch_interrupts();
+    let mut progress = Progress::new();
+    let start = Instant::now();
+    let result = simulate(&*system, description, &parameters, &settings, &mut |fraction| {
+        progress.set(fraction);
+        if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let wall_seconds = start.elapsed().as_secs_f64();
+    progress.finish();
+
+    let run = result.map_err(|error| failed(arguments, error, None))?;
+    if let Some(error) = &run.stopped {
+        return Err(failed(arguments, error.clone(), keep_partial(arguments, description, &run)?));
+    }
+    if let Some(out) = &arguments.out {
+        write_whole(out, |file| write_csv(file, description, &run))?;
+    }
+    match format {
+        Format::Json => print(&machine(arguments, &loaded, &run, backend, wall_seconds)),
+        Format::Text => print(&human(arguments, description, &run, &settings, backend, wall_seconds)),
+    }
+}
+
+fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {
+    let step = arguments.step.unwrap_or(DEFAULT_STEP);
+    let default = if arguments.step.is_some() { IntegratorName::Rk4 } else { IntegratorName::Dopri5 };
+    let name = arguments.integrator.unwrap_or(default);
+    let misfit = |option: &str, help: &str| Failure::Usage {
+        message: format!("the integrator has no {option}"),
+        help: help.to_owned(),
+    };
+    match name {
+        IntegratorName::Dopri5 if arguments.step.is_some() => {
+            Err(misfit("--step", "dopri5 chooses its steps: give --tol, or --integrator rk4"))
+        }
+        IntegratorName::Rk4 | IntegratorName::GeneralizedAlpha if arguments.tol.is_some() => {
+            Err(misfit("--tol", "it takes fixed steps: give --step, or --integrator dopri5"))
+        }
+        IntegratorName::Dopri5 => {
+            Ok(Integrator::Dopri5 { tolerance: arguments.tol.unwrap_or(DEFAULT_TOLERANCE), max_step: None })
+        }
+        IntegratorName::Rk4 => Ok(Integrator::Rk4 { step }),
+        IntegratorName::GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
+    }
+}
+
+fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span, Failure> {
+    match (arguments.length.turns, arguments.length.time, description.turn_driver) {
+        (_, Some(time), _) => Ok(Span::Time(time)),
+        (Some(turns), _, Some(_)) => Ok(Span::Turns(turns)),
+        (Some(_), _, None) => Err(Failure::Usage {
+            message: "--turns: this mechanism has no driven revolute joint to count turns of".to_owned(),
+            help: "give --time in seconds".to_owned(),
+        }),
+        (None, None, Some(_)) => Ok(Span::Turns(1.0)),
+        (None, None, None) => Ok(Span::Time(1.0)),
+    }
+}
+
+/// The back end's name and the equations on it.
+fn choose_backend(
+    arguments: &SimulateArguments,
+    loaded: &Loaded,
+) -> Result<(&'static str, Box<dyn System<f64>>), Failure> {
+    let refuse = |message: &str, help: &str| {
+        Err(Failure::Backend { message: message.to_owned(), help: help.to_owned() })
+    };
+    let interpreter = || ("interpreter", Box::new(loaded.compiled.interpreter()) as Box<dyn System<f64>>);
+    match (arguments.backend, compiled_in(arguments, loaded)) {
+        (Backend::Interpreter, _) | (Backend::Auto, Err(_)) => Ok(interpreter()),
+        (Backend::Auto | Backend::Compiled, Ok(shipped)) => Ok(("compiled", (shipped.system)())),
+        (Backend::Compiled, Err(reason)) => refuse(
+            &format!("--backend compiled: {reason}"),
+            "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
+        ),
+        (Backend::Jit, _) => {
+            refuse("--backend jit comes with a later version", "use --backend auto or interpreter")
+        }
+    }
+}
+
+/// The shipped mechanism that is exactly what was asked for, or why there is none.
+fn compiled_in(arguments: &SimulateArguments, loaded: &Loaded) -> Result<&'static Shipped, String> {
+    let hash = sha256(loaded.source.text.as_bytes());
+    let shipped = SHIPPED
+        .iter()
+        .find(|shipped| shipped.source_sha256 == hash)
+        .ok_or("the file is not a shipped mechanism, byte for byte")?;
+    let folded = loaded.folded_overrides(&arguments.input);
+    if !folded.is_empty() {
+        return Err(format!("{} is folded into the compiled code", folded.join(", ")));
+    }
+    if arguments.input.closure.is_some() {
+        // The compiled code has the closure of the file, which only a second reading without the option tells.
+        let own = compile(&loaded.source, &Options::default()).map_err(Failure::Mechanism);
+        if !own.is_ok_and(|own| own.mechanism.closure == loaded.compiled.mechanism.closure) {
+            return Err("it is compiled with another closure".to_owned());
+        }
+    }
+    Ok(shipped)
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+fn failed(arguments: &SimulateArguments, error: RunError, kept: Option<PathBuf>) -> Failure {
+    let file = arguments.input.file.clone();
+    match error {
+        RunError::Interrupted { t } => Failure::Interrupted { file, time: t, kept },
+        error => Failure::Run { file, error, kept },
+    }
+}
+
+/// Saves the rows of an incomplete run beside the file they were meant for, which is left as it was.
+fn keep_partial(
+    arguments: &SimulateArguments,
+    description: &Description,
+    run: &Run,
+) -> Result<Option<PathBuf>, Failure> {
+    let Some(out) = arguments.out.as_deref().filter(|_| !run.rows.is_empty()) else { return Ok(None) };
+    let partial = partial_name(out);
+    write_whole(&partial, |file| write_csv(file, description, run))?;
+    Ok(Some(partial))
+}
+
+/// `rssr.csv` -> `rssr.partial.csv`.
+fn partial_name(out: &Path) -> PathBuf {
+    let mut name = out.file_stem().unwrap_or_default().to_os_string();
+    name.push(".partial");
+    if let Some(extension) = out.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    out.with_file_name(name)
+}
+
+fn machine(
+    arguments: &SimulateArguments,
+    loaded: &Loaded,
+    run: &Run,
+    backend: &str,
+    wall_seconds: f64,
+) -> Value {
+    let numbers = &run.statistics;
+    let description = loaded.compiled.description();
+    json!({
+        "name": description.name,
+        "backend": backend,
+        "time_s": run.times.last().copied().unwrap_or_default(),
+        "samples": run.rows.len(),
+        "steps": numbers.steps,
+        "rejected": numbers.rejected,
+        "evaluations": numbers.evaluations,
+        "projections": numbers.projections,
+        "rank_revealing_solves": numbers.rank_revealing_solves,
+        "wall_seconds": wall_seconds,
+        "max_loop_error_m": numbers.max_loop_error_m,
+        "max_loop_error_rad": numbers.max_loop_error_rad,
+        "energy_error_J": numbers.energy_error_J,
+        "energy_throughput_J": numbers.energy_throughput_J,
+        "peaks": summary::peaks(description, run).iter().map(summary::Peak::machine).collect::<Vec<_>>(),
+        "out": arguments.out.as_ref().map(|path| path.display().to_string()),
+        "warnings": loaded.warnings(),
+    })
+}
+
+fn human(
+    arguments: &SimulateArguments,
+    description: &Description,
+    run: &Run,
+    settings: &Settings,
+    backend: &str,
+    wall_seconds: f64,
+) -> String {
+    let end = number(run.times.last().copied().unwrap_or_default());
+    let length = match settings.span {
+        Span::Turns(turns) => {
+            let word = if turns == 1.0 { "turn" } else { "turns" };
+            format!("{turns} {word} ({end} s)")
+        }
+        Span::Time(_) => format!("{end} s"),
+    };
+    let head = format!("{}: {length} in {wall_seconds:.3} s, {backend}", description.name);
+    let method = match settings.integrator {
+        Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
+        Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
+        Integrator::GeneralizedAlpha { step, rho } => {
+            format!("generalized-alpha, step {step:e} s, rho {rho}")
+        }
+    };
+    let mut text = summary::text(description, run, &head, &method);
+    if let Some(out) = &arguments.out {
+        let rows = plural(run.rows.len() as u64, "row", "rows");
+        text.push_str(&format!(
+            "\n{rows} of {} columns in {}",
+            description.channels.len() + 1,
+            out.display()
+        ));
+    }
+    text.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_an_incomplete_run_go_beside_the_file() {
+        assert_eq!(partial_name(Path::new("a/rssr.csv")), Path::new("a/rssr.partial.csv"));
+        assert_eq!(partial_name(Path::new("rssr")), Path::new("rssr.partial"));
+    }
+
+    #[test]
+    fn the_hash_is_the_published_one() {
+        // SHA-256 of "abc", FIPS 180-2, appendix B.1.
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256(b"abc"), expected);
+    }
+}

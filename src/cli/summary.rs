@@ -1,0 +1,124 @@
+//! A run in a screenful: what it cost, how good it is, the curves and the peak loads.
+
+use std::fmt::Write as _;
+
+use linkwear_runtime::{Description, Run};
+use serde_json::{Value, json};
+
+use super::plot::{range, sparkline};
+use super::table::{count, number, plural, table};
+
+/// Curves shown at most.
+const CURVES: usize = 8;
+/// Width of a curve.
+const WIDTH: usize = 48;
+
+/// Largest force and moment at a joint over the recorded rows.
+pub struct Peak {
+    joint: String,
+    force: f64,
+    force_time: f64,
+    moment: f64,
+    moment_time: f64,
+}
+
+impl Peak {
+    /// For machines.
+    pub fn machine(&self) -> Value {
+        json!({
+            "joint": self.joint, "force_N": self.force, "force_time_s": self.force_time,
+            "moment_N_m": self.moment, "moment_time_s": self.moment_time,
+        })
+    }
+}
+
+/// Peaks of every joint that has a wrench, in column order.
+pub fn peaks(description: &Description, run: &Run) -> Vec<Peak> {
+    let joints = description.channels.iter().filter_map(|channel| channel.name.strip_suffix(".Fx"));
+    joints
+        .map(|joint| {
+            let (force, force_time) = largest(description, run, joint, "F");
+            let (moment, moment_time) = largest(description, run, joint, "M");
+            Peak { joint: joint.to_owned(), force, force_time, moment, moment_time }
+        })
+        .collect()
+}
+
+/// Largest length of the vector `joint.Fx..z`, and when.
+fn largest(description: &Description, run: &Run, joint: &str, letter: &str) -> (f64, f64) {
+    let columns: Vec<usize> = ["x", "y", "z"]
+        .iter()
+        .filter_map(|axis| {
+            let name = format!("{joint}.{letter}{axis}");
+            description.channels.iter().position(|channel| channel.name == name)
+        })
+        .collect();
+    let lengths = run.rows.iter().map(|row| columns.iter().map(|at| row[*at] * row[*at]).sum::<f64>().sqrt());
+    lengths.zip(&run.times).fold(
+        (0.0, 0.0),
+        |best, (length, time)| {
+            if length > best.0 { (length, *time) } else { best }
+        },
+    )
+}
+
+/// The screenful.
+pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> String {
+    let numbers = &run.statistics;
+    let mut text = format!("{head}\n\n");
+    let mut facts = vec![
+        ["steps", &format!("{} ({}), {} rejected", count(numbers.steps), method, count(numbers.rejected))],
+        ["evaluations", &count(numbers.evaluations)],
+    ]
+    .into_iter()
+    .map(|row| row.map(str::to_owned).to_vec())
+    .collect::<Vec<_>>();
+    if !description.rows.is_empty() {
+        let (m, rad) = (number(numbers.max_loop_error_m), number(numbers.max_loop_error_rad));
+        facts.push(vec!["loop error".into(), format!("at most {m} m, {rad} rad")]);
+    }
+    let (error, moved) = (number(numbers.energy_error_J), number(numbers.energy_throughput_J));
+    facts.push(vec!["energy error".into(), format!("{error} J, while {moved} J went through")]);
+    if numbers.rank_revealing_solves > 0 {
+        let solves = plural(numbers.rank_revealing_solves, "evaluation", "evaluations");
+        facts.push(vec!["singular".into(), format!("{solves} near a singular position")]);
+    }
+    text.push_str(&table(&["", ""], &facts));
+    curves(&mut text, description, run);
+    let peaks = peaks(description, run);
+    if !peaks.is_empty() {
+        let rows: Vec<_> = peaks
+            .iter()
+            .map(|p| {
+                let cells = [p.force, p.force_time, p.moment, p.moment_time].map(number);
+                [vec![p.joint.clone()], cells.to_vec()].concat()
+            })
+            .collect();
+        let header = ["peak load at", "force [N]", "at t [s]", "moment [N m]", "at t [s]"];
+        let _ = write!(text, "\n{}", table(&header, &rows));
+    }
+    text
+}
+
+/// Drives first, then joint positions: what one looks at first.
+fn curves(text: &mut String, description: &Description, run: &Run) {
+    let columns = |suffix: &'static str| {
+        description.channels.iter().enumerate().filter(move |(_, channel)| channel.name.ends_with(suffix))
+    };
+    let rows: Vec<Vec<String>> = columns(".drive")
+        .chain(columns(".q"))
+        .take(CURVES)
+        .map(|(at, channel)| {
+            let values: Vec<f64> = run.rows.iter().map(|row| row[at]).collect();
+            let (low, high) = range(&values);
+            vec![
+                format!("{} [{}]", channel.name, channel.unit),
+                sparkline(&values, WIDTH),
+                format!("{} to {}", number(low), number(high)),
+            ]
+        })
+        .collect();
+    if !rows.is_empty() && !run.rows.is_empty() {
+        let _ = write!(text, "\n{}", table(&["", "", ""], &rows));
+    }
+}

@@ -1,0 +1,90 @@
+//! Text tables: left-aligned words, columns as wide as they need.
+
+/// Lines of a table, indented by two, two spaces between columns, no trailing space.
+/// Columns whose cells all read as numbers are aligned right.
+pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
+        cells.chain(header.get(column).map(|title| title.chars().count())).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    let right: Vec<bool> = (0..header.len()).map(|column| is_numeric(rows, column)).collect();
+    let line = |cells: Vec<&str>| {
+        let mut text = String::from(" ");
+        for ((cell, width), right) in cells.iter().zip(&widths).zip(&right) {
+            let padding = " ".repeat(width - cell.chars().count());
+            text.push(' ');
+            text.push_str(&if *right { format!("{padding}{cell}") } else { format!("{cell}{padding}") });
+            text.push(' ');
+        }
+        text.truncate(text.trim_end().len());
+        text.push('\n');
+        text
+    };
+    let mut text = String::new();
+    if header.iter().any(|title| !title.is_empty()) {
+        text.push_str(&line(header.to_vec()));
+    }
+    for row in rows {
+        text.push_str(&line(row.iter().map(String::as_str).collect()));
+    }
+    text
+}
+
+fn is_numeric(rows: &[Vec<String>], column: usize) -> bool {
+    let mut cells = rows.iter().filter_map(|row| row.get(column)).filter(|cell| !cell.is_empty()).peekable();
+    cells.peek().is_some() && cells.all(|cell| cell.replace(',', "").parse::<f64>().is_ok())
+}
+
+/// A number for people: four significant digits, exponents only where they save space.
+pub fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e6).contains(&size) {
+        format!("{value:.3e}")
+    } else {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 6")]
+        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+        format!("{value:.decimals$}")
+    }
+}
+
+/// A count with separators: 12,345.
+pub fn count(value: u64) -> String {
+    let digits = value.to_string();
+    let mut text = String::new();
+    for (position, digit) in digits.chars().enumerate() {
+        if position > 0 && (digits.len() - position).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// `1 body`, `2 bodies`.
+pub fn plural(value: u64, one: &str, many: &str) -> String {
+    format!("{} {}", count(value), if value == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_align_and_numbers_lean_right() {
+        let rows = [vec!["R1".to_owned(), "1.5".to_owned()], vec!["S22".to_owned(), "12.25".to_owned()]];
+        assert_eq!(table(&["joint", "N"], &rows), "  joint      N\n  R1       1.5\n  S22    12.25\n");
+    }
+
+    #[test]
+    fn numbers_keep_four_digits() {
+        let shown: Vec<String> = [0.0, 52.908271, -0.0338, 1.2e-9, 1234567.0].map(number).into();
+        assert_eq!(shown, ["0", "52.91", "-0.03380", "1.200e-9", "1.235e6"]);
+        assert_eq!(
+            (count(7), count(1234), count(1_234_567)),
+            ("7".into(), "1,234".into(), "1,234,567".into())
+        );
+    }
+}

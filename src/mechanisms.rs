@@ -1,0 +1,71 @@
+//! The shipped mechanisms, compiled in by this package's build script.
+//! Out: one module each, and [`SHIPPED`] to find them by the bytes of their file.
+//! Never knows the generator: what is here is what any crate gets from its own build script.
+
+use linkwear_runtime::{Description, System};
+
+/// A mechanism that was compiled into this program.
+#[derive(Clone, Copy)]
+pub struct Shipped {
+    /// Name of its file without `.toml`.
+    pub name: &'static str,
+    /// SHA-256 of the bytes of its file, in lower-case hexadecimal.
+    pub source_sha256: &'static str,
+    /// Names, units and columns.
+    pub description: fn() -> &'static Description,
+    /// The compiled equations. Parameters are inputs of every entry.
+    pub system: fn() -> Box<dyn System<f64>>,
+}
+
+macro_rules! shipped {
+    ($($(#[$doc:meta])* $name:ident = $file:literal),* $(,)?) => {
+        $(
+            $(#[$doc])*
+            pub mod $name {
+                linkwear_runtime::include_mechanism!($file);
+            }
+        )*
+
+        /// Every shipped mechanism, in the order of `build.rs`.
+        pub static SHIPPED: &[Shipped] = &[$(Shipped {
+            name: $file,
+            source_sha256: $name::SOURCE_SHA256,
+            description: $name::description,
+            system: || Box::new($name::Mechanism::default()),
+        }),*];
+    };
+}
+
+shipped! {
+    /// A bar that swings about one revolute joint.
+    pendulum = "pendulum",
+    /// Planar four-bar with four revolute joints: three of its constraint rows are redundant.
+    four_bar = "four_bar",
+    /// Slider-crank with a driven crank.
+    slider_crank = "slider_crank",
+    /// The case study's spatial four-bar, rigid, with ideal joints.
+    rssr_rigid = "rssr_rigid",
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shipped_file_is_compiled_in_and_carries_its_own_name() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let files = std::fs::read_dir(folder).expect("mechanisms folder");
+        let mut names: Vec<String> = files
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        let mut compiled: Vec<&str> = SHIPPED.iter().map(|shipped| shipped.name).collect();
+        compiled.sort_unstable();
+        assert_eq!(names, compiled);
+        for shipped in SHIPPED {
+            assert_eq!((shipped.description)().name, shipped.name);
+        }
+    }
+}

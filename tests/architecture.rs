@@ -1,0 +1,201 @@
+//! Modules know only what the tables of ARCHITECTURE.md allow.
+//! Reads `crate::` paths in the source (tests inside modules excepted) and compares.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+type Arrows = BTreeMap<String, BTreeSet<String>>;
+
+/// The table under a heading: module -> modules it may import.
+fn table(heading: &str) -> Arrows {
+    let text = fs::read_to_string("ARCHITECTURE.md").expect("ARCHITECTURE.md");
+    let section = text.split(&format!("\n## {heading}\n")).nth(1).expect("the heading");
+    let section = section.split("\n## ").next().expect("a section");
+    let rows = section.lines().filter(|line| line.starts_with("| `"));
+    rows.map(|row| {
+        let cells: Vec<&str> = row.split('|').collect();
+        (backticked(cells[1]).remove(0), backticked(cells[2]).into_iter().collect())
+    })
+    .collect()
+}
+
+fn backticked(cell: &str) -> Vec<String> {
+    cell.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+/// Code without comments and without the test module at its end.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("a source file");
+    let text = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default().to_owned();
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// First path segments after `prefix::`, braces opened: `crate::{a::b, c}` gives a and c.
+fn heads(code: &str, prefix: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for (position, _) in code.match_indices(&format!("{prefix}::")) {
+        let before = code[..position].chars().next_back();
+        if before.is_some_and(|letter| letter.is_alphanumeric() || letter == '_' || letter == '$') {
+            continue;
+        }
+        let rest = &code[position + prefix.len() + 2..];
+        if let Some(group) = rest.strip_prefix('{') {
+            found.extend(group_heads(group));
+        } else {
+            found.extend(identifier(rest));
+        }
+    }
+    found
+}
+
+fn group_heads(group: &str) -> Vec<String> {
+    let mut depth = 0;
+    let mut heads = Vec::new();
+    let mut at_start = true;
+    for (position, letter) in group.char_indices() {
+        match letter {
+            '{' => depth += 1,
+            '}' if depth == 0 => break,
+            '}' => depth -= 1,
+            ',' if depth == 0 => at_start = true,
+            _ if at_start && !letter.is_whitespace() => {
+                heads.extend(identifier(&group[position..]));
+                at_start = false;
+            }
+            _ => {}
+        }
+    }
+    heads
+}
+
+fn identifier(text: &str) -> Option<String> {
+    let end = text.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(text.len());
+    (end > 0).then(|| text[..end].to_owned())
+}
+
+/// Names that `lib.rs` re-exports, each with the module it comes from.
+fn reexports(lib: &str) -> BTreeMap<String, String> {
+    let mut names = BTreeMap::new();
+    for statement in lib.split("pub use ").skip(1) {
+        let statement = statement.split(';').next().unwrap_or_default();
+        let Some((path, last)) = statement.rsplit_once("::") else { continue };
+        let (path, items) = match statement.split_once("::{") {
+            Some((path, items)) => (path, items.trim_end_matches('}')),
+            None => (path, last),
+        };
+        let module = path.trim_start_matches("crate::").split("::").next().unwrap_or_default();
+        for item in items.split(',').map(str::trim).filter(|item| !item.is_empty()) {
+            let name = item.rsplit([' ', ':']).next().unwrap_or(item);
+            names.insert(name.to_owned(), module.to_owned());
+        }
+    }
+    names
+}
+
+/// The module a file belongs to: first folder or file name below the source folder.
+fn module_of(file: &Path, root: &Path) -> String {
+    let inside = file.strip_prefix(root).expect("inside").components().next().expect("a name");
+    inside.as_os_str().to_string_lossy().trim_end_matches(".rs").to_owned()
+}
+
+/// Arrows that the table does not have, and modules without a row.
+fn violations(root: &str, allowed: &Arrows) -> Vec<String> {
+    let root = Path::new(root);
+    let names = reexports(&code(&root.join("lib.rs")));
+    let mut wrong = Vec::new();
+    for file in rust_files(root) {
+        let module = module_of(&file, root);
+        if module == "lib" || file.ends_with("tests.rs") {
+            continue;
+        }
+        let Some(may) = allowed.get(&module) else {
+            wrong.push(format!("{}: module `{module}` has no row", file.display()));
+            continue;
+        };
+        for head in heads(&code(&file), "crate") {
+            let target = names.get(&head).unwrap_or(&head);
+            if *target != module && !may.contains(target) {
+                wrong
+                    .push(format!("{}: `{module}` must not know `{target}` (crate::{head})", file.display()));
+            }
+        }
+    }
+    wrong
+}
+
+fn assert_clean(root: &str, heading: &str) {
+    let wrong = violations(root, &table(heading));
+    assert!(wrong.is_empty(), "not in ARCHITECTURE.md, \"{heading}\":\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_generator_has_only_the_allowed_arrows() {
+    assert_clean("codegen/src", "Allowed arrows: codegen");
+}
+
+#[test]
+fn the_runtime_has_only_the_allowed_arrows() {
+    assert_clean("runtime/src", "Allowed arrows: runtime");
+}
+
+#[test]
+fn allowed_arrows_form_no_circle() {
+    for heading in ["Allowed arrows: codegen", "Allowed arrows: runtime"] {
+        let mut left = table(heading);
+        while !left.is_empty() {
+            let free: Vec<String> = left
+                .iter()
+                .filter(|(_, may)| !may.iter().any(|target| left.contains_key(target)))
+                .map(|(module, _)| module.clone())
+                .collect();
+            assert!(!free.is_empty(), "{heading}: a circle among {:?}", left.keys());
+            for module in free {
+                left.remove(&module);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_runtime_does_not_know_that_a_generator_exists() {
+    for file in rust_files(Path::new("runtime/src")) {
+        assert!(!code(&file).contains("linkwear_codegen"), "{}", file.display());
+    }
+}
+
+#[test]
+fn the_command_line_knows_results_and_no_stages_between() {
+    let allowed = &table("Allowed arrows: command line")["cli"];
+    let names = reexports(&code(Path::new("codegen/src/lib.rs")));
+    for file in rust_files(Path::new("src")) {
+        for head in heads(&code(&file), "linkwear_codegen") {
+            let target = names.get(&head).unwrap_or(&head);
+            assert!(allowed.contains(target), "{} uses linkwear_codegen::{head}", file.display());
+        }
+    }
+}
+
+#[test]
+fn the_reader_of_paths_sees_groups_and_skips_longer_names() {
+    let code = "use crate::{a::{x, y}, b};\nlet v = crate::c::d();\nmy_crate::e(); $crate::f!();";
+    assert_eq!(heads(code, "crate").into_iter().collect::<Vec<_>>(), ["a", "b", "c"]);
+    let names = reexports("pub use model::Closure;\npub use stub::{A, b::C as D};");
+    let expected = [("A", "stub"), ("Closure", "model"), ("D", "stub")];
+    assert_eq!(names.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect::<Vec<_>>(), expected);
+}

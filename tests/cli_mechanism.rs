@@ -1,0 +1,130 @@
+//! `check`, `equations` and `generate` on shipped mechanisms: fields scripts rely on, and what people read.
+
+mod command;
+
+use command::{Folder, linkwear};
+use serde_json::Value;
+
+/// The fields of an `operations` object, in order.
+const OPERATIONS: [&str; 6] = ["mul", "add", "div", "sqrt", "sincos", "total"];
+
+fn assert_operations(value: &Value) {
+    let object = value.as_object().expect("an object");
+    assert_eq!(object.keys().map(String::as_str).collect::<Vec<_>>(), OPERATIONS);
+    let counts: Vec<u64> = object.values().map(|count| count.as_u64().expect("a count")).collect();
+    assert_eq!(counts[..5].iter().sum::<u64>(), counts[5]);
+}
+
+#[test]
+fn check_counts_the_rssr_before_drivers_take_freedoms_away() {
+    let answer = linkwear(&["check", "mechanisms/rssr_rigid.toml", "--format", "json"]).json();
+    for name in
+        ["bodies", "joints", "coordinates", "speeds", "constraint_rows", "independent_rows", "mobility"]
+    {
+        assert!(answer[name].is_number(), "{name}");
+    }
+    for name in ["drivers", "idle", "redundant", "warnings"] {
+        assert!(answer[name].is_array(), "{name}");
+    }
+    // Three bars on four joints; cut at S3 (3 rows): R1 1, S2 3, R4 1 speeds, a quaternion for S2.
+    assert_eq!((&answer["bodies"], &answer["joints"]), (&3.into(), &4.into()));
+    assert_eq!((&answer["coordinates"], &answer["speeds"]), (&6.into(), &5.into()));
+    assert_eq!((&answer["constraint_rows"], &answer["independent_rows"]), (&3.into(), &3.into()));
+    // The crank's angle and the coupler's spin about its own line.
+    assert_eq!(answer["mobility"], 2);
+    assert_eq!(answer["idle"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answer["drivers"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answer["redundant"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn check_names_the_three_redundant_rows_of_a_planar_four_bar() {
+    let answer = linkwear(&["check", "mechanisms/four_bar.toml", "--format", "json"]).json();
+    assert_eq!(answer["mobility"], 1);
+    let redundant = answer["redundant"].as_array().expect("a list");
+    assert_eq!(redundant.len(), 3);
+    for row in redundant {
+        for field in ["joint", "row", "reason"] {
+            assert!(row[field].as_str().is_some_and(|text| !text.is_empty()), "{field}");
+        }
+    }
+}
+
+#[test]
+fn check_reads_well() {
+    insta::assert_snapshot!("check_pendulum", linkwear(&["check", "mechanisms/pendulum.toml"]).out);
+    insta::assert_snapshot!("check_four_bar", linkwear(&["check", "mechanisms/four_bar.toml"]).out);
+    insta::assert_snapshot!("check_rssr_rigid", linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out);
+}
+
+#[test]
+fn equations_lists_every_output_with_its_cost() {
+    let answer = linkwear(&["equations", "mechanisms/rssr_rigid.toml", "--format", "json"]).json();
+    let outputs = answer["outputs"].as_array().expect("a list");
+    assert!(!outputs.is_empty());
+    for output in outputs {
+        assert!(output["name"].is_string());
+        assert!(output["rows"].is_u64() && output["cols"].is_u64());
+        assert_operations(&output["operations"]);
+        assert_operations(&output["operations_unshared"]);
+        let total = |name: &str| output[name]["total"].as_u64();
+        assert!(total("operations") <= total("operations_unshared"), "{output}");
+    }
+}
+
+#[test]
+fn equations_can_be_narrowed_to_one_output() {
+    let all = linkwear(&["equations", "mechanisms/pendulum.toml", "--format", "json"]).json();
+    let name = all["outputs"][0]["name"].as_str().expect("a name").to_owned();
+    let arguments = ["equations", "mechanisms/pendulum.toml", "--only", &name, "--format", "json"];
+    let one = linkwear(&arguments).json();
+    let outputs = one["outputs"].as_array().expect("a list");
+    assert!(!outputs.is_empty() && outputs.iter().all(|output| output["name"] == name.as_str()));
+}
+
+#[test]
+fn equations_suggests_a_name_near_the_one_given() {
+    let answer = linkwear(&["equations", "mechanisms/pendulum.toml", "--only", "forward_dinamics"]);
+    assert_eq!(answer.code, 1);
+    assert!(answer.err.contains("did you mean `forward_dynamics`?"), "{}", answer.err);
+}
+
+#[test]
+fn generate_writes_what_check_then_accepts() {
+    let folder = Folder::new("generate");
+    let out = folder.path("pendulum.rs");
+    let written = linkwear(&["generate", "mechanisms/pendulum.toml", "-o", &out, "--format", "json"]).json();
+    assert_operations(&written["operations"]);
+    for name in ["functions", "statements", "seconds"] {
+        assert!(written[name].is_number(), "{name}");
+    }
+    assert_eq!(folder.names(), ["pendulum.rs"]);
+    let fresh = linkwear(&["generate", "mechanisms/pendulum.toml", "-o", &out, "--check"]);
+    assert_eq!(fresh.code, 0, "{}", fresh.err);
+
+    let stale = folder.read("pendulum.rs").replacen("pub ", "pub(crate) ", 1);
+    folder.write("pendulum.rs", &stale);
+    let answer =
+        linkwear(&["generate", "mechanisms/pendulum.toml", "-o", &out, "--check", "--format", "json"]);
+    assert_eq!(answer.code, 1);
+    assert_eq!(answer.errors()[0]["code"], "C0005");
+    assert!(answer.errors()[0]["line"].as_u64() > Some(0));
+    assert_eq!(folder.read("pendulum.rs"), stale, "--check writes nothing");
+}
+
+#[test]
+fn generate_gives_the_same_bytes_in_every_process() {
+    let source = || linkwear(&["generate", "mechanisms/rssr_rigid.toml"]).out;
+    let first = source();
+    assert!(first.len() > 1000);
+    assert_eq!(first, source());
+}
+
+#[test]
+fn generate_refuses_to_write_over_its_input() {
+    let folder = Folder::new("over");
+    let text = std::fs::read_to_string("mechanisms/pendulum.toml").expect("a file");
+    let file = folder.write("pendulum.toml", &text);
+    assert_eq!(linkwear(&["generate", &file, "-o", &file]).code, 1);
+    assert_eq!(folder.read("pendulum.toml"), text);
+}

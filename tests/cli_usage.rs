@@ -1,0 +1,103 @@
+//! The command line itself: exit codes, help, usage errors, and nothing but JSON on stdout.
+
+mod command;
+
+use command::{Answer, linkwear};
+use serde_json::Value;
+
+#[test]
+fn help_of_every_subcommand_has_an_example() {
+    for name in ["check", "equations", "generate", "simulate", "new", "completions", "man"] {
+        let answer = linkwear(&[name, "--help"]);
+        assert_eq!(answer.code, 0);
+        assert!(answer.out.contains(&format!("linkwear {name}")), "{}", answer.out);
+    }
+}
+
+#[test]
+fn help_lists_only_what_there_is() {
+    let help = linkwear(&["--help"]).out;
+    for absent in ["life", "merge", "fmu", "jit"] {
+        assert!(!help.lines().any(|line| line.trim_start().starts_with(absent)), "{absent}");
+    }
+}
+
+#[test]
+fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
+    let cases: &[&[&str]] = &[
+        &["simulate"],
+        &["nonsense"],
+        &["check", "mechanisms/pendulum.toml", "--set", "damping"],
+        &["simulate", "mechanisms/pendulum.toml", "--time", "-1"],
+        &["simulate", "mechanisms/pendulum.toml", "--time", "1", "--turns", "1"],
+        &["simulate", "mechanisms/pendulum.toml", "--samples", "1"],
+        &["simulate", "mechanisms/pendulum.toml", "--step", "1e-3", "--tol", "1e-9"],
+        &["simulate", "mechanisms/pendulum.toml", "--step", "1e-3", "--integrator", "dopri5"],
+        &["simulate", "mechanisms/pendulum.toml", "--tol", "1e-3", "--integrator", "rk4"],
+        &["simulate", "mechanisms/pendulum.toml", "--turns", "1"],
+        &["generate", "mechanisms/pendulum.toml", "--check"],
+        &["new", "no-name"],
+    ];
+    for case in cases {
+        let answer = linkwear(case);
+        assert_eq!((answer.code, answer.out.as_str()), (2, ""), "{case:?}: {}", answer.err);
+        assert!(!answer.err.is_empty(), "{case:?}");
+
+        let answer = linkwear(&[case, &["--format", "json"][..]].concat());
+        assert_eq!(answer.code, 2, "{case:?}");
+        assert_eq!(answer.errors()[0]["code"], "C0001", "{case:?}");
+    }
+}
+
+#[test]
+fn an_error_object_has_the_six_fields_scripts_read() {
+    let answer = linkwear(&["check", "no_such_file.toml", "--format", "json"]);
+    assert_eq!(answer.code, 1);
+    let errors = answer.errors();
+    let names: Vec<&String> = errors[0].as_object().expect("an object").keys().collect();
+    assert_eq!(names, ["code", "file", "line", "column", "message", "help"]);
+    assert_eq!(errors[0]["code"], "C0002");
+    assert_eq!(errors[0]["file"], "no_such_file.toml");
+}
+
+#[test]
+fn a_broken_file_is_an_error_of_the_input_with_its_place() {
+    let folder = command::Folder::new("broken");
+    let file = folder.write("broken.toml", "spec = 1\nname = = \"x\"\n");
+    for name in ["check", "equations", "generate", "simulate"] {
+        let answer = linkwear(&[name, &file]);
+        assert_eq!((answer.code, answer.out.as_str()), (1, ""), "{name}");
+        assert!(answer.err.contains("broken.toml"), "{}", answer.err);
+        let error = linkwear(&[name, &file, "--format", "json"]).errors()[0].clone();
+        assert_eq!(error["line"], 2, "{name}");
+        assert!(error["column"].as_u64() > Some(1), "{name}");
+    }
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let mut child = command::start(&["generate", "mechanisms/rssr_rigid.toml"]);
+    drop(child.stdout.take());
+    let answer = Answer::of(child.wait_with_output().expect("an end"));
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+}
+
+#[test]
+fn packagers_get_completions_and_a_manual() {
+    let script = linkwear(&["completions", "bash"]);
+    assert!(script.code == 0 && script.out.contains("simulate"));
+    let page = linkwear(&["man"]);
+    assert!(page.code == 0 && page.out.contains(".TH linkwear"));
+}
+
+#[test]
+fn a_starter_file_is_written_once_and_is_good() {
+    let folder = command::Folder::new("starter");
+    let answer = folder.linkwear(&["new", "my_bars"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let check = folder.linkwear(&["check", "my_bars.toml", "--format", "json"]).json();
+    assert_eq!(check["warnings"], Value::Array(Vec::new()));
+    let again = folder.linkwear(&["new", "my_bars"]);
+    assert_eq!(again.code, 1);
+    assert!(again.err.contains("C0004"), "{}", again.err);
+}

@@ -1,0 +1,75 @@
+//! Closure `log`, [CS (3)], against closure `joint`: two derivations of the same motion.
+
+mod support;
+
+use linkwear_codegen::model::Closure;
+use linkwear_runtime::Span;
+use support::{Recorded, compiled, largest_difference, run};
+
+/// Both runs solve the same equations at tolerance 1e-12; what is left is integration error.
+const SAME: f64 = 1e-9;
+
+/// Largest value of a column.
+fn size(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+}
+
+/// Compares every column that both forms have, against the largest value of its kind.
+fn assert_same(name: &str, joint: &Recorded, log: &Recorded, non_unique: &[String]) {
+    let names: Vec<String> = joint.description.channels.iter().map(|c| c.name.to_string()).collect();
+    let kind = |name: &str| {
+        let quantity = name.split_once('.').map_or(name, |(_, quantity)| quantity);
+        quantity.chars().filter(|c| !"xyz".contains(*c)).collect::<String>()
+    };
+    for column in names.iter().filter(|column| !column.contains(".lambda")) {
+        if non_unique.contains(column) {
+            continue;
+        }
+        let (a, b) = (joint.column(column), log.column(column));
+        let scale = names
+            .iter()
+            .filter(|other| kind(other) == kind(column))
+            .map(|other| if other.contains(".lambda") { 0.0 } else { size(&joint.column(other)) })
+            .fold(1e-30, f64::max);
+        let error = largest_difference(&a, &b) / scale;
+        assert!(error < SAME, "{name}: {column} differs by {error:e} of {scale:e}");
+    }
+}
+
+fn compare(name: &str, span: Span) {
+    let forms = [Closure::Joint, Closure::Log].map(|closure| compiled(name, &[], Some(closure)));
+    assert_eq!(forms[0].analysis.mobility, forms[1].analysis.mobility);
+    let unique = |form: usize| {
+        let mut list = forms[form].analysis.non_unique.clone();
+        list.sort();
+        list
+    };
+    assert_eq!(unique(0), unique(1), "{name}: both forms leave the same reactions open");
+    let runs = [0, 1].map(|form| run(&forms[form], span, Span::Time(0.0), 26, 1e-12));
+    assert_same(name, &runs[0], &runs[1], &forms[0].analysis.non_unique);
+}
+
+#[test]
+fn rssr() {
+    compare("rssr_rigid", Span::Turns(1.0));
+}
+
+#[test]
+fn four_bar() {
+    compare("four_bar", Span::Time(0.5));
+}
+
+#[test]
+fn bennett() {
+    compare("bennett", Span::Time(0.5));
+}
+
+#[test]
+fn bricard() {
+    compare("bricard", Span::Time(0.5));
+}
+
+#[test]
+fn andrews() {
+    compare("andrews", Span::Time(0.005));
+}

@@ -1,0 +1,59 @@
+//! The README says what is true: its embedding section is the example crate, its commands and links exist.
+
+use std::fs;
+use std::path::Path;
+
+fn readme() -> String {
+    fs::read_to_string("README.md").expect("README.md")
+}
+
+#[test]
+fn the_embedding_section_is_the_example_crate_word_for_word() {
+    let readme = readme();
+    let section = readme.split("\n## Embedding\n").nth(1).expect("an embedding section");
+    let section = section.split("\n## ").next().expect("a section");
+    let mut shown = Vec::new();
+    for (name, language) in [
+        ("Cargo.toml", "toml"),
+        ("build.rs", "rust"),
+        ("mechanisms/swing.toml", "toml"),
+        ("src/main.rs", "rust"),
+    ] {
+        let text = fs::read_to_string(format!("examples/downstream/{name}")).expect("a file of the example");
+        let fence = format!("\n`{name}`\n\n```{language}\n{text}```\n");
+        assert!(section.contains(&fence), "README.md must have, under Embedding:{fence}");
+        shown.push(fence);
+    }
+    assert_eq!(section.matches("\n```\n").count(), shown.len(), "a fence that is no file of the example");
+}
+
+#[test]
+fn there_is_one_command_to_run_and_one_to_test() {
+    let readme = readme();
+    for start in ["cargo run ", "cargo test "] {
+        let lines: Vec<&str> = readme.lines().filter(|line| line.starts_with(start)).collect();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        let files = lines[0].split(' ').filter(|word| word.starts_with("mechanisms/"));
+        assert!(files.into_iter().all(|file| Path::new(file).is_file()), "{}", lines[0]);
+    }
+}
+
+#[test]
+fn links_between_documents_lead_somewhere() {
+    let documents = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "tests/README.md"];
+    for document in documents {
+        let text = fs::read_to_string(document).expect("a document");
+        let folder = Path::new(document).parent().expect("a folder");
+        for part in text.split("](").skip(1) {
+            let target = part.split(')').next().expect("a target");
+            if !target.starts_with("http") {
+                let path = if target.starts_with("tests/") {
+                    Path::new("").join(target)
+                } else {
+                    folder.join(target)
+                };
+                assert!(path.exists(), "{document} links to {target}");
+            }
+        }
+    }
+}
