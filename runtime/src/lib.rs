@@ -56,5 +56,5 @@ pub use {
     project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::write_csv,
     simulate::{BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate},
-    singular::RANK_TOLERANCE,
+    singular::{LOST_RANK, NEARLY_LOST},
 };

@@ -174,7 +174,7 @@ fn a_start_exactly_in_line_uses_the_rank_revealing_solve() {
 fn a_driver_past_the_dead_point_loses_the_assembly() {
     // The rocker is driven: it can swing only so far.
     let bar = |from, length, angle| Bar { length, ..Bar::unit(from, angle, 0.0) };
-    let driven = Bar { law: Some(|t| [1.4 + t, 1.0, 0.0]), ..bar(At::Ground(0.9, 0.0), 0.8, 1.4) };
+    let driven = Bar { law: Some(|t| [1.8 + t, 1.0, 0.0]), ..bar(At::Ground(0.9, 0.0), 0.8, 1.8) };
     let bars = vec![bar(At::Ground(0.0, 0.0), 0.3, 0.3), bar(At::End(0), 1.0, 0.7), driven];
     let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None });
     for integrator in [dopri5(1e-8), Integrator::Rk4 { step: 1e-3 }] {
@@ -191,9 +191,9 @@ fn a_driver_past_the_dead_point_loses_the_assembly() {
             | RunError::NonFinite { t, .. } => *t,
             other => panic!("{other}"),
         };
-        // Crank and coupler in line: the rocker's end at distance 1.3 from the origin.
-        let limit = (0.9_f64.powi(2) + 0.64 - 1.3_f64.powi(2)) / (2.0 * 0.9 * 0.8);
-        let dead = (PI - limit.acos()) - 1.4;
+        // Crank folded back onto the coupler: the rocker's end at distance 0.7 from the origin.
+        let limit = (0.9_f64.powi(2) + 0.64 - 0.7_f64.powi(2)) / (2.0 * 0.9 * 0.8);
+        let dead = (PI - limit.acos()) - 1.8;
         assert!((t - dead).abs() < 2e-3, "{stopped} {dead}");
         assert!(result.rows.len() > 10);
     }

@@ -47,6 +47,9 @@ const SHRINK_MOST: f64 = 0.2;
 const GROW_MOST: f64 = 10.0;
 /// Weight of the previous error in the step control.
 const PI_WEIGHT: f64 = 0.04;
+/// Part of the tolerance that the estimated error of a step may take: errors of thousands of steps add
+/// up, and with a tenth the error of smooth runs over ten seconds stays near ten times the tolerance.
+const SHARE: f64 = 0.1;
 /// Steps below this part of the time (or of the whole span) are at the limit of rounding.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 
@@ -83,7 +86,7 @@ impl Dopri5 {
     ) -> Result<Self, RunError> {
         let zero = || vec![0.0; y.len()];
         let mut method = Self {
-            tolerance,
+            tolerance: SHARE * tolerance,
             longest_step: longest_step.min(end - t),
             span: end - t,
             before: t,
@@ -98,6 +101,7 @@ impl Dopri5 {
             rejected: 0,
         };
         problem.derivative(t, &method.y, &mut method.slopes[0])?;
+        problem.reached(t, &method.slopes[0]);
         method.step = method.first_step(problem);
         Ok(method)
     }
@@ -142,6 +146,7 @@ impl Dopri5 {
             let smallest = SMALLEST_STEP * self.span.max(self.t.abs());
             match outcome {
                 Ok((error, _)) if error <= 1.0 => {
+                    problem.reached(next_t, &self.slopes[6]);
                     self.accept(step, next_t, error, just_rejected);
                     return Ok(());
                 }
