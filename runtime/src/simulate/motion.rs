@@ -68,8 +68,9 @@ impl<'a> ConstrainedMotion<'a> {
     pub(super) fn put_on(&mut self, t: f64, y: &mut [f64]) -> Result<Correction, RunError> {
         let (q, rest) = y.split_at_mut(self.coordinates);
         let v = &mut rest[..self.speeds];
+        let regularity = if self.dynamics.is_near_singular() { 0.0 } else { self.dynamics.nearness() };
         let evaluator = &mut self.dynamics.evaluator;
-        let correction = self.projector.project(evaluator, t, q, v).map_err(|open| {
+        let correction = self.projector.project(evaluator, t, (q, v), regularity).map_err(|open| {
             let error = open.error;
             let joint = evaluator.joint_of_row(error.worst);
             if error.metres.is_nan() || error.radians.is_nan() {
@@ -140,6 +141,10 @@ impl Problem for ConstrainedMotion<'_> {
             return Err(RunError::BranchChange { t, variable, jump: correction.speed });
         }
         Ok(())
+    }
+
+    fn reached(&mut self, t: f64, derivative: &[f64]) {
+        self.dynamics.note_reference(t, &derivative[self.coordinates..][..self.speeds]);
     }
 
     fn scale(&self, index: usize) -> f64 {
