@@ -273,7 +273,7 @@ pub fn weld_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
 /// A frame with e_z on the axis, simple in the frame of the chosen side, and its image on the other.
 fn both(axis: Axis, parent: &Frame, child: &Frame, in_child: bool) -> (Frame, Frame) {
     let simple = |own: &Frame, direction: [f64; 3]| {
-        own.times(&canonical_frame(own.to_local(direction), |_| None).0).snapped()
+        own.times(&canonical_frame(own.local(direction), |_| None).0).snapped()
     };
     if in_child {
         let own = simple(child, axis.child);
@@ -375,7 +375,7 @@ impl UniversalAxes {
     fn new(geometry: &Geometry<'_>, sides: Sides, first: Axis, second: Axis) -> Self {
         let frame = sides.child.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
         let joint = Frame::with_z_and_x(first.child, second.child);
-        Self { second_in_child: frame.to_local(second.child), second: joint.to_local(second.child) }
+        Self { second_in_child: frame.local(second.child), second: joint.local(second.child) }
     }
 }
 

@@ -233,9 +233,9 @@ impl RowMaker<'_> {
         let partial = self.g.add(rotation[0][0], rotation[1][1]);
         let trace = self.g.add(partial, rotation[2][2]);
         let mut sum = self.g.zero_vector();
-        for k in 0..3 {
+        for (k, entry) in rotation[j].into_iter().enumerate() {
             let axis = self.across.parent_axis(self.g, &self.axes, k);
-            let minus = self.g.neg(rotation[j][k]);
+            let minus = self.g.neg(entry);
             let weight = if k == j { self.g.add(trace, minus) } else { minus };
             let weight = self.g.mul(half, weight);
             let part = self.g.scale3(weight, axis);
@@ -253,7 +253,7 @@ impl RowMaker<'_> {
             Some(at) => geometry.linkage.links[at].frame,
         };
         let a = across.parent_axis(g, &self.axes, 2);
-        let b_child = g.vector(frame.to_local(second));
+        let b_child = g.vector(frame.local(second));
         let b = g.mul_vec3(across.from_child, b_child);
         let first_in_child = g.vector(self.axes.child.axis(2));
         let angle = g.dot3(first_in_child, b_child);

@@ -70,7 +70,7 @@ impl Frame {
 
     /// Components in this frame of a vector given in the outer one.
     #[must_use]
-    pub fn to_local(&self, v: [f64; 3]) -> [f64; 3] {
+    pub fn local(&self, v: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|j| (0..3).map(|i| self.0[i][j] * v[i]).sum())
     }
 

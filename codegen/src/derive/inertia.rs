@@ -166,7 +166,7 @@ impl Geometry<'_> {
         let along = moment(g, mass, length, length, twelfth);
         let across = moment(g, mass, first, first, twelfth);
         let third = moment(g, mass, second, second, twelfth);
-        let side = g.vector(self.linkage.links[at].frame.to_local(width_axis));
+        let side = g.vector(self.linkage.links[at].frame.local(width_axis));
         let side = without_dust(g, side);
         let other = g.cross3(axis, side);
         let zero = g.zero();

@@ -280,16 +280,15 @@ impl Builder<'_> {
         advance: f64,
     ) -> usize {
         let outer = self.parent_frame(parent);
-        let (mount, offset) = canonical_frame(outer.to_local(axis), |_| {
-            self.target(step).map(|direction| outer.to_local(direction))
-        });
+        let (mount, offset) =
+            canonical_frame(outer.local(axis), |_| self.target(step).map(|direction| outer.local(direction)));
         let frame = outer.times(&mount).times(&Frame::about_z(offset)).snapped();
         self.push(step, parent, coordinate, Freedom::Rotation { offset, advance }, mount, frame)
     }
 
     fn slide(&mut self, step: TreeJoint, parent: LinkIndex, coordinate: usize, axis: [f64; 3]) -> usize {
         let frame = self.parent_frame(parent);
-        let axis = reduce(frame.to_local(axis));
+        let axis = reduce(frame.local(axis));
         self.push(step, parent, coordinate, Freedom::Translation { axis }, Frame::IDENTITY, frame)
     }
 

@@ -102,10 +102,11 @@ impl Graph {
         }
     }
 
-    /// With f = theta / sin theta, s = sin² theta, c = cos theta held as independent inputs of atan2:
-    /// theta = atan2(sqrt s, c), df = ∂f/∂s ds + ∂f/∂c dc. The rule assumes s + c² = 1, where
-    /// ∂f/∂c = -1 and ∂f/∂s = (c - f) / (2 s), which is removable at s = 0 only as a series; callers
-    /// that need it use `log_coefficient`. Used for directional checks off the singular point.
+    /// With s = sin² theta and c = cos theta of one angle (s + c² = 1), f = theta / sin theta depends on theta
+    /// alone: `df = f' dtheta` and `dc = -sin theta dtheta`, so `df/dc = -f' / sin theta`, which is smooth:
+    /// `(1 - c f) / s = sum of squares` near zero. In terms of b(x) of the runtime (x = theta²),
+    /// `(1 - c f) / s = f² (1 - c f) / x`, and `1 - c f = 2 - 2 b x - f ...` has no shorter safe form, so the
+    /// derivation never differentiates this node: the logarithm's Jacobian is built from `log_coefficient`.
     fn angle_over_sine_rule(&mut self, value: ExprId, cosine: ExprId, [ds, dc]: [ExprId; 2]) -> ExprId {
         let _ = (cosine, ds);
         let _ = value;

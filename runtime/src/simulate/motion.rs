@@ -11,7 +11,7 @@ pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
 
-/// Below this regularity (see [`Dynamics::regularity`]; about the square of a singular value) the stages of a
+/// Below this regularity (see [`Dynamics::nearness`]; about the square of a singular value) the stages of a
 /// step are put onto the constraints before they are evaluated. A stage is off the constraints by its own
 /// truncation error, which the nearly lost direction multiplies by the inverse of its singular value, twice;
 /// on the constraints the accelerations stay smooth right through a singular position.
@@ -103,7 +103,7 @@ impl Problem for ConstrainedMotion<'_> {
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (q, v, _) = self.split(y);
         self.dynamics.accelerate(t, q, v)?;
-        let projected = self.dynamics.regularity() < PROJECTED_STAGES;
+        let projected = self.dynamics.nearness() < PROJECTED_STAGES;
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
         if projected && self.put_on(t, &mut stage).is_ok() {
