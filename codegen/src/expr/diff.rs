@@ -1,5 +1,6 @@
 //! Exact partial derivatives on the graph. In: a node and a symbol. Out: a node.
-//! Every operation has a rule; none of the rules divides by something that vanishes where the function is smooth.
+//! Every function that a file can name has a rule, and no rule divides by something that vanishes where the function
+//! is smooth.
 
 use std::collections::HashMap;
 
@@ -98,18 +99,9 @@ impl Graph {
                 let numerator = self.dot(&[(da, b), (minus, db)]);
                 self.div(numerator, norm)
             }
-            Binary::AngleOverSine => self.angle_over_sine_rule(value, b, [da, db]),
+            // Its rule is 0/0 at zero. No formula of a file makes this node, and the derivation builds the Jacobian
+            // of the logarithm from `log_coefficient` instead.
+            Binary::AngleOverSine => unreachable!("nothing differentiates the angle of a relative rotation"),
         }
-    }
-
-    /// With s = sin² theta and c = cos theta of one angle (s + c² = 1), f = theta / sin theta depends on theta
-    /// alone: `df = f' dtheta` and `dc = -sin theta dtheta`, so `df/dc = -f' / sin theta`, which is smooth:
-    /// `(1 - c f) / s = sum of squares` near zero. In terms of b(x) of the runtime (x = theta²),
-    /// `(1 - c f) / s = f² (1 - c f) / x`, and `1 - c f = 2 - 2 b x - f ...` has no shorter safe form, so the
-    /// derivation never differentiates this node: the logarithm's Jacobian is built from `log_coefficient`.
-    fn angle_over_sine_rule(&mut self, value: ExprId, cosine: ExprId, [ds, dc]: [ExprId; 2]) -> ExprId {
-        let _ = (cosine, ds);
-        let _ = value;
-        self.neg(dc)
     }
 }

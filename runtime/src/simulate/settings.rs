@@ -52,6 +52,13 @@ pub struct Settings {
     pub singular_pivot: f64,
 }
 
+impl Default for Settings {
+    /// One second by Dormand-Prince at a tolerance of 1e-9, 201 samples.
+    fn default() -> Self {
+        Self::new(Integrator::Dopri5 { tolerance: 1e-9, max_step: None }, Span::Time(1.0), 201)
+    }
+}
+
 impl Settings {
     /// Settings without settling.
     #[must_use]
