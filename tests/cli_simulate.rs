@@ -18,7 +18,16 @@ fn table(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 #[test]
 fn the_answer_has_the_fields_scripts_read() {
     let answer = linkwear(&["simulate", RSSR, "--format", "json"]).json();
-    for name in ["steps", "evaluations", "wall_seconds", "max_loop_error_m", "energy_error_J"] {
+    let promised = ["steps", "evaluations", "wall_seconds", "max_loop_error_m", "energy_error_J"];
+    let more = [
+        "rejected",
+        "projections",
+        "rank_revealing_solves",
+        "newton_iterations",
+        "energy_throughput_J",
+        "max_loop_error_rad",
+    ];
+    for name in promised.iter().chain(&more) {
         assert!(answer[name].is_number(), "{name}");
     }
     assert_eq!(answer["backend"], "compiled");
@@ -28,6 +37,15 @@ fn the_answer_has_the_fields_scripts_read() {
     assert!((answer["time_s"].as_f64().expect("a number") - 0.5).abs() < 1e-12);
     // The loop is projected back to rounding of its lengths (0.4 m), far below what the issue asks.
     assert!(answer["max_loop_error_m"].as_f64() < Some(1e-10));
+}
+
+#[test]
+fn the_implicit_method_takes_its_step_and_counts_newton() {
+    let arguments = ["--integrator", "generalized-alpha", "--step", "1e-4", "--turns", "0.1"];
+    let answer = linkwear(&[&["simulate", RSSR, "--format", "json"], &arguments[..]].concat()).json();
+    // A tenth of a turn is 0.05 s; steps are shortened to land on the 200 samples 2.5e-4 s apart.
+    assert_eq!(answer["steps"], 600);
+    assert!(answer["newton_iterations"].as_u64() >= Some(600));
 }
 
 #[test]

@@ -193,6 +193,7 @@ fn machine(
         "evaluations": numbers.evaluations,
         "projections": numbers.projections,
         "rank_revealing_solves": numbers.rank_revealing_solves,
+        "newton_iterations": numbers.newton_iterations,
         "wall_seconds": wall_seconds,
         "max_loop_error_m": numbers.max_loop_error_m,
         "max_loop_error_rad": numbers.max_loop_error_rad,
