@@ -54,7 +54,7 @@ pub use system::{Entry, Sizes, System};
 pub use {
     assemble::{State, assemble, assemble_with},
     description::{
-        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
+        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     error::{AssemblyError, RunError, SetupError},

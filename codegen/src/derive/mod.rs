@@ -65,6 +65,8 @@ pub struct Block {
     pub columns: usize,
     /// Entries, row major.
     pub entries: Vec<ExprId>,
+    /// What each entry is called, where a number would say too little; else empty.
+    pub names: Vec<String>,
 }
 
 impl Block {
@@ -92,6 +94,13 @@ impl Block {
             rows,
             columns,
             entries,
+            names: Vec::new(),
         }
+    }
+
+    /// The block with a name for every entry.
+    #[must_use]
+    pub fn named(self, names: Vec<String>) -> Self {
+        Self { names, ..self }
     }
 }

@@ -516,12 +516,9 @@ impl<'a> Deriver<'a> {
         inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
         inputs.push(Block::vector("lambda", "Multipliers from forward_dynamics.", "", self.lambda.clone()));
         inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
-        let outputs = vec![Block::vector(
-            "channels",
-            "One value per output column, SI, components in W.",
-            "",
-            list.values,
-        )];
+        let names = self.channels.iter().map(|channel| channel.name.to_string()).collect();
+        let doc = "One value per output column, SI, components in W.";
+        let outputs = vec![Block::vector("channels", doc, "", list.values).named(names)];
         self.function(Entry::Observe, "Everything a user may want to see or record.", inputs, outputs)
     }
 
