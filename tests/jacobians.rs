@@ -53,7 +53,8 @@ fn check(name: &str, closure: Closure) {
     let (system, parameters) = (compiled.interpreter(), compiled.parameters());
     let sizes = System::<f64>::sizes(&system);
     let mut random = Random(0x1234_5678_9ABC_DEF1);
-    let kept: Vec<usize> = (0..sizes.all_rows).filter(|i| compiled.description().rows[*i].kept.is_some()).collect();
+    let kept: Vec<usize> =
+        (0..sizes.all_rows).filter(|i| compiled.description().rows[*i].kept.is_some()).collect();
     for _ in 0..5 {
         let (q, v) = open_state(&compiled, &system, &mut random);
         let t = 0.0;
@@ -63,11 +64,13 @@ fn check(name: &str, closure: Closure) {
         // Directions: every free speed on its own, then the whole motion with time running.
         for direction in 0..=sizes.speeds {
             let whole = direction == sizes.speeds;
-            let speed: Vec<f64> =
-                (0..sizes.speeds).map(|j| if whole { v[j] } else { f64::from(u8::from(j == direction)) }).collect();
+            let speed: Vec<f64> = (0..sizes.speeds)
+                .map(|j| if whole { v[j] } else { f64::from(u8::from(j == direction)) })
+                .collect();
             let state = [&parameters, &[t][..], &q, &speed, &vec![0.0; sizes.drivers]].concat();
             let q_dot = &evaluate(&system, Entry::Rates, &state)[..sizes.coordinates];
-            let rates = [&vec![0.0; parameters.len()], &[f64::from(u8::from(whole))][..], q_dot, &vec![0.0; v.len()]];
+            let rates =
+                [&vec![0.0; parameters.len()], &[f64::from(u8::from(whole))][..], q_dot, &vec![0.0; v.len()]];
             let phi = evaluate(&system, Entry::Closure, &lifted(&input, &rates.concat()));
             for (row, at) in kept.iter().enumerate() {
                 let ours = if whole { speeds[row] } else { jacobian[row * sizes.speeds + direction] };
@@ -92,7 +95,9 @@ fn jacobians_are_exact_off_the_closed_positions() {
 
 #[test]
 fn kinetic_energy_is_half_v_m_v() {
-    for name in ["pendulum", "four_bar", "rssr_rigid", "andrews", "flyball", "n_four_bar_2", "spatial_slider_crank"] {
+    for name in
+        ["pendulum", "four_bar", "rssr_rigid", "andrews", "flyball", "n_four_bar_2", "spatial_slider_crank"]
+    {
         let compiled = compiled(name, &[], None);
         let (system, parameters) = (compiled.interpreter(), compiled.parameters());
         let sizes = System::<f64>::sizes(&system);

@@ -6,14 +6,18 @@
 
 mod across;
 mod closure;
+mod composite;
 mod dynamics;
 mod entries;
 mod forces;
 mod frame;
 mod inertia;
+mod joint_coordinates;
+mod joint_rows;
 mod joint_state;
 mod kinematics;
 mod linkage;
+mod linkage_build;
 mod log_closure;
 mod lower;
 mod observe;
@@ -21,6 +25,7 @@ mod solve;
 mod start;
 #[cfg(test)]
 mod tests;
+mod wrench;
 
 pub use closure::row_count;
 pub use entries::{Derived, Purpose, derive};
