@@ -46,10 +46,11 @@ impl Recipe {
         Self { seed, bodies, loops, kinds, drives, forces: true }
     }
 
-    /// Two bodies in a row, all joints of one kind.
+    /// Two bodies in a row, all joints of one kind; with a revolute now and then where it would not move.
     #[must_use]
     pub fn alone(kind: Kind, seed: u64) -> Self {
-        Self { seed, bodies: 2, loops: 0, kinds: vec![kind], drives: 0, forces: true }
+        let kinds = if kind == Kind::Fixed { vec![kind, Kind::Revolute] } else { vec![kind] };
+        Self { seed, bodies: 2, loops: 0, kinds, drives: 0, forces: true }
     }
 
     /// The mechanism as text.

@@ -141,6 +141,10 @@ fn joints(recipe: &Recipe, plan: &Plan, dice: &mut Dice, text: &mut String) {
         let pair = if joint.reversed { [outer, inner] } else { [inner, outer] };
         let mut keys = format!("{} = {pair:?}, at = \"p_{}\"", joint.kind.key(), joint.name);
         keys += &geometry(joint.kind, dice);
+        // The generator cuts loops where it likes, or here.
+        if joint.name.starts_with("close") && dice.chance(0.5) {
+            keys += ", cut = true";
+        }
         if let Some(coordinate) = joint.drive {
             keys += &drive(joint, coordinate, dice);
         }
