@@ -90,12 +90,19 @@ fn analyse(
     mechanism: &Mechanism,
     topology: &Topology,
 ) -> Result<(Analysis, Vec<bool>), Diagnostics> {
-    let derived = derive::derive(mechanism, topology, None, Purpose::Analysis);
+    let released = preflight::released(mechanism);
+    let derived = derive::derive(&released, topology, None, Purpose::Analysis);
     let tapes = tape::lower(&derived.equations);
-    let description = derived.description;
-    let interpreter = Interpreted::new(&tapes, derived.sizes, description.clone());
-    let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
-    preflight::analyse(source, mechanism, topology, &description, &interpreter, &parameters)
+    let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
+    let case = preflight::Case {
+        source,
+        mechanism,
+        topology,
+        linkage: &derived.linkage,
+        description: &derived.description,
+        system: &interpreter,
+    };
+    preflight::analyse(&case)
 }
 
 impl Compiled {

@@ -1,30 +1,26 @@
 //! Idle freedoms: a group of bodies between ball joints that can spin while everything else rests.
 //! In: null space of the loops with drivers held. Out: sentences. Never changes the mechanism.
 
-use linkwear_runtime::{Description, Entry, System};
+use linkwear_runtime::Entry;
 use nalgebra::{DMatrix, DVector};
 
 use crate::id::JointId;
 use crate::model::{Carrier, JointKind, Mechanism};
 
+use super::Case;
 use super::samples::{ClosedPositions, evaluate, null_space};
 
 /// Motions smaller than this share of the largest count as rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;
 
 /// Names every idle freedom.
-pub fn idle_freedoms(
-    mechanism: &Mechanism,
-    description: &Description,
-    system: &dyn System<f64>,
-    parameters: &[f64],
-    positions: &ClosedPositions,
-) -> Vec<String> {
+pub fn idle_freedoms(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
+    let mechanism = case.mechanism;
     let groups = groups(mechanism);
     if groups.is_empty() {
         return Vec::new();
     }
-    let effect = Effect::new(description, system, parameters, positions);
+    let effect = Effect::new(case, positions);
     let mut sentences = Vec::new();
     for group in groups {
         let others: Vec<usize> = (0..mechanism.bodies.len()).filter(|b| !group.bodies.contains(b)).collect();
@@ -99,30 +95,35 @@ struct Effect {
 }
 
 impl Effect {
-    fn new(
-        description: &Description,
-        system: &dyn System<f64>,
-        parameters: &[f64],
-        positions: &ClosedPositions,
-    ) -> Self {
-        let sizes = system.sizes();
-        let full = &positions.positions[0].jacobian;
-        let free: Vec<usize> =
-            (0..sizes.all_speeds).filter(|speed| !positions.driven_speeds.contains(speed)).collect();
+    fn new(case: &Case<'_>, positions: &ClosedPositions) -> Self {
+        let sizes = case.system.sizes();
+        let start = &positions.positions[0];
+        let full = &start.jacobian;
+        let driven: Vec<usize> = case.drivers().into_iter().map(|(_, speed)| speed).collect();
+        let free: Vec<usize> = (0..sizes.speeds).filter(|speed| !driven.contains(speed)).collect();
         let jacobian = DMatrix::from_fn(full.nrows(), free.len(), |i, j| full[(i, free[j])]);
         let freedoms = null_space(&jacobian);
+        let parameters = case.parameters();
         let observe = |v: &[f64]| {
-            let rest = vec![0.0; sizes.speeds + sizes.rows + sizes.drivers];
-            let input = [parameters, &[0.0], &positions.start, v, &rest].concat();
+            let rest = vec![0.0; sizes.speeds + sizes.rows];
+            let input = [&parameters, &[0.0][..], &start.q, v, &rest].concat();
             let mut output = vec![0.0; sizes.channels];
-            evaluate(system, Entry::Observe, &input, &mut output);
+            evaluate(case.system, Entry::Observe, &input, &mut output);
             DVector::from_vec(output)
         };
         let still = observe(&vec![0.0; sizes.speeds]);
-        let columns: Vec<DVector<f64>> =
-            freedoms.column_iter().map(|v| observe(v.clone_owned().as_slice()) - &still).collect();
+        let columns: Vec<DVector<f64>> = freedoms
+            .column_iter()
+            .map(|amounts| {
+                let mut v = vec![0.0; sizes.speeds];
+                for (speed, amount) in free.iter().zip(amounts.iter()) {
+                    v[*speed] = *amount;
+                }
+                observe(&v) - &still
+            })
+            .collect();
         let matrix = DMatrix::from_fn(sizes.channels, columns.len(), |i, j| columns[j][i]);
-        let names = description.channels.iter().map(|channel| channel.name.to_string()).collect();
+        let names = case.description.channels.iter().map(|channel| channel.name.to_string()).collect();
         Self { matrix, names }
     }
 

@@ -10,8 +10,10 @@ mod samples;
 
 use linkwear_runtime::{AssemblyError, Description, System};
 
+use crate::derive::Linkage;
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
-use crate::model::{Mechanism, Topology};
+use crate::id::JointId;
+use crate::model::{Mechanism, Start, Topology};
 use crate::source::SourceFile;
 
 use rank::Rows;
@@ -55,31 +57,85 @@ pub struct Analysis {
     pub cuts: Vec<String>,
 }
 
-/// Analyses a mechanism whose derivation kept all rows. Returns the analysis and which rows to keep.
+/// What an analysis looks at: a mechanism and its derivation with all rows kept and all drivers
+/// [`released`], run by the interpreter.
+pub struct Case<'a> {
+    /// The file, for diagnostics.
+    pub source: &'a SourceFile,
+    /// The mechanism with its drivers.
+    pub mechanism: &'a Mechanism,
+    /// Tree and cuts.
+    pub topology: &'a Topology,
+    /// Links, for the places of driven speeds.
+    pub linkage: &'a Linkage,
+    /// Names of the released mechanism.
+    pub description: &'a Description,
+    /// The released mechanism.
+    pub system: &'a dyn System<f64>,
+}
+
+impl Case<'_> {
+    /// Default values of the tunable parameters.
+    fn parameters(&self) -> Vec<f64> {
+        self.description.parameters.iter().map(|parameter| parameter.default).collect()
+    }
+
+    /// Joint and speed of every driver.
+    fn drivers(&self) -> Vec<(JointId, usize)> {
+        let mut drivers = Vec::new();
+        for (index, joint) in self.mechanism.joints.iter().enumerate() {
+            for drive in &joint.drives {
+                let id = JointId::new(index);
+                if let Some(link) = self.linkage.link_of_coordinate(id, drive.coordinate) {
+                    drivers.push((id, self.linkage.links[link].first_speed));
+                }
+            }
+        }
+        drivers
+    }
+}
+
+/// The mechanism with its drivers taken off: what they prescribe at t = 0 becomes a demanded start value.
+#[must_use]
+pub fn released(mechanism: &Mechanism) -> Mechanism {
+    let mut released = mechanism.clone();
+    for (index, joint) in released.joints.iter_mut().enumerate() {
+        for drive in joint.drives.drain(..) {
+            let id = JointId::new(index);
+            released.starts.retain(|start| start.joint != id || start.coordinate != drive.coordinate);
+            released.starts.push(Start {
+                joint: id,
+                coordinate: drive.coordinate,
+                position: Some(drive.law),
+                speed: None,
+                held: true,
+                span: joint.span,
+            });
+        }
+    }
+    released
+}
+
+/// Analyses a mechanism. Returns the analysis and which constraint rows to keep.
 ///
 /// # Errors
 /// If loops cannot close, nothing can move, or drivers contradict the loops or each other.
-pub fn analyse(
-    source: &SourceFile,
-    mechanism: &Mechanism,
-    topology: &Topology,
-    description: &Description,
-    system: &dyn System<f64>,
-    parameters: &[f64],
-) -> Result<(Analysis, Vec<bool>), Diagnostics> {
-    let sizes = system.sizes();
+pub fn analyse(case: &Case<'_>) -> Result<(Analysis, Vec<bool>), Diagnostics> {
+    let (mechanism, description) = (case.mechanism, case.description);
+    let sizes = case.system.sizes();
+    let drivers = case.drivers();
     let mut analysis = Analysis {
         coordinates: sizes.all_coordinates,
         speeds: sizes.all_speeds,
         constraint_rows: sizes.all_rows,
         grubler: grubler(mechanism),
-        drivers: description.drivers.iter().map(|driver| driver.joint.to_string()).collect(),
-        cuts: topology.cuts.iter().map(|cut| mechanism.joint(*cut).name.clone()).collect(),
+        drivers: drivers.iter().map(|(joint, _)| mechanism.joint(*joint).name.clone()).collect(),
+        cuts: case.topology.cuts.iter().map(|cut| mechanism.joint(*cut).name.clone()).collect(),
         ..Analysis::default()
     };
-    let positions = ClosedPositions::walk(description, system, parameters)
-        .map_err(|error| cannot_close(source, mechanism, &error))?;
-    let rows = Rows::new(&positions, description);
+    let positions = ClosedPositions::walk(description, case.system, &case.parameters())
+        .map_err(|error| cannot_close(case.source, mechanism, &error))?;
+    let rows = Rows::new(&positions, description, drivers.iter().map(|(_, speed)| *speed).collect());
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
     analysis.mobility = analysis.speeds - analysis.independent_rows;
@@ -93,13 +149,13 @@ pub fn analyse(
     let errors = if analysis.mobility == 0 {
         vec![locked(mechanism, &analysis)]
     } else {
-        conflicts(mechanism, description, &rows)
+        conflicts(mechanism, &drivers, &rows)
     };
     if !errors.is_empty() {
-        return Err(Diagnostics::from_list(errors).located(source));
+        return Err(Diagnostics::from_list(errors).located(case.source));
     }
-    analysis.idle = idle::idle_freedoms(mechanism, description, system, parameters, &positions);
-    analysis.non_unique = reactions::non_unique(description, system, parameters, &positions);
+    analysis.idle = idle::idle_freedoms(case, &positions);
+    analysis.non_unique = reactions::non_unique(case, &positions);
     Ok((analysis, keep))
 }
 
@@ -157,11 +213,11 @@ fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
 }
 
 /// Drivers must prescribe independent freedoms.
-fn conflicts(mechanism: &Mechanism, description: &Description, rows: &Rows) -> Vec<Diagnostic> {
+fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Rows) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     for group in rows.driver_conflicts() {
         let names: Vec<&str> =
-            group.iter().map(|driver| description.drivers[*driver].joint.as_ref()).collect();
+            group.iter().map(|driver| mechanism.joint(drivers[*driver].0).name.as_str()).collect();
         let (code, message) = if names.len() == 1 {
             (
                 Code::DriverOnDependentCoordinate,

@@ -15,7 +15,7 @@ pub struct Rows {
 impl Rows {
     /// Scales every row to its largest length over all positions, so that rad and m compare.
     #[must_use]
-    pub fn new(positions: &ClosedPositions, description: &Description) -> Self {
+    pub fn new(positions: &ClosedPositions, description: &Description, driven: Vec<usize>) -> Self {
         let m = description.rows.len();
         let mut samples: Vec<DMatrix<f64>> =
             positions.positions.iter().map(|position| position.jacobian.clone()).collect();
@@ -27,7 +27,7 @@ impl Rows {
                 }
             }
         }
-        Self { samples, driven: positions.driven_speeds.clone() }
+        Self { samples, driven }
     }
 
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
@@ -125,15 +125,7 @@ mod tests {
     #[test]
     fn a_row_that_repeats_another_is_dropped_and_the_first_kept() {
         let sample = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0]);
-        let positions = ClosedPositions {
-            positions: vec![super::super::samples::Position { q: Vec::new(), jacobian: sample }],
-            start: Vec::new(),
-            driven_speeds: vec![2],
-        };
-        let rows = Rows {
-            samples: positions.positions.iter().map(|p| p.jacobian.clone()).collect(),
-            driven: vec![2],
-        };
+        let rows = Rows { samples: vec![sample], driven: vec![2] };
         assert_eq!(rows.independent().iter().filter(|kept| **kept).count(), 2);
         // The third speed is held by the third row: driving it is a conflict of one.
         assert_eq!(rows.driver_conflicts(), vec![vec![0]]);

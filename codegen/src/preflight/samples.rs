@@ -1,14 +1,19 @@
-//! Closed positions of a mechanism, found by walking along its freedoms with the drivers released.
+//! Closed positions of a mechanism without drivers, found by walking along its freedoms.
 //! In: the interpreter. Out: positions with their Jacobians. Never knows why they are wanted.
 
-use linkwear_runtime::{AssemblyError, Description, Entry, Motion, System, assemble};
+use linkwear_runtime::{AssemblyError, Description, Entry, Layout, System, assemble};
 use nalgebra::{DMatrix, DVector};
 
-/// Positions tried beyond the first: enough that a chance singular position cannot decide the rank.
-const STEPS: usize = 8;
+/// Positions tried beyond the first, of small mechanisms: enough to walk once round a closed motion, since rows
+/// that are independent here may depend on each other elsewhere.
+const MANY_STEPS: usize = 48;
+/// The same of large mechanisms: enough that a chance singular position cannot decide the rank.
+const FEW_STEPS: usize = 6;
+/// Speeds from which a mechanism counts as large: decompositions then cost milliseconds each.
+const LARGE: usize = 24;
 /// Length of a step along the freedoms [rad, m]: large enough to change the geometry, small enough that a few
 /// Newton steps close the loops again.
-const STEP: f64 = 0.12;
+const STEP: f64 = 0.25;
 /// Loops count as closed below this residual [rad, m]; Newton ends near 1e-15.
 const CLOSED: f64 = 1e-11;
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
@@ -28,10 +33,6 @@ pub struct Position {
 pub struct ClosedPositions {
     /// Positions.
     pub positions: Vec<Position>,
-    /// Assembled free coordinates at t = 0.
-    pub start: Vec<f64>,
-    /// Indices of driven speeds among all, in driver order.
-    pub driven_speeds: Vec<usize>,
 }
 
 impl ClosedPositions {
@@ -45,20 +46,22 @@ impl ClosedPositions {
         parameters: &[f64],
     ) -> Result<Self, AssemblyError> {
         let state = assemble(system, description, parameters, 0.0)?;
-        let layout = Layout::new(description);
-        let mut prescribed = vec![0.0; system.sizes().output(Entry::Prescribed)];
-        evaluate(system, Entry::Prescribed, &[parameters, &[0.0]].concat(), &mut prescribed);
-        let q = layout.all_coordinates(&state.q, &prescribed);
+        let layout = Layout::new(&description.motions);
         let walker = Walker { system, parameters, layout: &layout };
-        let mut positions = vec![walker.position(q)];
+        let mut positions = vec![walker.position(state.q)];
         let mut generator = 0x2545_F491_4F6C_DD1D_u64;
-        for step in 0..STEPS {
-            // Walk out from the start in turns, so that a bad step does not end the walk.
-            let from = if step % 4 == 0 { 0 } else { positions.len() - 1 };
-            let next = walker.step(&positions[from], &mut generator);
+        let steps = if system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
+        let mut direction = None;
+        for step in 0..steps {
+            // Half of the steps go on from the last position, half set out from the start again another way.
+            if step == steps / 2 {
+                direction = None;
+            }
+            let from = if step == steps / 2 { 0 } else { positions.len() - 1 };
+            let next = walker.step(&positions[from], &mut direction, &mut generator);
             positions.extend(next);
         }
-        Ok(Self { positions, start: state.q, driven_speeds: layout.driven_speeds })
+        Ok(Self { positions })
     }
 }
 
@@ -66,94 +69,6 @@ impl ClosedPositions {
 pub fn evaluate(system: &dyn System<f64>, entry: Entry, input: &[f64], output: &mut [f64]) {
     let mut workspace = vec![0.0; system.sizes().workspace];
     system.evaluate(entry, input, output, &mut workspace);
-}
-
-/// Where coordinates and speeds of each motion are, among all and among the free ones.
-struct Layout {
-    motions: Vec<Motion>,
-    driven_speeds: Vec<usize>,
-}
-
-impl Layout {
-    fn new(description: &Description) -> Self {
-        let motions = description.motions.to_vec();
-        let mut driven = vec![0; description.drivers.len()];
-        let mut speed = 0;
-        for motion in &motions {
-            if let Motion::Scalar { driver: Some(driver) } = motion {
-                driven[*driver] = speed;
-            }
-            speed += sizes(*motion).1;
-        }
-        Self { motions, driven_speeds: driven }
-    }
-
-    fn all_coordinates(&self, free: &[f64], prescribed: &[f64]) -> Vec<f64> {
-        let mut free = free.iter();
-        let mut all = Vec::new();
-        for motion in &self.motions {
-            match motion {
-                Motion::Scalar { driver: Some(driver) } => all.push(prescribed[3 * driver]),
-                other => all.extend(free.by_ref().take(sizes(*other).0)),
-            }
-        }
-        all
-    }
-
-    /// Moves coordinates by a small speed vector, keeping quaternions unit.
-    fn moved(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
-        let mut moved = q.to_vec();
-        let (mut at, mut speed) = (0, 0);
-        for motion in &self.motions {
-            let (coordinates, speeds) = sizes(*motion);
-            match motion {
-                Motion::Scalar { .. } => moved[at] += v[speed],
-                Motion::Rotation | Motion::Pose => {
-                    let turned = turn(&q[at..at + 4], &v[speed..speed + 3]);
-                    moved[at..at + 4].copy_from_slice(&turned);
-                    if *motion == Motion::Pose {
-                        let step = rotate(&q[at..at + 4], &v[speed + 3..speed + 6]);
-                        for i in 0..3 {
-                            moved[at + 4 + i] += step[i];
-                        }
-                    }
-                }
-            }
-            at += coordinates;
-            speed += speeds;
-        }
-        moved
-    }
-}
-
-/// Coordinates and speeds of a motion.
-const fn sizes(motion: Motion) -> (usize, usize) {
-    match motion {
-        Motion::Scalar { .. } => (1, 1),
-        Motion::Rotation => (4, 3),
-        Motion::Pose => (7, 6),
-    }
-}
-
-/// q ∘ exp(w / 2), normalised.
-fn turn(q: &[f64], w: &[f64]) -> [f64; 4] {
-    let [a, b, c, d] = [q[0], q[1], q[2], q[3]];
-    let [x, y, z] = [0.5 * w[0], 0.5 * w[1], 0.5 * w[2]];
-    let product = [
-        a - b * x - c * y - d * z,
-        b + a * x + c * z - d * y,
-        c + a * y + d * x - b * z,
-        d + a * z + b * y - c * x,
-    ];
-    let norm = product.iter().map(|p| p * p).sum::<f64>().sqrt();
-    product.map(|p| p / norm)
-}
-
-/// Rotates a vector by a unit quaternion.
-fn rotate(q: &[f64], v: &[f64]) -> [f64; 3] {
-    let turned = nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(q[0], q[1], q[2], q[3]))
-        * nalgebra::Vector3::new(v[0], v[1], v[2]);
-    [turned.x, turned.y, turned.z]
 }
 
 struct Walker<'a> {
@@ -183,26 +98,40 @@ impl Walker<'_> {
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
-    fn step(&self, from: &Position, generator: &mut u64) -> Option<Position> {
+    fn step(
+        &self,
+        from: &Position,
+        last: &mut Option<DVector<f64>>,
+        generator: &mut u64,
+    ) -> Option<Position> {
         let free = null_space(&from.jacobian);
         if free.ncols() == 0 {
             return None;
         }
+        // Go on where the last step went as far as the loops let it, with some random motion mixed in.
         let weights = DVector::from_fn(free.ncols(), |_, _| random(generator));
-        let direction = &free * weights;
+        let mut direction = &free * weights;
+        if let Some(last) = last {
+            let onwards = &free * (free.transpose() * &*last);
+            let size = direction.norm().max(f64::MIN_POSITIVE);
+            direction =
+                onwards + direction * (0.3 * last.norm() / size) * f64::from(u8::from(free.ncols() > 1));
+        }
         let norm = direction.amax();
         if norm == 0.0 {
             return None;
         }
         let scaled = direction * (STEP / norm);
-        let mut q = self.layout.moved(&from.q, scaled.as_slice());
+        *last = Some(scaled.clone());
+        let mut q = from.q.clone();
+        self.layout.advance(&mut q, scaled.as_slice());
         for _ in 0..20 {
             let (phi, jacobian) = self.constraints(&q);
             if phi.iter().all(|residual| residual.abs() < CLOSED) {
                 return Some(Position { q, jacobian });
             }
             let correction = least_norm(&jacobian, &-phi)?;
-            q = self.layout.moved(&q, correction.as_slice());
+            self.layout.advance(&mut q, correction.as_slice());
         }
         None
     }

@@ -1,16 +1,10 @@
 //! The tables of a mechanism file, as types: the parser and the JSON Schema are both made from them.
 //! Every field is optional here; what must be present is said by the resolver, which can explain why.
 
-use std::borrow::Cow;
-use std::fmt;
-
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::written::{
-    At, ByForm, Form, Literal, Name, Pair, PerBody, Quantity, Table, Triple, read_by_form, value_of,
-};
+use super::written::{At, Name, Pair, PerBody, Quantity, Table, Triple};
 
 /// A mechanism file.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -60,15 +54,15 @@ pub enum ClosureSpec {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("required" = ["value"]))]
-struct ParameterTable {
+pub(super) struct ParameterTable {
     /// Quantity or formula over other parameters.
-    value: Option<Quantity>,
+    pub value: Option<Quantity>,
     /// Stays changeable in the generated code.
-    tunable: bool,
+    pub tunable: bool,
     /// Our own assumption, not from the cited source.
-    assumed: bool,
+    pub assumed: bool,
     /// What it is.
-    doc: Option<String>,
+    pub doc: Option<String>,
 }
 
 /// A named quantity.
@@ -82,16 +76,6 @@ pub struct Parameter {
     pub assumed: bool,
 }
 
-impl<'de> ByForm<'de> for Parameter {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        if form == Form::Table {
-            let ParameterTable { value, tunable, assumed, doc: _ } = value_of(value)?;
-            return Ok(Self { value, tunable, assumed });
-        }
-        Ok(Self { value: Some(value_of(value)?), tunable: false, assumed: false })
-    }
-}
-
 /// Where a point is.
 #[derive(Clone, Debug, Default)]
 pub struct PointSpec {
@@ -103,43 +87,6 @@ pub struct PointSpec {
     pub on: Option<Name>,
     /// Our own assumption.
     pub assumed: bool,
-}
-
-impl<'de> ByForm<'de> for PointSpec {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        if form == Form::Table {
-            return Ok(value_of::<PointTable, _>(value)?.0);
-        }
-        Ok(Self { at: Some(PerBody::Shared(value_of(value)?)), ..Self::default() })
-    }
-}
-
-struct PointTable(PointSpec);
-
-impl<'de> Deserialize<'de> for PointTable {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Keys;
-        impl<'de> Visitor<'de> for Keys {
-            type Value = PointTable;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("three coordinates or a table of them")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PointTable, A::Error> {
-                let mut point = PointSpec::default();
-                while let Some(key) = map.next_key::<Name>()? {
-                    match key.value.as_str() {
-                        "at" => point.at = Some(map.next_value()?),
-                        "on" => point.on = Some(map.next_value()?),
-                        "assumed" => point.assumed = map.next_value()?,
-                        "doc" => drop(map.next_value::<String>()?),
-                        _ => point.by_body.0.push((key, map.next_value()?)),
-                    }
-                }
-                Ok(PointTable(point))
-            }
-        }
-        deserializer.deserialize_map(Keys)
-    }
 }
 
 /// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` with `centre`.
@@ -189,12 +136,6 @@ pub enum Centre {
     At(Triple),
 }
 
-impl<'de> ByForm<'de> for Centre {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        Ok(if form == Form::List { Self::At(value_of(value)?) } else { Self::Point(value_of(value)?) })
-    }
-}
-
 /// Edges of a box's section.
 #[derive(Clone, Debug)]
 pub enum Widths {
@@ -202,16 +143,6 @@ pub enum Widths {
     Square(Quantity),
     /// A rectangle: along `width_axis`, and the other edge.
     Rectangle(At<Vec<Quantity>>),
-}
-
-impl<'de> ByForm<'de> for Widths {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        Ok(if form == Form::List {
-            Self::Rectangle(value_of(value)?)
-        } else {
-            Self::Square(value_of(value)?)
-        })
-    }
 }
 
 /// A joint: exactly one of the kinds, with the parent and the child.
@@ -292,16 +223,6 @@ pub struct EachCoordinate {
     pub q3: Option<Quantity>,
 }
 
-impl<'de> ByForm<'de> for ByCoordinate {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        Ok(if form == Form::Table {
-            Self::Each(Box::new(value_of(value)?))
-        } else {
-            Self::One(value_of(value)?)
-        })
-    }
-}
-
 /// A joint spring: for the only coordinate, or by coordinate.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -371,16 +292,6 @@ pub struct ForceSpec {
 #[derive(Clone, Debug)]
 pub struct Places(pub At<Vec<Name>>);
 
-impl<'de> ByForm<'de> for Places {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        if form == Form::List {
-            return Ok(Self(value_of(value)?));
-        }
-        let name: Name = value_of(value)?;
-        Ok(Self(At { span: name.span, value: vec![name] }))
-    }
-}
-
 /// Start values of a joint.
 #[derive(Clone, Debug)]
 pub enum StartSpec {
@@ -390,16 +301,6 @@ pub enum StartSpec {
     List(At<Vec<Quantity>>),
     /// Positions and speeds by name.
     Table(Box<At<StartTable>>),
-}
-
-impl<'de> ByForm<'de> for StartSpec {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        Ok(match form {
-            Form::Scalar => Self::One(value_of(value)?),
-            Form::List => Self::List(value_of(value)?),
-            Form::Table => Self::Table(Box::new(value_of(value)?)),
-        })
-    }
 }
 
 /// Start positions (`q`, or `q1`, `q2` ...) and speeds (`v`, or `v1`, `v2` ...).
@@ -446,56 +347,4 @@ pub struct RepeatSpec {
     pub assembly: Table<StartSpec>,
     /// Start values of a cell.
     pub initial: Table<StartSpec>,
-}
-
-/// `Deserialize` by form, and a schema that allows the listed forms.
-macro_rules! written_in_forms {
-    ($($type:ident: $generator:ident => $schema:expr;)*) => {$(
-        impl<'de> Deserialize<'de> for $type {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                read_by_form(deserializer)
-            }
-        }
-        impl JsonSchema for $type {
-            fn schema_name() -> Cow<'static, str> {
-                stringify!($type).into()
-            }
-            fn json_schema($generator: &mut SchemaGenerator) -> Schema {
-                $schema
-            }
-        }
-    )*};
-}
-
-written_in_forms! {
-    Parameter: g => {
-        json_schema!({ "anyOf": [g.subschema_for::<Literal>(), g.subschema_for::<ParameterTable>()] })
-    };
-    PointSpec: g => {
-        let position = g.subschema_for::<PerBody>();
-        let triple = g.subschema_for::<Triple>();
-        json_schema!({ "anyOf": [triple, {
-            "type": "object",
-            "properties": {
-                "at": position,
-                "on": { "type": "string", "description": "Body that carries the point." },
-                "assumed": { "type": "boolean", "description": "Our own assumption." },
-                "doc": { "type": "string" },
-            },
-            "additionalProperties": triple,
-        }]})
-    };
-    Centre: g => json_schema!({ "anyOf": [{ "type": "string" }, g.subschema_for::<Triple>()] });
-    Widths: g => {
-        let quantity = g.subschema_for::<Literal>();
-        json_schema!({ "anyOf": [quantity, { "type": "array", "items": quantity, "minItems": 2, "maxItems": 2 }] })
-    };
-    ByCoordinate: g => {
-        json_schema!({ "anyOf": [g.subschema_for::<Literal>(), g.subschema_for::<EachCoordinate>()] })
-    };
-    Places: _g => json_schema!({ "anyOf": [{ "type": "string" }, { "type": "array", "items": { "type": "string" } }] });
-    StartSpec: g => {
-        let quantity = g.subschema_for::<Literal>();
-        json_schema!({ "anyOf": [quantity, { "type": "array", "items": quantity }, g.subschema_for::<StartTable>()] })
-    };
 }

@@ -2,7 +2,9 @@
 //! In: a [`crate::source::SourceFile`]. Out: [`Spec`]. Never knows mechanics or ids.
 
 mod dimension;
+mod failure;
 mod file;
+mod forms;
 mod parse;
 mod read;
 mod repeat;

@@ -5,17 +5,16 @@
 //! list of entries to skip, and the whole is read again without it; every field of the file is optional.
 
 use std::cell::RefCell;
-use std::fmt;
 
 use serde::de::value::StrDeserializer;
 use serde::de::{
-    DeserializeSeed, Deserializer, Error, Expected, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
-    Visitor,
+    DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor,
 };
 use serde::{Deserialize, forward_to_deserialize_any};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::failure::Failure;
 use super::written::{WITH_FORM, WITH_SPAN};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -54,6 +53,16 @@ enum Value<'a, 'i> {
     Other(&'a DeValue<'i>),
 }
 
+/// The place of a value. A table under a header `[joints.R1]` has only the header as its place: its entries belong to it too.
+fn extent(value: &Spanned<DeValue<'_>>) -> Span {
+    let whole: Span = value.span().into();
+    let DeValue::Table(table) = value.get_ref() else { return whole };
+    table.iter().fold(whole, |whole, (key, inner)| {
+        let inner = extent(inner);
+        Span { start: whole.start.min(key.span().start), end: whole.end.max(inner.end) }
+    })
+}
+
 #[derive(Clone, Copy)]
 struct Reader<'a, 'i> {
     value: Value<'a, 'i>,
@@ -63,7 +72,7 @@ struct Reader<'a, 'i> {
 
 impl<'a, 'i> Reader<'a, 'i> {
     fn new(value: &'a Spanned<DeValue<'i>>, notes: &'a RefCell<Notes>) -> Self {
-        let span = value.span().into();
+        let span = extent(value);
         let value = match value.get_ref() {
             DeValue::Table(table) => Value::Table(table),
             other => Value::Other(other),
@@ -276,7 +285,7 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
             notes.diagnostics.push(failure.diagnostic(span));
             notes.skipped.push(span);
             notes.lost.push(key.to_owned());
-            Failure { reported: true, ..Failure::custom("") }
+            Failure::already_reported()
         })
     }
 }
@@ -298,76 +307,5 @@ impl<'de> Deserializer<'de> for Key<'_> {
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf option unit unit_struct
         newtype_struct seq tuple map struct enum identifier ignored_any
-    }
-}
-
-/// An error of one value, with its place once known.
-#[derive(Debug)]
-pub(super) struct Failure {
-    code: Code,
-    message: String,
-    help: Option<String>,
-    span: Option<Span>,
-    reported: bool,
-}
-
-impl Failure {
-    fn of(code: Code, message: String) -> Self {
-        Self { code, message, help: None, span: None, reported: false }
-    }
-
-    fn or_at(mut self, span: Span) -> Self {
-        self.span.get_or_insert(span);
-        self
-    }
-
-    fn diagnostic(&self, fallback: Span) -> Diagnostic {
-        let diagnostic =
-            Diagnostic::new(self.code, self.message.clone()).at(self.span.unwrap_or(fallback), "");
-        match &self.help {
-            Some(help) => diagnostic.help(help.clone()),
-            None => diagnostic,
-        }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.message)
-    }
-}
-
-impl std::error::Error for Failure {}
-
-impl Error for Failure {
-    fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::of(Code::WrongType, message.to_string())
-    }
-    fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        let found = match found {
-            Unexpected::Seq => "a list".to_owned(),
-            Unexpected::Map => "a table".to_owned(),
-            Unexpected::Str(text) => format!("the text \"{text}\""),
-            Unexpected::Bool(value) => value.to_string(),
-            Unexpected::Signed(value) => format!("the number {value}"),
-            Unexpected::Float(value) => format!("the number {value}"),
-            other => other.to_string(),
-        };
-        let expected = expected.to_string();
-        let expected = match expected.as_str() {
-            "a sequence" => "a list",
-            "a boolean" => "true or false",
-            "a string" => "a text",
-            other if other.starts_with("struct ") => "a table",
-            other => other,
-        };
-        Self::of(Code::WrongType, format!("found {found} where {expected} is needed"))
-    }
-    fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
-        let allowed = expected.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
-        let mut failure = Self::of(Code::BadChoice, format!("\"{variant}\" is not {allowed}"));
-        failure.help = crate::diagnostic::nearest(variant, expected.iter().copied())
-            .map(|word| format!("did you mean \"{word}\"?"));
-        failure
     }
 }

@@ -12,6 +12,7 @@ use super::Dimension;
 
 mod lex;
 mod parser;
+mod units;
 
 /// An operator between two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +50,7 @@ pub enum Form {
     Call(String, Vec<Expression>),
 }
 
-/// A piece of a formula and its place in the text [bytes].
+/// A piece of a formula and its place in the text, in bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     /// What it is.

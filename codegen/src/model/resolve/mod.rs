@@ -16,6 +16,7 @@ mod parameters;
 mod points;
 mod quantity;
 mod starts;
+mod term;
 
 pub use overrides::{OverrideError, Overrides};
 

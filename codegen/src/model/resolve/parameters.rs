@@ -48,7 +48,10 @@ impl Resolver<'_> {
                 let mut fault = Diagnostic::new(Code::UnknownOverride, message).did_you_mean(name, known());
                 if fault.help.is_empty() {
                     let list = known().collect::<Vec<_>>().join(", ");
-                    fault = fault.help(format!("parameters of this file: {list}"));
+                    fault = fault.help(match list.as_str() {
+                        "" => "this file has no parameters".to_owned(),
+                        list => format!("parameters of this file: {list}"),
+                    });
                 }
                 self.report(fault);
             }
@@ -130,7 +133,7 @@ impl Resolver<'_> {
             }
         }
         if order.len() < uses.len() {
-            self.report_cycle(table, &uses, &waiting);
+            self.report_cycles(table, &uses, &waiting);
         }
         order
     }
@@ -149,25 +152,33 @@ impl Resolver<'_> {
         found.collect()
     }
 
-    /// Walks from a waiting parameter along waiting ones until one repeats: that is a cycle.
-    fn report_cycle(&mut self, table: &Table<Parameter>, uses: &[Vec<usize>], waiting: &[usize]) {
-        let Some(mut at) = waiting.iter().position(|count| *count > 0) else { return };
-        let mut path: Vec<usize> = Vec::new();
-        while !path.contains(&at) {
-            path.push(at);
-            let next = uses[at].iter().copied().find(|used| waiting[*used] > 0);
-            at = next.unwrap_or(at);
+    /// Walks from each waiting parameter along waiting ones until one repeats: that is a cycle.
+    fn report_cycles(&mut self, table: &Table<Parameter>, uses: &[Vec<usize>], waiting: &[usize]) {
+        let mut seen = vec![false; uses.len()];
+        for start in (0..uses.len()).filter(|at| waiting[*at] > 0) {
+            let mut path: Vec<usize> = Vec::new();
+            let mut at = start;
+            while !seen[at] {
+                seen[at] = true;
+                path.push(at);
+                // A waiting parameter uses at least one waiting parameter.
+                at = uses[at].iter().copied().find(|used| waiting[*used] > 0).unwrap_or(at);
+            }
+            // Otherwise the walk ran into parameters that are reported already.
+            if let Some(first) = path.iter().position(|known| *known == at) {
+                self.report_cycle(table, &path[first..]);
+            }
         }
-        let start = path.iter().position(|seen| *seen == at).unwrap_or(0);
-        let names: Vec<_> = path[start..].iter().map(|at| format!("`{}`", table.0[*at].0.value)).collect();
-        let span = table.0[at].0.span;
+    }
+
+    fn report_cycle(&mut self, table: &Table<Parameter>, cycle: &[usize]) {
+        let names: Vec<_> = cycle.iter().map(|at| format!("`{}`", table.0[*at].0.value)).collect();
         let message = match names.as_slice() {
             [only] => format!("the parameter {only} is defined by itself"),
             _ => format!("the parameters {} are defined by each other", names.join(", ")),
         };
-        self.report(
-            Diagnostic::new(Code::ParameterCycle, message).at(span, "").help("give one of them a value"),
-        );
+        let fault = Diagnostic::new(Code::ParameterCycle, message).at(table.0[cycle[0]].0.span, "");
+        self.report(fault.help("give one of them a value"));
     }
 }
 

@@ -119,6 +119,9 @@ impl Resolver<'_> {
 
     fn start(&mut self, id: JointId, joint: &Joint, written: &Written<'_>, held: bool, what: &str) -> Start {
         let is = joint.kind.start_values()[written.index];
+        if let Some(speed) = written.speed {
+            self.warn_frequency(speed, is, what);
+        }
         if let Some(position) = written.position {
             self.warn_degrees(position, is, what);
         }

@@ -1,8 +1,7 @@
-//! From tokens to an expression, by recursive descent; units by the rules at the top of [`super`].
+//! From tokens to an expression, by recursive descent; units are read in [`super::units`].
 
 use std::ops::Range;
 
-use super::super::unit::{Unit, suggestion, unit};
 use super::lex::{Kind, Token};
 use super::{DEEPEST, Expression, Form, Operator, SyntaxError};
 
@@ -24,21 +23,21 @@ pub(super) fn parse(
     Ok(whole)
 }
 
-struct Parser<'a> {
-    tokens: &'a [Token],
-    next: usize,
-    length: usize,
-    depth: usize,
-    is_name: &'a dyn Fn(&str) -> bool,
-    shadowed: Vec<(String, Range<usize>)>,
+pub(super) struct Parser<'a> {
+    pub(super) tokens: &'a [Token],
+    pub(super) next: usize,
+    pub(super) length: usize,
+    pub(super) depth: usize,
+    pub(super) is_name: &'a dyn Fn(&str) -> bool,
+    pub(super) shadowed: Vec<(String, Range<usize>)>,
 }
 
-fn fault(message: impl Into<String>, range: Range<usize>) -> SyntaxError {
+pub(super) fn fault(message: impl Into<String>, range: Range<usize>) -> SyntaxError {
     SyntaxError { message: message.into(), help: None, range, unit: false }
 }
 
 impl SyntaxError {
-    fn advise(mut self, help: impl Into<String>) -> Self {
+    pub(super) fn advise(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
@@ -49,32 +48,32 @@ fn expression(form: Form, range: Range<usize>) -> Expression {
 }
 
 impl<'a> Parser<'a> {
-    fn peek(&self) -> Option<&'a Token> {
+    pub(super) fn peek(&self) -> Option<&'a Token> {
         self.tokens.get(self.next)
     }
 
-    fn mark_at(&self, offset: usize) -> Option<char> {
+    pub(super) fn mark_at(&self, offset: usize) -> Option<char> {
         match self.tokens.get(self.next + offset)?.kind {
             Kind::Mark(mark) => Some(mark),
             _ => None,
         }
     }
 
-    fn word_at(&self, offset: usize) -> Option<&'a str> {
+    pub(super) fn word_at(&self, offset: usize) -> Option<&'a str> {
         match &self.tokens.get(self.next + offset)?.kind {
             Kind::Word(word) => Some(word),
             _ => None,
         }
     }
 
-    fn take(&mut self, mark: char) -> bool {
+    pub(super) fn take(&mut self, mark: char) -> bool {
         let found = self.mark_at(0) == Some(mark);
         self.next += usize::from(found);
         found
     }
 
     /// Where the next token is, or the end of the text.
-    fn here(&self) -> Range<usize> {
+    pub(super) fn here(&self) -> Range<usize> {
         self.peek().map_or(self.length..self.length, |token| token.range.clone())
     }
 
@@ -154,7 +153,7 @@ impl<'a> Parser<'a> {
         Ok(expression(Form::Power(Box::new(base), exponent), range))
     }
 
-    fn exponent(&mut self) -> Result<(i32, usize), SyntaxError> {
+    pub(super) fn exponent(&mut self) -> Result<(i32, usize), SyntaxError> {
         let bracket = self.take('(');
         let negative = self.take('-');
         let range = self.here();
@@ -225,150 +224,6 @@ impl<'a> Parser<'a> {
         }
         let form = Form::Number { value, dimension: unit.dimension, bare: self.next == first };
         Ok(expression(form, range.start..end))
-    }
-
-    /// The unit behind a number, or none.
-    fn unit(&mut self) -> Result<Unit, SyntaxError> {
-        let start = self.next;
-        let mut total = Unit::ONE;
-        let mut below = false;
-        // `10 1/s`: a 1 before a slash and a unit can be nothing else here.
-        if matches!(self.peek().map(|token| &token.kind), Some(Kind::Number(one)) if *one == 1.0)
-            && self.mark_at(1) == Some('/')
-        {
-            self.next += 1;
-        } else if let Some(word) = self.word_at(0) {
-            total = self.unit_symbol(word)?;
-        } else if !(self.mark_at(0) == Some('/') && self.unit_word(1, true)) {
-            return Ok(total);
-        }
-        loop {
-            let factor = if self.word_at(0).is_some() {
-                if below {
-                    return Err(self.ambiguous(start));
-                }
-                let word = self.word_at(0).unwrap_or_default();
-                self.unit_symbol(word)?
-            } else if self.mark_at(0) == Some('*') && self.unit_word(1, true) {
-                self.next += 1;
-                let word = self.word_at(0).unwrap_or_default();
-                below = false;
-                self.unit_symbol(word)?
-            } else if self.mark_at(0) == Some('/') && self.unit_word(1, false) {
-                self.next += 1;
-                below = true;
-                let word = self.word_at(0).unwrap_or_default();
-                if (self.is_name)(word) {
-                    self.shadowed.push((word.to_owned(), self.here()));
-                }
-                let symbol = self.unit_symbol(word)?;
-                self.raise(symbol, -1)?
-            } else if let Some(denominator) = self.bracketed_units()? {
-                below = true;
-                self.raise(denominator, -1)?
-            } else {
-                return Ok(total);
-            };
-            total = total.times(factor).ok_or_else(|| self.overflow())?;
-        }
-    }
-
-    /// Whether the token at `offset` continues a unit. `t` after an operator is always the time.
-    fn unit_word(&self, offset: usize, names_win: bool) -> bool {
-        let Some(word) = self.word_at(offset) else { return false };
-        let is_used_otherwise = matches!(self.mark_at(offset + 1), Some('(' | '.'));
-        unit(word).is_some() && word != "t" && !is_used_otherwise && !(names_win && (self.is_name)(word))
-    }
-
-    /// `/(m s)` behind a unit, if the bracket holds nothing but units.
-    fn bracketed_units(&mut self) -> Result<Option<Unit>, SyntaxError> {
-        // Two words in a row can be nothing but units; a single one may be a name.
-        let two_words = self.word_at(3).is_some();
-        if self.mark_at(0) != Some('/')
-            || self.mark_at(1) != Some('(')
-            || !(self.unit_word(2, true) || two_words && self.unit_word(2, false))
-        {
-            return Ok(None);
-        }
-        let start = self.next;
-        self.next += 2;
-        let mut total = Unit::ONE;
-        while self.unit_word(0, false) {
-            let word = self.word_at(0).unwrap_or_default();
-            let factor = self.unit_symbol(word)?;
-            total = total.times(factor).ok_or_else(|| self.overflow())?;
-            if self.mark_at(0) == Some('*') {
-                self.next += 1;
-            }
-        }
-        if self.take(')') {
-            return Ok(Some(total));
-        }
-        self.next = start;
-        Ok(None)
-    }
-
-    /// The unit `word`, which is the next token, with its power.
-    fn unit_symbol(&mut self, word: &str) -> Result<Unit, SyntaxError> {
-        let range = self.here();
-        let Some(symbol) = unit(word) else {
-            return Err(self.unknown_unit(word, range));
-        };
-        self.next += 1;
-        if self.take('^') {
-            let (exponent, _) = self.exponent()?;
-            return self.raise(symbol, exponent);
-        }
-        Ok(symbol)
-    }
-
-    fn raise(&self, unit: Unit, exponent: i32) -> Result<Unit, SyntaxError> {
-        unit.to_power(exponent).ok_or_else(|| self.overflow())
-    }
-
-    fn overflow(&self) -> SyntaxError {
-        let range = self.tokens.get(self.next - 1).map_or(0..0, |token| token.range.clone());
-        SyntaxError { unit: true, ..fault("no quantity has such a power of a unit", range) }
-    }
-
-    fn unknown_unit(&self, word: &str, range: Range<usize>) -> SyntaxError {
-        let after = matches!(self.mark_at(1), Some('(' | '.'));
-        if (self.is_name)(word) || after {
-            return fault(format!("an operator is missing before `{word}`"), range)
-                .advise(format!("write `*{word}` for a product"));
-        }
-        let help = match suggestion(word) {
-            Some(symbol) => format!("did you mean `{symbol}`?"),
-            None => "units are m, g, s, N, J, W, Pa, Hz, rad with prefixes, and kg, t, min, h, deg, rpm, %"
-                .to_owned(),
-        };
-        SyntaxError { unit: true, ..fault(format!("`{word}` is not a unit"), range) }.advise(help)
-    }
-
-    /// `kg/m s` from token `start` on: says both readings.
-    fn ambiguous(&self, start: usize) -> SyntaxError {
-        let text = |token: &Token| match &token.kind {
-            Kind::Word(word) => word.clone(),
-            Kind::Number(value) => value.to_string(),
-            Kind::Mark(mark) => mark.to_string(),
-        };
-        let join = |tokens: &[Token]| {
-            let mut joined = String::new();
-            for token in tokens {
-                let blank = matches!(token.kind, Kind::Word(_)) && joined.ends_with(char::is_alphanumeric);
-                joined.push_str(if blank { " " } else { "" });
-                joined.push_str(&text(token));
-            }
-            joined
-        };
-        let slash =
-            (start..self.next).rev().find(|at| self.tokens[*at].kind == Kind::Mark('/')).unwrap_or(start);
-        let above = join(&self.tokens[start..slash]);
-        let below = join(&self.tokens[slash + 1..self.next]).replace(['(', ')'], "");
-        let more = self.word_at(0).unwrap_or_default();
-        let range = self.tokens[start].range.start..self.here().end;
-        SyntaxError { unit: true, ..fault("a blank behind a `/` can be read in two ways", range) }
-            .advise(format!("write `{above}/({below} {more})` or `{above} {more}/{below}`"))
     }
 }
 

@@ -1,0 +1,85 @@
+//! The error of one value while a file is read: serde's errors, said so that a user understands them.
+
+use std::fmt;
+
+use serde::de::{Error, Expected, Unexpected};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+/// An error of one value, with its place once known.
+#[derive(Debug)]
+pub(super) struct Failure {
+    code: Code,
+    message: String,
+    help: Option<String>,
+    span: Option<Span>,
+    /// It is among the diagnostics already.
+    pub reported: bool,
+}
+
+impl Failure {
+    fn of(code: Code, message: String) -> Self {
+        Self { code, message, help: None, span: None, reported: false }
+    }
+
+    /// For the callers of a value whose fault is among the diagnostics.
+    pub(super) fn already_reported() -> Self {
+        Self { reported: true, ..Self::of(Code::WrongType, String::new()) }
+    }
+
+    pub(super) fn or_at(mut self, span: Span) -> Self {
+        self.span.get_or_insert(span);
+        self
+    }
+
+    pub(super) fn diagnostic(&self, fallback: Span) -> Diagnostic {
+        let diagnostic =
+            Diagnostic::new(self.code, self.message.clone()).at(self.span.unwrap_or(fallback), "");
+        match &self.help {
+            Some(help) => diagnostic.help(help.clone()),
+            None => diagnostic,
+        }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl Error for Failure {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self::of(Code::WrongType, message.to_string())
+    }
+    fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        let found = match found {
+            Unexpected::Seq => "a list".to_owned(),
+            Unexpected::Map => "a table".to_owned(),
+            Unexpected::Str(text) => format!("the text \"{text}\""),
+            Unexpected::Bool(value) => value.to_string(),
+            Unexpected::Signed(value) => format!("the number {value}"),
+            Unexpected::Float(value) => format!("the number {value}"),
+            other => other.to_string(),
+        };
+        let expected = expected.to_string();
+        let expected = match expected.as_str() {
+            "a sequence" => "a list",
+            "a boolean" => "true or false",
+            "a string" => "a text",
+            other if other.starts_with("struct ") => "a table",
+            other => other,
+        };
+        Self::of(Code::WrongType, format!("found {found} where {expected} is needed"))
+    }
+    fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
+        let allowed = expected.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
+        let mut failure = Self::of(Code::BadChoice, format!("\"{variant}\" is not {allowed}"));
+        failure.help = crate::diagnostic::nearest(variant, expected.iter().copied())
+            .map(|word| format!("did you mean \"{word}\"?"));
+        failure
+    }
+}

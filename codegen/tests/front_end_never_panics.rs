@@ -1,0 +1,68 @@
+//! Whatever a user writes, the front end answers with a mechanism or with diagnostics that can be printed.
+
+use linkwear_codegen::model::topology::spanning_tree;
+use linkwear_codegen::model::{Overrides, resolve};
+use linkwear_codegen::source::SourceFile;
+use linkwear_codegen::spec;
+use proptest::prelude::*;
+
+/// What is put in place of a piece of a file: fragments that mean something somewhere.
+const PIECES: &[&str] = &[
+    "",
+    "0",
+    "-1",
+    "nan",
+    "1e308",
+    "\"\"",
+    "\"B\"",
+    "\"ground\"",
+    "\"0 mm\"",
+    "\"t\"",
+    "\"R1.q\"",
+    "\"1/0\"",
+    "[]",
+    "{}",
+    "[0, 0, 0]",
+    "{ q1 = 1 }",
+    "{ coupler = [0, 0, 1] }",
+    "true",
+    "cut = true,",
+    "free",
+    "planar",
+    "universal",
+    "box",
+    "\"{i}\"",
+    "[repeat.x]\ncount = 2\n",
+    "µ",
+    "\\",
+    "=",
+    "\n",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_damaged_file_gives_a_mechanism_or_diagnostics(
+        file in prop::sample::select(vec!["rssr_rigid", "four_bar", "slider_crank", "pendulum"]),
+        damages in prop::collection::vec((0.0..1.0, 0usize..12, prop::sample::select(PIECES)), 1..4),
+    ) {
+        let path = format!("{}/../mechanisms/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut text: Vec<char> = std::fs::read_to_string(path).unwrap().chars().collect();
+        for (place, length, piece) in damages {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a short file")]
+            let start = (place * text.len() as f64) as usize;
+            let end = (start + length).min(text.len());
+            text.splice(start..end, piece.chars());
+        }
+        let source = SourceFile { name: "damaged.toml".into(), text: text.into_iter().collect() };
+        let outcome = spec::parse(&source)
+            .and_then(|spec| resolve(&spec, &Overrides::default()))
+            .and_then(|(mechanism, _)| spanning_tree(&mechanism).map_err(|errors| errors.located(&source)));
+        if let Err(errors) = outcome {
+            prop_assert!(errors.has_errors());
+            prop_assert!(!errors.to_string().is_empty());
+            prop_assert_eq!(errors.entries().len(), errors.list().len());
+        }
+    }
+}
