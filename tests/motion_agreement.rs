@@ -112,7 +112,7 @@ fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) {
     let integrator = Integrator::Dopri5 { tolerance: 1e-9, max_step: None };
     let settings = Settings::new(integrator, Span::Time(seconds), SAMPLES);
     let description = compiled.description();
-    let watch = &mut |_: &_| ControlFlow::Continue(());
+    let watch = &mut |_| ControlFlow::Continue(());
     let run = simulate(&compiled.interpreter(), description, &compiled.parameters(), &settings, watch)
         .unwrap_or_else(|error| panic!("{}: {error}\n{}", source.name, source.text));
     let oracle = Oracle::with_defaults(&compiled.mechanism).expect("the oracle reads what we read");
@@ -172,9 +172,23 @@ fn random_loops_agree_with_both_closures() {
 }
 
 #[test]
-fn a_drive_on_a_planar_joint_seen_from_its_child_pushes_at_the_childs_point() {
-    // Seeds in which the tree runs from the child of a driven planar joint to its parent.
-    for seed in [46, 72, 93, 161, 218] {
-        check(&random(&Recipe::closed(seed)), None, 0.2);
-    }
+fn a_driven_planar_joint_is_pushed_at_the_childs_point_also_when_the_ground_is_the_child() {
+    let text = r#"
+        spec = 1
+        name = "sledge"
+        gravity = ["1 m/s^2", "2 m/s^2", "-9 m/s^2"]
+        [points]
+        P = ["0.1 m", "0.2 m", "-0.1 m"]
+        [bodies]
+        b = { mass = "2 kg", centre = ["0.3 m", "0.1 m", "0 m"], inertia = ["0.1 kg m^2", "0.15 kg m^2", "0.2 kg m^2"] }
+        [joints.plane]
+        planar = ["b", "ground"]
+        at = "P"
+        axis = [1, 2, 3]
+        first = [3, 0, -1]
+        drive = { q1 = "50 mm*sin(3 Hz*t)" }
+        [initial]
+        plane = { q2 = "80 mm", q3 = "0.4 rad", v2 = "0.3 m/s", v3 = "2 rad/s" }
+    "#;
+    check(&SourceFile { name: "sledge".to_owned(), text: text.to_owned() }, None, 0.2);
 }
