@@ -7,5 +7,13 @@ fn main() {
         .mechanism("mechanisms/four_bar.toml")
         .mechanism("mechanisms/slider_crank.toml")
         .mechanism("mechanisms/rssr_rigid.toml")
+        .mechanism("mechanisms/andrews.toml")
+        .mechanism("mechanisms/n_four_bar_2.toml")
+        .mechanism("mechanisms/n_four_bar_40.toml")
+        .mechanism("mechanisms/bricard.toml")
+        .mechanism("mechanisms/bennett.toml")
+        .mechanism("mechanisms/flyball.toml")
+        .mechanism("mechanisms/six_bar.toml")
+        .mechanism("mechanisms/spatial_slider_crank.toml")
         .write_or_exit();
 }

@@ -45,6 +45,22 @@ shipped! {
     slider_crank = "slider_crank",
     /// The case study's spatial four-bar, rigid, with ideal joints.
     rssr_rigid = "rssr_rigid",
+    /// Andrews' squeezing mechanism: seven bodies, three loops, a spring and a motor.
+    andrews = "andrews",
+    /// Two parallelogram cells; passes positions where it could go on in several ways.
+    n_four_bar_2 = "n_four_bar_2",
+    /// Forty parallelogram cells.
+    n_four_bar_40 = "n_four_bar_40",
+    /// Bricard's six revolutes: overconstrained, yet it moves.
+    bricard = "bricard",
+    /// Bennett's four skew revolutes: overconstrained, yet it moves.
+    bennett = "bennett",
+    /// The stiff flyball governor.
+    flyball = "flyball",
+    /// A six-bar with two loops.
+    six_bar = "six_bar",
+    /// A spatial slider-crank with a universal joint.
+    spatial_slider_crank = "spatial_slider_crank",
 }
 
 #[cfg(test)]

@@ -259,8 +259,8 @@ J5 = { fixed = ["ground", "dot"], at = "O" }
     assert_eq!(width[1].value(&values), Some(0.005));
     assert_eq!(width_axis[0], 0.0);
     let Inertia::Given { centre, axes, .. } = &m.bodies[3].inertia else { panic!() };
-    // Columns are y, z and their cross product x.
-    assert_eq!(*axes, [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // The x, y and z axis: as written, and their cross product.
+    assert_eq!(*axes, [Y, Z, X]);
     let point = m.point(*centre);
     assert_eq!((point.name.as_str(), point.carrier), ("lump_centre", body(3)));
     let Inertia::Given { inertia, .. } = &m.bodies[4].inertia else { panic!() };

@@ -2,13 +2,22 @@
 //! are nearly singular. In: time and state. Out: accelerations, multipliers, drive forces.
 //! Never knows step sizes.
 
+use crate::linear::largest;
 use crate::singular::SingularSolver;
 use crate::{Evaluator, RunError};
 
-/// Loop pivots (squares of singular values, about) below this part of the largest pivot seen so far make
-/// the runtime distrust the generated elimination. At 1e-9 that has lost half of its digits in the
-/// direction that becomes singular; the orthogonal solve loses a third of them.
-pub const SINGULAR_PIVOT: f64 = 1e-9;
+/// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
+/// has had makes the runtime leave the generated elimination. At 1e-7 (a singular value of 3e-4) rounding
+/// of the loop, 1e-16 m, already shows as speeds of 1e-8 in the direction that becomes singular; nearer to
+/// the singular position exact equations would follow such errors onto another branch. Smaller values
+/// let more of that noise in (1e-9: a hundred times); larger ones continue the acceleration for longer.
+pub const SINGULAR_PIVOT: f64 = 1e-7;
+
+/// Pivots below this part of the largest of all pivots are noise, whatever they were before.
+const NOISE_PIVOT: f64 = 1e-13;
+
+/// An acceleration noted further back than this [rad, m] along the motion says nothing about the present one.
+const REACH: f64 = 0.1;
 
 /// Evaluates accelerations and counts how.
 pub struct Dynamics<'a> {
@@ -19,8 +28,10 @@ pub struct Dynamics<'a> {
     /// Calls that needed the rank-revealing solve.
     pub rank_revealing_solves: u64,
     singular_pivot: f64,
-    largest_pivot: f64,
-    regularity: f64,
+    largest_pivots: Vec<f64>,
+    nearness: f64,
+    reference: Vec<f64>,
+    reference_time: Option<f64>,
     solver: SingularSolver,
 }
 
@@ -29,13 +40,16 @@ impl<'a> Dynamics<'a> {
     #[must_use]
     pub fn new(evaluator: Evaluator<'a>, singular_pivot: f64) -> Self {
         let solver = SingularSolver::new(&evaluator);
+        let sizes = evaluator.sizes();
         Self {
             evaluator,
             evaluations: 0,
             rank_revealing_solves: 0,
             singular_pivot,
-            largest_pivot: 0.0,
-            regularity: 1.0,
+            largest_pivots: vec![0.0; sizes.rows],
+            nearness: 1.0,
+            reference: vec![0.0; sizes.speeds],
+            reference_time: None,
             solver,
         }
     }
@@ -47,30 +61,56 @@ impl<'a> Dynamics<'a> {
     /// [`RunError::NonFinite`] if one of them is infinite or not a number.
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), RunError> {
         self.evaluations += 1;
-        let pivots = self.evaluator.forward(t, q, v).pivots;
-        let mut smallest = f64::INFINITY;
-        let mut most = self.largest_pivot;
-        for pivot in pivots {
-            // A pivot that is not a number counts as lost rank.
-            smallest = if *pivot >= smallest { smallest } else { *pivot };
-            if pivot.is_finite() {
-                most = most.max(*pivot);
-            }
-        }
-        self.largest_pivot = most;
-        self.regularity = if smallest.is_nan() { 0.0 } else { smallest.min(most) / most };
-        let near_singular = smallest.is_nan() || smallest < self.singular_pivot * most;
-        if near_singular {
+        self.evaluator.forward(t, q, v);
+        self.nearness = self.regularity();
+        if self.is_near_singular() {
             self.rank_revealing_solves += 1;
-            self.solver.solve(&mut self.evaluator, t, q, v);
+            let reach = |from: f64| (t - from).abs() * largest(v).max(1.0) <= REACH;
+            let reference = self.reference_time.is_some_and(reach).then_some(&self.reference[..]);
+            self.solver.solve(&mut self.evaluator, t, (q, v), reference);
         }
         self.check(t)
     }
 
-    /// Smallest loop pivot of the last state over the largest seen so far: 0 at a singular position.
+    /// Smallest pivot at the last state, each relative to the largest value it has had (1: as regular as
+    /// ever, 0: singular).
     #[must_use]
-    pub fn regularity(&self) -> f64 {
-        self.regularity
+    pub fn nearness(&self) -> f64 {
+        self.nearness
+    }
+
+    /// Whether the last state counted as nearly singular.
+    #[must_use]
+    pub fn is_near_singular(&self) -> bool {
+        self.nearness < self.singular_pivot
+    }
+
+    /// Notes accelerations of a state that was reached, unless it is nearly singular: a near singular
+    /// position they are continued.
+    pub fn note_reference(&mut self, t: f64, accelerations: &[f64]) {
+        if !self.is_near_singular() {
+            self.reference.copy_from_slice(accelerations);
+            self.reference_time = Some(t);
+        }
+    }
+
+    fn regularity(&mut self) -> f64 {
+        let pivots = self.evaluator.last_forward().pivots;
+        let mut smallest = 1.0;
+        for (pivot, most) in pivots.iter().zip(&mut self.largest_pivots) {
+            if pivot.is_finite() && *pivot > *most {
+                *most = *pivot;
+            }
+        }
+        let noise = NOISE_PIVOT * largest(&self.largest_pivots);
+        for (pivot, most) in pivots.iter().zip(&self.largest_pivots) {
+            // A pivot that is not a positive number counts as lost rank.
+            let ratio = if *pivot > noise { pivot / most } else { 0.0 };
+            if ratio < smallest {
+                smallest = ratio;
+            }
+        }
+        smallest
     }
 
     fn check(&self, t: f64) -> Result<(), RunError> {

@@ -2,6 +2,7 @@
 //! In: a [`System`], its [`Description`], parameter values. Out: slices by [`Entry`].
 //! Never knows integrators.
 
+use crate::linear::dot;
 use crate::{Description, Entry, Layout, SetupError, Sizes, System};
 
 /// A mechanism with fixed parameters and the storage to evaluate it.
@@ -12,6 +13,9 @@ pub struct Evaluator<'a> {
     sizes: Sizes,
     /// Row of the description behind each kept row.
     kept: Vec<usize>,
+    /// Longest length that each kept row of the Jacobian has had.
+    row_lengths: Vec<f64>,
+    row_scales: Vec<f64>,
     input: Vec<f64>,
     workspace: Vec<f64>,
     outputs: [Vec<f64>; Entry::ALL.len()],
@@ -134,6 +138,8 @@ impl<'a> Evaluator<'a> {
             layout,
             sizes,
             kept,
+            row_lengths: vec![0.0; sizes.rows],
+            row_scales: vec![1.0; sizes.rows],
             input,
             workspace: vec![0.0; sizes.workspace],
             outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
@@ -223,7 +229,42 @@ impl<'a> Evaluator<'a> {
     /// Residuals of the loops and their Jacobian.
     pub fn closure(&mut self, t: f64, q: &[f64], v: &[f64]) -> Closure<'_> {
         self.ask(Entry::Closure, t, &[q, v]);
+        self.note_row_lengths();
         self.last_closure()
+    }
+
+    /// Factors that make the kept rows of the Jacobian at most about as long as one, so that metres and
+    /// radians count alike when rank is judged. They follow the longest each row has been: a row that
+    /// vanishes at a singular position must not be blown up.
+    #[must_use]
+    pub fn row_scales(&self) -> &[f64] {
+        &self.row_scales
+    }
+
+    fn note_row_lengths(&mut self) {
+        let n = self.sizes.speeds.max(1);
+        let first = self.sizes.all_rows + self.sizes.rows;
+        let jacobian = &self.outputs[Entry::Closure as usize][first..];
+        let mut grown = false;
+        for (length, row) in self.row_lengths.iter_mut().zip(jacobian.chunks_exact(n)) {
+            let now = dot(row, row).sqrt();
+            if now > *length {
+                (*length, grown) = (now, true);
+            }
+        }
+        if !grown {
+            return;
+        }
+        let mut most = [0.0_f64; 2];
+        for (length, row) in self.row_lengths.iter().zip(&self.kept) {
+            let kind = usize::from(self.description.rows[*row].angular);
+            most[kind] = most[kind].max(*length);
+        }
+        for ((scale, length), row) in self.row_scales.iter_mut().zip(&self.row_lengths).zip(&self.kept) {
+            let kind = usize::from(self.description.rows[*row].angular);
+            // A row that starts at a singular position has no length of its own yet.
+            *scale = 1.0 / length.max(1e-3 * most[kind]).max(f64::MIN_POSITIVE);
+        }
     }
 
     /// The last answer of [`Self::closure`].

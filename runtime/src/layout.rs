@@ -84,6 +84,19 @@ impl Layout {
         self.groups.iter().filter(|group| group.motion.driver().is_none())
     }
 
+    /// Places among all speeds: of every free speed, and of every driver's speed.
+    #[must_use]
+    pub fn speed_places(&self, drivers: usize) -> (Vec<usize>, Vec<usize>) {
+        let (mut free, mut driven) = (Vec::with_capacity(self.speeds), vec![0; drivers]);
+        for group in &self.groups {
+            match group.motion.driver() {
+                Some(driver) => driven[driver] = group.all_speed,
+                None => free.extend((0..group.motion.lengths().1).map(|i| group.all_speed + i)),
+            }
+        }
+        (free, driven)
+    }
+
     /// Moves the free coordinates `q` as the constant speeds `delta` would in unit time (exponential map;
     /// quaternions come out with unit length if they went in so).
     pub fn advance(&self, q: &mut [f64], delta: &[f64]) {

@@ -3,6 +3,11 @@
 //! Generated code knows this crate; this crate knows nobody. The core (scalar, intrinsics, the
 //! [`System`] contract) is `no_std` and does not allocate; descriptions, integrators and recorders
 //! come with the default feature `std`.
+//!
+//! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
+//! [`write_csv`] records a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
+//! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
+#![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets: [m], [rad/s]")]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod dual;
@@ -49,7 +54,7 @@ pub use system::{Entry, Sizes, System};
 pub use {
     assemble::{State, assemble, assemble_with},
     description::{
-        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
+        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     error::{AssemblyError, RunError, SetupError},
@@ -58,5 +63,5 @@ pub use {
     project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::write_csv,
     simulate::{BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate},
-    singular::RANK_TOLERANCE,
+    singular::{LOST_RANK, NEARLY_LOST},
 };

@@ -62,10 +62,15 @@ pub struct Projector {
     residual: Vec<f64>,
     delta: Vec<f64>,
     right: Vec<f64>,
+    scales: Vec<f64>,
     gram: Cholesky,
     orthogonal: Orthogonal,
     factored: Factored,
     error: LoopError,
+    /// Factor on the tolerances.
+    strictness: f64,
+    /// Whether speeds in nearly lost directions stay untouched.
+    keep_lost: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +94,9 @@ impl Projector {
             orthogonal: Orthogonal::new(m, n),
             factored: Factored::No,
             error: LoopError::default(),
+            strictness: 1.0,
+            keep_lost: false,
+            scales: vec![0.0; m],
         }
     }
 
@@ -100,15 +108,21 @@ impl Projector {
 
     /// Moves `q` and `v` onto the constraints at time `t`. Quaternions come out with unit length.
     ///
+    /// `regularity`: [`crate::Dynamics::nearness`], 1 for regular positions. On the way to a singular one
+    /// an open loop shows as speed divided by it, so tolerances shrink with it. 0: nearly lost directions
+    /// are left as they are.
+    ///
     /// # Errors
     /// If the loops stay open by more than [`LOST`], or a residual is not a number.
     pub fn project(
         &mut self,
         evaluator: &mut Evaluator<'_>,
         t: f64,
-        q: &mut [f64],
-        v: &mut [f64],
+        (q, v): (&mut [f64], &mut [f64]),
+        regularity: f64,
     ) -> Result<Correction, NotClosed> {
+        self.strictness = if regularity > 0.0 { regularity } else { 1.0 };
+        self.keep_lost = regularity <= 0.0;
         let mut correction = Correction::default();
         evaluator.layout().normalize(q);
         self.factored = Factored::No;
@@ -130,7 +144,9 @@ impl Projector {
         correction: &mut Correction,
     ) -> Result<(), NotClosed> {
         // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
-        let tolerance = POSITION_TOLERANCE + 4.0 * f64::EPSILON * largest(q);
+        let rounding = f64::EPSILON * largest(q).max(1.0);
+        let tolerance =
+            (POSITION_TOLERANCE * self.strictness).max(0.5 * rounding) + rounding * self.strictness;
         let mut before = f64::INFINITY;
         for iteration in 0..=MAX_ITERATIONS {
             self.load(evaluator, t, q, v);
@@ -168,7 +184,7 @@ impl Projector {
         v: &mut [f64],
         correction: &mut Correction,
     ) {
-        let tolerance = SPEED_TOLERANCE * largest(v).max(1.0);
+        let tolerance = (SPEED_TOLERANCE * self.strictness).max(0.5 * f64::EPSILON) * largest(v).max(1.0);
         for _ in 0..=LEVELS.len() {
             self.residual.copy_from_slice(evaluator.last_closure().speeds);
             if largest(&self.residual) <= tolerance {
@@ -186,7 +202,7 @@ impl Projector {
                 Factored::Orthogonal { .. } => self.orthogonal.rank() == self.residual.len(),
                 _ => true,
             };
-            if complete {
+            if complete || self.keep_lost {
                 // Speeds enter linearly: one solve with all directions is enough.
                 return;
             }
@@ -207,6 +223,10 @@ impl Projector {
     fn factor(&mut self, evaluator: &Evaluator<'_>, level: usize) {
         self.jacobian.copy_from_slice(evaluator.last_closure().jacobian);
         let n = self.delta.len();
+        self.scales.copy_from_slice(evaluator.row_scales());
+        for (scale, row) in self.scales.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
+            row.iter_mut().for_each(|x| *x *= *scale);
+        }
         if level == 0 && self.gram.factor_gram(&self.jacobian, n) > TRUSTED_PIVOT {
             self.factored = Factored::Gram;
             return;
@@ -219,8 +239,8 @@ impl Projector {
     /// `delta`: the shortest solution of `J delta = -residual`.
     fn solve(&mut self) {
         let n = self.delta.len();
-        for (right, residual) in self.right.iter_mut().zip(&self.residual) {
-            *right = -residual;
+        for ((right, residual), scale) in self.right.iter_mut().zip(&self.residual).zip(&self.scales) {
+            *right = -scale * residual;
         }
         if self.factored == Factored::Gram {
             self.gram.solve(&mut self.right);

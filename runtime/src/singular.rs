@@ -2,15 +2,24 @@
 //! In: [`crate::Entry::EquationsOfMotion`] at a state. Out: accelerations, multipliers, drive forces in
 //! the layout of [`crate::Entry::ForwardDynamics`]. Never decides when it is needed.
 //!
-//! `M v̇ + h = Phi_qᵀ lambda + drive`, `Phi_q v̇ = gamma`, driven accelerations known: a minimum-norm
-//! acceleration that meets the rows, plus motion in their null space from the masses (principle of Gauss).
+//! `M v̇ + h = Phi_qᵀ lambda + drive`, `Phi_q v̇ = gamma`, driven accelerations known. The rows fall apart:
+//! - regular directions: a minimum-norm acceleration meets them;
+//! - nearly lost directions: dividing by their small singular value would blow errors up until the
+//!   mechanism leaves its branch, so the acceleration noted before is continued there (a branch is smooth);
+//! - free directions: the masses decide (principle of Gauss).
+//!
+//! Multipliers are the smallest ones that balance the regular directions; in lost directions ideal joints
+//! would need infinite forces, which are left out. They do no work.
 
 use crate::Evaluator;
-use crate::linear::{Orthogonal, dot};
+use crate::linear::{Orthogonal, add_scaled, dot, largest};
 
-/// Singular values of the constraint rows below this part of the largest one count as zero: the
-/// acceleration in that direction then follows from the masses alone.
-pub const RANK_TOLERANCE: f64 = 1e-10;
+/// Singular values of the constraint rows (scaled to unit length) below this part of the largest one mark
+/// nearly lost directions.
+pub const NEARLY_LOST: f64 = 1e-3;
+
+/// Below this part they are noise, and lost directions cannot be told from free ones.
+pub const LOST_RANK: f64 = 1e-11;
 
 /// Storage of the solve.
 pub struct SingularSolver {
@@ -30,9 +39,14 @@ pub struct SingularSolver {
     reduced: Vec<f64>,
     residual: Vec<f64>,
     scratch: Vec<f64>,
+    scales: Vec<f64>,
+    lost_rows: Vec<f64>,
+    amounts: Vec<f64>,
+    free_directions: Vec<f64>,
     acceleration: Vec<f64>,
     multipliers: Vec<f64>,
     constraints: Orthogonal,
+    lost: Orthogonal,
     inertia: Orthogonal,
 }
 
@@ -42,14 +56,7 @@ impl SingularSolver {
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let sizes = evaluator.sizes();
         let (n, all, m) = (sizes.speeds, sizes.all_speeds, sizes.rows);
-        let mut free = Vec::with_capacity(n);
-        let mut driven = vec![0; sizes.drivers];
-        for group in &evaluator.layout().groups {
-            match group.motion.driver() {
-                Some(driver) => driven[driver] = group.all_speed,
-                None => free.extend((0..group.motion.lengths().1).map(|i| group.all_speed + i)),
-            }
-        }
+        let (free, driven) = evaluator.layout().speed_places(sizes.drivers);
         Self {
             all_q: vec![0.0; sizes.all_coordinates],
             all_v: vec![0.0; all],
@@ -65,23 +72,43 @@ impl SingularSolver {
             reduced: vec![0.0; n * n],
             residual: vec![0.0; n],
             scratch: vec![0.0; n],
+            scales: vec![0.0; m],
+            lost_rows: vec![0.0; m * n],
+            amounts: vec![0.0; n],
+            free_directions: vec![0.0; n * n],
             acceleration: vec![0.0; n],
             multipliers: vec![0.0; m],
             constraints: Orthogonal::new(m, n),
+            lost: Orthogonal::new(m, n),
             inertia: Orthogonal::new(n, n),
         }
     }
 
-    /// Replaces accelerations, multipliers and drive forces of the last forward dynamics.
-    pub fn solve(&mut self, evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) {
+    /// Replaces accelerations, multipliers and drive forces of the last forward dynamics. `reference`:
+    /// free accelerations at a regular state shortly before.
+    pub fn solve(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        reference: Option<&[f64]>,
+    ) {
         self.load(evaluator, t, q, v);
         let (n, m, all) = (self.free.len(), self.right.len(), self.all_a.len());
-        self.constraints.factor(&self.free_jacobian, m, n, RANK_TOLERANCE);
+        self.constraints.factor(&self.free_jacobian, m, n, NEARLY_LOST);
         self.constraints.solve(&self.right, &mut self.acceleration);
+        let freedoms = n - self.constraints.rank();
+        for (index, direction) in self.null.chunks_exact_mut(n.max(1)).take(freedoms).enumerate() {
+            self.constraints.null_direction(index, direction);
+        }
+        let freedoms = self.continue_lost_directions(freedoms, reference);
         self.put_acceleration();
-        self.add_free_motion();
+        self.add_free_motion(freedoms);
         self.imbalance();
         self.constraints.solve_transposed(&self.residual, &mut self.multipliers);
+        for (multiplier, scale) in self.multipliers.iter_mut().zip(&self.scales) {
+            *multiplier *= scale;
+        }
         let output = evaluator.forward_mut();
         output[..n].copy_from_slice(&self.acceleration);
         output[n..n + m].copy_from_slice(&self.multipliers);
@@ -92,6 +119,61 @@ impl SingularSolver {
         }
     }
 
+    /// Within the null space of the regular rows: fixes the acceleration in nearly lost directions and
+    /// leaves a basis of the free ones in `null`. Returns their number.
+    fn continue_lost_directions(&mut self, freedoms: usize, reference: Option<&[f64]>) -> usize {
+        let (n, m) = (self.free.len(), self.right.len());
+        if freedoms + m <= n {
+            // Full rank after all.
+            return freedoms;
+        }
+        let null = |i: usize| i * n..(i + 1) * n;
+        for k in 0..m {
+            let row = &self.free_jacobian[k * n..][..n];
+            for i in 0..freedoms {
+                self.lost_rows[k * freedoms + i] = dot(row, &self.null[null(i)]);
+            }
+        }
+        let size = largest(&self.lost_rows[..m * freedoms]);
+        let distinct = size > LOST_RANK;
+        if !distinct && reference.is_none() {
+            return freedoms;
+        }
+        // Amounts of the null directions in the reference.
+        if let Some(reference) = reference {
+            for i in 0..freedoms {
+                self.amounts[i] = dot(&self.null[null(i)], reference);
+            }
+            for k in 0..m {
+                self.right[k] = dot(&self.lost_rows[k * freedoms..][..freedoms], &self.amounts[..freedoms]);
+            }
+        } else {
+            // Nothing to continue: the equations themselves, as well as they can be solved.
+            for k in 0..m {
+                self.right[k] -= dot(&self.free_jacobian[k * n..][..n], &self.acceleration);
+            }
+        }
+        let mut left = 0;
+        if distinct {
+            self.lost.factor(&self.lost_rows, m, freedoms, NEARLY_LOST);
+            self.lost.solve(&self.right, &mut self.amounts[..freedoms]);
+            left = freedoms - self.lost.rank();
+        }
+        for i in 0..freedoms {
+            add_scaled(&mut self.acceleration, self.amounts[i], &self.null[i * n..][..n]);
+        }
+        for index in 0..left {
+            self.lost.null_direction(index, &mut self.amounts[..freedoms]);
+            let direction = &mut self.free_directions[index * n..][..n];
+            direction.fill(0.0);
+            for i in 0..freedoms {
+                add_scaled(direction, self.amounts[i], &self.null[i * n..][..n]);
+            }
+        }
+        self.null[..left * n].copy_from_slice(&self.free_directions[..left * n]);
+        left
+    }
+
     fn load(&mut self, evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) {
         let (n, all) = (self.free.len(), self.all_a.len());
         evaluator.expand(t, q, v, &mut self.all_q, &mut self.all_v);
@@ -99,6 +181,7 @@ impl SingularSolver {
         for (place, law) in self.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
             self.all_a[*place] = law[2];
         }
+        self.scales.copy_from_slice(evaluator.row_scales());
         let equations = evaluator.equations(t, &self.all_q, &self.all_v);
         equations.unpack_mass(all, &mut self.mass);
         self.bias.copy_from_slice(equations.bias);
@@ -107,7 +190,9 @@ impl SingularSolver {
             for (j, place) in self.free.iter().enumerate() {
                 self.free_jacobian[k * n + j] = row[*place];
             }
-            self.right[k] = equations.gamma[k] - dot(row, &self.all_a);
+            let scale = self.scales[k];
+            self.free_jacobian[k * n..][..n].iter_mut().for_each(|x| *x *= scale);
+            self.right[k] = scale * (equations.gamma[k] - dot(row, &self.all_a));
         }
     }
 
@@ -125,13 +210,9 @@ impl SingularSolver {
         }
     }
 
-    /// Adds the motion in the null space that leaves no imbalance there.
-    fn add_free_motion(&mut self) {
+    /// Adds the motion along the free directions that leaves no imbalance there.
+    fn add_free_motion(&mut self, freedoms: usize) {
         let (n, all) = (self.free.len(), self.all_a.len());
-        let freedoms = n - self.constraints.rank();
-        for (index, direction) in self.null.chunks_exact_mut(n.max(1)).take(freedoms).enumerate() {
-            self.constraints.null_direction(index, direction);
-        }
         self.imbalance();
         for i in 0..freedoms {
             let direction = &self.null[i * n..][..n];
@@ -147,9 +228,9 @@ impl SingularSolver {
             self.scratch[i] = -dot(&self.null[i * n..][..n], &self.residual);
         }
         self.inertia.factor(&self.reduced, freedoms, freedoms, f64::EPSILON);
-        self.inertia.solve(&self.scratch, &mut self.residual);
-        for (amount, direction) in self.residual.iter().zip(self.null.chunks_exact(n.max(1))).take(freedoms) {
-            crate::linear::add_scaled(&mut self.acceleration, *amount, direction);
+        self.inertia.solve(&self.scratch, &mut self.amounts);
+        for (amount, direction) in self.amounts.iter().zip(self.null.chunks_exact(n.max(1))).take(freedoms) {
+            add_scaled(&mut self.acceleration, *amount, direction);
         }
         self.put_acceleration();
     }

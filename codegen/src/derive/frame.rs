@@ -70,7 +70,7 @@ impl Frame {
 
     /// Components in this frame of a vector given in the outer one.
     #[must_use]
-    pub fn to_local(&self, v: [f64; 3]) -> [f64; 3] {
+    pub fn local(&self, v: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|j| (0..3).map(|i| self.0[i][j] * v[i]).sum())
     }
 
@@ -231,9 +231,9 @@ mod tests {
         let frame = Frame::with_x_along([0.3, -0.4, 0.8]);
         let [w, x, y, z] = frame.quaternion();
         let first = [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)];
-        for i in 0..3 {
+        for (ours, expected) in first.into_iter().zip(frame.axis(0)) {
             // A few roundings of numbers below one.
-            assert!((first[i] - frame.axis(0)[i]).abs() < 1e-15);
+            assert!((ours - expected).abs() < 1e-15);
         }
     }
 }

@@ -11,9 +11,10 @@ use crate::model::JointKind;
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
 use super::forces::Loads;
-use super::inertia::{MassProperties, Wrench};
+use super::inertia::MassProperties;
 use super::joint_state::{JointStates, is_angle};
 use super::linkage::{Freedom, Linkage};
+use super::wrench::Wrench;
 
 /// All channels with their expressions.
 pub struct Channels {

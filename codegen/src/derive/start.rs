@@ -102,10 +102,10 @@ impl StartValues {
                 geometry.mechanism.joint(link.joint).at,
                 crate::model::Carrier::Body(link.body),
             );
-            for i in 0..3 {
+            for (i, origin) in origin.into_iter().enumerate() {
                 let start = find(geometry.mechanism, link.joint, 3 + i);
                 let moved = number(g, geometry, start.and_then(|s| s.position.as_ref()));
-                self.q[link.first_coordinate + 4 + i] = g.add(origin[i], moved);
+                self.q[link.first_coordinate + 4 + i] = g.add(origin, moved);
                 self.held_q[link.first_coordinate + 4 + i] =
                     start.is_some_and(|s| s.held && s.position.is_some());
             }

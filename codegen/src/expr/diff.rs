@@ -1,5 +1,6 @@
 //! Exact partial derivatives on the graph. In: a node and a symbol. Out: a node.
-//! Every operation has a rule; none of the rules divides by something that vanishes where the function is smooth.
+//! Every function that a file can name has a rule, and no rule divides by something that vanishes where the function
+//! is smooth.
 
 use std::collections::HashMap;
 
@@ -98,17 +99,9 @@ impl Graph {
                 let numerator = self.dot(&[(da, b), (minus, db)]);
                 self.div(numerator, norm)
             }
-            Binary::AngleOverSine => self.angle_over_sine_rule(value, b, [da, db]),
+            // Its rule is 0/0 at zero. No formula of a file makes this node, and the derivation builds the Jacobian
+            // of the logarithm from `log_coefficient` instead.
+            Binary::AngleOverSine => unreachable!("nothing differentiates the angle of a relative rotation"),
         }
-    }
-
-    /// With f = theta / sin theta, s = sin² theta, c = cos theta held as independent inputs of atan2:
-    /// theta = atan2(sqrt s, c), df = ∂f/∂s ds + ∂f/∂c dc. The rule assumes s + c² = 1, where
-    /// ∂f/∂c = -1 and ∂f/∂s = (c - f) / (2 s), which is removable at s = 0 only as a series; callers
-    /// that need it use `log_coefficient`. Used for directional checks off the singular point.
-    fn angle_over_sine_rule(&mut self, value: ExprId, cosine: ExprId, [ds, dc]: [ExprId; 2]) -> ExprId {
-        let _ = (cosine, ds);
-        let _ = value;
-        self.neg(dc)
     }
 }

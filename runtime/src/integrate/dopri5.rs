@@ -10,6 +10,7 @@
 
 use super::Problem;
 use crate::RunError;
+use crate::linear::add_scaled;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 const A: [[f64; 6]; 7] = [
@@ -47,6 +48,9 @@ const SHRINK_MOST: f64 = 0.2;
 const GROW_MOST: f64 = 10.0;
 /// Weight of the previous error in the step control.
 const PI_WEIGHT: f64 = 0.04;
+/// Part of the tolerance that the estimated error of a step may take: errors of thousands of steps add
+/// up, and with a tenth the error of smooth runs over ten seconds stays near ten times the tolerance.
+const SHARE: f64 = 0.1;
 /// Steps below this part of the time (or of the whole span) are at the limit of rounding.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 
@@ -65,8 +69,11 @@ pub struct Dopri5 {
     y: Vec<f64>,
     next: Vec<f64>,
     slopes: [Vec<f64>; 7],
+    error: Vec<f64>,
     dense: [Vec<f64>; 5],
     rejected: u64,
+    /// Why a longer step failed, and where: the reason to give if steps get too short before that.
+    trouble: Option<(f64, RunError)>,
 }
 
 impl Dopri5 {
@@ -83,7 +90,7 @@ impl Dopri5 {
     ) -> Result<Self, RunError> {
         let zero = || vec![0.0; y.len()];
         let mut method = Self {
-            tolerance,
+            tolerance: SHARE * tolerance,
             longest_step: longest_step.min(end - t),
             span: end - t,
             before: t,
@@ -94,10 +101,13 @@ impl Dopri5 {
             y: y.to_vec(),
             next: zero(),
             slopes: std::array::from_fn(|_| zero()),
+            error: zero(),
             dense: std::array::from_fn(|_| zero()),
             rejected: 0,
+            trouble: None,
         };
         problem.derivative(t, &method.y, &mut method.slopes[0])?;
+        problem.reached(t, &method.slopes[0]);
         method.step = method.first_step(problem);
         Ok(method)
     }
@@ -142,6 +152,7 @@ impl Dopri5 {
             let smallest = SMALLEST_STEP * self.span.max(self.t.abs());
             match outcome {
                 Ok((error, _)) if error <= 1.0 => {
+                    problem.reached(next_t, &self.slopes[6]);
                     self.accept(step, next_t, error, just_rejected);
                     return Ok(());
                 }
@@ -159,6 +170,7 @@ impl Dopri5 {
                     if step <= smallest {
                         return Err(reason);
                     }
+                    self.trouble = Some((next_t, reason));
                     self.step = 0.25 * step;
                 }
             }
@@ -176,18 +188,21 @@ impl Dopri5 {
     ) -> Result<(f64, usize), RunError> {
         for stage in 1..7 {
             let (known, unknown) = self.slopes.split_at_mut(stage);
-            combine(&mut self.next, &self.y, step, &A[stage], known);
+            weighted_sum(&mut self.next, &A[stage], known);
+            for (next, y) in self.next.iter_mut().zip(&self.y) {
+                *next = y + step * *next;
+            }
             if stage == 6 {
                 problem.project(next_t, &self.y, &mut self.next)?;
             }
             let t = if stage >= 5 { next_t } else { self.t + C[stage] * step };
             problem.derivative(t, &self.next, &mut unknown[0])?;
         }
+        weighted_sum(&mut self.error, &E, &self.slopes);
         let (mut most, mut worst) = (0.0, 0);
         for i in 0..self.y.len() {
             let size = self.y[i].abs().max(self.next[i].abs()).max(problem.scale(i));
-            let error: f64 = E.iter().zip(&self.slopes).map(|(e, k)| e * k[i]).sum();
-            let error = (step * error / (self.tolerance * size)).abs();
+            let error = (step * self.error[i] / (self.tolerance * size)).abs();
             if error.is_nan() {
                 return Err(RunError::NonFinite { t: next_t, what: problem.name(i) });
             }
@@ -206,7 +221,11 @@ impl Dopri5 {
             self.dense[1][i] = difference;
             self.dense[2][i] = bend;
             self.dense[3][i] = difference - step * self.slopes[6][i] - bend;
-            self.dense[4][i] = step * D.iter().zip(&self.slopes).map(|(d, k)| d * k[i]).sum::<f64>();
+        }
+        weighted_sum(&mut self.dense[4], &D, &self.slopes);
+        self.dense[4].iter_mut().for_each(|x| *x *= step);
+        if self.trouble.as_ref().is_some_and(|(t, _)| next_t >= *t) {
+            self.trouble = None;
         }
         core::mem::swap(&mut self.y, &mut self.next);
         self.slopes.swap(0, 6);
@@ -259,9 +278,12 @@ impl Dopri5 {
     }
 }
 
-fn combine(next: &mut [f64], y: &[f64], step: f64, weights: &[f64; 6], slopes: &[Vec<f64>]) {
-    for (i, (next, y)) in next.iter_mut().zip(y).enumerate() {
-        let slope: f64 = weights.iter().zip(slopes).map(|(a, k)| a * k[i]).sum();
-        *next = y + step * slope;
+/// `out = sum of weight * slope`, slope by slope: loops over long slices, which compilers vectorise.
+fn weighted_sum(out: &mut [f64], weights: &[f64], slopes: &[Vec<f64>]) {
+    out.fill(0.0);
+    for (weight, slope) in weights.iter().zip(slopes) {
+        if *weight != 0.0 {
+            add_scaled(out, *weight, slope);
+        }
     }
 }

@@ -1,10 +1,12 @@
-//! Integrators of ordinary differential equations, one method per file. In: a [`Problem`]. Out: states.
-//! Never knows mechanisms; allocates only when made.
+//! Integrators, one method per file. In: a [`Problem`]. Out: states. Allocate only when made.
+//! Explicit methods never know mechanisms; the implicit one asks for their equations of motion.
 
 mod dopri5;
+mod generalized_alpha;
 mod rk4;
 
 pub use dopri5::Dopri5;
+pub use generalized_alpha::GeneralizedAlpha;
 pub use rk4::Rk4;
 
 use crate::RunError;
@@ -24,6 +26,11 @@ pub trait Problem {
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
         let _ = (t, before, y);
         Ok(())
+    }
+
+    /// Told of every state that counts, with its derivative.
+    fn reached(&mut self, t: f64, derivative: &[f64]) {
+        let _ = (t, derivative);
     }
 
     /// Size below which the error of component `index` is measured absolutely, not relative to the value.

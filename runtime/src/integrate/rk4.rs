@@ -31,6 +31,7 @@ impl Rk4 {
     ) -> Result<(), RunError> {
         let Self { slopes: [k1, k2, k3, k4], stage } = self;
         problem.derivative(t, y, k1)?;
+        problem.reached(t, k1);
         combine(stage, y, 0.5 * step, k1);
         problem.derivative(t + 0.5 * step, stage, k2)?;
         combine(stage, y, 0.5 * step, k2);

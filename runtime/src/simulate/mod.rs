@@ -2,6 +2,7 @@
 //! In: a system, its description, parameters, [`Settings`]. Out: a [`Run`].
 //! Never knows files or terminals; progress goes to the caller's closure, which may stop the run.
 
+mod implicit;
 mod motion;
 mod sampler;
 mod schedule;
@@ -49,8 +50,7 @@ pub fn simulate(
             run_dopri5(&mut motion, &mut sampler, &state, tolerance, longest, progress)
         }
         Integrator::GeneralizedAlpha { step, rho } => {
-            let _ = (step, rho);
-            Ok(())
+            implicit::run_generalized_alpha(&mut motion, &mut sampler, &mut state, (step, rho), progress)
         }
     };
     Ok(sampler.finish(&motion, stopped.err()))
@@ -73,7 +73,7 @@ fn run_rk4(
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             method.step(motion, t, state, next - t)?;
             t = next;
-            sampler.note_loop_error(motion);
+            sampler.note_loop_error(motion.loop_error());
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
@@ -105,7 +105,7 @@ fn run_dopri5(
         let outcome = method.step(motion, end);
         sampler.statistics.rejected = method.rejected();
         outcome?;
-        sampler.note_loop_error(motion);
+        sampler.note_loop_error(motion.loop_error());
         while let Some(t) = sampler.due_before(method.t()) {
             method.interpolate(t, &mut between);
             sampler.sample(motion, t, &mut between)?;

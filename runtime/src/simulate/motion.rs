@@ -11,7 +11,7 @@ pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
 
-/// Below this regularity (see [`Dynamics::regularity`]; about the square of a singular value) the stages of a
+/// Below this regularity (see [`Dynamics::nearness`]; about the square of a singular value) the stages of a
 /// step are put onto the constraints before they are evaluated. A stage is off the constraints by its own
 /// truncation error, which the nearly lost direction multiplies by the inverse of its singular value, twice;
 /// on the constraints the accelerations stay smooth right through a singular position.
@@ -68,8 +68,9 @@ impl<'a> ConstrainedMotion<'a> {
     pub(super) fn put_on(&mut self, t: f64, y: &mut [f64]) -> Result<Correction, RunError> {
         let (q, rest) = y.split_at_mut(self.coordinates);
         let v = &mut rest[..self.speeds];
+        let regularity = if self.dynamics.is_near_singular() { 0.0 } else { self.dynamics.nearness() };
         let evaluator = &mut self.dynamics.evaluator;
-        let correction = self.projector.project(evaluator, t, q, v).map_err(|open| {
+        let correction = self.projector.project(evaluator, t, (q, v), regularity).map_err(|open| {
             let error = open.error;
             let joint = evaluator.joint_of_row(error.worst);
             if error.metres.is_nan() || error.radians.is_nan() {
@@ -102,7 +103,7 @@ impl Problem for ConstrainedMotion<'_> {
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (q, v, _) = self.split(y);
         self.dynamics.accelerate(t, q, v)?;
-        let projected = self.dynamics.regularity() < PROJECTED_STAGES;
+        let projected = self.dynamics.nearness() < PROJECTED_STAGES;
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
         if projected && self.put_on(t, &mut stage).is_ok() {
@@ -140,6 +141,10 @@ impl Problem for ConstrainedMotion<'_> {
             return Err(RunError::BranchChange { t, variable, jump: correction.speed });
         }
         Ok(())
+    }
+
+    fn reached(&mut self, t: f64, derivative: &[f64]) {
+        self.dynamics.note_reference(t, &derivative[self.coordinates..][..self.speeds]);
     }
 
     fn scale(&self, index: usize) -> f64 {

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use super::motion::ConstrainedMotion;
 use super::schedule::Schedule;
 use super::{Progress, Run, Statistics};
-use crate::RunError;
+use crate::{LoopError, RunError};
 
 /// Recorder of one run.
 pub(super) struct Sampler {
@@ -91,7 +91,7 @@ impl Sampler {
         state: &mut [f64],
     ) -> Result<(), RunError> {
         motion.put_on(t, state)?;
-        self.note_loop_error(motion);
+        self.note_loop_error(motion.loop_error());
         self.note_energy(motion, t, state);
         let mut row = vec![0.0; self.wraps.len()];
         self.observe(motion, t, state, Some(&mut row))?;
@@ -158,9 +158,8 @@ impl Sampler {
         Ok(())
     }
 
-    /// Notes how well the last projection closed the loops.
-    pub(super) fn note_loop_error(&mut self, motion: &ConstrainedMotion<'_>) {
-        let error = motion.loop_error();
+    /// Notes how far loops are open.
+    pub(super) fn note_loop_error(&mut self, error: LoopError) {
         self.statistics.max_loop_error_m = self.statistics.max_loop_error_m.max(error.metres);
         self.statistics.max_loop_error_rad = self.statistics.max_loop_error_rad.max(error.radians);
     }

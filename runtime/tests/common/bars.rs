@@ -1,7 +1,7 @@
 //! Planar mechanisms of uniform bars with absolute angles, from +x counterclockwise; gravity in -y.
 //! Pendulums, four-bars and chains of them are lists of bars and loops. Parameter 0: gravity [m/s²].
 
-use super::{Model, Terms};
+use super::{Model, Start, Terms};
 use linkwear_runtime::Motion;
 use nalgebra::{DMatrix, DVector};
 
@@ -159,7 +159,7 @@ impl Model for Bars {
         self.bars.iter().zip(v).map(|(bar, v)| bar.damping * v * v).sum()
     }
 
-    fn start(&self) -> (Vec<(f64, bool)>, Vec<(f64, bool)>) {
+    fn start(&self) -> (Start, Start) {
         let free = || self.bars.iter().filter(|bar| bar.law.is_none());
         (free().map(|bar| bar.start).collect(), free().map(|bar| bar.speed).collect())
     }

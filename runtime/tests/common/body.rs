@@ -1,6 +1,6 @@
 //! A rigid body in space, free or with one of its points held in W. Parameter 0: gravity in -z [m/s²].
 
-use super::{Model, Terms};
+use super::{Model, Start, Terms};
 use linkwear_runtime::Motion;
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3};
 
@@ -77,7 +77,7 @@ impl Model for Body {
         (0.5 * (spin + self.mass * u.norm_squared()), self.mass * parameters[0] * q[6])
     }
 
-    fn start(&self) -> (Vec<(f64, bool)>, Vec<(f64, bool)>) {
+    fn start(&self) -> (Start, Start) {
         (self.start.into_iter().zip(self.held).collect(), self.speed.map(|v| (v, false)).to_vec())
     }
 

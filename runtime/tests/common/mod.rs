@@ -21,6 +21,9 @@ pub struct Terms {
     pub gamma: DVector<f64>,
 }
 
+/// Start values, each with whether it is held.
+pub type Start = Vec<(f64, bool)>;
+
 /// A mechanism in textbook form.
 pub trait Model {
     fn motions(&self) -> Vec<Motion>;
@@ -37,8 +40,8 @@ pub trait Model {
     fn dissipated(&self, _v: &[f64]) -> f64 {
         0.0
     }
-    /// Start values of the free coordinates and speeds, each with whether it is held.
-    fn start(&self) -> (Vec<(f64, bool)>, Vec<(f64, bool)>);
+    /// Start values of the free coordinates and speeds.
+    fn start(&self) -> (Start, Start);
     /// Channel names with units and whether they wrap.
     fn channels(&self) -> Vec<(String, &'static str, bool)>;
     /// Values of the channels from all coordinates and speeds, multipliers and drive forces.

@@ -1,0 +1,305 @@
+//! Generalised-alpha for mechanisms: index-3 equations, Lie-group update, fixed step, order 2.
+//! In: equations of motion through an [`Evaluator`], a start. Out: the next state. The only method here
+//! that knows mechanisms: it needs their mass matrix and constraints, not a right-hand side.
+//!
+//! Arnold & Brüls, Multibody System Dynamics 18 (2007) 185-202; Brüls & Cardona, J. Comput. Nonlinear
+//! Dynam. 5 (2010) 031002. Driven coordinates are eliminated. Unknowns of a step: the increment `x` of the
+//! free coordinates (in speed space; quaternions and poses move along their group) and the multipliers
+//! times `h²`, which keeps the Newton matrix well scaled at every step size (Bottasso et al. 2007).
+
+use crate::linear::{Lu, Orthogonal, add_scaled, dot, largest};
+use crate::{Evaluator, RunError};
+
+const MAX_ITERATIONS: u32 = 40;
+/// Corrections no smaller than this part of the one before: the Newton matrix is out of date.
+const SLOW: f64 = 0.2;
+/// A correction this small [rad, m] that does not shrink further is rounding.
+const ROUNDING: f64 = 1e-10;
+/// Width of the difference quotients of the Newton matrix: truncation and rounding both near 1e-8.
+const DIFFERENCE: f64 = 1e-7;
+/// Pivots below this part of the largest: rank is lost, and a minimum-norm correction is used.
+const LOST_PIVOT: f64 = 1e-13;
+
+/// Coefficients for one spectral radius.
+#[derive(Clone, Copy, Debug)]
+struct Coefficients {
+    alpha_m: f64,
+    alpha_f: f64,
+    beta: f64,
+    gamma: f64,
+}
+
+impl Coefficients {
+    fn new(rho: f64) -> Self {
+        let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
+        let alpha_f = rho / (rho + 1.0);
+        let gamma = 0.5 + alpha_f - alpha_m;
+        let beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+        Self { alpha_m, alpha_f, beta, gamma }
+    }
+}
+
+/// State and storage of the method.
+pub struct GeneralizedAlpha {
+    coefficients: Coefficients,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    /// Accelerations at the last time.
+    v_dot: Vec<f64>,
+    /// The method's own accelerations, which belong to a shifted time.
+    a: Vec<f64>,
+    next: Next,
+    x: Vec<f64>,
+    /// Multipliers times `h²`.
+    scaled_multipliers: Vec<f64>,
+    residual: Vec<f64>,
+    shifted: Vec<f64>,
+    /// Kept rows of the Jacobian by the free speeds.
+    free_rows: Vec<f64>,
+    matrix: Vec<f64>,
+    lu: Lu,
+    orthogonal: Orthogonal,
+    /// Step that the Newton matrix was made for; 0: none.
+    factored_step: f64,
+    rank_lost: bool,
+    iterations: u64,
+    evaluations: u64,
+}
+
+/// Trial values at the end of a step.
+struct Next {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    v_dot: Vec<f64>,
+    a: Vec<f64>,
+    all_q: Vec<f64>,
+    all_v: Vec<f64>,
+    all_a: Vec<f64>,
+    balance: Vec<f64>,
+    mass: Vec<f64>,
+    free: Vec<usize>,
+    driven: Vec<usize>,
+}
+
+impl GeneralizedAlpha {
+    /// Starts at coordinates `q`, speeds `v`, accelerations `v_dot`; `shifted`: accelerations at
+    /// [`Self::shift`] steps after the start (`v_dot` again costs accuracy in the first steps only).
+    #[must_use]
+    pub fn new(
+        evaluator: &Evaluator<'_>,
+        rho: f64,
+        state: (&[f64], &[f64]),
+        v_dot: &[f64],
+        shifted: &[f64],
+    ) -> Self {
+        let sizes = evaluator.sizes();
+        let (n, m, all) = (sizes.speeds, sizes.rows, sizes.all_speeds);
+        let (free, driven) = evaluator.layout().speed_places(sizes.drivers);
+        let next = Next {
+            q: state.0.to_vec(),
+            v: state.1.to_vec(),
+            v_dot: v_dot.to_vec(),
+            a: shifted.to_vec(),
+            all_q: vec![0.0; sizes.all_coordinates],
+            all_v: vec![0.0; all],
+            all_a: vec![0.0; all],
+            balance: vec![0.0; all],
+            mass: vec![0.0; all * all],
+            free,
+            driven,
+        };
+        Self {
+            coefficients: Coefficients::new(rho),
+            q: state.0.to_vec(),
+            v: state.1.to_vec(),
+            v_dot: v_dot.to_vec(),
+            a: shifted.to_vec(),
+            next,
+            x: vec![0.0; n],
+            scaled_multipliers: vec![0.0; m],
+            residual: vec![0.0; n + m],
+            shifted: vec![0.0; n + m],
+            free_rows: vec![0.0; m * n],
+            matrix: vec![0.0; (n + m) * (n + m)],
+            lu: Lu::new(n + m),
+            orthogonal: Orthogonal::new(n + m, n + m),
+            factored_step: 0.0,
+            rank_lost: false,
+            iterations: 0,
+            evaluations: 0,
+        }
+    }
+
+    /// Time to which the method's own accelerations belong, in steps after the state's time.
+    #[must_use]
+    pub fn shift(rho: f64) -> f64 {
+        (rho - 1.0) / (rho + 1.0)
+    }
+
+    /// Coordinates reached.
+    #[must_use]
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// Speeds reached.
+    #[must_use]
+    pub fn v(&self) -> &[f64] {
+        &self.v
+    }
+
+    /// Newton iterations so far.
+    #[must_use]
+    pub fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    /// Evaluations of the equations of motion so far.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Advances by `h` from `t`. Leaves accelerations, multipliers and drive forces in the evaluator's
+    /// last forward dynamics.
+    ///
+    /// # Errors
+    /// [`RunError::NewtonFailed`] or [`RunError::NonFinite`].
+    pub fn step(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> Result<(), RunError> {
+        // Multipliers keep their size, so the scaled ones change with the step.
+        let rescale = if self.factored_step > 0.0 { (h / self.factored_step).powi(2) } else { 1.0 };
+        self.scaled_multipliers.iter_mut().for_each(|x| *x *= rescale);
+        for i in 0..self.x.len() {
+            self.x[i] = h * (self.v[i] + 0.5 * h * self.a[i]);
+        }
+        let mut before = f64::INFINITY;
+        let mut fresh = false;
+        for _ in 0..MAX_ITERATIONS {
+            self.iterations += 1;
+            self.evaluate(evaluator, t + h, h);
+            core::mem::swap(&mut self.residual, &mut self.shifted);
+            if self.shifted.iter().any(|x| !x.is_finite()) {
+                return Err(RunError::NonFinite { t: t + h, what: "the equations of motion".to_owned() });
+            }
+            if self.factored_step != h {
+                self.refresh(evaluator, t + h, h);
+                fresh = true;
+            }
+            let size = self.correct();
+            let rounding = 2.0 * f64::EPSILON * largest(&self.q).max(1.0);
+            if size <= rounding || (size > 0.5 * before && size < ROUNDING) {
+                return self.accept(evaluator, t + h, h);
+            }
+            if size > SLOW * before && !fresh {
+                self.factored_step = 0.0;
+            }
+            fresh = false;
+            before = size;
+        }
+        self.factored_step = 0.0;
+        Err(RunError::NewtonFailed { t, step: h, correction: before })
+    }
+
+    /// Applies the Newton correction for the residual in `shifted`; returns its largest increment.
+    fn correct(&mut self) -> f64 {
+        let n = self.x.len();
+        if self.rank_lost {
+            self.orthogonal.solve(&self.shifted, &mut self.residual);
+            self.shifted.copy_from_slice(&self.residual);
+        } else {
+            self.lu.solve(&mut self.shifted);
+        }
+        add_scaled(&mut self.x, -1.0, &self.shifted[..n]);
+        add_scaled(&mut self.scaled_multipliers, -1.0, &self.shifted[n..]);
+        largest(&self.shifted[..n])
+    }
+
+    /// Residual of the balance of forces (times `h²`) and of the constraints, for the present unknowns.
+    fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) {
+        self.evaluations += 1;
+        let Coefficients { alpha_m, alpha_f, beta, gamma } = self.coefficients;
+        let (n, m) = (self.x.len(), self.scaled_multipliers.len());
+        let next = &mut self.next;
+        let all = next.all_a.len();
+        for i in 0..n {
+            next.a[i] = (self.x[i] - h * self.v[i] - h * h * (0.5 - beta) * self.a[i]) / (h * h * beta);
+            next.v[i] = self.v[i] + h * ((1.0 - gamma) * self.a[i] + gamma * next.a[i]);
+            next.v_dot[i] = ((1.0 - alpha_m) * next.a[i] + alpha_m * self.a[i] - alpha_f * self.v_dot[i])
+                / (1.0 - alpha_f);
+        }
+        next.q.copy_from_slice(&self.q);
+        evaluator.layout().advance(&mut next.q, &self.x);
+        evaluator.expand(t, &next.q, &next.v, &mut next.all_q, &mut next.all_v);
+        for (place, law) in next.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
+            next.all_a[*place] = law[2];
+        }
+        for (place, a) in next.free.iter().zip(&next.v_dot) {
+            next.all_a[*place] = *a;
+        }
+        let equations = evaluator.equations(t, &next.all_q, &next.all_v);
+        equations.unpack_mass(all, &mut next.mass);
+        for (i, balance) in next.balance.iter_mut().enumerate() {
+            *balance = h * h * (dot(&next.mass[i * all..][..all], &next.all_a) + equations.bias[i]);
+        }
+        for (k, row) in equations.jacobian.chunks_exact(all.max(1)).enumerate() {
+            add_scaled(&mut next.balance, -self.scaled_multipliers[k], row);
+            for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&next.free) {
+                *entry = row[*place];
+            }
+        }
+        for (residual, place) in self.residual.iter_mut().zip(&self.next.free) {
+            *residual = self.next.balance[*place];
+        }
+        self.residual[n..n + m].copy_from_slice(equations.positions);
+    }
+
+    /// Newton matrix by difference quotients in the increments; exact in the multipliers.
+    fn refresh(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) {
+        let (n, m) = (self.x.len(), self.scaled_multipliers.len());
+        let size = n + m;
+        self.matrix.fill(0.0);
+        for k in 0..m {
+            for i in 0..n {
+                self.matrix[i * size + n + k] = -self.free_rows[k * n + i];
+            }
+        }
+        for j in 0..n {
+            let kept = self.x[j];
+            self.x[j] = kept + DIFFERENCE;
+            self.evaluate(evaluator, t, h);
+            self.x[j] = kept;
+            for (i, (moved, base)) in self.residual.iter().zip(&self.shifted).enumerate() {
+                self.matrix[i * size + j] = (moved - base) / DIFFERENCE;
+            }
+        }
+        let pivot = self.lu.factor(&self.matrix);
+        self.rank_lost = pivot.is_nan() || pivot < LOST_PIVOT;
+        if self.rank_lost {
+            self.orthogonal.factor(&self.matrix, size, size, LOST_PIVOT);
+        }
+        self.factored_step = h;
+    }
+
+    /// Takes the converged unknowns over.
+    fn accept(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> Result<(), RunError> {
+        self.evaluate(evaluator, t, h);
+        let (n, m) = (self.x.len(), self.scaled_multipliers.len());
+        evaluator.layout().normalize(&mut self.next.q);
+        let output = evaluator.forward_mut();
+        output[..n].copy_from_slice(&self.next.v_dot);
+        for (value, scaled) in output[n..n + m].iter_mut().zip(&self.scaled_multipliers) {
+            *value = scaled / (h * h);
+        }
+        for (value, place) in output[n + m..].iter_mut().zip(&self.next.driven) {
+            *value = self.next.balance[*place] / (h * h);
+        }
+        if output.iter().take(n + m + self.next.driven.len()).any(|x| !x.is_finite()) {
+            return Err(RunError::NonFinite { t, what: "the result of the implicit step".to_owned() });
+        }
+        self.q.copy_from_slice(&self.next.q);
+        self.v.copy_from_slice(&self.next.v);
+        self.v_dot.copy_from_slice(&self.next.v_dot);
+        self.a.copy_from_slice(&self.next.a);
+        Ok(())
+    }
+}

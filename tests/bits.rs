@@ -1,0 +1,47 @@
+//! Interpreter and compiled code run the same tape: every entry point of every shipped mechanism must agree in every bit.
+
+mod support;
+
+use linkwear::mechanisms::SHIPPED;
+use linkwear_runtime::{Entry, System};
+use support::compiled;
+
+/// A small generator (xorshift), so that states repeat.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn compiled_and_interpreted_entries_agree_bit_for_bit() {
+    for shipped in SHIPPED {
+        let interpreted = compiled(shipped.name, &[], None).interpreter();
+        let system = (shipped.system)();
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let (sizes, other) = (system.sizes(), System::<f64>::sizes(&interpreted));
+        for entry in Entry::ALL {
+            assert_eq!(sizes.input(entry), other.input(entry), "{}", shipped.name);
+            for _ in 0..50 {
+                let input: Vec<f64> = (0..sizes.input(entry)).map(|_| 3.0 * random.next()).collect();
+                let mut outputs = [vec![0.0; sizes.output(entry)], vec![1.0; sizes.output(entry)]];
+                system.evaluate(entry, &input, &mut outputs[0], &mut vec![0.0; sizes.workspace]);
+                interpreted.evaluate(entry, &input, &mut outputs[1], &mut vec![0.0; other.workspace]);
+                let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+                assert_eq!(bits(&outputs[0]), bits(&outputs[1]), "{} of {}", entry.name(), shipped.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn compiled_code_describes_itself_as_the_generator_does() {
+    for shipped in SHIPPED {
+        assert_eq!((shipped.description)(), compiled(shipped.name, &[], None).description());
+    }
+}
