@@ -56,7 +56,7 @@ fn rows_are_evenly_spaced_with_both_ends() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     let (header, rows) = table(&folder.read("p.csv"));
     assert_eq!(header[0], "t [s]");
-    assert!(header.contains(&"R1.q [rad]".to_owned()), "{header:?}");
+    assert!(header.contains(&"hinge.q [rad]".to_owned()), "{header:?}");
     assert_eq!(rows.len(), 11);
     for (index, row) in rows.iter().enumerate() {
         assert_eq!(row.len(), header.len());

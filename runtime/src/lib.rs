@@ -51,17 +51,26 @@ pub use sincos::sin_cos;
 pub use system::{Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use {
-    assemble::{State, assemble, assemble_with},
-    description::{
-        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
-    },
-    dynamics::{Dynamics, SINGULAR_PIVOT},
-    error::{AssemblyError, RunError, SetupError},
-    evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
-    layout::{Group, Layout},
-    project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
-    record::write_csv,
-    simulate::{BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate},
-    singular::{LOST_RANK, NEARLY_LOST},
+pub use assemble::{State, assemble, assemble_with};
+#[cfg(feature = "std")]
+pub use description::{
+    Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
 };
+#[cfg(feature = "std")]
+pub use dynamics::{Dynamics, SINGULAR_PIVOT};
+#[cfg(feature = "std")]
+pub use error::{AssemblyError, RunError, SetupError};
+#[cfg(feature = "std")]
+pub use evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates};
+#[cfg(feature = "std")]
+pub use layout::{Group, Layout};
+#[cfg(feature = "std")]
+pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
+#[cfg(feature = "std")]
+pub use record::write_csv;
+#[cfg(feature = "std")]
+pub use simulate::{
+    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate,
+};
+#[cfg(feature = "std")]
+pub use singular::{LOST_RANK, NEARLY_LOST};
