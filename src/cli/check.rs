@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::{Joint, JointKind, Parameter};
+use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
 
@@ -68,12 +69,13 @@ fn text(compiled: &Compiled) -> String {
     );
     let dropped = analysis.constraint_rows - analysis.independent_rows;
     let facts = [
-        ("coordinates", analysis.coordinates.to_string(), "of the spanning tree, 4 per quaternion".into()),
+        ("coordinates", analysis.coordinates.to_string(), coordinates_note(analysis)),
         ("speeds", analysis.speeds.to_string(), String::new()),
         (
             "constraint rows",
             analysis.constraint_rows.to_string(),
             match dropped {
+                _ if analysis.constraint_rows == 0 => "no loops".into(),
                 0 => "all independent".into(),
                 _ => format!("{} independent, {dropped} redundant", analysis.independent_rows),
             },
@@ -99,6 +101,15 @@ fn text(compiled: &Compiled) -> String {
         let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
     }
     text
+}
+
+/// Why there are more coordinates than speeds, where there are.
+fn coordinates_note(analysis: &Analysis) -> String {
+    match analysis.coordinates - analysis.speeds {
+        0 => String::new(),
+        1 => "one more than speeds: a quaternion has four numbers for three freedoms".to_owned(),
+        more => format!("{more} more than speeds: a quaternion has four numbers for three freedoms"),
+    }
 }
 
 fn mobility_note(compiled: &Compiled) -> String {
