@@ -7,7 +7,6 @@
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
 //! [`write_csv`] records a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
-#![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets: [m], [rad/s]")]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod dual;
