@@ -40,7 +40,8 @@ fn tilt() -> [Vector; 3] {
     ]
 }
 
-const HEAD: &str = "spec = 1\nname = \"linkage\"\ngravity = [\"0.4 m/s^2\", \"-0.7 m/s^2\", \"-1.1 m/s^2\"]\n";
+const HEAD: &str =
+    "spec = 1\nname = \"linkage\"\ngravity = [\"0.4 m/s^2\", \"-0.7 m/s^2\", \"-1.1 m/s^2\"]\n";
 
 /// How the first joint moves: driven round, or pushed.
 fn first(motion: Motion) -> (&'static str, &'static str) {
@@ -143,8 +144,7 @@ fn three_cranks(motion: Motion, third: Vector) -> SourceFile {
     for i in 0..3 {
         text += &format!("crank{i} = {{ rod = [\"A{i}\", \"B{i}\"], radius = \"8 mm\", mass = \"1 kg\" }}\n");
     }
-    text +=
-        "plate = { mass = \"2 kg\", centre = \"C\", inertia = [\"1 kg m^2\", \"1 kg m^2\", \"2 kg m^2\"] }\n[joints]\n";
+    text += "plate = { mass = \"2 kg\", centre = \"C\", inertia = [\"1 kg m^2\", \"1 kg m^2\", \"2 kg m^2\"] }\n[joints]\n";
     for i in 0..3 {
         let drive = if i == 0 { drive } else { "" };
         text += &format!(
@@ -231,7 +231,8 @@ fn a_sarrus_linkage_moves_straight_up_driven_and_alone() {
     for motion in [Motion::Driven, Motion::Free] {
         let compiled = assert_keeps(&sarrus(motion), 1);
         let run = run(&compiled, Span::Time(2.0), Span::Time(0.0), 21, 1e-10);
-        let sideways = run.column("Z.x").into_iter().chain(run.column("Z.y")).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let sideways =
+            run.column("Z.x").into_iter().chain(run.column("Z.y")).fold(0.0, |m: f64, x| m.max(x.abs()));
         // The loops close to 1e-10 m, and so does what follows from them.
         assert!(sideways < 1e-10, "{sideways:e}");
     }
