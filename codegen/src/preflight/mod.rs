@@ -135,7 +135,7 @@ pub fn analyse(case: &Case<'_>) -> Result<(Analysis, Vec<bool>), Diagnostics> {
     };
     let positions = ClosedPositions::walk(description, case.system, &case.parameters())
         .map_err(|error| cannot_close(case.source, mechanism, &error))?;
-    let rows = Rows::new(&positions, description, drivers.iter().map(|(_, speed)| *speed).collect());
+    let rows = Rows::new(&positions, drivers.iter().map(|(_, speed)| *speed).collect());
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
     analysis.mobility = analysis.speeds - analysis.independent_rows;

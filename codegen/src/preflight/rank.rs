@@ -1,7 +1,6 @@
 //! Generic rank of the constraint rows, a well-conditioned independent subset, drivers in conflict.
 //! In: Jacobians at closed positions. Out: which rows to keep. Never knows joints.
 
-use linkwear_runtime::Description;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::samples::{ClosedPositions, RANK_TOLERANCE};
@@ -15,16 +14,19 @@ pub struct Rows {
 impl Rows {
     /// Scales every row to its largest length over all positions, so that rad and m compare.
     #[must_use]
-    pub fn new(positions: &ClosedPositions, description: &Description, driven: Vec<usize>) -> Self {
-        let m = description.rows.len();
+    pub fn new(positions: &ClosedPositions, driven: Vec<usize>) -> Self {
+        let m = positions.positions.first().map_or(0, |position| position.jacobian.nrows());
         let mut samples: Vec<DMatrix<f64>> =
             positions.positions.iter().map(|position| position.jacobian.clone()).collect();
-        for row in 0..m {
-            let size = samples.iter().map(|sample| sample.row(row).norm()).fold(0.0, f64::max);
-            if size > 0.0 {
-                for sample in &mut samples {
-                    sample.row_mut(row).scale_mut(1.0 / size);
-                }
+        let lengths: Vec<f64> = (0..m)
+            .map(|row| samples.iter().map(|sample| sample.row(row).norm()).fold(0.0, f64::max))
+            .collect();
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        for (row, length) in lengths.into_iter().enumerate() {
+            // A row of rounding errors says nothing; scaled up it would look like any other.
+            let scale = if length > RANK_TOLERANCE * longest { 1.0 / length } else { 0.0 };
+            for sample in &mut samples {
+                sample.row_mut(row).scale_mut(scale);
             }
         }
         Self { samples, driven }
@@ -120,7 +122,17 @@ fn rank(matrix: &DMatrix<f64>) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::samples::Position;
     use super::*;
+
+    #[test]
+    fn a_row_of_rounding_errors_is_dropped() {
+        let sample = |noise: f64| DMatrix::from_row_slice(2, 2, &[1.0, 2.0, noise, 3.0 * noise]);
+        let positions = [1e-16, -2e-16].map(|noise| Position { q: Vec::new(), jacobian: sample(noise) });
+        let rows = Rows::new(&ClosedPositions { positions: positions.to_vec() }, vec![1]);
+        assert_eq!(rows.independent(), [true, false]);
+        assert!(rows.driver_conflicts().is_empty());
+    }
 
     #[test]
     fn a_row_that_repeats_another_is_dropped_and_the_first_kept() {
