@@ -86,6 +86,7 @@ struct Deriver<'a> {
     free_q: Vec<usize>,
     partition: Partition,
     v_dot: Vec<ExprId>,
+    /// Multipliers of all rows.
     lambda: Vec<ExprId>,
     drive: Vec<ExprId>,
     keep: Vec<bool>,
@@ -194,8 +195,11 @@ impl<'a> Deriver<'a> {
             let symbol = self.g.symbol(names.1[index].0.replace('.', "_") + "_dot");
             self.v_dot.push(symbol);
         }
-        for number in 0..self.keep.iter().filter(|kept| **kept).count() {
-            let symbol = self.g.symbol(format!("lambda{}", number + 1));
+        let (mut kept, mut spare) = (0, 0);
+        for keep in self.keep.clone() {
+            let (name, count) = if keep { ("lambda", &mut kept) } else { ("spare_lambda", &mut spare) };
+            *count += 1;
+            let symbol = self.g.symbol(format!("{name}{count}"));
             self.lambda.push(symbol);
         }
         for driver in &self.drivers {
@@ -486,13 +490,6 @@ impl<'a> Deriver<'a> {
             let energy = own.energies(g, &instant, masses);
             let geometry = own.geometry();
             let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-            let mut next = own.lambda.iter();
-            let zero = g.zero();
-            let multipliers: Vec<ExprId> = own
-                .keep
-                .iter()
-                .map(|kept| if *kept { *next.next().expect("one multiplier a kept row") } else { zero })
-                .collect();
             let drives: Vec<(JointId, usize, ExprId)> = own
                 .drivers
                 .iter()
@@ -504,7 +501,7 @@ impl<'a> Deriver<'a> {
                 masses,
                 loads: &instant.loads,
                 cuts: &instant.cuts,
-                multipliers: &multipliers,
+                multipliers: &own.lambda,
                 keep: &own.keep,
                 drives: &drives,
                 energy,
@@ -514,7 +511,12 @@ impl<'a> Deriver<'a> {
         self.channels = list.channels;
         let mut inputs = self.state_inputs();
         inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
-        inputs.push(Block::vector("lambda", "Multipliers from forward_dynamics.", "", self.lambda.clone()));
+        inputs.push(Block::vector(
+            "lambda",
+            "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
+            "",
+            self.lambda.clone(),
+        ));
         inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
         let outputs = vec![Block::vector(
             "channels",
@@ -535,7 +537,9 @@ impl<'a> Deriver<'a> {
             g.begin_section("mass matrix by composite bodies");
             let mass = mass_matrix(g, own.linkage, &instant.motion.poses, masses);
             g.begin_section("loop Jacobian");
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
+            // Dropped rows too: they stand in where the kept ones happen to lose rank.
+            let all = vec![true; own.keep.len()];
+            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &all);
             (mass, h, rows)
         });
         let triangle: Vec<ExprId> = (0..n).flat_map(|i| mass[i][i..].to_vec()).collect();
@@ -545,8 +549,15 @@ impl<'a> Deriver<'a> {
         let outputs = vec![
             Block::vector("mass", "Upper triangle of M, row by row [kg m², kg m, kg].", "[CS (6)]", triangle),
             Block::vector("h", "Left side besides M v̇: inertia, weight, springs, damping.", "[CS (6)]", h),
-            Block::vector("phi", "Position residuals of the kept rows [rad, m].", "[CS (3)]", residuals),
-            Block::matrix("phi_q", "Jacobian by all speeds.", "[CS (3)]", rows.len(), n, jacobian),
+            Block::vector("phi", "Position residuals of all rows [rad, m].", "[CS (3)]", residuals),
+            Block::matrix(
+                "phi_q",
+                "Jacobian of all rows by all speeds.",
+                "[CS (3)]",
+                rows.len(),
+                n,
+                jacobian,
+            ),
             Block::vector("gamma", "Right side of phi_q v̇ = gamma.", "[CS (6)]", gamma),
         ];
         let mut inputs = self.base_inputs();
