@@ -16,6 +16,8 @@ pub struct Evaluator<'a> {
     /// Longest length that each kept row of the Jacobian has had.
     row_lengths: Vec<f64>,
     row_scales: Vec<f64>,
+    /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
+    multipliers: Vec<f64>,
     input: Vec<f64>,
     workspace: Vec<f64>,
     outputs: [Vec<f64>; Entry::ALL.len()],
@@ -63,11 +65,11 @@ pub struct Equations<'a> {
     pub mass: &'a [f64],
     /// Velocity terms, gravity, springs and damping, on the left side.
     pub bias: &'a [f64],
-    /// Position residuals of the kept rows.
+    /// Position residuals of all rows.
     pub positions: &'a [f64],
-    /// Jacobian of the kept rows, row major.
+    /// Jacobian of all rows, row major.
     pub jacobian: &'a [f64],
-    /// Right side of the acceleration constraints.
+    /// Right side of the acceleration constraints, of all rows.
     pub gamma: &'a [f64],
 }
 
@@ -140,6 +142,7 @@ impl<'a> Evaluator<'a> {
             kept,
             row_lengths: vec![0.0; sizes.rows],
             row_scales: vec![1.0; sizes.rows],
+            multipliers: vec![0.0; sizes.all_rows],
             input,
             workspace: vec![0.0; sizes.workspace],
             outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
@@ -197,6 +200,7 @@ impl<'a> Evaluator<'a> {
 
     /// Accelerations, multipliers, drive forces and pivots.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
+        self.multipliers.fill(0.0);
         self.ask(Entry::ForwardDynamics, t, &[q, v]);
         self.last_forward()
     }
@@ -213,7 +217,14 @@ impl<'a> Evaluator<'a> {
 
     /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.
     pub fn forward_mut(&mut self) -> &mut [f64] {
+        self.multipliers.fill(0.0);
         &mut self.outputs[Entry::ForwardDynamics as usize]
+    }
+
+    /// Writable multipliers of all rows, zero after [`Self::forward`] and [`Self::forward_mut`]: a solve done
+    /// elsewhere puts those of dropped rows here.
+    pub fn multipliers_mut(&mut self) -> &mut [f64] {
+        &mut self.multipliers
     }
 
     /// Rates of the coordinates and powers, with the drive forces of the last forward dynamics.
@@ -304,10 +315,16 @@ impl<'a> Evaluator<'a> {
 
     /// One value per channel, with the last forward dynamics.
     pub fn observe(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
-        let length = self.sizes.speeds + self.sizes.rows + self.sizes.drivers;
+        let (n, m) = (self.sizes.speeds, self.sizes.rows);
         let forward = core::mem::take(&mut self.outputs[Entry::ForwardDynamics as usize]);
-        self.ask(Entry::Observe, t, &[q, v, &forward[..length]]);
+        let mut multipliers = core::mem::take(&mut self.multipliers);
+        for (row, multiplier) in self.kept.iter().zip(&forward[n..n + m]) {
+            multipliers[*row] = *multiplier;
+        }
+        let drives = &forward[n + m..n + m + self.sizes.drivers];
+        self.ask(Entry::Observe, t, &[q, v, &forward[..n], &multipliers, drives]);
         self.outputs[Entry::ForwardDynamics as usize] = forward;
+        self.multipliers = multipliers;
         &self.outputs[Entry::Observe as usize]
     }
 
@@ -326,7 +343,7 @@ impl<'a> Evaluator<'a> {
 
     /// Mass matrix, bias, constraint rows of all coordinates.
     pub fn equations(&mut self, t: f64, all_q: &[f64], all_v: &[f64]) -> Equations<'_> {
-        let (n, m) = (self.sizes.all_speeds, self.sizes.rows);
+        let (n, m) = (self.sizes.all_speeds, self.sizes.all_rows);
         let output = self.ask(Entry::EquationsOfMotion, t, &[all_q, all_v]);
         let (mass, rest) = output.split_at(n * (n + 1) / 2);
         let (bias, rest) = rest.split_at(n);

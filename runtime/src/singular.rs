@@ -2,7 +2,9 @@
 //! In: [`crate::Entry::EquationsOfMotion`] at a state. Out: accelerations, multipliers, drive forces in
 //! the layout of [`crate::Entry::ForwardDynamics`]. Never decides when it is needed.
 //!
-//! `M v̇ + h = Phi_qᵀ lambda + drive`, `Phi_q v̇ = gamma`, driven accelerations known. The rows fall apart:
+//! `M v̇ + h = Phi_qᵀ lambda + drive`, `Phi_q v̇ = gamma`, driven accelerations known. All rows take part, dropped
+//! ones too: of three parallel cranks any two pass positions in which their rows alone lose rank, and the third
+//! takes over. What is known of the rows falls apart:
 //! - regular directions: a minimum-norm acceleration meets them;
 //! - nearly lost directions: dividing by their small singular value would blow errors up until the
 //!   mechanism leaves its branch, so the acceleration noted before is continued there (a branch is smooth);
@@ -20,6 +22,9 @@ pub const NEARLY_LOST: f64 = 1e-3;
 
 /// Below this part they are noise, and lost directions cannot be told from free ones.
 pub const LOST_RANK: f64 = 1e-11;
+
+/// Dropped rows shorter than this part of the longest row are rounding errors (1e-16) and say nothing.
+const ROUNDING: f64 = 1e-9;
 
 /// Storage of the solve.
 pub struct SingularSolver {
@@ -40,6 +45,12 @@ pub struct SingularSolver {
     residual: Vec<f64>,
     scratch: Vec<f64>,
     scales: Vec<f64>,
+    /// For each row in use, its row in the description.
+    live: Vec<usize>,
+    /// For each row of the description, its place among the kept ones.
+    kept: Vec<Option<usize>>,
+    /// Longest length that each row has had.
+    lengths: Vec<f64>,
     lost_rows: Vec<f64>,
     amounts: Vec<f64>,
     free_directions: Vec<f64>,
@@ -55,7 +66,7 @@ impl SingularSolver {
     #[must_use]
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let sizes = evaluator.sizes();
-        let (n, all, m) = (sizes.speeds, sizes.all_speeds, sizes.rows);
+        let (n, all, m) = (sizes.speeds, sizes.all_speeds, sizes.all_rows);
         let (free, driven) = evaluator.layout().speed_places(sizes.drivers);
         Self {
             all_q: vec![0.0; sizes.all_coordinates],
@@ -73,6 +84,9 @@ impl SingularSolver {
             residual: vec![0.0; n],
             scratch: vec![0.0; n],
             scales: vec![0.0; m],
+            live: Vec::with_capacity(m),
+            kept: evaluator.description().rows.iter().map(|row| row.kept).collect(),
+            lengths: vec![0.0; m],
             lost_rows: vec![0.0; m * n],
             amounts: vec![0.0; n],
             free_directions: vec![0.0; n * n],
@@ -94,14 +108,20 @@ impl SingularSolver {
         reference: Option<&[f64]>,
     ) {
         self.load(evaluator, t, q, v);
-        let (n, m, all) = (self.free.len(), self.right.len(), self.all_a.len());
+        let (n, m) = (self.free.len(), self.live.len());
+        let kept = evaluator.sizes().rows;
         self.constraints.factor(&self.free_jacobian, m, n, NEARLY_LOST);
         self.constraints.solve(&self.right, &mut self.acceleration);
         let freedoms = n - self.constraints.rank();
         for (index, direction) in self.null.chunks_exact_mut(n.max(1)).take(freedoms).enumerate() {
             self.constraints.null_direction(index, direction);
         }
-        let freedoms = self.continue_lost_directions(freedoms, reference);
+        // As many independent directions as in general positions: nothing is lost.
+        let freedoms = if self.constraints.rank() >= kept {
+            freedoms
+        } else {
+            self.continue_lost_directions(freedoms, reference)
+        };
         self.put_acceleration();
         self.add_free_motion(freedoms);
         self.imbalance();
@@ -109,24 +129,33 @@ impl SingularSolver {
         for (multiplier, scale) in self.multipliers.iter_mut().zip(&self.scales) {
             *multiplier *= scale;
         }
+        self.store(evaluator, kept);
+    }
+
+    /// Puts accelerations, multipliers and drive forces where the forward dynamics puts them.
+    fn store(&self, evaluator: &mut Evaluator<'_>, kept: usize) {
+        let (n, m, all) = (self.free.len(), self.live.len(), self.all_a.len());
         let output = evaluator.forward_mut();
         output[..n].copy_from_slice(&self.acceleration);
-        output[n..n + m].copy_from_slice(&self.multipliers);
+        for (multiplier, row) in self.multipliers.iter().zip(&self.live) {
+            if let Some(place) = self.kept[*row] {
+                output[n + place] = *multiplier;
+            }
+        }
         for (driver, place) in self.driven.iter().enumerate() {
             let reaction: f64 = (0..m).map(|k| self.jacobian[k * all + place] * self.multipliers[k]).sum();
             let inertia = dot(&self.mass[place * all..][..all], &self.all_a);
-            output[n + m + driver] = inertia + self.bias[*place] - reaction;
+            output[n + kept + driver] = inertia + self.bias[*place] - reaction;
+        }
+        for (multiplier, row) in self.multipliers.iter().zip(&self.live) {
+            evaluator.multipliers_mut()[*row] = *multiplier;
         }
     }
 
     /// Within the null space of the regular rows: fixes the acceleration in nearly lost directions and
     /// leaves a basis of the free ones in `null`. Returns their number.
     fn continue_lost_directions(&mut self, freedoms: usize, reference: Option<&[f64]>) -> usize {
-        let (n, m) = (self.free.len(), self.right.len());
-        if freedoms + m <= n {
-            // Full rank after all.
-            return freedoms;
-        }
+        let (n, m) = (self.free.len(), self.live.len());
         let null = |i: usize| i * n..(i + 1) * n;
         for k in 0..m {
             let row = &self.free_jacobian[k * n..][..n];
@@ -181,18 +210,31 @@ impl SingularSolver {
         for (place, law) in self.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
             self.all_a[*place] = law[2];
         }
-        self.scales.copy_from_slice(evaluator.row_scales());
+        for (row, kept) in self.kept.iter().enumerate() {
+            self.scales[row] = kept.map_or(0.0, |kept| evaluator.row_scales()[kept]);
+        }
         let equations = evaluator.equations(t, &self.all_q, &self.all_v);
         equations.unpack_mass(all, &mut self.mass);
         self.bias.copy_from_slice(equations.bias);
-        self.jacobian.copy_from_slice(equations.jacobian);
-        for (k, row) in equations.jacobian.chunks_exact(all.max(1)).enumerate() {
-            for (j, place) in self.free.iter().enumerate() {
-                self.free_jacobian[k * n + j] = row[*place];
+        for (length, row) in self.lengths.iter_mut().zip(equations.jacobian.chunks_exact(all.max(1))) {
+            *length = length.max(dot(row, row).sqrt());
+        }
+        let rounding = ROUNDING * largest(&self.lengths);
+        self.live.clear();
+        for (index, row) in equations.jacobian.chunks_exact(all.max(1)).enumerate() {
+            let scale = match self.kept[index] {
+                Some(_) => self.scales[index],
+                None if self.lengths[index] > rounding => 1.0 / self.lengths[index],
+                None => continue,
+            };
+            let k = self.live.len();
+            self.live.push(index);
+            self.scales[k] = scale;
+            self.jacobian[k * all..][..all].copy_from_slice(row);
+            for (entry, place) in self.free_jacobian[k * n..].iter_mut().zip(&self.free) {
+                *entry = scale * row[*place];
             }
-            let scale = self.scales[k];
-            self.free_jacobian[k * n..][..n].iter_mut().for_each(|x| *x *= scale);
-            self.right[k] = scale * (equations.gamma[k] - dot(row, &self.all_a));
+            self.right[k] = scale * (equations.gamma[index] - dot(row, &self.all_a));
         }
     }
 

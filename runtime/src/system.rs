@@ -24,11 +24,13 @@ pub enum Entry {
     Closure,
     /// In: parameters, t, q, v. Out: kinetic energy [J], potential energy [J].
     Energy,
-    /// In: parameters, t, q, v, `v̇`, multipliers, drive forces. Out: one value per output channel.
+    /// In: parameters, t, q, v, `v̇`, multipliers of every row (kept and dropped alike; zero for dropped rows
+    /// except where kept rows lose rank), drive forces. Out: one value per output channel.
     Observe,
     /// In: parameters, t, ALL coordinates, ALL speeds (driven ones too, tree order).
     /// Out: upper triangle of M (row by row), h (with gravity, springs and damping on the left side:
-    /// `M v̇ + h = Q_drive + Phi_qᵀ lambda`), Phi (kept rows), Phi_q (row major), gamma.
+    /// `M v̇ + h = Q_drive + Phi_qᵀ lambda`), and of every row, kept and dropped alike: Phi, Phi_q (row
+    /// major), gamma. Dropped rows take over where the kept ones happen to lose rank.
     EquationsOfMotion,
 }
 
@@ -96,7 +98,7 @@ impl Sizes {
             Entry::Prescribed | Entry::Start => base,
             Entry::ForwardDynamics | Entry::Closure | Entry::Energy => state,
             Entry::Rates => state + self.drivers,
-            Entry::Observe => state + self.speeds + self.rows + self.drivers,
+            Entry::Observe => state + self.speeds + self.all_rows + self.drivers,
             Entry::EquationsOfMotion => base + self.all_coordinates + self.all_speeds,
         }
     }
@@ -113,7 +115,7 @@ impl Sizes {
             Entry::Closure => self.all_rows + self.rows + self.rows * self.speeds,
             Entry::Energy => 2,
             Entry::Observe => self.channels,
-            Entry::EquationsOfMotion => n * (n + 1) / 2 + n + self.rows + self.rows * n + self.rows,
+            Entry::EquationsOfMotion => n * (n + 1) / 2 + n + self.all_rows * (n + 2),
         }
     }
 }

@@ -52,6 +52,8 @@ pub struct GeneralizedAlpha {
     x: Vec<f64>,
     /// Multipliers times `h²`.
     scaled_multipliers: Vec<f64>,
+    /// For every kept row, its row in the description.
+    kept: Vec<usize>,
     residual: Vec<f64>,
     shifted: Vec<f64>,
     /// Kept rows of the Jacobian by the free speeds.
@@ -117,6 +119,7 @@ impl GeneralizedAlpha {
             next,
             x: vec![0.0; n],
             scaled_multipliers: vec![0.0; m],
+            kept: evaluator.kept().to_vec(),
             residual: vec![0.0; n + m],
             shifted: vec![0.0; n + m],
             free_rows: vec![0.0; m * n],
@@ -241,7 +244,8 @@ impl GeneralizedAlpha {
         for (i, balance) in next.balance.iter_mut().enumerate() {
             *balance = h * h * (dot(&next.mass[i * all..][..all], &next.all_a) + equations.bias[i]);
         }
-        for (k, row) in equations.jacobian.chunks_exact(all.max(1)).enumerate() {
+        for (k, index) in self.kept.iter().enumerate() {
+            let row = &equations.jacobian[index * all..][..all];
             add_scaled(&mut next.balance, -self.scaled_multipliers[k], row);
             for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&next.free) {
                 *entry = row[*place];
@@ -250,7 +254,9 @@ impl GeneralizedAlpha {
         for (residual, place) in self.residual.iter_mut().zip(&self.next.free) {
             *residual = self.next.balance[*place];
         }
-        self.residual[n..n + m].copy_from_slice(equations.positions);
+        for (residual, index) in self.residual[n..n + m].iter_mut().zip(&self.kept) {
+            *residual = equations.positions[*index];
+        }
     }
 
     /// Newton matrix by difference quotients in the increments; exact in the multipliers.

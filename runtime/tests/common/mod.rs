@@ -250,7 +250,9 @@ impl<M: Model> System<f64> for Dense<M> {
             }
             Entry::Observe => {
                 let (q, v) = self.all(t, state().0, state().1);
-                let (multipliers, drives) = state().2[s..].split_at(self.sizes.rows);
+                let (multipliers, drives) = state().2[s..].split_at(self.sizes.all_rows);
+                // Dropped rows of the models here have no share in their columns.
+                let multipliers = &multipliers[..self.sizes.rows];
                 output.copy_from_slice(&self.model.observe(&q, &v, multipliers, drives));
             }
             Entry::EquationsOfMotion => {
@@ -259,8 +261,13 @@ impl<M: Model> System<f64> for Dense<M> {
                 let size = v.len();
                 let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).map(|at| terms.mass[at]);
                 let rows = terms.rows.transpose();
-                let values = upper.chain(terms.bias.iter().copied()).chain(terms.phi.iter().copied());
-                let values = values.chain(rows.iter().copied()).chain(terms.gamma.iter().copied());
+                // Dropped rows repeat what kept ones say, here as rows of zeros.
+                let dropped = self.model.dropped(q);
+                let zeros = |count: usize| std::iter::repeat_n(0.0, count);
+                let values = upper.chain(terms.bias.iter().copied());
+                let values = values.chain(terms.phi.iter().copied()).chain(dropped.iter().copied());
+                let values = values.chain(rows.iter().copied()).chain(zeros(dropped.len() * size));
+                let values = values.chain(terms.gamma.iter().copied()).chain(zeros(dropped.len()));
                 output.iter_mut().zip(values).for_each(|(out, value)| *out = value);
             }
         }

@@ -202,13 +202,6 @@ impl Deriver<'_> {
             let energy = own.energies(g, &instant, masses);
             let geometry = own.geometry();
             let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-            let mut next = own.lambda.iter();
-            let zero = g.zero();
-            let multipliers: Vec<ExprId> = own
-                .keep
-                .iter()
-                .map(|kept| if *kept { *next.next().expect("one multiplier a kept row") } else { zero })
-                .collect();
             let drives: Vec<(JointId, usize, ExprId)> = own
                 .drivers
                 .iter()
@@ -220,7 +213,7 @@ impl Deriver<'_> {
                 masses,
                 loads: &instant.loads,
                 cuts: &instant.cuts,
-                multipliers: &multipliers,
+                multipliers: &own.lambda,
                 keep: &own.keep,
                 drives: &drives,
                 energy,
@@ -230,7 +223,12 @@ impl Deriver<'_> {
         self.channels = list.channels;
         let mut inputs = self.state_inputs();
         inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
-        inputs.push(Block::vector("lambda", "Multipliers from forward_dynamics.", "", self.lambda.clone()));
+        inputs.push(Block::vector(
+            "lambda",
+            "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
+            "",
+            self.lambda.clone(),
+        ));
         inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
         let names = self.channels.iter().map(|channel| channel.name.to_string()).collect();
         let doc = "One value per output column, SI, components in W.";
@@ -248,7 +246,9 @@ impl Deriver<'_> {
             g.begin_section("mass matrix by composite bodies");
             let mass = mass_matrix(g, own.linkage, &instant.motion.poses, masses);
             g.begin_section("loop Jacobian");
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
+            // Dropped rows too: they stand in where the kept ones happen to lose rank.
+            let all = vec![true; own.keep.len()];
+            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &all);
             (mass, h, rows)
         });
         let triangle: Vec<ExprId> = (0..n).flat_map(|i| mass[i][i..].to_vec()).collect();
@@ -258,8 +258,15 @@ impl Deriver<'_> {
         let outputs = vec![
             Block::vector("mass", "Upper triangle of M, row by row [kg m², kg m, kg].", "[CS (6)]", triangle),
             Block::vector("h", "Left side besides M v̇: inertia, weight, springs, damping.", "[CS (6)]", h),
-            Block::vector("phi", "Position residuals of the kept rows [rad, m].", "[CS (3)]", residuals),
-            Block::matrix("phi_q", "Jacobian by all speeds.", "[CS (3)]", rows.len(), n, jacobian),
+            Block::vector("phi", "Position residuals of all rows [rad, m].", "[CS (3)]", residuals),
+            Block::matrix(
+                "phi_q",
+                "Jacobian of all rows by all speeds.",
+                "[CS (3)]",
+                rows.len(),
+                n,
+                jacobian,
+            ),
             Block::vector("gamma", "Right side of phi_q v̇ = gamma.", "[CS (6)]", gamma),
         ];
         let mut inputs = self.base_inputs();

@@ -87,6 +87,7 @@ struct Deriver<'a> {
     free_q: Vec<usize>,
     partition: Partition,
     v_dot: Vec<ExprId>,
+    /// Multipliers of all rows.
     lambda: Vec<ExprId>,
     drive: Vec<ExprId>,
     keep: Vec<bool>,
@@ -195,8 +196,11 @@ impl<'a> Deriver<'a> {
             let symbol = self.g.symbol(names.1[index].0.replace('.', "_") + "_dot");
             self.v_dot.push(symbol);
         }
-        for number in 0..self.keep.iter().filter(|kept| **kept).count() {
-            let symbol = self.g.symbol(format!("lambda{}", number + 1));
+        let (mut kept, mut spare) = (0, 0);
+        for keep in self.keep.clone() {
+            let (name, count) = if keep { ("lambda", &mut kept) } else { ("spare_lambda", &mut spare) };
+            *count += 1;
+            let symbol = self.g.symbol(format!("{name}{count}"));
             self.lambda.push(symbol);
         }
         for driver in &self.drivers {
