@@ -26,6 +26,12 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
+    /// Path of a file named in this one: beside it, unless absolute.
+    #[must_use]
+    pub fn beside(&self, file: &str) -> std::path::PathBuf {
+        std::path::Path::new(&self.name).parent().map_or_else(|| file.into(), |folder| folder.join(file))
+    }
+
     /// Line and column, both from 1, of a byte offset; columns count characters.
     #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {

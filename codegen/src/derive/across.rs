@@ -1,7 +1,7 @@
 //! Relative motion of two links across a joint, seen from one of them.
 //! In: link kinematics. Out: [`Across`]. Never knows which rows a closure keeps.
 
-use crate::expr::{Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Graph, Mat3, Vec3};
 use crate::id::JointId;
 use crate::model::{Axis, Carrier, JointKind};
 
@@ -20,6 +20,19 @@ pub struct Motion {
     pub accelerations: Vec<Acceleration>,
     /// Acceleration of the ground [m/s²].
     pub ground: Vec3,
+    /// Modal coordinates, speeds and accelerations of every link; empty unless it is a floating frame.
+    pub modes: Vec<ModalState>,
+}
+
+/// Modal coordinates of a flexible body with their derivatives.
+#[derive(Clone, Debug, Default)]
+pub struct ModalState {
+    /// Coordinates.
+    pub q: Vec<ExprId>,
+    /// Speeds.
+    pub v: Vec<ExprId>,
+    /// Accelerations.
+    pub v_dot: Vec<ExprId>,
 }
 
 /// The two links of a joint and which of them lends its frame.
@@ -40,11 +53,22 @@ impl Sides {
     /// the moving side, else of the child.
     #[must_use]
     pub fn choose(linkage: &Linkage, joint: JointId, parent: LinkIndex, child: LinkIndex) -> Self {
-        let rank = |link: LinkIndex| match link.map(|at| linkage.links[at].freedom) {
-            None => 0,
-            Some(Freedom::Ball | Freedom::Free) => 2,
-            Some(_) => 1,
-        };
+        fn rank(linkage: &Linkage, link: LinkIndex) -> usize {
+            let Some(at) = link else { return 0 };
+            let own = &linkage.links[at];
+            match own.freedom {
+                Freedom::Ball | Freedom::Free => 2,
+                // Parallel to the link that carries it.
+                Freedom::Flexible { .. } | Freedom::Node
+                    if own.mount == Frame::IDENTITY
+                        && own.node.as_ref().is_none_or(|node| node.rotation.is_empty()) =>
+                {
+                    rank(linkage, own.parent)
+                }
+                _ => 1,
+            }
+        }
+        let rank = |link: LinkIndex| rank(linkage, link);
         Self { joint, parent, child, in_child: rank(child) >= rank(parent) }
     }
 
@@ -289,8 +313,9 @@ fn both(axis: Axis, parent: &Frame, child: &Frame, in_child: bool) -> (Frame, Fr
 pub fn sides_of(geometry: &Geometry<'_>, joint: JointId) -> Sides {
     let linkage = geometry.linkage;
     let data = geometry.mechanism.joint(joint);
-    let mut parent = linkage.link(data.parent);
-    let mut child = linkage.link(data.child);
+    let turns = data.kind.holds_orientation();
+    let mut parent = linkage.link_at(data.parent, data.at, turns);
+    let mut child = linkage.link_at(data.child, data.at, turns);
     if let Some(last) = linkage.link_of_joint[joint.index()] {
         // The chain's end is the outboard body, which may be a copy of it on this branch.
         if linkage.reversed[joint.index()] { parent = Some(last) } else { child = Some(last) }

@@ -145,7 +145,8 @@ impl Carrier<'_> {
         while at != top {
             let index = at.expect("the ancestor lies on the path to the ground");
             let link = &self.linkage.links[index];
-            for (offset, entry) in carried.generalised(g, link.freedom).into_iter().enumerate() {
+            let node = self.poses.nodes[index].as_ref();
+            for (offset, entry) in carried.generalised(g, link.freedom, node).into_iter().enumerate() {
                 let column = &mut self.columns[link.first_speed + offset];
                 *column = g.add(*column, entry);
             }

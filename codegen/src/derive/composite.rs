@@ -6,9 +6,11 @@
 
 use crate::expr::{ExprId, Graph, Mat3, Vec3};
 
-use super::inertia::{MassProperties, inertia_of_second_moment, rotated};
+use super::deformation::ModalMass;
+use super::inertia::{LinkMass, inertia_of_second_moment, rotated};
 use super::kinematics::{Pose, Poses};
-use super::linkage::{Freedom, Linkage};
+use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::node::NodePose;
 use super::wrench::Wrench;
 
 /// Composite rigid body: everything outboard of a link's joint, frozen.
@@ -19,24 +21,27 @@ struct Composite {
     inertia: Mat3,
 }
 
+impl Composite {
+    fn parts(&self) -> (ExprId, Vec3, Mat3) {
+        (self.mass, self.first, self.inertia)
+    }
+}
+
 /// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
-pub fn mass_matrix(
-    g: &mut Graph,
-    linkage: &Linkage,
-    poses: &Poses,
-    masses: &[MassProperties],
-) -> Vec<Vec<ExprId>> {
+pub fn mass_matrix(g: &mut Graph, linkage: &Linkage, poses: &Poses, masses: &[LinkMass]) -> Vec<Vec<ExprId>> {
     let zero = g.zero();
     let n = linkage.speeds();
-    let mut matrix = vec![vec![zero; n]; n];
+    let mut columns = Columns { linkage, poses, matrix: vec![vec![zero; n]; n] };
     let mut composites: Vec<Composite> = masses
         .iter()
         .map(|own| Composite {
-            mass: own.mass,
-            first: own.first,
-            inertia: inertia_of_second_moment(g, own.second),
+            mass: own.frozen.mass,
+            first: own.frozen.first,
+            inertia: inertia_of_second_moment(g, own.frozen.second),
         })
         .collect();
+    let mut modal: Vec<Option<ModalColumns>> =
+        masses.iter().map(|own| own.modal.as_ref().map(|modal| ModalColumns::new(g, modal))).collect();
     for at in (0..linkage.links.len()).rev() {
         let link = &linkage.links[at];
         let composite = composites[at];
@@ -47,11 +52,98 @@ pub fn mass_matrix(
             sum.first = g.add3(sum.first, passed.first);
             sum.inertia = g.add_mat3(sum.inertia, passed.inertia);
         }
+        if let (Some(node), Some(parent)) = (&poses.nodes[at], link.parent) {
+            if let Some(mut own) = modal[at].take() {
+                own.hold(g, node, &composite);
+                own.fill(g, &mut columns, at);
+            } else if let Some(body) = &mut modal[parent] {
+                body.carry(g, node, &poses.relative[at], &composite);
+            }
+            continue;
+        }
         for (column, wrench) in momentum_columns(g, link.freedom, &composite).into_iter().enumerate() {
-            fill_column(g, linkage, poses, at, link.first_speed + column, wrench, &mut matrix);
+            columns.fill(g, at, link.first_speed + column, wrench);
         }
     }
-    matrix
+    columns.matrix
+}
+
+/// Momentum per unit of every modal speed of one flexible body.
+struct ModalColumns {
+    /// Of the body and what its nodes carry, about its origin, in its frame.
+    wrenches: Vec<Wrench>,
+    /// Block of M.
+    block: Vec<Vec<ExprId>>,
+}
+
+impl ModalColumns {
+    fn new(g: &mut Graph, own: &ModalMass) -> Self {
+        Self {
+            wrenches: (0..own.matrix.len()).map(|k| own.column(g, k)).collect(),
+            block: own.matrix.iter().map(|row| row.iter().map(|x| g.constant(*x)).collect()).collect(),
+        }
+    }
+
+    /// Adds what hangs on a node, which the modes move along.
+    fn carry(&mut self, g: &mut Graph, node: &NodePose, pose: &Pose, hanging: &Composite) {
+        let screws: Vec<[Vec3; 2]> = (0..self.wrenches.len())
+            .map(|k| node.screw(g, k).map(|v| node.to_section(g, v)))
+            .collect();
+        for (k, [turn, slide]) in screws.iter().enumerate() {
+            let momentum = Wrench::momentum(g, hanging.parts(), *turn, *slide);
+            for (l, [turn, slide]) in screws.iter().enumerate().take(k + 1) {
+                let entry = momentum.power(g, *turn, *slide);
+                self.block[k][l] = g.add(self.block[k][l], entry);
+                self.block[l][k] = self.block[k][l];
+            }
+            let passed = momentum.on_parent(g, pose);
+            self.wrenches[k] = self.wrenches[k].plus(g, passed);
+        }
+    }
+
+    /// Adds that the whole body moves when its inboard node stays.
+    fn hold(&mut self, g: &mut Graph, node: &NodePose, whole: &Composite) {
+        let screws: Vec<[Vec3; 2]> = (0..self.wrenches.len())
+            .map(|k| {
+                let [turn, slide] = node.screw(g, k);
+                let lever = g.cross3(turn, node.place);
+                [g.neg3(turn), g.sub3(lever, slide)]
+            })
+            .collect();
+        let moved: Vec<Wrench> = screws
+            .iter()
+            .map(|[turn, slide]| Wrench::momentum(g, whole.parts(), *turn, *slide))
+            .collect();
+        for k in 0..screws.len() {
+            for l in 0..=k {
+                let terms = [
+                    self.wrenches[k].power(g, screws[l][0], screws[l][1]),
+                    self.wrenches[l].power(g, screws[k][0], screws[k][1]),
+                    moved[k].power(g, screws[l][0], screws[l][1]),
+                ];
+                for term in terms {
+                    self.block[k][l] = g.add(self.block[k][l], term);
+                }
+                self.block[l][k] = self.block[k][l];
+            }
+        }
+        for (wrench, moved) in self.wrenches.iter_mut().zip(moved) {
+            *wrench = wrench.plus(g, moved);
+        }
+    }
+
+    fn fill(self, g: &mut Graph, columns: &mut Columns<'_>, at: usize) {
+        let link = &columns.linkage.links[at];
+        let first = link.first_speed;
+        for (k, row) in self.block.into_iter().enumerate() {
+            // Entries with speeds outboard of the body's nodes are there already.
+            columns.matrix[first + k][first..first + row.len()].copy_from_slice(&row);
+        }
+        for (k, wrench) in self.wrenches.into_iter().enumerate() {
+            let passed = wrench.on_parent(g, &columns.poses.relative[at]);
+            columns.carry(g, link.parent, first + k, passed);
+        }
+    }
 }
 
 fn pass_composite(g: &mut Graph, freedom: Freedom, pose: &Pose, own: Composite) -> Composite {
@@ -119,33 +211,49 @@ fn momentum_columns(g: &mut Graph, freedom: Freedom, own: &Composite) -> Vec<Wre
             }
             columns
         }
-        Freedom::Weld => Vec::new(),
+        Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
     }
 }
 
-/// Carries one momentum column from its link to the ground and reads off the entries of M.
-fn fill_column(
-    g: &mut Graph,
-    linkage: &Linkage,
-    poses: &Poses,
-    from: usize,
-    column: usize,
-    wrench: Wrench,
-    matrix: &mut [Vec<ExprId>],
-) {
-    let mut carried = wrench;
-    let mut at = Some(from);
-    while let Some(link_index) = at {
-        let link = &linkage.links[link_index];
-        for (row, entry) in carried.generalised(g, link.freedom).into_iter().enumerate() {
+/// The columns of M as they fill.
+struct Columns<'a> {
+    linkage: &'a Linkage,
+    poses: &'a Poses,
+    matrix: Vec<Vec<ExprId>>,
+}
+
+impl Columns<'_> {
+    /// Fills the column of one speed of a link, down to the link and on to the ground.
+    fn fill(&mut self, g: &mut Graph, from: usize, column: usize, wrench: Wrench) {
+        let link = &self.linkage.links[from];
+        for (row, entry) in wrench.generalised(g, link.freedom, None).into_iter().enumerate() {
             let row = link.first_speed + row;
             // Within a link, keep the entry computed first, so that M is symmetric to the bit.
-            if link_index != from || row <= column {
-                matrix[row][column] = entry;
-                matrix[column][row] = entry;
+            if row <= column {
+                self.matrix[row][column] = entry;
+                self.matrix[column][row] = entry;
             }
         }
-        carried = carried.passed_inwards(g, link.freedom, &poses.relative[link_index]);
-        at = link.parent;
+        let passed = wrench.passed_inwards(g, link.freedom, &self.poses.relative[from]);
+        self.carry(g, link.parent, column, passed);
+    }
+
+    /// Carries a momentum column from a link to the ground and reads off the entries of M.
+    fn carry(&mut self, g: &mut Graph, from: LinkIndex, column: usize, wrench: Wrench) {
+        let mut carried = wrench;
+        let mut at = from;
+        while let Some(index) = at {
+            let link = &self.linkage.links[index];
+            let node = self.poses.nodes[index].as_ref();
+            for (row, entry) in carried.generalised(g, link.freedom, node).into_iter().enumerate() {
+                // A flexible body is met twice: at its node and at its frame.
+                let row = link.first_speed + row;
+                let sum = g.add(self.matrix[row][column], entry);
+                self.matrix[row][column] = sum;
+                self.matrix[column][row] = sum;
+            }
+            carried = carried.passed_inwards(g, link.freedom, &self.poses.relative[index]);
+            at = link.parent;
+        }
     }
 }

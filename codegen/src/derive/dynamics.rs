@@ -13,14 +13,26 @@ use super::across::Motion;
 use super::closure::CutRows;
 use super::composite::mass_matrix;
 use super::forces::Loads;
-use super::inertia::MassProperties;
-use super::kinematics::{Acceleration, Twist};
+use super::inertia::{LinkMass, MassProperties};
+use super::kinematics::Acceleration;
 use super::linkage::Linkage;
 use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
 /// Inertial wrench of a link about its origin, in its frame.
-pub fn inertial_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> Wrench {
+fn inertial_wrench(g: &mut Graph, motion: &Motion, masses: &[LinkMass], at: usize) -> Wrench {
+    let frozen = frozen_wrench(g, &masses[at].frozen, &motion.accelerations[at]);
+    match &masses[at].modal {
+        Some(modal) => {
+            let deforming = modal.wrench(g, &motion.twists[at], &motion.modes[at]);
+            frozen.plus(g, deforming)
+        }
+        None => frozen,
+    }
+}
+
+/// Inertial wrench of a link frozen in its present shape.
+fn frozen_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> Wrench {
     let (weight, turned) = (g.scale3(own.mass, motion.origin), g.mul_vec3(motion.spin, own.first));
     let product = g.mul_mat3(motion.spin, own.second);
     let (lever, axial) = (g.cross3(own.first, motion.origin), axial_part(g, product));
@@ -41,7 +53,7 @@ pub fn bias_forces(
     g: &mut Graph,
     linkage: &Linkage,
     motion: &Motion,
-    masses: &[MassProperties],
+    masses: &[LinkMass],
     loads: &Loads,
 ) -> Vec<ExprId> {
     let mut forces = vec![g.zero(); linkage.speeds()];
@@ -49,21 +61,27 @@ pub fn bias_forces(
     let mut carried = vec![none; linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
         g.begin_section(format!("inertia, weight and loads of {}", link.name));
-        let inertial = inertial_wrench(g, &masses[at], &motion.accelerations[at]);
+        let inertial = inertial_wrench(g, motion, masses, at);
         let applied = loads.external[at].plus(g, loads.reactions[at]);
         let applied = applied.negated(g);
         let sum = inertial.plus(g, applied);
         let total = sum.plus(g, carried[at]);
-        for (offset, force) in total.generalised(g, link.freedom).into_iter().enumerate() {
-            let speed = link.first_speed + offset;
-            forces[speed] = g.sub(force, loads.joint[speed]);
+        let node = motion.poses.nodes[at].as_ref();
+        let mut felt = total.generalised(g, link.freedom, node);
+        if let Some(modal) = &masses[at].modal {
+            let own =
+                modal.modal_forces(g, &motion.twists[at], &motion.accelerations[at], &motion.modes[at]);
+            felt = felt.into_iter().zip(own).map(|(held, own)| g.add(own, held)).collect();
+        }
+        for (speed, force) in link.speeds().zip(felt) {
+            forces[speed] = g.add(forces[speed], force);
         }
         if let Some(parent) = link.parent {
             let passed = total.passed_inwards(g, link.freedom, &motion.poses.relative[at]);
             carried[parent] = carried[parent].plus(g, passed);
         }
     }
-    forces
+    forces.into_iter().zip(&loads.joint).map(|(force, joint)| g.sub(force, *joint)).collect()
 }
 
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
@@ -72,13 +90,13 @@ pub fn joint_wrenches(
     g: &mut Graph,
     linkage: &Linkage,
     motion: &Motion,
-    masses: &[MassProperties],
+    masses: &[LinkMass],
     external: &[Wrench],
 ) -> Vec<Wrench> {
     let none = Wrench::zero(g);
     let mut totals = vec![none; linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
-        let inertial = inertial_wrench(g, &masses[at], &motion.accelerations[at]);
+        let inertial = inertial_wrench(g, motion, masses, at);
         let applied = external[at].negated(g);
         let sum = inertial.plus(g, applied);
         totals[at] = totals[at].plus(g, sum);
@@ -91,10 +109,11 @@ pub fn joint_wrenches(
 }
 
 /// Kinetic energy [J].
-pub fn kinetic_energy(g: &mut Graph, masses: &[MassProperties], twists: &[Twist]) -> ExprId {
+pub fn kinetic_energy(g: &mut Graph, masses: &[LinkMass], motion: &Motion) -> ExprId {
     let half = g.constant(0.5);
     let mut sum = g.zero();
-    for (own, twist) in masses.iter().zip(twists) {
+    for (at, (mass, twist)) in masses.iter().zip(&motion.twists).enumerate() {
+        let own = &mass.frozen;
         let square = g.dot3(twist.origin, twist.origin);
         let translation = g.mul(own.mass, square);
         let turned = g.cross3(twist.omega, own.first);
@@ -107,6 +126,10 @@ pub fn kinetic_energy(g: &mut Graph, masses: &[MassProperties], twists: &[Twist]
         for term in [translation, mixed, rotation] {
             sum = g.add(sum, term);
         }
+        if let Some(modal) = &mass.modal {
+            let deforming = modal.double_energy(g, twist, &motion.modes[at].v);
+            sum = g.add(sum, deforming);
+        }
     }
     g.mul(half, sum)
 }
@@ -116,12 +139,12 @@ pub fn weight_energy(
     g: &mut Graph,
     linkage: &Linkage,
     motion: &Motion,
-    masses: &[MassProperties],
+    masses: &[LinkMass],
     gravity: Vec3,
 ) -> ExprId {
     let mut sum = g.zero();
     for (at, own) in masses.iter().enumerate().take(linkage.links.len()) {
-        let pose = motion.poses.world[at];
+        let (own, pose) = (&own.frozen, motion.poses.world[at]);
         let lifted = g.scale3(own.mass, pose.offset);
         let turned = g.mul_vec3(pose.rotation, own.first);
         let moment = g.add3(lifted, turned);
@@ -187,7 +210,7 @@ pub fn forward(
     g: &mut Graph,
     linkage: &Linkage,
     motion: &Motion,
-    masses: &[MassProperties],
+    masses: &[LinkMass],
     loads: &Loads,
     (rows, partition): (&[KeptRow], &Partition),
 ) -> Forward {

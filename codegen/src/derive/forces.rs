@@ -44,6 +44,9 @@ pub fn loads(g: &mut Graph, state: &JointStates<'_>) -> Loads {
         dissipated: zero,
         supplied: zero,
     };
+    for at in 0..linkage.links.len() {
+        loads.elasticity(g, state, at);
+    }
     for index in 0..state.geometry.mechanism.joints.len() {
         let joint = JointId::new(index);
         let data = state.geometry.mechanism.joint(joint);
@@ -62,6 +65,26 @@ pub fn loads(g: &mut Graph, state: &JointStates<'_>) -> Loads {
 }
 
 impl Loads {
+    /// Stiffness and damping of a flexible body: `-K_ff q_f - D_ff q_f'`, [CS (6)].
+    fn elasticity(&mut self, g: &mut Graph, state: &JointStates<'_>, at: usize) {
+        let link = &state.geometry.linkage.links[at];
+        let flexible = &state.geometry.mechanism.body(link.body).flexible;
+        let (Some(flexible), Freedom::Flexible { .. }) = (flexible, link.freedom) else { return };
+        g.begin_section(format!("elasticity of {}", link.name));
+        let modes = &state.motion.modes[at];
+        let half = g.constant(0.5);
+        for (k, speed) in link.speeds().enumerate() {
+            let elastic = row_times(g, &flexible.data.stiffness[k], &modes.q);
+            let viscous = row_times(g, &flexible.data.damping[k], &modes.v);
+            let sum = g.add(elastic, viscous);
+            self.joint[speed] = g.sub(self.joint[speed], sum);
+            let (work, power) = (g.mul(elastic, modes.q[k]), g.mul(viscous, modes.v[k]));
+            let energy = g.mul(half, work);
+            self.potential = g.add(self.potential, energy);
+            self.dissipated = g.add(self.dissipated, power);
+        }
+    }
+
     fn joint_force(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
         let kind = &state.geometry.mechanism.joint(joint).kind;
         if let (JointKind::Spherical, Passive::Damping { coefficient, .. }) = (kind, passive) {
@@ -171,7 +194,8 @@ impl Loads {
             }
             ForceKind::Force { body, reaction, at, components, axes } => {
                 let force = directed(g, state, components, *axes);
-                let links = [*body, *reaction].map(|carrier| state.geometry.linkage.link(carrier));
+                let links =
+                    [*body, *reaction].map(|carrier| state.geometry.linkage.link_at(carrier, *at, false));
                 let local = state.geometry.local(g, links[0], *at);
                 let place = state.motion.poses.position(g, links[0], local);
                 let zero = g.zero_vector();
@@ -195,7 +219,7 @@ impl Loads {
         at: [PointId; 2],
         [stiffness, rest, damping, preload]: [ExprId; 4],
     ) {
-        let links = bodies.map(|carrier| state.geometry.linkage.link(carrier));
+        let links = [0, 1].map(|i| state.geometry.linkage.link_at(bodies[i], at[i], false));
         let locals = [0, 1].map(|i| state.geometry.local(g, links[i], at[i]));
         let places = [0, 1].map(|i| state.motion.poses.position(g, links[i], locals[i]));
         let velocities = [0, 1].map(|i| state.motion.point_velocity_w(g, links[i], locals[i]));
@@ -268,4 +292,10 @@ fn directed(
     let Some(at) = state.geometry.linkage.link(axes) else { return components };
     let local = state.geometry.turn(g, &state.geometry.linkage.links[at].frame, components);
     g.mul_vec3(state.motion.poses.world[at].rotation, local)
+}
+
+/// `sum_l row_l x_l`.
+fn row_times(g: &mut Graph, row: &[f64], x: &[ExprId]) -> ExprId {
+    let terms: Vec<(ExprId, ExprId)> = row.iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
+    g.dot(&terms)
 }

@@ -6,12 +6,22 @@ use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
 use crate::id::PointId;
 use crate::model::{Amount, Carrier, Inertia, Mechanism};
 
+use super::deformation::{ModalMass, deformed};
 use super::frame::Frame;
-use super::linkage::Linkage;
+use super::linkage::{Freedom, Linkage};
 use super::lower::Inputs;
 
 /// Entries smaller than this share of the largest are rounding dust of frame changes.
 const DUST: f64 = 1e-14;
+
+/// Mass of a link: as a rigid body in its present shape, and what modes feel of it.
+#[derive(Clone, Debug)]
+pub struct LinkMass {
+    /// Mass and moments.
+    pub frozen: MassProperties,
+    /// Of a flexible body.
+    pub modal: Option<Box<ModalMass>>,
+}
 
 /// Mass, first and second moments about the link's origin, in its frame.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +56,7 @@ impl Geometry<'_> {
         let link = &self.linkage.links[at];
         let carrier = Carrier::Body(link.body);
         let place = self.described(g, point, carrier);
-        let origin = self.described(g, self.mechanism.joint(link.joint).at, carrier);
+        let origin = self.described(g, link.origin, carrier);
         let arm = g.sub3(place, origin);
         let components = self.turn(g, &link.frame, arm);
         without_dust(g, components)
@@ -55,6 +65,9 @@ impl Geometry<'_> {
     /// Position of a link's inboard joint in the parent link's frame [m].
     pub fn mount(&self, g: &mut Graph, at: usize) -> Vec3 {
         let link = &self.linkage.links[at];
+        if link.node.is_some() {
+            return g.zero_vector();
+        }
         let first_of_chain = link.parent.is_none_or(|parent| self.linkage.links[parent].joint != link.joint);
         if !first_of_chain {
             return g.zero_vector();
@@ -68,9 +81,21 @@ impl Geometry<'_> {
         g.transpose_mul_vec3(matrix, vector)
     }
 
-    /// Mass properties of every link.
-    pub fn masses(&self, g: &mut Graph) -> Vec<MassProperties> {
-        (0..self.linkage.links.len()).map(|at| self.mass_of(g, at)).collect()
+    /// Mass properties of every link, for given coordinates, of which those of modes matter.
+    pub fn masses(&self, g: &mut Graph, q: &[ExprId]) -> Vec<LinkMass> {
+        (0..self.linkage.links.len())
+            .map(|at| {
+                let link = &self.linkage.links[at];
+                match &self.mechanism.body(link.body).flexible {
+                    Some(flexible) if matches!(link.freedom, Freedom::Flexible { .. }) => {
+                        g.begin_section(format!("mass properties of the deformed {}", link.name));
+                        let (frozen, modal) = deformed(g, &flexible.data, &q[link.coordinates()]);
+                        LinkMass { frozen, modal: Some(Box::new(modal)) }
+                    }
+                    _ => LinkMass { frozen: self.mass_of(g, at), modal: None },
+                }
+            })
+            .collect()
     }
 
     fn mass_of(&self, g: &mut Graph, at: usize) -> MassProperties {

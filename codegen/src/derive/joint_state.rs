@@ -76,14 +76,16 @@ impl JointStates<'_> {
 
     /// Position of a named point in W [m].
     pub fn point(&self, g: &mut Graph, point: PointId) -> Vec3 {
-        let link = self.geometry.linkage.link(self.geometry.mechanism.point(point).carrier);
+        let carrier = self.geometry.mechanism.point(point).carrier;
+        let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
         self.motion.poses.position(g, link, local)
     }
 
     /// Velocity of a named point in W [m/s].
     pub fn point_velocity(&self, g: &mut Graph, point: PointId) -> Vec3 {
-        let link = self.geometry.linkage.link(self.geometry.mechanism.point(point).carrier);
+        let carrier = self.geometry.mechanism.point(point).carrier;
+        let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
         self.motion.point_velocity_w(g, link, local)
     }

@@ -6,6 +6,7 @@ use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
 
 use super::frame::Frame;
 use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::node::{NodeMotion, NodePose};
 
 /// Relative pose of a link to its parent link.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +44,8 @@ pub struct Poses {
     pub relative: Vec<Pose>,
     /// Relative to W.
     pub world: Vec<Pose>,
+    /// Of floating frames and node links: the node's motion relative to the floating frame.
+    pub nodes: Vec<Option<NodePose>>,
 }
 
 /// Rotation matrix of a unit quaternion, scalar first.
@@ -73,12 +76,16 @@ fn rotation_about_z(g: &mut Graph, angle: ExprId) -> Mat3 {
 impl Poses {
     /// All poses. `mounts` are the positions of the joints in their parent links' frames.
     pub fn new(g: &mut Graph, linkage: &Linkage, mounts: &[Vec3], q: &[ExprId]) -> Self {
-        let mut poses = Self { relative: Vec::new(), world: Vec::new() };
+        let mut poses = Self { relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
         for (at, link) in linkage.links.iter().enumerate() {
-            let first = link.first_coordinate;
-            let own = &q[first..first + link.freedom.coordinates()];
-            let (relative, world) = match link.freedom {
-                Freedom::Ball | Freedom::Free => poses.absolute(g, link.parent, mounts[at], own),
+            let own = &q[link.coordinates()];
+            let node = link.node.as_ref().map(|shape| NodePose::new(g, shape, own));
+            let (relative, world) = match (link.freedom, &node) {
+                (Freedom::Ball | Freedom::Free, _) => poses.absolute(g, link.parent, mounts[at], own),
+                (freedom, Some(node)) => {
+                    let relative = node_pose(g, freedom, &link.mount, node);
+                    (relative, poses.compose(g, link.parent, relative))
+                }
                 _ => {
                     let relative = local_pose(g, link.freedom, &link.mount, mounts[at], own);
                     (relative, poses.compose(g, link.parent, relative))
@@ -86,6 +93,7 @@ impl Poses {
             };
             poses.relative.push(relative);
             poses.world.push(world);
+            poses.nodes.push(node);
         }
         poses
     }
@@ -180,6 +188,19 @@ fn local_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, origin: Vec3, q: &
     }
 }
 
+/// Pose of a node in its floating frame, or of the floating frame behind its inboard node.
+fn node_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, node: &NodePose) -> Pose {
+    let identity = g.matrix(Frame::IDENTITY.0);
+    let rotation = node.rotation.unwrap_or(identity);
+    if freedom == Freedom::Node {
+        return Pose { rotation, offset: node.place };
+    }
+    let mount = g.matrix(mount.0);
+    let rotation = g.mul_mat3(mount, transpose(rotation));
+    let carried = g.mul_vec3(rotation, node.place);
+    Pose { rotation, offset: g.neg3(carried) }
+}
+
 /// Velocity of a point of a link, in the link's frame.
 pub fn point_velocity(g: &mut Graph, twist: &Twist, point: Vec3) -> Vec3 {
     let turned = g.cross3(twist.omega, point);
@@ -196,7 +217,7 @@ pub fn point_acceleration(g: &mut Graph, acceleration: &Acceleration, point: Vec
 pub fn twists(g: &mut Graph, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> Vec<Twist> {
     let mut twists: Vec<Twist> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
-        let own = &v[link.first_speed..link.first_speed + link.freedom.speeds()];
+        let own = &v[link.speeds()];
         let twist = if link.freedom == Freedom::Free {
             Twist { omega: [own[0], own[1], own[2]], origin: [own[3], own[4], own[5]] }
         } else {
@@ -216,12 +237,28 @@ pub fn twists(g: &mut Graph, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> 
                     let slide = g.scale3(own[0], axis);
                     Twist { omega: carried.omega, origin: g.add3(carried.origin, slide) }
                 }
+                Freedom::Flexible { .. } | Freedom::Node => {
+                    let node = poses.nodes[at].as_ref().expect("a floating frame or node has shapes");
+                    deformed_twist(g, link.freedom, carried, node, own)
+                }
                 Freedom::Weld | Freedom::Free => carried,
             }
         };
         twists.push(twist);
     }
     twists
+}
+
+/// Twist of a node, or of a floating frame behind its inboard node, from what it would be without modal speeds.
+fn deformed_twist(g: &mut Graph, freedom: Freedom, carried: Twist, node: &NodePose, v: &[ExprId]) -> Twist {
+    let rate = node.velocity(g, v);
+    if freedom == Freedom::Node {
+        let (turn, slide) = (node.to_section(g, rate.turn), node.to_section(g, rate.slide));
+        return Twist { omega: g.add3(carried.omega, turn), origin: g.add3(carried.origin, slide) };
+    }
+    let lever = g.cross3(rate.turn, node.place);
+    let moved = g.sub3(lever, rate.slide);
+    Twist { omega: g.sub3(carried.omega, rate.turn), origin: g.add3(carried.origin, moved) }
 }
 
 /// Twist that a link would have if it were fixed to its parent.
@@ -264,10 +301,20 @@ pub fn accelerations(
 ) -> Vec<Acceleration> {
     let mut list: Vec<Acceleration> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
-        let range = link.first_speed..link.first_speed + link.freedom.speeds();
-        let (speed, rate) = (&v[range.clone()], &v_dot[range]);
+        let (speed, rate) = (&v[link.speeds()], &v_dot[link.speeds()]);
         let twist = twists[at];
-        let (alpha, origin) = if link.freedom == Freedom::Free {
+        let (alpha, origin) = if let Some(node) = &poses.nodes[at] {
+            let parent = link.parent.expect("a floating frame or node has an inboard link");
+            let shape = link.node.as_ref().expect("it has shapes");
+            let moved = node.acceleration(g, shape, speed, rate);
+            let velocity = node.velocity(g, speed);
+            let carried = (twists[parent], list[parent]);
+            if link.freedom == Freedom::Node {
+                node_acceleration(g, node, carried, velocity, moved)
+            } else {
+                floating_acceleration(g, node, (&poses.relative[at], twist), carried.1, velocity, moved)
+            }
+        } else if link.freedom == Freedom::Free {
             let turned = g.cross3(twist.omega, twist.origin);
             // Speeds are true velocities; the ground's share of gravity is added in this frame.
             let weight = g.transpose_mul_vec3(poses.world[at].rotation, ground);
@@ -281,6 +328,47 @@ pub fn accelerations(
         list.push(Acceleration { spin, alpha, origin });
     }
     list
+}
+
+/// Angular acceleration of a section and acceleration of its node, in the section's frame.
+fn node_acceleration(
+    g: &mut Graph,
+    node: &NodePose,
+    (twist, floating): (Twist, Acceleration),
+    velocity: NodeMotion,
+    moved: NodeMotion,
+) -> (Vec3, Vec3) {
+    let carried = point_acceleration(g, &floating, node.place);
+    let two = g.constant(2.0);
+    let turning = sliding_acceleration(g, carried, twist.omega, velocity.slide, two);
+    let origin = g.add3(turning, moved.slide);
+    let swung = g.cross3(twist.omega, velocity.turn);
+    let relative = g.add3(swung, moved.turn);
+    let alpha = g.add3(floating.alpha, relative);
+    (node.to_section(g, alpha), node.to_section(g, origin))
+}
+
+/// Angular acceleration of a floating frame and acceleration of its origin, in its frame, from those of the
+/// link that holds its inboard node.
+fn floating_acceleration(
+    g: &mut Graph,
+    node: &NodePose,
+    (pose, twist): (&Pose, Twist),
+    holder: Acceleration,
+    velocity: NodeMotion,
+    moved: NodeMotion,
+) -> (Vec3, Vec3) {
+    let outer = g.transpose_mul_vec3(pose.rotation, holder.alpha);
+    let swung = g.cross3(twist.omega, velocity.turn);
+    let relative = g.add3(swung, moved.turn);
+    let alpha = g.sub3(outer, relative);
+    let at_node = g.transpose_mul_vec3(pose.rotation, holder.origin);
+    let spin = spin(g, twist.omega, alpha);
+    let turned = g.mul_vec3(spin, node.place);
+    let two = g.constant(2.0);
+    let gone = sliding_acceleration(g, turned, twist.omega, velocity.slide, two);
+    let gone = g.add3(gone, moved.slide);
+    (alpha, g.sub3(at_node, gone))
 }
 
 /// Angular acceleration and acceleration of the origin of a jointed link, in its frame.
@@ -324,7 +412,7 @@ fn relative_acceleration(
             let along = g.scale3(rate[0], axis);
             (outer_alpha, g.add3(origin, along))
         }
-        Freedom::Weld | Freedom::Free => (outer_alpha, carried),
+        Freedom::Weld | Freedom::Free | Freedom::Flexible { .. } | Freedom::Node => (outer_alpha, carried),
     }
 }
 

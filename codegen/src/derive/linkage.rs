@@ -5,10 +5,13 @@
 //! the chain carries the body. A link's origin lies on its inboard joint and its e_z on the joint axis
 //! (docs/notation.md), so that rotations are two-by-two blocks and many products vanish.
 
-use crate::id::{BodyId, JointId};
+use std::ops::Range;
+
+use crate::id::{BodyId, JointId, PointId};
 use crate::model::{Carrier, Closure};
 
 use super::frame::Frame;
+use super::node::NodeShape;
 
 /// Index of a link; `None` stands for the ground.
 pub type LinkIndex = Option<usize>;
@@ -34,6 +37,14 @@ pub enum Freedom {
     Free,
     /// Rigidly fixed to the parent.
     Weld,
+    /// The floating frame of a flexible body, seen from the node where its inboard joint holds it.
+    /// Coordinates and speeds: those of its modes.
+    Flexible {
+        /// Number of modes.
+        modes: usize,
+    },
+    /// A node of the flexible body that is the parent: moves with that body's modes, has no speeds of its own.
+    Node,
 }
 
 impl Freedom {
@@ -44,7 +55,8 @@ impl Freedom {
             Self::Rotation { .. } | Self::Translation { .. } => 1,
             Self::Ball => 4,
             Self::Free => 7,
-            Self::Weld => 0,
+            Self::Flexible { modes } => modes,
+            Self::Weld | Self::Node => 0,
         }
     }
 
@@ -55,7 +67,8 @@ impl Freedom {
             Self::Rotation { .. } | Self::Translation { .. } => 1,
             Self::Ball => 3,
             Self::Free => 6,
-            Self::Weld => 0,
+            Self::Flexible { modes } => modes,
+            Self::Weld | Self::Node => 0,
         }
     }
 }
@@ -82,10 +95,45 @@ pub struct Link {
     /// Share of the body's mass that this link carries: 0 inside a chain, 1 at its end, less for a body
     /// that is split between two branches (closure `log`).
     pub mass_share: f64,
-    /// First of this link's coordinates among all.
+    /// First of this link's coordinates among all; for a node those of its body's modes.
     pub first_coordinate: usize,
-    /// First of this link's speeds among all.
+    /// First of this link's speeds among all; for a node those of its body's modes.
     pub first_speed: usize,
+    /// Point where this link's origin lies.
+    pub origin: PointId,
+    /// Of a floating frame: its body's node at the inboard joint. Of a node: its own shapes. Else nothing.
+    pub node: Option<NodeShape>,
+}
+
+impl Link {
+    /// Indices among all speeds that move the link relative to its parent.
+    #[must_use]
+    pub fn speeds(&self) -> Range<usize> {
+        self.first_speed..self.first_speed + self.modes_or(self.freedom.speeds())
+    }
+
+    /// Indices among all coordinates that place the link relative to its parent.
+    #[must_use]
+    pub fn coordinates(&self) -> Range<usize> {
+        self.first_coordinate..self.first_coordinate + self.modes_or(self.freedom.coordinates())
+    }
+
+    fn modes_or(&self, own: usize) -> usize {
+        self.node.as_ref().map_or(own, |node| node.displacement.len())
+    }
+}
+
+/// A node that something is attached to, as a link.
+#[derive(Clone, Copy, Debug)]
+pub struct NodeLink {
+    /// The flexible body.
+    pub body: BodyId,
+    /// The point at the node.
+    pub point: PointId,
+    /// Whether the link turns with the body's section at the node, or stays parallel to the floating frame.
+    pub turns: bool,
+    /// The link.
+    pub link: usize,
 }
 
 /// A loop closure between two links.
@@ -114,10 +162,21 @@ pub struct Linkage {
     pub link_of_joint: Vec<Option<usize>>,
     /// Whether the joint's parent body is outboard of it in the tree.
     pub reversed: Vec<bool>,
+    /// Nodes of flexible bodies that move relative to their floating frames.
+    pub nodes: Vec<NodeLink>,
 }
 
 impl Linkage {
-    /// The link that carries a body, on its own branch.
+    /// The link that moves with a material point of a body: a node's, if the body is flexible there.
+    /// `turns` asks for the orientation of the section at the point too.
+    #[must_use]
+    pub fn link_at(&self, carrier: Carrier, point: PointId, turns: bool) -> LinkIndex {
+        let Carrier::Body(body) = carrier else { return None };
+        let same = |node: &&NodeLink| node.body == body && node.point == point && node.turns == turns;
+        self.nodes.iter().find(same).map_or_else(|| self.link(carrier), |node| Some(node.link))
+    }
+
+    /// The link that carries a body, on its own branch: its floating frame if it is flexible.
     #[must_use]
     pub fn link(&self, carrier: Carrier) -> LinkIndex {
         match carrier {

@@ -1,11 +1,12 @@
 //! Builds the tree of links: chains of one-freedom motions, cheap frames, cuts, shares of split bodies.
 //! In: [`Mechanism`], [`Topology`]. Out: [`Linkage`].
 
-use crate::id::JointId;
-use crate::model::{Axis, Carrier, Closure, JointKind, Mechanism, Topology, TreeJoint};
+use crate::id::{BodyId, JointId};
+use crate::model::{Axis, Carrier, Closure, Flexible, JointKind, Mechanism, Topology, TreeJoint};
 
 use super::frame::{Frame, canonical_frame, cross, dot, reduce};
-use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage};
+use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage, NodeLink};
+use super::node::NodeShape;
 
 /// Builds the tree of links. `parameters` are the default values, which only steer the choice of frames.
 #[must_use]
@@ -20,12 +21,13 @@ pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -
             link_of_body: vec![usize::MAX; mechanism.bodies.len()],
             link_of_joint: vec![None; mechanism.joints.len()],
             reversed: vec![false; mechanism.joints.len()],
+            nodes: Vec::new(),
         },
     };
     for step in &topology.tree {
-        let inboard = builder.linkage.link(step.inboard);
+        let inboard = builder.held(step.joint, step.inboard);
         let last = builder.chain(*step, inboard);
-        builder.linkage.link_of_body[step.outboard.index()] = last;
+        builder.linkage.link_of_body[step.outboard.index()] = builder.deform(*step, last);
         builder.linkage.link_of_joint[step.joint.index()] = Some(last);
         builder.linkage.reversed[step.joint.index()] = step.reversed;
     }
@@ -55,6 +57,12 @@ fn joint_turn(kind: &JointKind, reversed: bool) -> Frame {
         JointKind::Spherical | JointKind::Fixed | JointKind::Free => return Frame::IDENTITY,
     };
     if reversed { Frame::between(axis.child, axis.parent) } else { Frame::between(axis.parent, axis.child) }
+}
+
+/// Axes of a flexible body's floating frame in W at the reference pose.
+fn floating_frame(flexible: &Flexible) -> Frame {
+    let [x, y, z] = flexible.axes;
+    Frame::from_axes(x, y, z)
 }
 
 /// An elementary motion of a joint: about or along a direction in W at the reference pose.
@@ -144,7 +152,10 @@ impl Builder<'_> {
         let outer = self.parent_frame(parent);
         let frame = match freedom {
             Freedom::Weld => outer,
-            _ => self.target(step).map_or(Frame::IDENTITY, Frame::with_x_along),
+            _ => match self.mechanism.body(step.outboard).flexible.as_ref() {
+                Some(flexible) => floating_frame(flexible),
+                None => self.target(step).map_or(Frame::IDENTITY, Frame::with_x_along),
+            },
         };
         self.push(step, parent, 0, freedom, Frame::IDENTITY, frame)
     }
@@ -171,8 +182,50 @@ impl Builder<'_> {
             mass_share: 0.0,
             first_coordinate,
             first_speed,
+            origin: self.mechanism.joint(step.joint).at,
+            node: None,
         });
         self.linkage.links.len() - 1
+    }
+
+    /// The link of a joint's inboard side.
+    fn held(&self, joint: JointId, carrier: Carrier) -> LinkIndex {
+        let joint = self.mechanism.joint(joint);
+        self.linkage.link_at(carrier, joint.at, joint.kind.holds_orientation())
+    }
+
+    /// Adds the floating frame of a flexible body behind its inboard joint, and its nodes. Returns the link
+    /// that carries the body.
+    fn deform(&mut self, step: TreeJoint, last: usize) -> usize {
+        let mechanism = self.mechanism;
+        let Some(flexible) = &mechanism.body(step.outboard).flexible else { return last };
+        let joint = mechanism.joint(step.joint);
+        let frame = floating_frame(flexible);
+        let mount = self.linkage.links[last].frame.transposed().times(&frame).snapped();
+        let freedom = Freedom::Flexible { modes: flexible.data.modes.len() };
+        let own = self.push(step, Some(last), usize::MAX, freedom, mount, frame);
+        let inboard = flexible.node_at(joint.at);
+        // A ball or free joint fixes no direction, so the floating frame's own serves.
+        self.linkage.links[own].node = Some(NodeShape::new(inboard, joint.kind.holds_orientation()));
+        self.linkage.links[own].origin = flexible.origin;
+        for (point, _) in &flexible.nodes {
+            for turns in [false, true] {
+                let shape = NodeShape::new(flexible.node_at(*point), turns);
+                if !shape.moves() {
+                    continue;
+                }
+                let link = self.push(step, Some(own), usize::MAX, Freedom::Node, Frame::IDENTITY, frame);
+                let modal = &self.linkage.links[own];
+                let (first_coordinate, first_speed) = (modal.first_coordinate, modal.first_speed);
+                let node = &mut self.linkage.links[link];
+                node.name = format!("{}_at_{}", node.name, mechanism.point(*point).name);
+                (node.first_coordinate, node.first_speed) = (first_coordinate, first_speed);
+                node.origin = *point;
+                node.node = Some(shape);
+                self.linkage.nodes.push(NodeLink { body: step.outboard, point: *point, turns, link });
+            }
+        }
+        own
     }
 
     /// Direction from the inboard joint to the place that matters most on the body: another joint, the
@@ -203,20 +256,14 @@ impl Builder<'_> {
 
     fn close(&mut self, joint: JointId) {
         let (parent, child) = (self.mechanism.joint(joint).parent, self.mechanism.joint(joint).child);
-        let (parent_link, child_link) = (self.linkage.link(parent), self.linkage.link(child));
-        let cut = match self.mechanism.closure {
-            Closure::Joint => Cut { joint, closure: Closure::Joint, parent: parent_link, child: child_link },
-            Closure::Log => {
-                // The end body of [CS (2)] is reached twice: on its own branch and through the cut joint.
-                let (body, inboard, reversed) = match (parent, child) {
-                    (_, Carrier::Body(body)) => (body, parent, false),
-                    (Carrier::Body(body), Carrier::Ground) => (body, child, true),
-                    (Carrier::Ground, Carrier::Ground) => {
-                        unreachable!("a joint has at least one moving body")
-                    }
-                };
+        let (parent_link, child_link) = (self.held(joint, parent), self.held(joint, child));
+        let cut = match (self.mechanism.closure, self.end_body(parent, child)) {
+            (Closure::Joint, _) | (_, None) => {
+                Cut { joint, closure: Closure::Joint, parent: parent_link, child: child_link }
+            }
+            (Closure::Log, Some((body, inboard, reversed))) => {
                 let step = TreeJoint { joint, inboard, outboard: body, reversed };
-                let inboard = self.linkage.link(inboard);
+                let inboard = self.held(joint, inboard);
                 let copy = self.chain(step, inboard);
                 self.linkage.link_of_joint[joint.index()] = Some(copy);
                 self.linkage.reversed[joint.index()] = reversed;
@@ -225,6 +272,17 @@ impl Builder<'_> {
             }
         };
         self.linkage.cuts.push(cut);
+    }
+
+    /// The end body of [CS (2)], which is reached twice: on its own branch and through the cut joint; with its
+    /// neighbour there and whether it is the joint's parent. A flexible body cannot be split.
+    fn end_body(&self, parent: Carrier, child: Carrier) -> Option<(BodyId, Carrier, bool)> {
+        let rigid = |carrier: Carrier| match carrier {
+            Carrier::Body(body) if self.mechanism.body(body).flexible.is_none() => Some(body),
+            _ => None,
+        };
+        let ends = rigid(child).map(|body| (body, parent, false));
+        ends.or_else(|| rigid(parent).map(|body| (body, child, true)))
     }
 
     /// A body that several branches reach is split evenly, so that no branch ends without mass.

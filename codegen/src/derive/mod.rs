@@ -7,6 +7,7 @@
 mod across;
 mod closure;
 mod composite;
+mod deformation;
 mod dynamics;
 mod entries;
 mod forces;
@@ -20,6 +21,7 @@ mod linkage;
 mod linkage_build;
 mod log_closure;
 mod lower;
+mod node;
 mod observe;
 mod solve;
 mod start;

@@ -6,14 +6,16 @@ use linkwear_runtime::Channel;
 
 use crate::expr::{ExprId, Graph, Vec3};
 use crate::id::{JointId, PointId};
-use crate::model::JointKind;
+use crate::flexible::ModalData;
+use crate::model::{Flexible, JointKind};
 
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
 use super::forces::Loads;
-use super::inertia::MassProperties;
+use super::inertia::LinkMass;
 use super::joint_state::{JointStates, is_angle};
 use super::linkage::{Freedom, Linkage};
+use super::node::{NodePose, NodeShape};
 use super::wrench::Wrench;
 
 /// All channels with their expressions.
@@ -29,7 +31,7 @@ pub struct Observed<'a> {
     /// Joint and point state.
     pub state: &'a JointStates<'a>,
     /// Mass properties of the links.
-    pub masses: &'a [MassProperties],
+    pub masses: &'a [LinkMass],
     /// Applied loads.
     pub loads: &'a Loads,
     /// Cuts with all their rows.
@@ -134,7 +136,67 @@ fn bodies(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels) {
         let rotation = observed.state.motion.poses.world[at].rotation;
         let omega = g.mul_vec3(rotation, observed.state.motion.twists[at].omega);
         list.vector(&body.name, "w", "rad/s", omega);
+        if let Some(flexible) = &body.flexible {
+            modes(g, observed, list, &body.name, flexible, at);
+        }
     }
+}
+
+/// Modal coordinates, displacement and bending stress at the stations, energy of the modes.
+fn modes(
+    g: &mut Graph,
+    observed: &Observed<'_>,
+    list: &mut Channels,
+    name: &str,
+    flexible: &Flexible,
+    at: usize,
+) {
+    g.begin_section(format!("deformation of {name}"));
+    let state = &observed.state.motion.modes[at];
+    for (k, eta) in state.q.iter().enumerate() {
+        list.push(format!("{name}.eta{}", k + 1), flexible.data.modal_unit(), false, *eta);
+    }
+    for station in &flexible.stations {
+        let shape = NodeShape::new(&flexible.data.nodes[station.node], false);
+        let rest = g.vector(shape.position);
+        let place = NodePose::new(g, &shape, &state.q).place;
+        let moved = g.sub3(place, rest);
+        let suffix = if station.name.is_empty() { String::new() } else { format!("_{}", station.name) };
+        for (axis, component) in XYZ.iter().zip(moved) {
+            // A linear beam does not move along itself.
+            if *axis != "x" || !g.is_zero(component) {
+                list.push(format!("{name}.u{axis}{suffix}"), "m", false, component);
+            }
+        }
+        if let Some(stress) = &station.stress {
+            for (side, axis) in ["y", "z"].iter().enumerate() {
+                let terms: Vec<(ExprId, ExprId)> =
+                    stress.iter().zip(&state.q).map(|(per, eta)| (g.constant(per[side]), *eta)).collect();
+                let value = g.dot(&terms);
+                list.push(format!("{name}.stress_{axis}{suffix}"), "Pa", false, value);
+            }
+        }
+    }
+    if !state.q.is_empty() {
+        let energy = modal_energy(g, &flexible.data, &state.q, &state.v);
+        list.push(format!("{name}.modal_energy"), "J", false, energy);
+    }
+}
+
+/// Strain energy and kinetic energy of the deformation relative to the floating frame [J].
+fn modal_energy(g: &mut Graph, data: &ModalData, q: &[ExprId], v: &[ExprId]) -> ExprId {
+    let mut sum = g.zero();
+    for (matrix, x) in [(&data.stiffness, q), (&data.mass_matrix, v)] {
+        for (row, own) in matrix.iter().zip(x) {
+            let terms: Vec<(ExprId, ExprId)> =
+                row.iter().zip(x).map(|(entry, other)| (g.constant(*entry), *other)).collect();
+            let part = g.dot(&terms);
+            let part = g.mul(*own, part);
+            sum = g.add(sum, part);
+        }
+    }
+    let half = g.constant(0.5);
+    g.mul(half, sum)
 }
 
 fn multipliers(observed: &Observed<'_>, list: &mut Channels) {
@@ -217,7 +279,7 @@ fn tree_wrench(
     let data = state.geometry.mechanism.joint(joint);
     if reversed && slides(&data.kind) {
         // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
-        let link = linkage.link(data.child);
+        let link = linkage.link_at(data.child, data.at, true);
         let local = state.geometry.local(g, link, data.at);
         let place = state.motion.poses.position(g, link, local);
         let arm = g.sub3(pose.offset, place);
@@ -315,6 +377,16 @@ fn orientation(g: &mut Graph, linkage: &Linkage, q: &[ExprId], link: Option<usiz
     let outer = orientation(g, linkage, q, own.parent);
     let mount = own.mount.quaternion().map(|x| g.constant(x));
     let mounted = quaternion_product(g, outer, mount);
+    if let Some(shape) = &own.node {
+        let section = NodePose::new(g, shape, &q[own.coordinates()]).quaternion(g);
+        return match own.freedom {
+            Freedom::Node => quaternion_product(g, mounted, section),
+            _ => {
+                let back = conjugate(g, section);
+                quaternion_product(g, mounted, back)
+            }
+        };
+    }
     let Freedom::Rotation { offset, .. } = own.freedom else { return mounted };
     let (half, offset) = (g.constant(0.5), g.constant(offset));
     let angle = g.add(q[first], offset);

@@ -68,12 +68,27 @@ fn number(g: &mut Graph, geometry: &Geometry<'_>, formula: Option<&Formula>) -> 
 impl StartValues {
     fn position(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
+        if let Freedom::Flexible { .. } = link.freedom {
+            return self.modes(g, geometry, at);
+        }
         if link.freedom.coordinates() != 1 {
             return;
         }
         if let Some(start) = find(geometry.mechanism, link.joint, link.joint_coordinate) {
             self.q[link.first_coordinate] = number(g, geometry, start.position.as_ref());
             self.held_q[link.first_coordinate] = start.held && start.position.is_some();
+        }
+    }
+
+    /// Modes start undeformed and at rest unless the file says otherwise, and assembly leaves them so.
+    fn modes(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
+        let link = &geometry.linkage.links[at];
+        let Some(flexible) = &geometry.mechanism.body(link.body).flexible else { return };
+        for (k, (coordinate, speed)) in link.coordinates().zip(link.speeds()).enumerate() {
+            let [position, rate] = flexible.start[k];
+            self.q[coordinate] = g.constant(position);
+            self.v[speed] = g.constant(rate);
+            (self.held_q[coordinate], self.held_v[speed]) = (true, true);
         }
     }
 
@@ -114,7 +129,7 @@ impl StartValues {
 
     fn scalar_speed(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
-        if link.freedom.speeds() != 1 {
+        if link.freedom.speeds() != 1 || link.node.is_some() {
             return;
         }
         if let Some(start) = find(geometry.mechanism, link.joint, link.joint_coordinate)

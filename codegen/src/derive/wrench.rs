@@ -1,10 +1,11 @@
 //! Wrenches on links: how they pass inwards and what the speeds feel of them.
 //! In: poses, freedoms. Out: expressions. Never knows where a wrench comes from.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Graph, Mat3, Vec3};
 
 use super::kinematics::Pose;
 use super::linkage::Freedom;
+use super::node::NodePose;
 
 /// A wrench in a link's frame: force, and moment about the link's origin.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +52,12 @@ impl Wrench {
         }
     }
 
-    /// Its power per unit of each own speed of a link.
-    pub fn generalised(self, g: &mut Graph, freedom: Freedom) -> Vec<ExprId> {
+    /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame
+    /// and nodes only what their motion takes, not what deforms the body.
+    pub fn generalised(self, g: &mut Graph, freedom: Freedom, node: Option<&NodePose>) -> Vec<ExprId> {
+        if let Some(node) = node {
+            return self.on_node(g, freedom, node);
+        }
         match freedom {
             Freedom::Rotation { advance, .. } => {
                 let rate = g.constant(advance);
@@ -65,7 +70,36 @@ impl Wrench {
             }
             Freedom::Ball => self.moment.to_vec(),
             Freedom::Free => [self.moment, self.force].concat(),
-            Freedom::Weld => Vec::new(),
+            Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
         }
+    }
+
+    fn on_node(self, g: &mut Graph, freedom: Freedom, node: &NodePose) -> Vec<ExprId> {
+        if freedom == Freedom::Node {
+            let (moment, force) = (node.to_floating(g, self.moment), node.to_floating(g, self.force));
+            return node.generalised(g, moment, force);
+        }
+        // The floating frame moves against its inboard node.
+        let lever = g.cross3(node.place, self.force);
+        let moment = g.sub3(self.moment, lever);
+        node.generalised(g, moment, self.force).into_iter().map(|x| g.neg(x)).collect()
+    }
+
+    /// Momentum of a body (mass, first moment, inertia about the origin) per unit of a twist.
+    pub fn momentum(
+        g: &mut Graph,
+        (mass, first, inertia): (ExprId, Vec3, Mat3),
+        omega: Vec3,
+        origin: Vec3,
+    ) -> Self {
+        let (spun, carried) = (g.mul_vec3(inertia, omega), g.cross3(first, origin));
+        let (moved, turned) = (g.scale3(mass, origin), g.cross3(omega, first));
+        Self { moment: g.add3(spun, carried), force: g.add3(moved, turned) }
+    }
+
+    /// Power on a twist.
+    pub fn power(self, g: &mut Graph, omega: Vec3, origin: Vec3) -> ExprId {
+        let (turned, moved) = (g.dot3(self.moment, omega), g.dot3(self.force, origin));
+        g.add(turned, moved)
     }
 }

@@ -117,6 +117,12 @@ codes! {
     BadStart = "E0410",
     /// Axes that are not at right angles but must be.
     NotPerpendicular = "E0411",
+    /// Modal data that cannot be read or do not fit together.
+    BadModalData = "E0412",
+    /// Modes that the link cannot have.
+    BadModes = "E0413",
+    /// A place where a flexible body has no node.
+    NoNodeHere = "E0414",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",

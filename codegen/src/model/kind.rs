@@ -102,6 +102,12 @@ impl JointKind {
         }
     }
 
+    /// Whether the joint constrains the relative orientation of its bodies.
+    #[must_use]
+    pub const fn holds_orientation(&self) -> bool {
+        !matches!(self, Self::Spherical | Self::Free)
+    }
+
     /// Number of constraint rows of the joint when it is cut.
     #[must_use]
     pub const fn rows(&self) -> usize {

@@ -4,6 +4,7 @@
 //! Everything is stated in one reference pose, in the ground frame W (docs/notation.md). A point may
 //! have one position per body, where branches of a loop are described open.
 
+use crate::flexible::{ModalData, Node};
 use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::Span;
 use crate::spec::Dimension;
@@ -46,6 +47,8 @@ pub struct Mechanism {
     pub closure: Closure,
     /// Start values by joint coordinate.
     pub starts: Vec<Start>,
+    /// Files that were read besides the mechanism's own: modal data.
+    pub attached: Vec<std::path::PathBuf>,
 }
 
 /// A named quantity.
@@ -108,10 +111,65 @@ impl Point {
 pub struct Body {
     /// Name in the file.
     pub name: String,
-    /// Mass, centre and inertia.
+    /// Mass, centre and inertia of the undeformed body.
     pub inertia: Inertia,
+    /// How it bends; nothing if it is rigid.
+    pub flexible: Option<Box<Flexible>>,
     /// Where it is written.
     pub span: Span,
+}
+
+/// A flexible body in its floating frame, all in numbers.
+#[derive(Clone, Debug)]
+pub struct Flexible {
+    /// Constants of inertia and elasticity, shapes at the nodes.
+    pub data: ModalData,
+    /// x, y and z axis of the floating frame: unit vectors in W at the reference pose.
+    pub axes: [[f64; 3]; 3],
+    /// Where the frame's origin lies.
+    pub origin: PointId,
+    /// Points of the mechanism at which something is attached or looked at, with their nodes in `data`.
+    pub nodes: Vec<(PointId, usize)>,
+    /// Nodes in `data` whose displacement or stress is a column.
+    pub stations: Vec<Station>,
+    /// Start value and start speed of every modal coordinate.
+    pub start: Vec<[f64; 2]>,
+    /// What was left out, for warnings.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// A place on a flexible body that is looked at.
+#[derive(Clone, Debug)]
+pub struct Station {
+    /// Suffix of its columns: empty for the middle of the link, else a number.
+    pub name: String,
+    /// Node in the modal data.
+    pub node: usize,
+    /// Bending stress at the outer fibres in +y and +z per unit of each modal coordinate [Pa]; nothing if
+    /// the section is not known.
+    pub stress: Option<Vec<[f64; 2]>>,
+}
+
+/// A mode that is not kept.
+#[derive(Clone, Debug)]
+pub struct LeftOut {
+    /// What moves: `y4`, `z4`, `axial`, `torsion`.
+    pub name: String,
+    /// [Hz].
+    pub frequency: f64,
+}
+
+impl Flexible {
+    /// The node at a point.
+    ///
+    /// # Panics
+    /// If the point is not in `nodes`; the resolver lists every point that the body is used at.
+    #[must_use]
+    pub fn node_at(&self, point: PointId) -> &Node {
+        let found = self.nodes.iter().find(|(known, _)| *known == point);
+        let (_, node) = found.expect("the resolver gives every point of a flexible body a node");
+        &self.data.nodes[*node]
+    }
 }
 
 /// How a body's mass is described. Formulas over parameters, SI.

@@ -121,10 +121,126 @@ pub struct BodySpec {
     pub inertia: Option<At<Vec<Quantity>>>,
     /// Axes of `inertia`: two or three directions at right angles.
     pub axes: Option<At<Vec<Triple>>>,
+    /// How the body bends; rigid without.
+    pub flexible: Option<At<FlexibleSpec>>,
     /// Our own assumption.
     pub assumed: bool,
     /// What it is.
     pub doc: Option<String>,
+}
+
+/// How a body bends: as a beam along its rod, tube or box, or by modal data from a file.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("anyOf" = [{ "required": ["modes", "young"] }, { "required": ["data"] }]))]
+pub struct FlexibleSpec {
+    /// Number of bending modes kept, the lowest of both planes; 0 makes the body rigid.
+    pub modes: Option<Quantity>,
+    /// Young's modulus.
+    pub young: Option<Quantity>,
+    /// Poisson's ratio; 0.3 by default.
+    pub poisson: Option<Quantity>,
+    /// Modal damping ratio, for instance 0.01; 0 by default.
+    pub damping: Option<Quantity>,
+    /// What the bending elements know: "timoshenko" (default), "rayleigh" or "euler_bernoulli".
+    pub theory: Option<At<TheorySpec>>,
+    /// How the link is held, which decides the modes; by default by the number of joints.
+    pub held: Option<At<HeldSpec>>,
+    /// 1: linear (default). 2: with foreshortening and geometric stiffness.
+    pub order: Option<At<i64>>,
+    /// Frequencies to use instead of the computed ones, in the order of the modes.
+    pub frequencies: Option<At<Vec<Quantity>>>,
+    /// Shear coefficient of the section; by default Cowper's.
+    pub shear_coefficient: Option<Quantity>,
+    /// The section, instead of that of the rod, tube or box.
+    pub section: Option<At<SectionSpec>>,
+    /// Pieces with another section, from the first end to the second.
+    pub steps: Option<At<Vec<At<StepSpec>>>>,
+    /// Concentrated masses.
+    pub masses: Option<At<Vec<At<PointMassSpec>>>>,
+    /// Places along the link, as shares of its length, whose displacement and stress become columns.
+    pub stations: Option<At<Vec<Quantity>>>,
+    /// Modal data file, beside this file, instead of a beam.
+    pub data: Option<Name>,
+    /// Origin of the floating frame of modal data.
+    pub origin: Option<Name>,
+    /// x and y axis of the floating frame of modal data in the ground frame at the reference pose.
+    pub axes: Option<At<Vec<Triple>>>,
+}
+
+/// Bending theory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TheorySpec {
+    /// Sections turn with the slope and have no rotary inertia.
+    EulerBernoulli,
+    /// With rotary inertia.
+    Rayleigh,
+    /// With rotary inertia and shear.
+    #[default]
+    Timoshenko,
+}
+
+/// How a link is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum HeldSpec {
+    /// Frame through both ends, which do not move in it.
+    Pinned,
+    /// Frame on the first end.
+    Clamped,
+    /// Frame on the mean axes.
+    Free,
+    /// Pinned, with the places between where something is attached as further modes.
+    CraigBampton,
+}
+
+/// A section by its numbers.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["area", "Iy", "Iz"]))]
+pub struct SectionSpec {
+    /// Area.
+    pub area: Option<Quantity>,
+    /// Second moment of area about y.
+    #[serde(rename = "Iy")]
+    pub iy: Option<Quantity>,
+    /// Second moment of area about z.
+    #[serde(rename = "Iz")]
+    pub iz: Option<Quantity>,
+    /// Torsion constant; Iy + Iz by default.
+    #[serde(rename = "J")]
+    pub j: Option<Quantity>,
+    /// Distance of the outer fibres in y and z, for stresses.
+    pub fibres: Option<At<Vec<Quantity>>>,
+    /// Direction of y in the ground frame at the reference pose.
+    pub y_axis: Option<Triple>,
+}
+
+/// A piece of a stepped link.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["to"]))]
+pub struct StepSpec {
+    /// Where the piece ends, from the first end of the link.
+    pub to: Option<Quantity>,
+    /// Radius of a round piece.
+    pub radius: Option<Quantity>,
+    /// Inner radius of a round piece.
+    pub inner_radius: Option<Quantity>,
+    /// Edge or edges of a rectangular piece.
+    pub width: Option<Widths>,
+}
+
+/// A mass fixed to the link's axis.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["at", "mass"]))]
+pub struct PointMassSpec {
+    /// Distance from the first end.
+    pub at: Option<Quantity>,
+    /// Mass.
+    pub mass: Option<Quantity>,
 }
 
 /// A body's centre: a name or coordinates.
@@ -322,6 +438,10 @@ pub struct StartTable {
     pub v4: Option<Quantity>,
     pub v5: Option<Quantity>,
     pub v6: Option<Quantity>,
+    /// Modal coordinates of a flexible body.
+    pub eta: Option<At<Vec<Quantity>>>,
+    /// Modal speeds of a flexible body.
+    pub eta_v: Option<At<Vec<Quantity>>>,
 }
 
 /// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.

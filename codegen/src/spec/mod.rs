@@ -15,8 +15,9 @@ mod written;
 
 pub use dimension::Dimension;
 pub use file::{
-    BodySpec, ByCoordinate, Centre, ClosureSpec, EachCoordinate, File, ForceSpec, JointSpec, Parameter,
-    Places, PointSpec, RepeatSpec, SpringPart, SpringSpec, StartSpec, StartTable, Widths,
+    BodySpec, ByCoordinate, Centre, ClosureSpec, EachCoordinate, File, FlexibleSpec, ForceSpec, HeldSpec,
+    JointSpec, Parameter, Places, PointMassSpec, PointSpec, RepeatSpec, SectionSpec, SpringPart, SpringSpec,
+    StartSpec, StartTable, StepSpec, TheorySpec, Widths,
 };
 pub use parse::{Spec, parse};
 pub use repeat::{expand, group_spans};

@@ -5,8 +5,9 @@
 use std::collections::HashMap;
 
 use super::file::{
-    BodySpec, ByCoordinate, Centre, EachCoordinate, File, ForceSpec, JointSpec, Places, PointSpec,
-    RepeatSpec, SpringPart, SpringSpec, StartSpec, StartTable, Widths,
+    BodySpec, ByCoordinate, Centre, EachCoordinate, File, FlexibleSpec, ForceSpec, JointSpec, Places,
+    PointMassSpec, PointSpec, RepeatSpec, SectionSpec, SpringPart, SpringSpec, StartSpec, StartTable, StepSpec,
+    Widths,
 };
 use super::syntax::{Form, Operator, parse_expression};
 use super::written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};
@@ -243,8 +244,16 @@ texts_of! {
     struct Places { 0 }
     struct PointSpec { at, by_body, on }
     struct BodySpec {
-        rod, tube, cuboid, radius, inner_radius, width, width_axis, density, mass, centre, inertia, axes
+        rod, tube, cuboid, radius, inner_radius, width, width_axis, density, mass, centre, inertia, axes,
+        flexible
     }
+    struct FlexibleSpec {
+        modes, young, poisson, damping, frequencies, shear_coefficient, section, steps, masses, stations, data,
+        origin, axes
+    }
+    struct SectionSpec { area, iy, iz, j, fibres, y_axis }
+    struct StepSpec { to, radius, inner_radius, width }
+    struct PointMassSpec { at, mass }
     struct JointSpec {
         revolute, prismatic, cylindrical, screw, universal, spherical, planar, fixed, free, at, axis, axes, first,
         lead, drive, damping, friction, spring, force
@@ -255,7 +264,7 @@ texts_of! {
     struct ForceSpec {
         spring, force, torque, at, stiffness, length, damping, preload, components, axes, reaction
     }
-    struct StartTable { q, q1, q2, q3, q4, q5, q6, v, v1, v2, v3, v4, v5, v6 }
+    struct StartTable { q, q1, q2, q3, q4, q5, q6, v, v1, v2, v3, v4, v5, v6, eta, eta_v }
     struct RepeatSpec { points, bodies, joints, forces, assembly, initial }
     enum PerBody { Shared, Each }
     enum Centre { Point, At }

@@ -94,13 +94,14 @@ impl Deriver<'_> {
         self.linkage
             .links
             .iter()
-            .filter_map(|link| match link.freedom {
-                Freedom::Rotation { .. } | Freedom::Translation { .. } => Some(MotionInfo::Scalar {
+            .flat_map(|link| match link.freedom {
+                Freedom::Rotation { .. } | Freedom::Translation { .. } => vec![MotionInfo::Scalar {
                     driver: self.drivers.iter().position(|driver| driver.speed == link.first_speed),
-                }),
-                Freedom::Ball => Some(MotionInfo::Rotation),
-                Freedom::Free => Some(MotionInfo::Pose),
-                Freedom::Weld => None,
+                }],
+                Freedom::Ball => vec![MotionInfo::Rotation],
+                Freedom::Free => vec![MotionInfo::Pose],
+                Freedom::Flexible { modes } => vec![MotionInfo::Scalar { driver: None }; modes],
+                Freedom::Weld | Freedom::Node => Vec::new(),
             })
             .collect()
     }
@@ -141,7 +142,14 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
                     speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.v{axis}"), "m/s")));
                 }
             }
-            Freedom::Weld => {}
+            Freedom::Flexible { modes } => {
+                let body = mechanism.body(link.body);
+                let unit = body.flexible.as_ref().map_or("1", |flexible| flexible.data.modal_unit());
+                let rate = if unit == "1" { "1/s" } else { "kg^0.5 m/s" };
+                positions.extend((1..=modes).map(|k| (format!("{}.eta{k}", body.name), unit)));
+                speeds.extend((1..=modes).map(|k| (format!("{}.eta{k}_v", body.name), rate)));
+            }
+            Freedom::Weld | Freedom::Node => {}
         }
     }
     (positions, speeds)

@@ -6,7 +6,7 @@ use linkwear_runtime::Entry;
 use super::{Deriver, Instant};
 use crate::derive::composite::mass_matrix;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
-use crate::derive::inertia::MassProperties;
+use crate::derive::inertia::LinkMass;
 use crate::derive::joint_state::JointStates;
 use crate::derive::linkage::Freedom;
 use crate::derive::observe::{Observed, channels};
@@ -70,7 +70,7 @@ impl Deriver<'_> {
         self.function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs)
     }
 
-    pub(super) fn forward_dynamics(&mut self, instant: &Instant, masses: &[MassProperties]) -> Function {
+    pub(super) fn forward_dynamics(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
         let result = self.with_graph(|g, own| {
             g.begin_section("loop Jacobian");
             let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
@@ -172,15 +172,15 @@ impl Deriver<'_> {
         self.function(Entry::Closure, doc, self.state_inputs(), outputs)
     }
 
-    fn energies(&self, g: &mut Graph, instant: &Instant, masses: &[MassProperties]) -> [ExprId; 2] {
+    fn energies(&self, g: &mut Graph, instant: &Instant, masses: &[LinkMass]) -> [ExprId; 2] {
         g.begin_section("energies");
-        let kinetic = kinetic_energy(g, masses, &instant.motion.twists);
+        let kinetic = kinetic_energy(g, masses, &instant.motion);
         let gravity = self.gravity(g);
         let weight = weight_energy(g, self.linkage, &instant.motion, masses, gravity);
         [kinetic, g.add(weight, instant.loads.potential)]
     }
 
-    pub(super) fn energy(&mut self, instant: &Instant, masses: &[MassProperties]) -> Function {
+    pub(super) fn energy(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
         let [kinetic, potential] = self.with_graph(|g, own| own.energies(g, instant, masses));
         let outputs = vec![
             Block::vector("kinetic", "Kinetic energy [J].", "", vec![kinetic]),
@@ -189,7 +189,7 @@ impl Deriver<'_> {
         self.function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs(), outputs)
     }
 
-    pub(super) fn observe(&mut self, q: &[ExprId], v: &[ExprId], masses: &[MassProperties]) -> Function {
+    pub(super) fn observe(&mut self, q: &[ExprId], v: &[ExprId], masses: &[LinkMass]) -> Function {
         let mut v_dot = vec![self.g.zero(); v.len()];
         for (position, speed) in self.partition.free.iter().enumerate() {
             v_dot[*speed] = self.v_dot[position];
@@ -236,7 +236,7 @@ impl Deriver<'_> {
         self.function(Entry::Observe, "Everything a user may want to see or record.", inputs, outputs)
     }
 
-    pub(super) fn equations_of_motion(&mut self, masses: &[MassProperties]) -> Function {
+    pub(super) fn equations_of_motion(&mut self, masses: &[LinkMass]) -> Function {
         let (q, v) = (self.q_all.clone(), self.v_all.clone());
         let n = v.len();
         let zeros = vec![self.g.zero(); n];

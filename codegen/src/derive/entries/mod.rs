@@ -12,14 +12,14 @@ use crate::id::JointId;
 use crate::model::{Mechanism, Topology};
 
 use super::{Equations, Function};
-use crate::derive::across::Motion;
+use crate::derive::across::{ModalState, Motion};
 use crate::derive::closure::{CutRows, cut_rows};
 use crate::derive::dynamics::Partition;
 use crate::derive::forces::{Loads, loads};
-use crate::derive::inertia::{Geometry, MassProperties};
+use crate::derive::inertia::{Geometry, LinkMass};
 use crate::derive::joint_state::JointStates;
 use crate::derive::kinematics::{Poses, accelerations, twists};
-use crate::derive::linkage::{Freedom, Linkage};
+use crate::derive::linkage::{Freedom, Link, Linkage};
 use crate::derive::linkage_build::linkage;
 use crate::derive::lower::Inputs;
 use crate::derive::start::StartValues;
@@ -101,6 +101,18 @@ struct Instant {
     motion: Motion,
     loads: Loads,
     cuts: Vec<CutRows>,
+}
+
+fn modal_state(link: &Link, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> ModalState {
+    if !matches!(link.freedom, Freedom::Flexible { .. }) {
+        return ModalState::default();
+    }
+    let (coordinates, speeds) = (link.coordinates(), link.speeds());
+    ModalState {
+        q: q[coordinates].to_vec(),
+        v: v[speeds.clone()].to_vec(),
+        v_dot: v_dot[speeds].to_vec(),
+    }
 }
 
 impl<'a> Deriver<'a> {
@@ -236,9 +248,10 @@ impl<'a> Deriver<'a> {
         self.inputs.lower3(g, &self.mechanism.gravity)
     }
 
-    fn masses(&self, g: &mut Graph) -> Vec<MassProperties> {
+    fn masses(&self, g: &mut Graph) -> Vec<LinkMass> {
         g.begin_section("mass properties");
-        self.geometry().masses(g)
+        // Modes are never driven: the symbols of all coordinates are those of the free ones.
+        self.geometry().masses(g, &self.q_all)
     }
 
     /// Link motion, loads and closure rows for the given state and accelerations.
@@ -263,7 +276,8 @@ impl<'a> Deriver<'a> {
                 g.label(acceleration.alpha[i], format!("{}_alpha_{axis}", link.name));
             }
         }
-        let motion = Motion { poses, twists, accelerations, ground };
+        let modes = self.linkage.links.iter().map(|link| modal_state(link, q, v, v_dot)).collect();
+        let motion = Motion { poses, twists, accelerations, ground, modes };
         let state = JointStates { geometry: &geometry, motion: &motion, q, v, v_dot };
         let loads = loads(g, &state);
         let cuts = cut_rows(g, &geometry, &motion, exact);

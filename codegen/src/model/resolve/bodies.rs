@@ -15,6 +15,7 @@ impl Resolver<'_> {
         let bodies = bodies.map(|(position, (name, body))| Body {
             name: name.value.clone(),
             inertia: self.inertia_of(Carrier::Body(BodyId::new(position)), name, body),
+            flexible: None,
             span: name.span,
         });
         bodies.collect()

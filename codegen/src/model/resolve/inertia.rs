@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Formula;
 use crate::spec::{At, BodySpec, Dimension, Name, Quantity, Triple};
 
-const AXES_OF_W: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub(super) const AXES_OF_W: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 pub(super) fn between(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|at| b[at] - a[at])
@@ -108,7 +108,7 @@ impl Resolver<'_> {
     }
 
     /// Unit vectors along the axes in which the inertia is given.
-    fn axes(&mut self, name: &Name, written: &At<Vec<Triple>>) -> [[f64; 3]; 3] {
+    pub(super) fn axes(&mut self, name: &Name, written: &At<Vec<Triple>>) -> [[f64; 3]; 3] {
         let what = place("axes", "body", name);
         if !matches!(written.value.len(), 2 | 3) {
             self.wrong_count(written.span, written.value.len(), "2 or 3 directions", &what);

@@ -4,8 +4,10 @@
 //! A thing that is wrong is reported and replaced by something harmless (`NaN`, a dummy axis), so that
 //! the rest of the file is still checked; with any error the mechanism is thrown away.
 
+mod beam;
 mod bodies;
 mod connect;
+mod flexible;
 mod forces;
 mod inertia;
 mod joint_kind;
@@ -20,6 +22,9 @@ mod term;
 
 pub use overrides::{OverrideError, Overrides};
 
+use std::path::PathBuf;
+
+use self::flexible::ModalStart;
 use self::names::Names;
 use self::quantity::Allowed;
 use super::{Closure, Formula, JointKind, Mechanism, Parameter, Point, Term};
@@ -41,6 +46,9 @@ struct Resolver<'a> {
     used: Vec<bool>,
     points: Vec<Point>,
     joint_kinds: Vec<JointKind>,
+    modal_starts: Vec<ModalStart>,
+    /// Other files that were read.
+    attached: Vec<PathBuf>,
 }
 
 /// Finds out what a file means.
@@ -59,6 +67,8 @@ pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Dia
         used: Vec::new(),
         points: Vec::new(),
         joint_kinds: Vec::new(),
+        modal_starts: Vec::new(),
+        attached: Vec::new(),
     };
     let mechanism = resolver.mechanism(&spec.file, overrides);
     resolver.fold_cells(&spec.file);
@@ -85,11 +95,12 @@ impl Resolver<'_> {
         self.resolve_points(&file);
         let kinds = file.joints.0.iter().map(|(name, joint)| self.joint_kind(name, joint)).collect();
         self.joint_kinds = kinds;
-        let bodies = self.resolve_bodies(&file.bodies);
+        let mut bodies = self.resolve_bodies(&file.bodies);
         let joints = self.resolve_joints(&file.joints);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
         self.find_carriers(&file, &bodies, &joints);
+        self.resolve_flexible(&file, &mut bodies, &joints, &forces);
         self.check_connected(&file, &joints);
         self.warn_unused(written);
         Mechanism {
@@ -105,6 +116,7 @@ impl Resolver<'_> {
                 ClosureSpec::Log => Closure::Log,
             },
             starts,
+            attached: std::mem::take(&mut self.attached),
         }
     }
 

@@ -1,12 +1,14 @@
 //! Start values: `[assembly]` (guesses) and `[initial]` (met exactly).
 
+use super::flexible::ModalStart;
+use super::names::Thing;
 use super::quantity::Allowed;
 use super::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::id::JointId;
+use crate::id::{BodyId, JointId};
 use crate::model::{Coordinate, Joint, JointKind, Start};
 use crate::source::Span;
-use crate::spec::{File, Literal, Name, Quantity, StartSpec};
+use crate::spec::{At, Dimension, File, Literal, Name, Quantity, StartSpec};
 
 /// A start value as written.
 struct Written<'a> {
@@ -22,6 +24,10 @@ impl Resolver<'_> {
         for (table, key, held) in [(&file.assembly, "assembly", false), (&file.initial, "initial", true)] {
             for (name, value) in &table.0 {
                 let what = format!("[{key}]");
+                if let Some((Thing::Body(body), _)) = self.names.find(&name.value) {
+                    self.modal_start(body, name, &value.value, value.span, held);
+                    continue;
+                }
                 let Some(id) = self.joint_named(name, &what) else { continue };
                 let joint = &joints[id.index()];
                 for written in self.written(name, &value.value, &joint.kind, key) {
@@ -32,6 +38,27 @@ impl Resolver<'_> {
             }
         }
         starts
+    }
+
+    /// `coupler = { eta = [...], eta_v = [...] }`.
+    fn modal_start(&mut self, body: BodyId, name: &Name, spec: &StartSpec, span: Span, held: bool) {
+        let StartSpec::Table(table) = spec else {
+            let message = format!("`{}` is a body: its modes start from `eta` and `eta_v`", name.value);
+            let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
+            self.report(fault.help(format!("write `{} = {{ eta = [0, 0], eta_v = [0, 0] }}`", name.value)));
+            return;
+        };
+        if !held {
+            let message = format!("the modes of `{}` take no guesses", name.value);
+            let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
+            self.report(fault.help("write it under [initial]"));
+        }
+        let mut list = |values: &Option<At<Vec<Quantity>>>, key: &str| -> Vec<f64> {
+            let values = values.as_ref().map_or(&[][..], |list| &list.value);
+            values.iter().map(|x| self.fixed(name, key, Some(x), Dimension::NONE, 0.0)).collect()
+        };
+        let (position, speed) = (list(&table.value.eta, "eta"), list(&table.value.eta_v, "eta_v"));
+        self.modal_starts.push(ModalStart { body, position, speed, span });
     }
 
     /// The values by index, of the forms `"-48 deg"`, `["10 deg", "5 mm"]` and `{ q = ..., v = ... }`.

@@ -1,0 +1,3 @@
+//! temp
+mod data;
+pub use data::{ModalData, Mode, Node, SecondOrder};

@@ -1,0 +1,284 @@
+//! Flexible bodies: which points need a node, where the floating frame lies, and the constants of the body,
+//! from a beam ([`super::beam`]) or from a file of modal data.
+
+use super::quantity::Allowed;
+use super::{Resolver, inertia, place};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::flexible::ModalData;
+use crate::id::{BodyId, PointId};
+use crate::model::{Body, Carrier, Flexible, Force, ForceKind, Joint, JointKind, Station};
+use crate::source::Span;
+use crate::spec::{At, BodySpec, Dimension, File, FlexibleSpec, Name, Quantity};
+
+/// Nodes of modal data match points that are nearer than this share of the body's size: coordinates written
+/// with six digits do.
+const NODE_DISTANCE: f64 = 1e-5;
+
+/// A place where something holds, pushes or looks at a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Use {
+    pub(super) point: PointId,
+    /// A joint is there.
+    pub(super) held: bool,
+    /// That joint constrains orientation.
+    pub(super) turns: bool,
+}
+
+/// Start values of a flexible body's modes as written.
+pub(super) struct ModalStart {
+    pub(super) body: BodyId,
+    pub(super) position: Vec<f64>,
+    pub(super) speed: Vec<f64>,
+    pub(super) span: Span,
+}
+
+impl Resolver<'_> {
+    pub(super) fn resolve_flexible(
+        &mut self,
+        file: &File,
+        bodies: &mut [Body],
+        joints: &[Joint],
+        forces: &[Force],
+    ) {
+        for (index, (name, body)) in file.bodies.0.iter().enumerate() {
+            let Some(spec) = &body.value.flexible else { continue };
+            let carrier = Carrier::Body(BodyId::new(index));
+            let uses = self.uses_of(carrier, &bodies[index], joints, forces);
+            let flexible = match &spec.value.data {
+                Some(data) => self.from_modal_data(carrier, name, spec, data, &uses),
+                None => self.beam(carrier, (name, body, spec), &bodies[index], joints, &uses),
+            };
+            bodies[index].flexible = flexible.map(Box::new);
+        }
+        self.take_modal_starts(bodies);
+    }
+
+    /// Every point at which the body is held, pushed or looked at.
+    fn uses_of(&self, carrier: Carrier, body: &Body, joints: &[Joint], forces: &[Force]) -> Vec<Use> {
+        let mut uses: Vec<Use> = Vec::new();
+        let mut add = |point: PointId, held: bool, turns: bool| {
+            match uses.iter_mut().find(|known| known.point == point) {
+                Some(known) => (known.held, known.turns) = (known.held | held, known.turns | turns),
+                None => uses.push(Use { point, held, turns }),
+            }
+        };
+        for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
+            add(joint.at, true, joint.kind.holds_orientation());
+        }
+        for force in forces {
+            match &force.kind {
+                ForceKind::Spring { bodies, at, .. } => {
+                    let ends = bodies.iter().zip(at).filter(|(body, _)| **body == carrier);
+                    ends.for_each(|(_, point)| add(*point, false, false));
+                }
+                ForceKind::Force { body, reaction, at, .. } if *body == carrier || *reaction == carrier => {
+                    add(*at, false, false);
+                }
+                _ => {}
+            }
+        }
+        for point in body.inertia.points() {
+            add(point, false, false);
+        }
+        for (index, point) in self.points.iter().enumerate() {
+            if point.carrier == carrier {
+                add(PointId::new(index), false, false);
+            }
+        }
+        uses
+    }
+
+    /// A number fixed at generation, or the default.
+    pub(super) fn fixed(
+        &mut self,
+        name: &Name,
+        key: &str,
+        quantity: Option<&Quantity>,
+        dimension: Dimension,
+        default: f64,
+    ) -> f64 {
+        let Some(quantity) = quantity else { return default };
+        let what = place(key, "body", name);
+        let formula = self.formula(quantity, Some(dimension), Allowed::CONSTANTS, &what);
+        self.value(&formula)
+    }
+
+    /// Position of a point on a flexible body, which may not move with a tunable parameter.
+    pub(super) fn fixed_position(&mut self, name: &Name, point: PointId, carrier: Carrier) -> [f64; 3] {
+        let known = &self.points[point.index()];
+        let tunable = |formula: &crate::model::Formula| {
+            formula.depends_on(&|id| self.parameters[id.index()].tunable)
+        };
+        if known.position_for(carrier).iter().any(tunable) {
+            let message = format!(
+                "the point `{}` of the flexible body `{}` depends on a tunable parameter",
+                known.name, name.value
+            );
+            let fault = Diagnostic::new(Code::TunableNotAllowed, message).at(known.span, "");
+            self.report(fault.help("modes are computed at generation; take the `tunable` mark away"));
+        }
+        self.position_value(point, carrier)
+    }
+
+    /// The share of modes that `[initial]` gives values for.
+    fn take_modal_starts(&mut self, bodies: &mut [Body]) {
+        for start in std::mem::take(&mut self.modal_starts) {
+            let body = &mut bodies[start.body.index()];
+            let Some(flexible) = &mut body.flexible else {
+                let message = format!("the body `{}` has no modes to start from", body.name);
+                self.report(Diagnostic::new(Code::BadStart, message).at(start.span, "").help("take it away"));
+                continue;
+            };
+            let modes = flexible.start.len();
+            for (what, list) in [("eta", &start.position), ("eta_v", &start.speed)] {
+                if !list.is_empty() && list.len() != modes {
+                    let message =
+                        format!("`{what}` of `{}` has {} values for {modes} modes", body.name, list.len());
+                    self.report(Diagnostic::new(Code::BadStart, message).at(start.span, ""));
+                }
+            }
+            for (at, own) in flexible.start.iter_mut().enumerate() {
+                own[0] = start.position.get(at).copied().unwrap_or(0.0);
+                own[1] = start.speed.get(at).copied().unwrap_or(0.0);
+            }
+        }
+    }
+
+    /// Constants from a file beside this one.
+    fn from_modal_data(
+        &mut self,
+        carrier: Carrier,
+        name: &Name,
+        spec: &At<FlexibleSpec>,
+        file: &Name,
+        uses: &[Use],
+    ) -> Option<Flexible> {
+        self.check_beam_keys(name, &spec.value);
+        let path = self.source.beside(&file.value);
+        let data = match ModalData::read(&path) {
+            Ok(data) => data,
+            Err(error) => {
+                let message = format!("the modal data `{}` cannot be used: {error}", file.value);
+                let fault = Diagnostic::new(Code::BadModalData, message).at(file.span, "");
+                self.report(fault.help("docs/modal-data.md describes the file; its path is relative to this file"));
+                return None;
+            }
+        };
+        self.attached.push(path);
+        let Some(origin) = &spec.value.origin else {
+            let message = format!("nothing says where the floating frame of `{}` lies", name.value);
+            let fault = Diagnostic::new(Code::MissingKey, message).at(spec.span, "");
+            self.report(fault.help("add `origin = \"P\"`, the point at the origin of the modal data"));
+            return None;
+        };
+        let origin = self.point_on(origin, Some((carrier, name)), &format!("body `{}`", name.value))?;
+        let axes = match &spec.value.axes {
+            Some(axes) => self.axes(name, axes),
+            None => inertia::AXES_OF_W,
+        };
+        let nodes = self.nodes_of(carrier, name, (&data, &axes, origin), uses);
+        let start = vec![[0.0; 2]; data.modes.len()];
+        let looked_at = |index: &usize| !nodes.iter().any(|(_, node)| node == index);
+        let stations = (0..data.nodes.len())
+            .filter(looked_at)
+            .map(|node| Station { name: data.nodes[node].name.clone(), node, stress: None })
+            .collect();
+        Some(Flexible { axes, origin, nodes, stations, start, left_out: Vec::new(), data })
+    }
+
+    /// Keys of a beam that mean nothing beside modal data.
+    fn check_beam_keys(&mut self, name: &Name, spec: &FlexibleSpec) {
+        let keys = [
+            ("young", spec.young.as_ref().map(|q| q.span)),
+            ("poisson", spec.poisson.as_ref().map(|q| q.span)),
+            ("modes", spec.modes.as_ref().map(|q| q.span)),
+            ("damping", spec.damping.as_ref().map(|q| q.span)),
+            ("theory", spec.theory.as_ref().map(|q| q.span)),
+            ("held", spec.held.as_ref().map(|q| q.span)),
+            ("order", spec.order.as_ref().map(|q| q.span)),
+            ("steps", spec.steps.as_ref().map(|q| q.span)),
+            ("masses", spec.masses.as_ref().map(|q| q.span)),
+        ];
+        for (key, span) in keys {
+            if let Some(span) = span {
+                let message = format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
+                self.report(
+                    Diagnostic::new(Code::ConflictingKeys, message).at(span, "").help("take it away"),
+                );
+            }
+        }
+    }
+
+    /// The node at every point used.
+    fn nodes_of(
+        &mut self,
+        carrier: Carrier,
+        name: &Name,
+        (data, axes, origin): (&ModalData, &[[f64; 3]; 3], PointId),
+        uses: &[Use],
+    ) -> Vec<(PointId, usize)> {
+        let start = self.fixed_position(name, origin, carrier);
+        let size = data.nodes.iter().map(|node| inertia::dot(node.position, node.position)).fold(0.0, f64::max);
+        let mut nodes = Vec::new();
+        for own in uses {
+            let place = inertia::between(start, self.fixed_position(name, own.point, carrier));
+            let local = axes.map(|axis| inertia::dot(axis, place));
+            let apart = |node: &crate::flexible::Node| inertia::distance(node.position, local);
+            let nearest = (0..data.nodes.len())
+                .min_by(|a, b| apart(&data.nodes[*a]).total_cmp(&apart(&data.nodes[*b])));
+            let Some(node) = nearest else { continue };
+            if apart(&data.nodes[node]) <= NODE_DISTANCE * size.sqrt() {
+                nodes.push((own.point, node));
+                continue;
+            }
+            let point = &self.points[own.point.index()];
+            let message = format!(
+                "the flexible body `{}` has no node at `{}`; the nearest, `{}`, is {:.3e} m away",
+                name.value,
+                point.name,
+                data.nodes[node].name,
+                apart(&data.nodes[node])
+            );
+            let fault = Diagnostic::new(Code::NoNodeHere, message).at(point.span, "");
+            self.report(fault.help("add a node to the modal data, or move the point"));
+        }
+        nodes
+    }
+}
+
+/// Directions of a round link's section axes: with a revolute axis at right angles to the link as z, else as
+/// near to the ground frame's as possible.
+pub(super) fn section_axes(x: [f64; 3], hinges: &[[f64; 3]]) -> [[f64; 3]; 3] {
+    let across = hinges.iter().find(|axis| inertia::dot(**axis, x).abs() < 1e-9);
+    let least = (0..3).min_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs())).unwrap_or(2);
+    let mut helper = [0.0; 3];
+    helper[if least == 0 { 2 } else { least }] = 1.0;
+    let along = inertia::dot(helper, x).abs() > 0.9;
+    let helper = if along { [0.0, 1.0, 0.0] } else { helper };
+    let z = across.copied().unwrap_or(helper);
+    let z = inertia::unit(inertia::perpendicular_part(z, x)).unwrap_or([0.0, 0.0, 1.0]);
+    [x, inertia::cross(z, x), z]
+}
+
+/// Axes about which joints turn, as a body's branch describes them.
+pub(super) fn hinges(carrier: Carrier, joints: &[Joint]) -> Vec<[f64; 3]> {
+    let mut list = Vec::new();
+    for joint in joints {
+        let own = |axis: &crate::model::Axis| if joint.child == carrier { axis.child } else { axis.parent };
+        if joint.parent != carrier && joint.child != carrier {
+            continue;
+        }
+        match &joint.kind {
+            JointKind::Revolute(axis) | JointKind::Cylindrical(axis) | JointKind::Screw(axis, _) => {
+                list.push(own(axis));
+            }
+            JointKind::Universal(first, second) => list.extend([own(first), own(second)]),
+            JointKind::Planar { normal, .. } => list.push(own(normal)),
+            _ => {}
+        }
+    }
+    list
+}
+
+/// What [`Resolver::beam`] is told of a body: name, table, and its `flexible`.
+pub(super) type Written<'a> = (&'a Name, &'a At<BodySpec>, &'a At<FlexibleSpec>);
