@@ -128,12 +128,20 @@ impl Loads {
         }
     }
 
-    /// `-c omega_rel` on the child, its opposite on the parent.
+    /// `-c omega_rel` on the child, its opposite on the parent. The ball sits on a section: where a body is
+    /// flexible, its slope there turns the ball, and the moment bends the body.
     fn spherical_damping(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, c: ExprId) {
         let linkage = state.geometry.linkage;
+        let sections = Sections::new(state, joint);
         if let Some(at) = linkage.link_of_joint[joint.index()] {
             debug_assert_eq!(linkage.links[at].freedom, Freedom::Ball);
-            let omega = state.motion.relative_omega(g, linkage, at);
+            let rotation = state.motion.poses.relative[at].rotation;
+            let mut omega = state.motion.relative_omega(g, linkage, at);
+            let outer = sections.rate(g, state, Side::Outboard);
+            omega = g.add3(omega, outer);
+            let inner = sections.rate(g, state, Side::Inboard);
+            let inner = g.transpose_mul_vec3(rotation, inner);
+            omega = g.sub3(omega, inner);
             self.dissipate(g, c, omega);
             let scaled = g.scale3(c, omega);
             let moment = g.neg3(scaled);
@@ -141,18 +149,40 @@ impl Loads {
             for (i, component) in moment.into_iter().enumerate() {
                 self.joint[first + i] = g.add(self.joint[first + i], component);
             }
+            self.bend(g, &sections, Side::Outboard, moment);
+            let turned = g.mul_vec3(rotation, scaled);
+            self.bend(g, &sections, Side::Inboard, turned);
             if let Some(parent) = linkage.links[at].parent {
                 let force = g.zero_vector();
-                let turned = g.mul_vec3(state.motion.poses.relative[at].rotation, scaled);
                 let reaction = Wrench { moment: turned, force };
                 self.reactions[parent] = self.reactions[parent].plus(g, reaction);
             }
         } else {
             let across = state.across(g, joint);
-            self.dissipate(g, c, across.omega);
-            let scaled = g.scale3(c, across.omega);
+            let child = sections.rate(g, state, Side::Outboard);
+            let child = g.mul_vec3(across.from_child, child);
+            let parent = sections.rate(g, state, Side::Inboard);
+            let parent = g.mul_vec3(across.from_parent, parent);
+            let slopes = g.sub3(child, parent);
+            let omega = g.add3(across.omega, slopes);
+            self.dissipate(g, c, omega);
+            let scaled = g.scale3(c, omega);
             let (moment, force) = (g.neg3(scaled), g.zero_vector());
             self.pair(g, state, joint, &across, moment, force);
+            let on_child = g.transpose_mul_vec3(across.from_child, moment);
+            self.bend(g, &sections, Side::Outboard, on_child);
+            let on_parent = g.transpose_mul_vec3(across.from_parent, scaled);
+            self.bend(g, &sections, Side::Inboard, on_parent);
+        }
+    }
+
+    /// What modes feel of a moment on a section, given in the floating frame.
+    fn bend(&mut self, g: &mut Graph, sections: &Sections, side: Side, moment: Vec3) {
+        let Some((_, first, slopes)) = sections.of(side) else { return };
+        for (k, slope) in slopes.iter().enumerate() {
+            let slope = g.vector(*slope);
+            let force = g.dot3(slope, moment);
+            self.joint[first + k] = g.add(self.joint[first + k], force);
         }
     }
 
@@ -298,4 +328,46 @@ fn directed(
 fn row_times(g: &mut Graph, row: &[f64], x: &[ExprId]) -> ExprId {
     let terms: Vec<(ExprId, ExprId)> = row.iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
     g.dot(&terms)
+}
+
+/// One side of a joint: in the tree away from the ground, in a cut the child.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Inboard,
+    Outboard,
+}
+
+/// Slopes of the sections on which a ball joint sits: floating frame, first modal speed, and the rotation
+/// vector per unit of each mode, for bodies that are flexible.
+struct Sections([Option<(usize, usize, Vec<[f64; 3]>)>; 2]);
+
+impl Sections {
+    fn new(state: &JointStates<'_>, joint: JointId) -> Self {
+        let (mechanism, linkage) = (state.geometry.mechanism, state.geometry.linkage);
+        let data = mechanism.joint(joint);
+        let side = |carrier: Carrier| {
+            let Carrier::Body(body) = carrier else { return None };
+            let flexible = mechanism.body(body).flexible.as_ref()?;
+            let frame = linkage.link_of_body[body.index()];
+            let slopes = flexible.node_at(data.at).rotation.clone();
+            Some((frame, linkage.links[frame].first_speed, slopes))
+        };
+        let (parent, child) = (side(data.parent), side(data.child));
+        if linkage.reversed[joint.index()] { Self([child, parent]) } else { Self([parent, child]) }
+    }
+
+    fn of(&self, side: Side) -> Option<&(usize, usize, Vec<[f64; 3]>)> {
+        self.0[usize::from(side == Side::Outboard)].as_ref()
+    }
+
+    /// Angular velocity of the section relative to the floating frame, in that frame.
+    fn rate(&self, g: &mut Graph, state: &JointStates<'_>, side: Side) -> Vec3 {
+        let Some((frame, _, slopes)) = self.of(side) else { return g.zero_vector() };
+        let speeds = &state.motion.modes[*frame].v;
+        core::array::from_fn(|i| {
+            let terms: Vec<(ExprId, ExprId)> =
+                slopes.iter().zip(speeds).map(|(slope, v)| (g.constant(slope[i]), *v)).collect();
+            g.dot(&terms)
+        })
+    }
 }
