@@ -156,6 +156,8 @@ codes! {
     SpringWithoutDirection = "W0105",
     /// A frequency in Hz or rpm where an angular speed is needed.
     FrequencyAsSpeed = "W0106",
+    /// Joints that never move although others do.
+    RigidPart = "W0107",
 }
 
 impl Code {

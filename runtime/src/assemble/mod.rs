@@ -89,7 +89,7 @@ fn conflicts(evaluator: &Evaluator<'_>, held: &[bool], wanted: &[f64], reached: 
         .enumerate()
         // Far above the accuracy of assembly, far below what a user would call different.
         .filter(|(i, _)| held[*i] && (wanted[*i] - reached[*i]).abs() > 1e-8)
-        .map(|(i, c)| format!("`{}` ({} {}, reachable {})", c.name, wanted[i], c.unit, reached[i]))
+        .map(|(i, c)| format!("`{}` ({:.4} {}, reachable {:.4})", c.name, wanted[i], c.unit, reached[i]))
         .collect()
 }
 

@@ -35,7 +35,7 @@ pub(super) fn consistent(
                 .enumerate()
                 // Far above rounding, far below what a user would call different.
                 .filter(|(i, _)| held[*i] && (wish[*i] - free[*i]).abs() > 1e-8 * wish[*i].abs().max(1.0))
-                .map(|(i, s)| format!("`{}` ({} {}, reachable {})", s.name, wish[i], s.unit, free[i]))
+                .map(|(i, s)| format!("`{}` ({:.4} {}, reachable {:.4})", s.name, wish[i], s.unit, free[i]))
                 .collect();
             return Err(AssemblyError::HeldSpeeds { names, joint, residual });
         }
