@@ -12,6 +12,7 @@ mod new;
 mod packaging;
 mod plot;
 mod progress;
+mod schema;
 mod simulate;
 mod summary;
 mod table;
@@ -62,6 +63,9 @@ enum Command {
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
+    /// Print the JSON Schema of mechanism files, for editors.
+    #[command(after_help = "Example:\n  linkwear schema > linkwear.schema.json")]
+    Schema,
     /// Print a completion script for a shell.
     #[command(after_help = "Example:\n  linkwear completions bash > \
                       ~/.local/share/bash-completion/completions/linkwear")]
@@ -218,6 +222,7 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         Command::Generate(arguments) => generate::run(&arguments, format),
         Command::Simulate(arguments) => simulate::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),
+        Command::Schema => schema::run(),
         Command::Completions { shell } => packaging::completions(shell, format),
         Command::Man => packaging::manual(format),
     }

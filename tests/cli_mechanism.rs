@@ -54,7 +54,10 @@ fn check_names_the_three_redundant_rows_of_a_planar_four_bar() {
 fn check_reads_well() {
     insta::assert_snapshot!("check_pendulum", linkwear(&["check", "mechanisms/pendulum.toml"]).out);
     insta::assert_snapshot!("check_four_bar", linkwear(&["check", "mechanisms/four_bar.toml"]).out);
-    insta::assert_snapshot!("check_rssr_rigid", linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out);
+    let rssr = linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out;
+    insta::assert_snapshot!("check_rssr_rigid", rssr);
+    let readme = std::fs::read_to_string("README.md").expect("README.md");
+    assert!(readme.contains(&format!("```text\n{rssr}```")), "README.md shows what check says of the RSSR");
 }
 
 #[test]

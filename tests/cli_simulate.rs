@@ -18,7 +18,16 @@ fn table(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 #[test]
 fn the_answer_has_the_fields_scripts_read() {
     let answer = linkwear(&["simulate", RSSR, "--format", "json"]).json();
-    for name in ["steps", "evaluations", "wall_seconds", "max_loop_error_m", "energy_error_J"] {
+    let promised = ["steps", "evaluations", "wall_seconds", "max_loop_error_m", "energy_error_J"];
+    let more = [
+        "rejected",
+        "projections",
+        "rank_revealing_solves",
+        "newton_iterations",
+        "energy_throughput_J",
+        "max_loop_error_rad",
+    ];
+    for name in promised.iter().chain(&more) {
         assert!(answer[name].is_number(), "{name}");
     }
     assert_eq!(answer["backend"], "compiled");
@@ -31,6 +40,15 @@ fn the_answer_has_the_fields_scripts_read() {
 }
 
 #[test]
+fn the_implicit_method_takes_its_step_and_counts_newton() {
+    let arguments = ["--integrator", "generalized-alpha", "--step", "1e-4", "--turns", "0.1"];
+    let answer = linkwear(&[&["simulate", RSSR, "--format", "json"], &arguments[..]].concat()).json();
+    // A tenth of a turn is 0.05 s; steps are shortened to land on the 200 samples 2.5e-4 s apart.
+    assert_eq!(answer["steps"], 600);
+    assert!(answer["newton_iterations"].as_u64() >= Some(600));
+}
+
+#[test]
 fn rows_are_evenly_spaced_with_both_ends() {
     let folder = Folder::new("rows");
     let out = folder.path("p.csv");
@@ -38,7 +56,7 @@ fn rows_are_evenly_spaced_with_both_ends() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     let (header, rows) = table(&folder.read("p.csv"));
     assert_eq!(header[0], "t [s]");
-    assert!(header.contains(&"R1.q [rad]".to_owned()), "{header:?}");
+    assert!(header.contains(&"hinge.q [rad]".to_owned()), "{header:?}");
     assert_eq!(rows.len(), 11);
     for (index, row) in rows.iter().enumerate() {
         assert_eq!(row.len(), header.len());

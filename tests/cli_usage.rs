@@ -7,7 +7,7 @@ use serde_json::Value;
 
 #[test]
 fn help_of_every_subcommand_has_an_example() {
-    for name in ["check", "equations", "generate", "simulate", "new", "completions", "man"] {
+    for name in ["check", "equations", "generate", "simulate", "new", "schema", "completions", "man"] {
         let answer = linkwear(&[name, "--help"]);
         assert_eq!(answer.code, 0);
         assert!(answer.out.contains(&format!("linkwear {name}")), "{}", answer.out);
@@ -80,6 +80,16 @@ fn a_closed_pipe_is_no_error() {
     drop(child.stdout.take());
     let answer = Answer::of(child.wait_with_output().expect("an end"));
     assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+}
+
+#[test]
+fn the_shipped_schema_is_the_one_of_this_version() {
+    let shipped = std::fs::read_to_string("docs/linkwear.schema.json").expect("the shipped schema");
+    let current = linkwear(&["schema"]);
+    assert_eq!(current.code, 0, "{}", current.err);
+    let help = "stale: cargo run -- schema > docs/linkwear.schema.json";
+    assert!(current.out == shipped, "{help}");
+    assert!(serde_json::from_str::<Value>(&shipped).expect("JSON")["properties"]["joints"].is_object());
 }
 
 #[test]

@@ -10,6 +10,7 @@
 
 mod assemble;
 mod channels;
+mod check;
 pub mod closed_form;
 mod force;
 mod frame;
@@ -19,6 +20,7 @@ mod joint;
 mod least_norm;
 mod mass;
 mod model;
+mod place;
 pub mod random;
 mod row;
 mod solve;

@@ -3,10 +3,11 @@
 //! Never knows how accelerations are solved for.
 
 use linkwear_codegen::id::{BodyId, JointId, PointId};
-use linkwear_codegen::model::{Carrier, Formula, JointKind, Mechanism, Passive};
+use linkwear_codegen::model::{Carrier, Formula, JointKind, Mechanism};
 use nalgebra::Vector3;
 use thiserror::Error;
 
+use crate::check::{check_constants, check_coordinates};
 use crate::frame::{BodyState, Frame};
 use crate::jet::{Jet, State, evaluate};
 use crate::joint::{JointGeometry, JointMotion};
@@ -257,75 +258,4 @@ impl State for Frames<'_> {
 /// Value of a formula that `check_constants` has seen.
 fn number(formula: &Formula, parameters: &[f64]) -> f64 {
     formula.value(parameters).unwrap_or(f64::NAN)
-}
-
-fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Result<(), OracleError> {
-    use linkwear_codegen::model::{Amount, ForceKind, Inertia, Position};
-    let check = |element: &str, formulas: &[&Formula]| {
-        if formulas.iter().all(|formula| formula.value(parameters).is_some()) {
-            Ok(())
-        } else {
-            Err(OracleError::NotConstant { element: element.to_owned() })
-        }
-    };
-    check("gravity", &mechanism.gravity.each_ref())?;
-    for point in &mechanism.points {
-        match &point.position {
-            Position::Shared(position) => check(&point.name, &position.each_ref())?,
-            Position::PerBody(positions) => {
-                positions.iter().try_for_each(|(_, p)| check(&point.name, &p.each_ref()))?;
-            }
-        }
-    }
-    for body in &mechanism.bodies {
-        let amount = |amount: &Amount| match amount {
-            Amount::Density(formula) | Amount::Mass(formula) => check(&body.name, &[formula]),
-        };
-        match &body.inertia {
-            Inertia::Rod { radius, inner_radius, amount: much, .. } => {
-                amount(much)?;
-                check(&body.name, &[radius, inner_radius])?;
-            }
-            Inertia::Box { width, amount: much, .. } => {
-                amount(much)?;
-                check(&body.name, &width.each_ref())?;
-            }
-            Inertia::Given { mass, inertia, .. } => {
-                check(&body.name, &[mass])?;
-                check(&body.name, &inertia.each_ref())?;
-            }
-        }
-    }
-    for joint in &mechanism.joints {
-        for passive in &joint.passive {
-            match passive {
-                Passive::Damping { coefficient, .. } => check(&joint.name, &[coefficient])?,
-                Passive::Spring { stiffness, rest, .. } => check(&joint.name, &[stiffness, rest])?,
-                Passive::Actuator { .. } => {}
-            }
-        }
-    }
-    for force in &mechanism.forces {
-        if let ForceKind::Spring { stiffness, rest, damping, preload, .. } = &force.kind {
-            check(&force.name, &[stiffness, rest, damping, preload])?;
-        }
-    }
-    Ok(())
-}
-
-fn check_coordinates(mechanism: &Mechanism, joints: &[JointGeometry]) -> Result<(), OracleError> {
-    for (joint, geometry) in mechanism.joints.iter().zip(joints) {
-        let round = matches!(geometry.kind, JointKind::Spherical);
-        let drives = joint.drives.iter().map(|drive| drive.coordinate);
-        let passive = joint.passive.iter().filter_map(|passive| match passive {
-            Passive::Damping { coordinate, .. } if round && *coordinate == 0 => None,
-            Passive::Damping { coordinate, .. }
-            | Passive::Spring { coordinate, .. }
-            | Passive::Actuator { coordinate, .. } => Some(*coordinate),
-        });
-        if let Some(coordinate) = drives.chain(passive).find(|k| *k >= geometry.scalars()) {
-            return Err(OracleError::NoCoordinate { joint: joint.name.clone(), coordinate });
-        }
-    }
-    Ok(())
 }

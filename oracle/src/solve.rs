@@ -159,6 +159,24 @@ impl Oracle {
         }
     }
 
+    /// Accelerations of a joint's scalar coordinates [rad/s² or m/s²]; none for spherical, fixed and free.
+    #[must_use]
+    pub fn joint_accelerations(&self, joint: JointId, states: &[BodyState], solution: &Solution) -> Vec<f64> {
+        let geometry = &self.joints[joint.index()];
+        let pair = self.frames(states).pair(joint);
+        let part = |carrier: Carrier, load: &Load| match carrier {
+            Carrier::Ground => 0.0,
+            Carrier::Body(id) => {
+                let body = id.index();
+                load.torque.dot(&solution.alpha[body]) + load.force.dot(&solution.acceleration[body])
+            }
+        };
+        (0..geometry.scalars())
+            .map(|k| geometry.coordinate(k, &pair))
+            .map(|row| part(geometry.parent, &row.parent) + part(geometry.child, &row.child) + row.bias)
+            .collect()
+    }
+
     /// Speeds of the driven coordinates.
     fn drive_rates(&self, states: &[BodyState]) -> Vec<f64> {
         let frames = self.frames(states);

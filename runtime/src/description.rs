@@ -105,3 +105,75 @@ pub struct Description {
     /// Index of the first driver on a revolute joint: 2 pi of it is a turn.
     pub turn_driver: Option<usize>,
 }
+
+/// What generated code says about itself, as plain tables: names, units and flags in the order of the fields of
+/// [`ParameterInfo`], [`VariableInfo`], [`RowInfo`], [`DriverInfo`] and [`Channel`].
+#[derive(Clone, Copy, Debug)]
+pub struct Tables {
+    /// Name, unit, default.
+    pub parameters: &'static [(&'static str, &'static str, f64)],
+    /// Name, unit, held.
+    pub coordinates: &'static [(&'static str, &'static str, bool)],
+    /// Name, unit, held.
+    pub speeds: &'static [(&'static str, &'static str, bool)],
+    /// Groups of coordinates.
+    pub motions: &'static [Motion],
+    /// First coordinate of every quaternion.
+    pub quaternions: &'static [usize],
+    /// Joint, meaning, angular, kept.
+    pub rows: &'static [(&'static str, &'static str, bool, Option<usize>)],
+    /// Joint, angular.
+    pub drivers: &'static [(&'static str, bool)],
+    /// Name, unit, wraps.
+    pub channels: &'static [(&'static str, &'static str, bool)],
+    /// See [`Description::turn_driver`].
+    pub turn_driver: Option<usize>,
+}
+
+impl Description {
+    /// The description that the tables of generated code stand for.
+    #[must_use]
+    pub fn from_tables(name: &'static str, tables: Tables) -> Self {
+        let variables = |table: &'static [(&'static str, &'static str, bool)]| -> List<VariableInfo> {
+            let entry = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {
+                name: name.into(),
+                unit: unit.into(),
+                held,
+            };
+            table.iter().map(entry).collect()
+        };
+        Self {
+            name: name.into(),
+            parameters: tables
+                .parameters
+                .iter()
+                .map(|&(name, unit, default)| ParameterInfo { name: name.into(), unit: unit.into(), default })
+                .collect(),
+            coordinates: variables(tables.coordinates),
+            speeds: variables(tables.speeds),
+            motions: tables.motions.into(),
+            quaternions: tables.quaternions.into(),
+            rows: tables
+                .rows
+                .iter()
+                .map(|&(joint, meaning, angular, kept)| RowInfo {
+                    joint: joint.into(),
+                    meaning: meaning.into(),
+                    angular,
+                    kept,
+                })
+                .collect(),
+            drivers: tables
+                .drivers
+                .iter()
+                .map(|&(joint, angular)| DriverInfo { joint: joint.into(), angular })
+                .collect(),
+            channels: tables
+                .channels
+                .iter()
+                .map(|&(name, unit, wraps)| Channel { name: name.into(), unit: unit.into(), wraps })
+                .collect(),
+            turn_driver: tables.turn_driver,
+        }
+    }
+}

@@ -7,7 +7,6 @@
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
 //! [`write_csv`] records a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
-#![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets: [m], [rad/s]")]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod dual;
@@ -51,17 +50,26 @@ pub use sincos::sin_cos;
 pub use system::{Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use {
-    assemble::{State, assemble, assemble_with},
-    description::{
-        Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Text, VariableInfo,
-    },
-    dynamics::{Dynamics, SINGULAR_PIVOT},
-    error::{AssemblyError, RunError, SetupError},
-    evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
-    layout::{Group, Layout},
-    project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
-    record::write_csv,
-    simulate::{BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate},
-    singular::{LOST_RANK, NEARLY_LOST},
+pub use assemble::{State, assemble, assemble_with};
+#[cfg(feature = "std")]
+pub use description::{
+    Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
 };
+#[cfg(feature = "std")]
+pub use dynamics::{Dynamics, SINGULAR_PIVOT};
+#[cfg(feature = "std")]
+pub use error::{AssemblyError, RunError, SetupError};
+#[cfg(feature = "std")]
+pub use evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates};
+#[cfg(feature = "std")]
+pub use layout::{Group, Layout};
+#[cfg(feature = "std")]
+pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
+#[cfg(feature = "std")]
+pub use record::write_csv;
+#[cfg(feature = "std")]
+pub use simulate::{
+    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate,
+};
+#[cfg(feature = "std")]
+pub use singular::{LOST_RANK, NEARLY_LOST};

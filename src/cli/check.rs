@@ -4,13 +4,14 @@ use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::{Joint, JointKind, Parameter};
+use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
 
 use super::failure::Failure;
 use super::file::print;
 use super::input::{Loaded, load};
-use super::table::{number, plural, table};
+use super::table::{number, plural, short_table, table};
 use super::{Format, Input};
 
 /// Answers `check`.
@@ -68,12 +69,13 @@ fn text(compiled: &Compiled) -> String {
     );
     let dropped = analysis.constraint_rows - analysis.independent_rows;
     let facts = [
-        ("coordinates", analysis.coordinates.to_string(), "of the spanning tree, 4 per quaternion".into()),
+        ("coordinates", analysis.coordinates.to_string(), coordinates_note(analysis)),
         ("speeds", analysis.speeds.to_string(), String::new()),
         (
             "constraint rows",
             analysis.constraint_rows.to_string(),
             match dropped {
+                _ if analysis.constraint_rows == 0 => "no loops".into(),
                 0 => "all independent".into(),
                 _ => format!("{} independent, {dropped} redundant", analysis.independent_rows),
             },
@@ -84,21 +86,31 @@ fn text(compiled: &Compiled) -> String {
     text.push_str(&table(&["", "", ""], &facts));
     list(&mut text, "Driven", &analysis.drivers);
     list(&mut text, "Idle freedoms", &analysis.idle);
-    if !analysis.redundant.is_empty() {
-        let rows = analysis.redundant.iter().map(|r| vec![r.joint.clone(), r.row.clone(), r.reason.clone()]);
-        let _ =
-            write!(text, "\nRedundant rows\n{}", table(&["joint", "row", "why"], &rows.collect::<Vec<_>>()));
+    for (reason, rows) in redundant_by_joint(analysis) {
+        let _ = write!(text, "\nRedundant rows: {reason}\n{}", short_table(&["", ""], rows));
     }
-    list(&mut text, "Reactions that are not unique", &analysis.non_unique);
+    if !analysis.non_unique.is_empty() {
+        let rows = non_unique_by_joint(analysis);
+        let _ = write!(text, "\nReactions that are not unique\n{}", short_table(&["", ""], rows));
+    }
     if !mechanism.joints.is_empty() {
         let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
-        let _ = write!(text, "\nJoints\n{}", table(&["name", "kind", "parent", "child", ""], &rows));
+        let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
     }
     if !mechanism.parameters.is_empty() {
         let rows: Vec<_> = mechanism.parameters.iter().map(parameter_row).collect();
         let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
     }
     text
+}
+
+/// Why there are more coordinates than speeds, where there are.
+fn coordinates_note(analysis: &Analysis) -> String {
+    match analysis.coordinates - analysis.speeds {
+        0 => String::new(),
+        1 => "one more than speeds: a quaternion has four numbers for three freedoms".to_owned(),
+        more => format!("{more} more than speeds: a quaternion has four numbers for three freedoms"),
+    }
 }
 
 fn mobility_note(compiled: &Compiled) -> String {
@@ -114,6 +126,39 @@ fn mobility_note(compiled: &Compiled) -> String {
         let _ = write!(note, ", {} idle", analysis.idle.len());
     }
     note
+}
+
+/// Each reason with the rows it holds for, joint by joint.
+fn redundant_by_joint(analysis: &Analysis) -> Vec<(&str, Vec<Vec<String>>)> {
+    let mut reasons: Vec<(&str, Vec<Vec<String>>)> = Vec::new();
+    for row in &analysis.redundant {
+        let at = reasons.iter().position(|(reason, _)| *reason == row.reason).unwrap_or_else(|| {
+            reasons.push((&row.reason, Vec::new()));
+            reasons.len() - 1
+        });
+        add_to_joint(&mut reasons[at].1, &row.joint, &row.row, "; ");
+    }
+    reasons
+}
+
+/// `R1.Fz`, `R1.Mx` -> `R1  Fz Mx`.
+fn non_unique_by_joint(analysis: &Analysis) -> Vec<Vec<String>> {
+    let mut rows = Vec::new();
+    for name in &analysis.non_unique {
+        let (joint, component) = name.split_once('.').unwrap_or((name, ""));
+        add_to_joint(&mut rows, joint, component, " ");
+    }
+    rows
+}
+
+fn add_to_joint(rows: &mut Vec<Vec<String>>, joint: &str, item: &str, separator: &str) {
+    match rows.iter_mut().find(|row| row[0] == joint) {
+        Some(row) => {
+            row[1].push_str(separator);
+            row[1].push_str(item);
+        }
+        None => rows.push(vec![joint.to_owned(), item.to_owned()]),
+    }
 }
 
 fn list(text: &mut String, title: &str, items: &[String]) {

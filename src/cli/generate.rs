@@ -11,7 +11,7 @@ use super::equations::operations;
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
 use super::input::load;
-use super::table::{count, plural, table};
+use super::table::{count, duration, plural, table};
 use super::{Format, GenerateArguments, Target};
 
 /// Answers `generate`.
@@ -48,9 +48,10 @@ pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure>
             let verb = if arguments.check { "up to date" } else { "written" };
             let table = table(&["function", "operations", "statements", "parts"], &rows);
             print(&format!(
-                "{}: {verb}, {} in {seconds:.3} s\n\n{}",
+                "{}: {verb}, {} in {}\n\n{}",
                 out.display(),
                 plural(statements as u64, "statement", "statements"),
+                duration(seconds),
                 table.trim_end()
             ))
         }

@@ -14,7 +14,7 @@ use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
 use super::input::{Loaded, load};
 use super::progress::{Progress, catch_interrupts, stop_requested};
-use super::table::{number, plural};
+use super::table::{duration, number, plural};
 use super::{Backend, Format, IntegratorName, SimulateArguments, summary};
 
 /// Step of the fixed-step methods unless one is given [s].
@@ -193,6 +193,7 @@ fn machine(
         "evaluations": numbers.evaluations,
         "projections": numbers.projections,
         "rank_revealing_solves": numbers.rank_revealing_solves,
+        "newton_iterations": numbers.newton_iterations,
         "wall_seconds": wall_seconds,
         "max_loop_error_m": numbers.max_loop_error_m,
         "max_loop_error_rad": numbers.max_loop_error_rad,
@@ -220,7 +221,7 @@ fn human(
         }
         Span::Time(_) => format!("{end} s"),
     };
-    let head = format!("{}: {length} in {wall_seconds:.3} s, {backend}", description.name);
+    let head = format!("{}: {length} in {}, {backend}", description.name, duration(wall_seconds));
     let method = match settings.integrator {
         Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
         Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),

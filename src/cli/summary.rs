@@ -6,10 +6,13 @@ use linkwear_runtime::{Description, Run};
 use serde_json::{Value, json};
 
 use super::plot::{range, sparkline};
-use super::table::{count, number, plural, table};
+use super::table::{count, number, plural, short_table, table};
 
 /// Curves shown at most.
 const CURVES: usize = 8;
+/// Part of the largest load (N and N m alike, for machines of about a metre) that is rounding: some thousand
+/// roundings of 1e-16 each.
+const ROUNDING: f64 = 1e-12;
 /// Width of a curve.
 const WIDTH: usize = 48;
 
@@ -73,9 +76,17 @@ pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> S
     .into_iter()
     .map(|row| row.map(str::to_owned).to_vec())
     .collect::<Vec<_>>();
-    if !description.rows.is_empty() {
-        let (m, rad) = (number(numbers.max_loop_error_m), number(numbers.max_loop_error_rad));
-        facts.push(vec!["loop error".into(), format!("at most {m} m, {rad} rad")]);
+    let loop_errors: Vec<String> =
+        [(false, numbers.max_loop_error_m, "m"), (true, numbers.max_loop_error_rad, "rad")]
+            .into_iter()
+            .filter(|(angular, ..)| description.rows.iter().any(|row| row.angular == *angular))
+            .map(|(_, error, unit)| format!("{} {unit}", number(error)))
+            .collect();
+    if !loop_errors.is_empty() {
+        facts.push(vec!["loop error".into(), format!("at most {}", loop_errors.join(", "))]);
+    }
+    if numbers.newton_iterations > 0 {
+        facts.push(vec!["Newton".into(), plural(numbers.newton_iterations, "iteration", "iterations")]);
     }
     let (error, moved) = (number(numbers.energy_error_J), number(numbers.energy_throughput_J));
     facts.push(vec!["energy error".into(), format!("{error} J, while {moved} J went through")]);
@@ -87,17 +98,24 @@ pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> S
     curves(&mut text, description, run);
     let peaks = peaks(description, run);
     if !peaks.is_empty() {
-        let rows: Vec<_> = peaks
-            .iter()
-            .map(|p| {
-                let cells = [p.force, p.force_time, p.moment, p.moment_time].map(number);
-                [vec![p.joint.clone()], cells.to_vec()].concat()
-            })
-            .collect();
         let header = ["peak load at", "force [N]", "at t [s]", "moment [N m]", "at t [s]"];
-        let _ = write!(text, "\n{}", table(&header, &rows));
+        let _ = write!(text, "\n{}", short_table(&header, peak_rows(&peaks)));
     }
     text
+}
+
+/// Loads of no more than rounding are shown as the zero they are.
+fn peak_rows(peaks: &[Peak]) -> Vec<Vec<String>> {
+    let largest = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.force).max(peak.moment));
+    let cells = |value: f64, time: f64| {
+        let is_rounding = value <= ROUNDING * largest;
+        if is_rounding { ["0".to_owned(), String::new()] } else { [value, time].map(number) }
+    };
+    let rows = peaks.iter().map(|peak| {
+        let (force, moment) = (cells(peak.force, peak.force_time), cells(peak.moment, peak.moment_time));
+        [vec![peak.joint.clone()], force.to_vec(), moment.to_vec()].concat()
+    });
+    rows.collect()
 }
 
 /// Drives first, then joint positions: what one looks at first.

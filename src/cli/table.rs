@@ -1,5 +1,19 @@
 //! Text tables: left-aligned words, columns as wide as they need.
 
+/// Rows of a table for people: more would push the summary off the screen.
+const ROWS: usize = 24;
+
+/// A table that ends after a screenful and says how much it leaves out; machines get all rows.
+pub fn short_table(header: &[&str], mut rows: Vec<Vec<String>>) -> String {
+    let more = rows.len().saturating_sub(ROWS);
+    rows.truncate(ROWS);
+    let mut text = table(header, &rows);
+    if more > 0 {
+        text.push_str(&format!("  .. and {more} more; --format json lists all\n"));
+    }
+    text
+}
+
 /// Lines of a table, indented by two, two spaces between columns, no trailing space.
 /// Columns whose cells all read as numbers are aligned right.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
@@ -50,6 +64,11 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// A time for people: `2.345 s`, `0.7 ms`.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 0.1 { format!("{:.1} ms", 1e3 * seconds) } else { format!("{seconds:.3} s") }
+}
+
 /// A count with separators: 12,345.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
@@ -76,6 +95,20 @@ mod tests {
     fn columns_align_and_numbers_lean_right() {
         let rows = [vec!["R1".to_owned(), "1.5".to_owned()], vec!["S22".to_owned(), "12.25".to_owned()]];
         assert_eq!(table(&["joint", "N"], &rows), "  joint      N\n  R1       1.5\n  S22    12.25\n");
+    }
+
+    #[test]
+    fn long_tables_say_what_they_leave_out() {
+        let rows = vec![vec!["R".to_owned()]; ROWS + 3];
+        let text = short_table(&[""], rows.clone());
+        assert_eq!(text.lines().count(), ROWS + 1);
+        assert!(text.ends_with(".. and 3 more; --format json lists all\n"), "{text}");
+        assert_eq!(short_table(&[""], rows[3..].to_vec()), table(&[""], &rows[3..]));
+    }
+
+    #[test]
+    fn short_times_are_milliseconds() {
+        assert_eq!((duration(0.00071), duration(2.3456)), ("0.7 ms".into(), "2.346 s".into()));
     }
 
     #[test]

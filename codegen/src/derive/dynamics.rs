@@ -11,11 +11,13 @@ use crate::expr::{ExprId, Graph, Mat3, Vec3};
 
 use super::across::Motion;
 use super::closure::CutRows;
+use super::composite::mass_matrix;
 use super::forces::Loads;
-use super::inertia::{MassProperties, Wrench, mass_matrix};
+use super::inertia::MassProperties;
 use super::kinematics::{Acceleration, Twist};
 use super::linkage::Linkage;
 use super::solve::{Solution, solve};
+use super::wrench::Wrench;
 
 /// Inertial wrench of a link about its origin, in its frame.
 pub fn inertial_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> Wrench {

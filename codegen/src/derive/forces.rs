@@ -7,9 +7,9 @@ use crate::model::{Carrier, ForceKind, JointKind, Passive};
 
 use super::across::{Across, sides_of};
 use super::closure::link_wrenches;
-use super::inertia::Wrench;
 use super::joint_state::JointStates;
 use super::linkage::{Freedom, LinkIndex};
+use super::wrench::Wrench;
 
 /// Everything that pushes, and what it does to energy.
 pub struct Loads {

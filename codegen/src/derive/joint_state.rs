@@ -5,8 +5,9 @@ use crate::expr::{ExprId, Graph, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Formula, JointKind, Term};
 
-use super::across::{Across, JointCoordinates, Motion, Place, joint_coordinates, sides_of};
+use super::across::{Across, Motion, Place, sides_of};
 use super::inertia::Geometry;
+use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'a> {

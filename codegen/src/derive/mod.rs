@@ -1,19 +1,23 @@
 //! Symbolic derivation: from a mechanism to named outputs over one expression graph.
-//! In: [`crate::model`]. Out: [`Equations`]. Never knows text formats or Rust syntax.
+//! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
-//! Order of reading: [`linkage`] (frames), [`kinematics`], [`inertia`], [`closure`], [`forces`],
-//! [`dynamics`], [`solve`], then [`entries`], which asks them for what each entry point returns.
+//! Order of reading: `linkage` (frames), `kinematics`, `inertia`, `closure`, `forces`,
+//! `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
 
 mod across;
 mod closure;
+mod composite;
 mod dynamics;
 mod entries;
 mod forces;
 mod frame;
 mod inertia;
+mod joint_coordinates;
+mod joint_rows;
 mod joint_state;
 mod kinematics;
 mod linkage;
+mod linkage_build;
 mod log_closure;
 mod lower;
 mod observe;
@@ -21,6 +25,7 @@ mod solve;
 mod start;
 #[cfg(test)]
 mod tests;
+mod wrench;
 
 pub use closure::row_count;
 pub use entries::{Derived, Purpose, derive};
@@ -65,6 +70,8 @@ pub struct Block {
     pub columns: usize,
     /// Entries, row major.
     pub entries: Vec<ExprId>,
+    /// What each entry is called, where a number would say too little; else empty.
+    pub names: Vec<String>,
 }
 
 impl Block {
@@ -92,6 +99,13 @@ impl Block {
             rows,
             columns,
             entries,
+            names: Vec::new(),
         }
+    }
+
+    /// The block with a name for every entry.
+    #[must_use]
+    pub fn named(self, names: Vec<String>) -> Self {
+        Self { names, ..self }
     }
 }

@@ -11,9 +11,10 @@ use crate::model::JointKind;
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
 use super::forces::Loads;
-use super::inertia::{MassProperties, Wrench};
+use super::inertia::MassProperties;
 use super::joint_state::{JointStates, is_angle};
 use super::linkage::{Freedom, Linkage};
+use super::wrench::Wrench;
 
 /// All channels with their expressions.
 pub struct Channels {
@@ -212,6 +213,17 @@ fn tree_wrench(
     let pose = state.motion.poses.world[at];
     let mut moment = g.mul_vec3(pose.rotation, total.moment);
     let mut force = g.mul_vec3(pose.rotation, total.force);
+    let reversed = linkage.reversed[joint.index()];
+    let data = state.geometry.mechanism.joint(joint);
+    if reversed && slides(&data.kind) {
+        // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
+        let link = linkage.link(data.child);
+        let local = state.geometry.local(g, link, data.at);
+        let place = state.motion.poses.position(g, link, local);
+        let arm = g.sub3(pose.offset, place);
+        let lever = g.cross3(arm, force);
+        moment = g.add3(moment, lever);
+    }
     for (driven, coordinate, drive) in observed.drives.iter().filter(|(driven, ..)| *driven == joint) {
         let Some(link) = linkage.link_of_coordinate(*driven, *coordinate) else { continue };
         let rotation = state.motion.poses.world[link].rotation;
@@ -228,20 +240,8 @@ fn tree_wrench(
             moment = g.sub3(moment, own);
         }
     }
-    if !linkage.reversed[joint.index()] {
-        return [moment, force];
-    }
-    // The joint's child is inboard: it feels the opposite, at its own joint point.
-    let data = state.geometry.mechanism.joint(joint);
-    if slides(&data.kind) {
-        let link = linkage.link(data.child);
-        let local = state.geometry.local(g, link, data.at);
-        let place = state.motion.poses.position(g, link, local);
-        let arm = g.sub3(pose.offset, place);
-        let lever = g.cross3(arm, force);
-        moment = g.add3(moment, lever);
-    }
-    [g.neg3(moment), g.neg3(force)]
+    // The child of a reversed joint feels the opposite.
+    if reversed { [g.neg3(moment), g.neg3(force)] } else { [moment, force] }
 }
 
 fn slides(kind: &JointKind) -> bool {

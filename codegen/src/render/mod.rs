@@ -221,6 +221,9 @@ impl<'a> Writer<'a> {
 
     /// What an entry is called: after the symbol of the same block where another function reads it.
     fn entry_name(&self, block: &Block, index: usize) -> String {
+        if let Some(name) = block.names.get(index) {
+            return name.clone();
+        }
         let read = self.equations.functions.iter().flat_map(|function| &function.inputs).find(|input| {
             input.entries.len() == block.entries.len()
                 && (input.name == block.name || format!("{}_dot", input.name) == block.name)

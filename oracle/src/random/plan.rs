@@ -63,6 +63,11 @@ impl Kind {
         }
     }
 
+    /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
+    const fn is_wide(self) -> bool {
+        matches!(self, Self::Spherical | Self::Planar)
+    }
+
     /// Scalar coordinates that can be driven, sprung and damped; true for an angle.
     #[must_use]
     pub const fn coordinates(self) -> &'static [bool] {
@@ -122,6 +127,10 @@ impl Plan {
                 ring: None,
             });
         }
+        if joints.iter().all(|joint| joint.kind == Kind::Fixed) {
+            // Something must move.
+            joints[0].kind = Kind::Revolute;
+        }
         let mut plan = Self { joints };
         for ring in 0..recipe.loops {
             plan.close(recipe, ring, dice);
@@ -177,15 +186,15 @@ impl Plan {
         for joint in &way {
             self.joints[*joint].ring = Some(ring);
         }
+        // A random walk over kinds; it ends, since a ball and universals or cylinders elsewhere always do.
         while self.mobility(ring) < 1 {
             let joint = *dice.pick(&way);
-            let [turns, slides] = self.joints[joint].kind.freedoms();
-            if turns + slides < 3 {
-                let wider = [Kind::Spherical, Kind::Cylindrical, Kind::Universal, Kind::Planar];
-                self.joints[joint].kind = *dice.pick(&wider);
-            } else if way.iter().all(|joint| self.joints[*joint].kind.freedoms().iter().sum::<usize>() >= 3) {
-                // Too many balls in a short loop: only idle freedoms.
-                self.joints[joint].kind = *dice.pick(&[Kind::Cylindrical, Kind::Universal, Kind::Planar]);
+            let wide = self.ring(ring).filter(|joint| joint.kind.is_wide()).count();
+            let kind = &mut self.joints[joint].kind;
+            if kind.is_wide() || kind.freedoms() == [0, 0] || wide >= 2 {
+                *kind = *dice.pick(&[Kind::Cylindrical, Kind::Universal]);
+            } else {
+                *kind = *dice.pick(&[Kind::Spherical, Kind::Planar]);
             }
         }
     }
@@ -201,8 +210,9 @@ impl Plan {
             let [t, s] = joint.kind.freedoms();
             [turns + t, slides + s]
         });
-        let balls = self.ring(ring).filter(|joint| joint.kind == Kind::Spherical).count();
-        // Each stretch between two balls spins about the line through them; with three, triangles lock.
+        // What stands between two balls spins about the line through them, between a ball and a plane about the
+        // normal through the ball, and between two planes it slides along their common line: idle.
+        let balls = self.ring(ring).filter(|joint| joint.kind.is_wide()).count();
         if turns < 4 || balls > 2 {
             return 0;
         }

@@ -45,12 +45,12 @@ fn direction(v: [f64; 3]) -> String {
     format!("[{x:?}, {y:?}, {z:?}]")
 }
 
-fn random_direction(dice: &mut Dice) -> [f64; 3] {
-    // Now and then an axis of the ground frame: the generator treats zeros and ones specially.
-    if dice.chance(0.3) {
-        let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
+/// Main axes of joints. Now and then one of the ground frame, because the generator treats zeros and ones
+/// specially; but each only once, because parallel axes in a loop may lock it or let a part idle.
+fn random_axis(spare: &mut Vec<usize>, dice: &mut Dice) -> [f64; 3] {
+    if dice.chance(0.3) && !spare.is_empty() {
         let mut v = [0.0; 3];
-        v[dice.below(3)] = sign;
+        v[spare.swap_remove(dice.below(spare.len()))] = if dice.chance(0.5) { 1.0 } else { -1.0 };
         return v;
     }
     loop {
@@ -135,12 +135,17 @@ fn bodies(shapes: &[[String; 2]], dice: &mut Dice, text: &mut String) {
 
 fn joints(recipe: &Recipe, plan: &Plan, dice: &mut Dice, text: &mut String) {
     line(text, format_args!("\n[joints]"));
+    let mut spare = vec![0, 1, 2];
     for joint in &plan.joints {
         let name = |body: Option<usize>| body.map_or_else(|| "ground".to_owned(), |b| format!("b{b}"));
         let (inner, outer) = (name(joint.inner), name(Some(joint.outer)));
         let pair = if joint.reversed { [outer, inner] } else { [inner, outer] };
         let mut keys = format!("{} = {pair:?}, at = \"p_{}\"", joint.kind.key(), joint.name);
-        keys += &geometry(joint.kind, dice);
+        keys += &geometry(joint.kind, &mut spare, dice);
+        // The generator cuts loops where it likes, or here; never at a driven joint.
+        if joint.name.starts_with("close") && joint.drive.is_none() && dice.chance(0.5) {
+            keys += ", cut = true";
+        }
         if let Some(coordinate) = joint.drive {
             keys += &drive(joint, coordinate, dice);
         }
@@ -151,8 +156,11 @@ fn joints(recipe: &Recipe, plan: &Plan, dice: &mut Dice, text: &mut String) {
     }
 }
 
-fn geometry(kind: Kind, dice: &mut Dice) -> String {
-    let main = random_direction(dice);
+fn geometry(kind: Kind, spare: &mut Vec<usize>, dice: &mut Dice) -> String {
+    if matches!(kind, Kind::Spherical | Kind::Fixed | Kind::Free) {
+        return String::new();
+    }
+    let main = random_axis(spare, dice);
     match kind {
         Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => format!(", axis = {}", direction(main)),
         Kind::Screw => {

@@ -41,19 +41,17 @@ pub fn sizes(sizes: Sizes, runtime: &TokenStream) -> TokenStream {
     }
 }
 
-/// A function that returns the description.
+/// A function that returns the description. Lists are tables of plain tuples, which read and format well.
 pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
-    let name = text(&own.name);
+    let name = &*own.name;
     let parameters = own.parameters.iter().map(|p| {
-        let (name, unit, default) = (text(&p.name), text(&p.unit), Literal::f64_unsuffixed(p.default));
-        quote!(#runtime::ParameterInfo { name: #name, unit: #unit, default: #default })
+        let (name, unit, default) = (&*p.name, &*p.unit, Literal::f64_unsuffixed(p.default));
+        quote!((#name, #unit, #default))
     });
     let variable = |v: &linkwear_runtime::VariableInfo| {
-        let (name, unit, held) = (text(&v.name), text(&v.unit), v.held);
-        quote!(#runtime::VariableInfo { name: #name, unit: #unit, held: #held })
+        let (name, unit, held) = (&*v.name, &*v.unit, v.held);
+        quote!((#name, #unit, #held))
     };
-    let coordinates = own.coordinates.iter().map(variable);
-    let speeds = own.speeds.iter().map(variable);
     let motions = own.motions.iter().map(|motion| match motion {
         Motion::Scalar { driver } => {
             let driver = option(*driver);
@@ -64,44 +62,60 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     });
     let quaternions = own.quaternions.iter().map(|index| Literal::usize_unsuffixed(*index));
     let rows = own.rows.iter().map(|row| {
-        let (joint, meaning, angular) = (text(&row.joint), text(&row.meaning), row.angular);
-        let kept = option(row.kept);
-        quote!(#runtime::RowInfo { joint: #joint, meaning: #meaning, angular: #angular, kept: #kept })
+        let (joint, meaning, angular, kept) = (&*row.joint, &*row.meaning, row.angular, option(row.kept));
+        quote!((#joint, #meaning, #angular, #kept))
     });
     let drivers = own.drivers.iter().map(|driver| {
-        let (joint, angular) = (text(&driver.joint), driver.angular);
-        quote!(#runtime::DriverInfo { joint: #joint, angular: #angular })
+        let (joint, angular) = (&*driver.joint, driver.angular);
+        quote!((#joint, #angular))
     });
     let channels = own.channels.iter().map(|channel| {
-        let (name, unit, wraps) = (text(&channel.name), text(&channel.unit), channel.wraps);
-        quote!(#runtime::Channel { name: #name, unit: #unit, wraps: #wraps })
+        let (name, unit, wraps) = (&*channel.name, &*channel.unit, channel.wraps);
+        quote!((#name, #unit, #wraps))
     });
     let turn_driver = option(own.turn_driver);
+    let tables = [
+        table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
+        table("COORDINATES", quote!((&str, &str, bool)), own.coordinates.iter().map(variable).collect()),
+        table("SPEEDS", quote!((&str, &str, bool)), own.speeds.iter().map(variable).collect()),
+        table("MOTIONS", quote!(#runtime::Motion), motions.collect()),
+        table("QUATERNIONS", quote!(usize), quaternions.map(|index| quote!(#index)).collect()),
+        table("ROWS", quote!((&str, &str, bool, Option<usize>)), rows.collect()),
+        table("DRIVERS", quote!((&str, bool)), drivers.collect()),
+        table("CHANNELS", quote!((&str, &str, bool)), channels.collect()),
+    ];
     quote! {
+        #(#tables)*
         /// Names and units of parameters, coordinates, rows and output columns.
         #[must_use]
         pub fn description() -> &'static #runtime::Description {
-            use ::std::borrow::Cow::Borrowed;
             static DESCRIPTION: ::std::sync::LazyLock<#runtime::Description> =
-                ::std::sync::LazyLock::new(|| #runtime::Description {
-                    name: #name,
-                    parameters: vec![#(#parameters),*].into(),
-                    coordinates: vec![#(#coordinates),*].into(),
-                    speeds: vec![#(#speeds),*].into(),
-                    motions: vec![#(#motions),*].into(),
-                    quaternions: vec![#(#quaternions),*].into(),
-                    rows: vec![#(#rows),*].into(),
-                    drivers: vec![#(#drivers),*].into(),
-                    channels: vec![#(#channels),*].into(),
-                    turn_driver: #turn_driver,
+                ::std::sync::LazyLock::new(|| {
+                    #runtime::Description::from_tables(
+                        #name,
+                        #runtime::Tables {
+                            parameters: &PARAMETERS,
+                            coordinates: &COORDINATES,
+                            speeds: &SPEEDS,
+                            motions: &MOTIONS,
+                            quaternions: &QUATERNIONS,
+                            rows: &ROWS,
+                            drivers: &DRIVERS,
+                            channels: &CHANNELS,
+                            turn_driver: #turn_driver,
+                        },
+                    )
                 });
             &DESCRIPTION
         }
     }
 }
 
-fn text(text: &str) -> TokenStream {
-    quote!(Borrowed(#text))
+/// A private constant array.
+fn table(name: &str, of: TokenStream, entries: Vec<TokenStream>) -> TokenStream {
+    let name = quote::format_ident!("{name}");
+    let length = Literal::usize_unsuffixed(entries.len());
+    quote!(static #name: [#of; #length] = [#(#entries),*];)
 }
 
 fn option(index: Option<usize>) -> TokenStream {

@@ -1,6 +1,8 @@
 //! One entry point as a documented function over flat slices, in parts where it is long.
 //! In: a tape and its split. Out: tokens.
 
+use std::collections::HashMap;
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -98,7 +100,7 @@ fn documentation(tape: &Tape, split: &Split) -> Vec<String> {
 fn part_body(tape: &Tape, part: &Part) -> TokenStream {
     let mut names = Names::default();
     let mut inputs: Vec<Option<Ident>> = vec![None; tape.input_len()];
-    let mut values: std::collections::HashMap<u32, Ident> = std::collections::HashMap::new();
+    let mut values: HashMap<u32, TokenStream> = HashMap::new();
     let mut tokens = TokenStream::new();
     let statements = &tape.statements[part.statements.clone()];
     for statement in statements {
@@ -118,11 +120,10 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
             tokens.extend(quote!(let #name = x[#index];));
         }
     }
+    // Read where they are used: a `let` each would count against what compilers can take in one function.
     for (value, slot) in &part.loads {
-        let name = names.unique(&format!("t{value}"));
         let slot = Literal::usize_unsuffixed(*slot as usize);
-        tokens.extend(quote!(let #name = w[#slot];));
-        values.insert(*value, name);
+        values.insert(*value, quote!(w[#slot]));
     }
     let mut section = None;
     for statement in statements {
@@ -144,7 +145,7 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
 fn statement_tokens(
     statement: &Statement,
     inputs: &[Option<Ident>],
-    values: &mut std::collections::HashMap<u32, Ident>,
+    values: &mut HashMap<u32, TokenStream>,
     names: &mut Names,
 ) -> TokenStream {
     let right = {
@@ -162,7 +163,7 @@ fn statement_tokens(
         let value = statement.first + which;
         let wanted = statement.labels[which as usize].clone().unwrap_or_else(|| format!("t{value}"));
         let name = names.unique(&wanted);
-        values.insert(value, name.clone());
+        values.insert(value, quote!(#name));
         name
     };
     let left = match statement.op {
@@ -193,14 +194,14 @@ fn direct_operand(operand: Operand) -> TokenStream {
             let index = Literal::usize_unsuffixed(index as usize);
             quote!(x[#index])
         }
-        other => operand_tokens(other, &[], &std::collections::HashMap::new()),
+        other => operand_tokens(other, &[], &HashMap::new()),
     }
 }
 
 fn operand_tokens(
     operand: Operand,
     inputs: &[Option<Ident>],
-    values: &std::collections::HashMap<u32, Ident>,
+    values: &HashMap<u32, TokenStream>,
 ) -> TokenStream {
     match operand {
         Operand::Constant(number) => constant(number),
@@ -208,10 +209,7 @@ fn operand_tokens(
             let name = inputs[index as usize].as_ref().expect("inputs in use are named");
             quote!(#name)
         }
-        Operand::Value(value) => {
-            let name = &values[&value];
-            quote!(#name)
-        }
+        Operand::Value(value) => values[&value].clone(),
     }
 }
 

@@ -93,7 +93,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
         .clone()
         .map(|parameter| format!(" [{}], {:?} in the file.", one_line(&parameter.unit), parameter.default));
     let defaults = parameters.map(|parameter| Literal::f64_unsuffixed(parameter.default));
-    let count = fields.len();
+    let count = Literal::usize_unsuffixed(fields.len());
     let sizes_tokens = describe::sizes(sizes, runtime);
     let description = describe::description(input.description, runtime);
     let arms = Entry::ALL.iter().map(|entry| {

@@ -3,6 +3,7 @@
 //! Never knows tapes. The only place that knows all parts of the derivation.
 
 mod description;
+mod functions;
 
 use linkwear_runtime::{Channel, Description, Entry, Sizes};
 
@@ -10,18 +11,18 @@ use crate::expr::{ExprId, Graph, Vec3};
 use crate::id::JointId;
 use crate::model::{Mechanism, Topology};
 
-use super::{Block, Equations, Function};
+use super::{Equations, Function};
 use crate::derive::across::Motion;
 use crate::derive::closure::{CutRows, cut_rows};
-use crate::derive::dynamics::{Partition, bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
+use crate::derive::dynamics::Partition;
 use crate::derive::forces::{Loads, loads};
-use crate::derive::inertia::{Geometry, MassProperties, mass_matrix};
+use crate::derive::inertia::{Geometry, MassProperties};
 use crate::derive::joint_state::JointStates;
 use crate::derive::kinematics::{Poses, accelerations, twists};
-use crate::derive::linkage::{Freedom, Linkage, linkage};
+use crate::derive::linkage::{Freedom, Linkage};
+use crate::derive::linkage_build::linkage;
 use crate::derive::lower::Inputs;
-use crate::derive::observe::{Observed, channels};
-use crate::derive::start::{StartValues, start_values};
+use crate::derive::start::StartValues;
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
@@ -309,279 +310,4 @@ impl<'a> Deriver<'a> {
         debug_assert!(list.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name()));
         list
     }
-
-    fn base_inputs(&self) -> Vec<Block> {
-        vec![
-            Block::vector("parameters", "Tunable parameters, SI.", "", self.parameters.clone()),
-            Block::vector("t", "Time [s].", "", vec![self.inputs.time]),
-        ]
-    }
-
-    fn state_inputs(&self) -> Vec<Block> {
-        let q = self.free_q.iter().map(|i| self.q_all[*i]).collect();
-        let v = self.partition.free.iter().map(|i| self.v_all[*i]).collect();
-        let mut blocks = self.base_inputs();
-        blocks.push(Block::vector("q", "Free coordinates [rad, m, quaternions].", "", q));
-        blocks.push(Block::vector("v", "Free speeds [rad/s, m/s].", "", v));
-        blocks
-    }
-
-    fn function(&self, entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
-        Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs }
-    }
-
-    fn prescribed(&self) -> Function {
-        let entries = self.drivers.iter().flat_map(|driver| driver.law).collect();
-        let doc =
-            "Position, speed and acceleration of every driver, driver by driver [rad or m, per s, per s²].";
-        let outputs = vec![Block::matrix("prescribed", doc, "", self.drivers.len(), 3, entries)];
-        self.function(Entry::Prescribed, "Motion that the drivers prescribe.", self.base_inputs(), outputs)
-    }
-
-    fn start(&mut self) -> Function {
-        let driven: Vec<(usize, usize, [ExprId; 2])> = self
-            .drivers
-            .iter()
-            .map(|driver| (driver.coordinate, driver.speed, [driver.law[0], driver.law[1]]))
-            .collect();
-        let values = self.with_graph(|g, own| {
-            g.begin_section("start values");
-            start_values(g, &own.geometry(), &driven)
-        });
-        let q = self.free_q.iter().map(|i| values.q[*i]).collect();
-        let v = self.partition.free.iter().map(|i| values.v[*i]).collect();
-        self.start = Some(values);
-        let outputs = vec![
-            Block::vector("q", "Start values of the free coordinates, before the loops are closed.", "", q),
-            Block::vector("v", "Wishes for the free speeds.", "", v),
-        ];
-        self.function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs)
-    }
-
-    fn forward_dynamics(&mut self, instant: &Instant, masses: &[MassProperties]) -> Function {
-        let result = self.with_graph(|g, own| {
-            g.begin_section("loop Jacobian");
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
-            forward(g, own.linkage, &instant.motion, masses, &instant.loads, (&rows, &own.partition))
-        });
-        let outputs = vec![
-            Block::vector(
-                "v_dot",
-                "Accelerations of the free speeds [rad/s², m/s²].",
-                "[CS (6)]",
-                result.solution.accelerations,
-            ),
-            Block::vector(
-                "lambda",
-                "Multipliers of the kept rows [N, N m], on the joint's child.",
-                "[CS (6)]",
-                result.solution.multipliers,
-            ),
-            Block::vector(
-                "drive",
-                "Generalised force of every driver on the child [N m, N].",
-                "",
-                result.drive,
-            ),
-            Block::vector(
-                "pivots",
-                "Pivots of the loop rows, positive; small next to 1 near a singular position.",
-                "",
-                result.solution.pivots,
-            ),
-        ];
-        let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
-        self.function(Entry::ForwardDynamics, doc, self.state_inputs(), outputs)
-    }
-
-    fn rates(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
-        let drive = self.drive.clone();
-        let (q_dot, supplied) = self.with_graph(|g, own| {
-            g.begin_section("rates of the coordinates");
-            let mut q_dot = Vec::new();
-            for link in &own.linkage.links {
-                let (first, speed) = (link.first_coordinate, link.first_speed);
-                let q = &q[first..first + link.freedom.coordinates()];
-                let v = &v[speed..speed + link.freedom.speeds()];
-                q_dot.extend(coordinate_rates(g, link.freedom, q, v));
-            }
-            g.begin_section("power");
-            let mut supplied = instant.loads.supplied;
-            for (driver, force) in own.drivers.iter().zip(&drive) {
-                let power = g.mul(*force, driver.law[1]);
-                supplied = g.add(supplied, power);
-            }
-            (q_dot, supplied)
-        });
-        let q_dot = self.free_q.iter().map(|i| q_dot[*i]).collect();
-        let mut inputs = self.state_inputs();
-        inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", drive));
-        let outputs = vec![
-            Block::vector("q_dot", "Rates of the free coordinates.", "", q_dot),
-            Block::vector("supplied", "Power of drivers and applied forces [W].", "", vec![supplied]),
-            Block::vector("dissipated", "Power lost in dampers [W].", "", vec![instant.loads.dissipated]),
-        ];
-        self.function(Entry::Rates, "Rates of the coordinates, power in and power lost.", inputs, outputs)
-    }
-
-    fn closure(&mut self, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> Function {
-        let (cuts, rows) = self.with_graph(|g, own| {
-            let instant = own.instant(g, q, v, v_dot, true);
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
-            (instant.cuts, rows)
-        });
-        self.row_info = cuts
-            .iter()
-            .flat_map(|cut| cut.rows.iter().map(move |row| (cut.cut.joint, row.meaning.clone(), row.angular)))
-            .collect();
-        let all: Vec<ExprId> = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual)).collect();
-        let rates: Vec<ExprId> = rows.iter().map(|row| row.rate).collect();
-        let free = &self.partition.free;
-        let jacobian: Vec<ExprId> =
-            rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
-        let outputs = vec![
-            Block::vector(
-                "phi",
-                "Position residuals of all rows, dropped ones included [rad, m].",
-                "[CS (3)]",
-                all,
-            ),
-            Block::vector("phi_dot", "Velocity residuals of the kept rows [rad/s, m/s].", "[CS (3)]", rates),
-            Block::matrix(
-                "phi_q",
-                "Jacobian of the kept rows by the free speeds.",
-                "[CS (3)]",
-                rows.len(),
-                free.len(),
-                jacobian,
-            ),
-        ];
-        let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        self.function(Entry::Closure, doc, self.state_inputs(), outputs)
-    }
-
-    fn energies(&self, g: &mut Graph, instant: &Instant, masses: &[MassProperties]) -> [ExprId; 2] {
-        g.begin_section("energies");
-        let kinetic = kinetic_energy(g, masses, &instant.motion.twists);
-        let gravity = self.gravity(g);
-        let weight = weight_energy(g, self.linkage, &instant.motion, masses, gravity);
-        [kinetic, g.add(weight, instant.loads.potential)]
-    }
-
-    fn energy(&mut self, instant: &Instant, masses: &[MassProperties]) -> Function {
-        let [kinetic, potential] = self.with_graph(|g, own| own.energies(g, instant, masses));
-        let outputs = vec![
-            Block::vector("kinetic", "Kinetic energy [J].", "", vec![kinetic]),
-            Block::vector("potential", "Energy of weight and springs [J].", "", vec![potential]),
-        ];
-        self.function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs(), outputs)
-    }
-
-    fn observe(&mut self, q: &[ExprId], v: &[ExprId], masses: &[MassProperties]) -> Function {
-        let mut v_dot = vec![self.g.zero(); v.len()];
-        for (position, speed) in self.partition.free.iter().enumerate() {
-            v_dot[*speed] = self.v_dot[position];
-        }
-        for driver in &self.drivers {
-            v_dot[driver.speed] = driver.law[2];
-        }
-        let list = self.with_graph(|g, own| {
-            let instant = own.instant(g, q, v, &v_dot, false);
-            let energy = own.energies(g, &instant, masses);
-            let geometry = own.geometry();
-            let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-            let drives: Vec<(JointId, usize, ExprId)> = own
-                .drivers
-                .iter()
-                .zip(&own.drive)
-                .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
-                .collect();
-            let observed = Observed {
-                state: &state,
-                masses,
-                loads: &instant.loads,
-                cuts: &instant.cuts,
-                multipliers: &own.lambda,
-                keep: &own.keep,
-                drives: &drives,
-                energy,
-            };
-            channels(g, &observed)
-        });
-        self.channels = list.channels;
-        let mut inputs = self.state_inputs();
-        inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
-        inputs.push(Block::vector(
-            "lambda",
-            "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
-            "",
-            self.lambda.clone(),
-        ));
-        inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
-        let outputs = vec![Block::vector(
-            "channels",
-            "One value per output column, SI, components in W.",
-            "",
-            list.values,
-        )];
-        self.function(Entry::Observe, "Everything a user may want to see or record.", inputs, outputs)
-    }
-
-    fn equations_of_motion(&mut self, masses: &[MassProperties]) -> Function {
-        let (q, v) = (self.q_all.clone(), self.v_all.clone());
-        let n = v.len();
-        let zeros = vec![self.g.zero(); n];
-        let (mass, h, rows) = self.with_graph(|g, own| {
-            let instant = own.instant(g, &q, &v, &zeros, false);
-            let h = bias_forces(g, own.linkage, &instant.motion, masses, &instant.loads);
-            g.begin_section("mass matrix by composite bodies");
-            let mass = mass_matrix(g, own.linkage, &instant.motion.poses, masses);
-            g.begin_section("loop Jacobian");
-            // Dropped rows too: they stand in where the kept ones happen to lose rank.
-            let all = vec![true; own.keep.len()];
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &all);
-            (mass, h, rows)
-        });
-        let triangle: Vec<ExprId> = (0..n).flat_map(|i| mass[i][i..].to_vec()).collect();
-        let residuals = rows.iter().map(|row| row.residual).collect();
-        let gamma = self.with_graph(|g, _| rows.iter().map(|row| g.neg(row.bias)).collect());
-        let jacobian: Vec<ExprId> = rows.iter().flat_map(|row| row.jacobian.clone()).collect();
-        let outputs = vec![
-            Block::vector("mass", "Upper triangle of M, row by row [kg m², kg m, kg].", "[CS (6)]", triangle),
-            Block::vector("h", "Left side besides M v̇: inertia, weight, springs, damping.", "[CS (6)]", h),
-            Block::vector("phi", "Position residuals of all rows [rad, m].", "[CS (3)]", residuals),
-            Block::matrix(
-                "phi_q",
-                "Jacobian of all rows by all speeds.",
-                "[CS (3)]",
-                rows.len(),
-                n,
-                jacobian,
-            ),
-            Block::vector("gamma", "Right side of phi_q v̇ = gamma.", "[CS (6)]", gamma),
-        ];
-        let mut inputs = self.base_inputs();
-        inputs.push(Block::vector("q", "All coordinates, driven ones included.", "", q));
-        inputs.push(Block::vector("v", "All speeds, driven ones included.", "", v));
-        let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
-        self.function(Entry::EquationsOfMotion, doc, inputs, outputs)
-    }
-}
-
-/// `q̇` of one link from its speeds.
-fn coordinate_rates(g: &mut Graph, freedom: Freedom, q: &[ExprId], v: &[ExprId]) -> Vec<ExprId> {
-    if !matches!(freedom, Freedom::Ball | Freedom::Free) {
-        return v.to_vec();
-    }
-    // q̇ = q ∘ (0, omega) / 2 with omega in the link's own frame.
-    let zero = g.zero();
-    let turned =
-        crate::derive::observe::quaternion_product(g, [q[0], q[1], q[2], q[3]], [zero, v[0], v[1], v[2]]);
-    let half = g.constant(0.5);
-    let mut rates: Vec<ExprId> = turned.into_iter().map(|x| g.mul(half, x)).collect();
-    if freedom == Freedom::Free {
-        let rotation = crate::derive::kinematics::rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
-        rates.extend(g.mul_vec3(rotation, [v[3], v[4], v[5]]));
-    }
-    rates
 }

@@ -1,0 +1,94 @@
+//! Placing a body so that a joint has given coordinates and speeds.
+//! In: a [`JointMotion`] and the other body's motion. Out: the body's state. Never knows trees.
+
+use std::f64::consts::TAU;
+
+use linkwear_codegen::model::JointKind;
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+use crate::frame::{BodyState, Frame, rotation_about};
+use crate::joint::{JointGeometry, JointMotion};
+
+impl JointGeometry {
+    /// State of the child (`outward`), or of the parent, that gives the joint this motion when the other
+    /// body moves like `known`. `reference` is the sought body's mass centre at its reference pose.
+    pub fn place(
+        &self,
+        known: &Frame,
+        outward: bool,
+        reference: &Vector3<f64>,
+        motion: &JointMotion,
+    ) -> BodyState {
+        let (turn, shift) = self.displacement(&motion.position);
+        let k = &known.state;
+        let near = usize::from(!outward);
+        let rotation = k.rotation * if outward { turn } else { turn.transpose() };
+        let parent_rotation = if outward { k.rotation } else { rotation };
+        // A free joint's displacement is in W already.
+        let d = if self.kind == JointKind::Free { shift } else { parent_rotation * shift };
+        let point = known.point(&self.points[near]).position + if outward { d } else { -d };
+        let centre = point - rotation * (self.points[1 - near] - reference);
+        // Joint's relative twist at the child's point, in W.
+        let (spin, slip) = self.relative_twist(&parent_rotation, motion);
+        let child_point = if outward { point } else { known.point(&self.points[1]).position };
+        let sign = if outward { 1.0 } else { -1.0 };
+        let omega = k.omega + sign * spin;
+        let meeting = known.velocity_at(&child_point) + sign * slip;
+        let velocity = meeting + omega.cross(&(centre - child_point));
+        BodyState { rotation, centre, omega, velocity }
+    }
+
+    /// Rotation of the child relative to the parent, and the child's point relative to the parent's in
+    /// parent axes (for a free joint in W).
+    fn displacement(&self, q: &[f64]) -> (Matrix3<f64>, Vector3<f64>) {
+        let axis = self.parent_axis(2);
+        let align = self.triads[0] * self.triads[1].transpose();
+        let none = Vector3::zeros();
+        match &self.kind {
+            JointKind::Revolute(_) => (rotation_about(&axis, q[0]) * align, none),
+            JointKind::Prismatic(_) => (align, q[0] * axis),
+            JointKind::Cylindrical(_) => (rotation_about(&axis, q[0]) * align, q[1] * axis),
+            JointKind::Screw(_, lead) => (rotation_about(&axis, q[0]) * align, lead / TAU * q[0] * axis),
+            JointKind::Universal(first, second) => {
+                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+                (rotation_about(&a, q[0]) * rotation_about(&b, q[1]) * align, none)
+            }
+            JointKind::Planar { .. } => {
+                let shift = q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1);
+                (rotation_about(&axis, q[2]) * align, shift)
+            }
+            JointKind::Fixed => (align, none),
+            JointKind::Spherical | JointKind::Free => {
+                let q4 = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+                let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
+                (q4.to_rotation_matrix().into_inner(), shift)
+            }
+        }
+    }
+
+    fn relative_twist(&self, parent: &Matrix3<f64>, motion: &JointMotion) -> (Vector3<f64>, Vector3<f64>) {
+        let v = &motion.speed;
+        let axis = parent * self.parent_axis(2);
+        let none = Vector3::zeros();
+        match &self.kind {
+            JointKind::Revolute(_) => (v[0] * axis, none),
+            JointKind::Prismatic(_) => (none, v[0] * axis),
+            JointKind::Cylindrical(_) => (v[0] * axis, v[1] * axis),
+            JointKind::Screw(_, lead) => (v[0] * axis, lead / TAU * v[0] * axis),
+            JointKind::Universal(first, second) => {
+                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+                let b_now = parent * rotation_about(&a, motion.position[0]) * b;
+                (v[0] * axis + v[1] * b_now, none)
+            }
+            JointKind::Planar { .. } => {
+                let slip = parent * (v[0] * self.parent_axis(0) + v[1] * self.parent_axis(1));
+                (v[2] * axis, slip)
+            }
+            JointKind::Fixed => (none, none),
+            JointKind::Spherical | JointKind::Free => {
+                let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);
+                (Vector3::from_column_slice(&v[..3]), slip)
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Generated equations against an independent numeric model (crate `linkwear-oracle`: absolute coordinates,
+//! every joint a set of rows, no tree, no symbols), along the motion of shipped and of random mechanisms.
+//!
+//! A short run gives states away from the reference pose, with drives at work. At each of them the oracle is
+//! put into the same state by the output columns, and must see the same accelerations, drive forces, joint
+//! wrenches (where unique) and energies.
+
+mod support;
+
+use std::ops::ControlFlow;
+
+use linkwear_codegen::compile::Compiled;
+use linkwear_codegen::id::JointId;
+use linkwear_codegen::model::Closure;
+use linkwear_codegen::source::SourceFile;
+use linkwear_oracle::Oracle;
+use linkwear_oracle::random::{Kind, Recipe};
+use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
+use support::{compile_source, shipped};
+
+/// Largest share of a quantity's scale by which the two may differ. Both are exact up to rounding; loops are
+/// closed to about 1e-13, and near singular positions that is amplified by up to 1 / `CONDITION` twice.
+const AGREEMENT: f64 = 1e-8;
+/// States nearer to a singular position (smallest singular value of the oracle's rows) are not compared.
+const CONDITION: f64 = 2e-3;
+/// Samples of a run, both ends included.
+const SAMPLES: usize = 5;
+
+/// Pairs of numbers that should be equal, with the scale on which to judge them.
+#[derive(Default)]
+struct Ledger {
+    entries: Vec<(String, f64, f64, f64)>,
+}
+
+impl Ledger {
+    fn add(&mut self, name: String, ours: f64, theirs: f64, scale: f64) {
+        self.entries.push((name, ours, theirs, scale));
+    }
+
+    fn worst(&self) -> Option<(String, f64)> {
+        let error = |(name, a, b, scale): &(String, f64, f64, f64)| {
+            let error = (a - b).abs() / (1.0 + scale);
+            (
+                format!("{name}: {a} against the oracle's {b}"),
+                if error.is_nan() { f64::INFINITY } else { error },
+            )
+        };
+        self.entries.iter().map(error).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+fn compare_sample(oracle: &Oracle, t: f64, column: &dyn Fn(&str) -> Option<f64>, ledger: &mut Ledger) {
+    let states = oracle.states_from(column).expect("columns reach every body");
+    ledger.add(format!("t = {t}: open loops"), 0.0, oracle.constraint_residual(t, &states), 0.0);
+    ledger.add(format!("t = {t}: open speeds"), 0.0, oracle.velocity_residual(t, &states), 0.0);
+    let solution = oracle.accelerations(t, &states);
+    if solution.smallest_kept < CONDITION {
+        return;
+    }
+    let scale = solution.alpha.iter().chain(&solution.acceleration).fold(0.0, |s: f64, a| s.max(a.amax()));
+    let force = solution.wrenches.iter().fold(0.0, |s: f64, w| s.max(w.force.amax()).max(w.moment.amax()));
+    let mut drives = solution.drives.iter();
+    for (index, joint) in oracle.mechanism.joints.iter().enumerate() {
+        let name = &joint.name;
+        let accelerations = oracle.joint_accelerations(JointId::new(index), &states, &solution);
+        let several = accelerations.len() > 1;
+        let suffix = |k: usize| if several { (k + 1).to_string() } else { String::new() };
+        for (k, theirs) in accelerations.iter().enumerate() {
+            let label = format!("{name}.a{}", suffix(k));
+            ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), *theirs, scale);
+        }
+        for drive in &joint.drives {
+            let label = format!("{name}.drive{}", suffix(drive.coordinate));
+            let theirs = *drives.next().expect("one force per drive");
+            ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), theirs, force);
+        }
+        let wrench = &solution.wrenches[index];
+        let theirs: Vec<f64> = wrench.force.iter().chain(&wrench.moment).copied().collect();
+        for (k, part) in ["Fx", "Fy", "Fz", "Mx", "My", "Mz"].into_iter().enumerate() {
+            if wrench.unique[k] {
+                let label = format!("{name}.{part}");
+                ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), theirs[k], force);
+            }
+        }
+    }
+    let kinetic = oracle.kinetic_energy(&states);
+    ledger.add(format!("t = {t}: T"), column("energy.kinetic").unwrap_or(f64::NAN), kinetic, kinetic);
+}
+
+/// Compares every sample of a run; potential energies up to their constant.
+fn compare(oracle: &Oracle, run: &Run, description: &Description) -> Ledger {
+    let mut ledger = Ledger::default();
+    let mut offset = None;
+    for (t, row) in run.times.iter().zip(&run.rows) {
+        let column = |name: &str| -> Option<f64> {
+            let index = description.channels.iter().position(|channel| channel.name == name)?;
+            Some(row[index])
+        };
+        compare_sample(oracle, *t, &column, &mut ledger);
+        let states = oracle.states_from(&column).expect("columns reach every body");
+        let (ours, theirs) =
+            (column("energy.potential").unwrap_or(f64::NAN), oracle.potential_energy(*t, &states));
+        let offset = *offset.get_or_insert(ours - theirs);
+        ledger.add(format!("t = {t}: V"), ours - offset, theirs, theirs.abs() + ours.abs());
+    }
+    ledger
+}
+
+/// Runs for some time, or until a driver meets a dead point, and compares what was recorded.
+fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) {
+    let compiled: Compiled = compile_source(source, &[], closure);
+    let integrator = Integrator::Dopri5 { tolerance: 1e-9, max_step: None };
+    let settings = Settings::new(integrator, Span::Time(seconds), SAMPLES);
+    let description = compiled.description();
+    let watch = &mut |_| ControlFlow::Continue(());
+    let run = simulate(&compiled.interpreter(), description, &compiled.parameters(), &settings, watch)
+        .unwrap_or_else(|error| panic!("{}: {error}\n{}", source.name, source.text));
+    let oracle = Oracle::with_defaults(&compiled.mechanism).expect("the oracle reads what we read");
+    let (name, error) = compare(&oracle, &run, description).worst().expect("at least the start");
+    assert!(error < AGREEMENT, "{} {closure:?}: {name} ({error:.1e})\n{}", source.name, source.text);
+}
+
+fn random(recipe: &Recipe) -> SourceFile {
+    SourceFile { name: format!("random {recipe:?}"), text: recipe.toml() }
+}
+
+#[test]
+fn shipped_mechanisms_agree() {
+    for (name, seconds) in [
+        ("andrews", 0.02),
+        ("bennett", 0.7),
+        ("bricard", 0.7),
+        ("flyball", 0.05),
+        ("four_bar", 0.7),
+        ("n_four_bar_2", 0.4),
+        ("pendulum", 0.7),
+        ("rssr_rigid", 0.3),
+        ("six_bar", 0.7),
+        ("slider_crank", 0.3),
+        ("spatial_slider_crank", 0.3),
+    ] {
+        for closure in [Closure::Joint, Closure::Log] {
+            let source = shipped(name);
+            check(&source, Some(closure), seconds);
+        }
+    }
+}
+
+#[test]
+fn every_joint_kind_alone_agrees() {
+    for kind in Kind::ALL {
+        for seed in 0..3 {
+            check(&random(&Recipe::alone(kind, seed)), None, 0.2);
+        }
+    }
+}
+
+#[test]
+fn random_trees_agree() {
+    for seed in 0..16 {
+        check(&random(&Recipe::tree(seed)), None, 0.2);
+    }
+}
+
+#[test]
+fn random_loops_agree_with_both_closures() {
+    for seed in 0..16 {
+        for closure in [Closure::Joint, Closure::Log] {
+            check(&random(&Recipe::closed(seed)), Some(closure), 0.2);
+        }
+    }
+}
+
+#[test]
+fn a_driven_planar_joint_is_pushed_at_the_childs_point_also_when_the_ground_is_the_child() {
+    let text = r#"
+        spec = 1
+        name = "sledge"
+        gravity = ["1 m/s^2", "2 m/s^2", "-9 m/s^2"]
+        [points]
+        P = ["0.1 m", "0.2 m", "-0.1 m"]
+        [bodies]
+        b = { mass = "2 kg", centre = ["0.3 m", "0.1 m", "0 m"], inertia = ["0.1 kg m^2", "0.15 kg m^2", "0.2 kg m^2"] }
+        [joints.plane]
+        planar = ["b", "ground"]
+        at = "P"
+        axis = [1, 2, 3]
+        first = [3, 0, -1]
+        drive = { q1 = "50 mm*sin(3 Hz*t)" }
+        [initial]
+        plane = { q2 = "80 mm", q3 = "0.4 rad", v2 = "0.3 m/s", v3 = "2 rad/s" }
+    "#;
+    check(&SourceFile { name: "sledge".to_owned(), text: text.to_owned() }, None, 0.2);
+}
