@@ -60,13 +60,8 @@ fn a_crank_that_cannot_go_round_stops_with_joint_and_time_and_keeps_its_samples(
         let run = past_the_dead_point(integrator);
         let stopped = run.stopped.expect("no crank turns further than its bars let it");
         let text = stopped.to_string();
-        eprintln!("{integrator:?}: {text}");
-        let (RunError::LostAssembly { t, .. }
-        | RunError::BranchChange { t, .. }
-        | RunError::StepTooSmall { t, .. }
-        | RunError::NewtonFailed { t, .. }) = stopped
-        else {
-            panic!("{text}")
+        let (RunError::LostAssembly { t, .. } | RunError::BranchChange { t, .. }) = stopped else {
+            panic!("{integrator:?}: {text}")
         };
         // Speeds grow like 1/sqrt(dead - t): the last steps before are short or fail. A step is 1 ms.
         assert!((t - dead).abs() < 5e-3, "{text}, dead point at {dead}");
@@ -96,8 +91,7 @@ fn assert_balance(joints: &str, forces: &str, initial: &str) {
     let text = format!("{HEAD}[joints]\n{joints}\n[forces]\n{forces}\n[initial]\n{initial}\n");
     let compiled = compile_source(&source(&text), &[], None);
     let statistics = run(&compiled, Span::Time(5.0), Span::Time(0.0), 11, 1e-11).run.statistics;
-    eprintln!("{statistics:?}");
-    // 1e-8 is what users are promised; tolerance 1e-11 a step leaves about 1e-10.
+    // 1e-8 is what users are promised; tolerance 1e-11 leaves about 1e-13.
     assert!(
         statistics.energy_error_J < 1e-8 * statistics.energy_throughput_J,
         "{:e} J of {:e} J",
@@ -199,8 +193,8 @@ fn values_changed_at_run_time_act_as_values_compiled_in() {
         let at = tunable.description().parameters.iter().position(|p| p.name == name).expect("a parameter");
         parameters[at] = value;
     }
-    let settings =
-        Settings::new(Integrator::Dopri5 { tolerance: 1e-11, max_step: None }, Span::Turns(1.0), 21);
+    // Fixed steps: rounding must not decide their size.
+    let settings = Settings::new(Integrator::Rk4 { step: 1e-4 }, Span::Time(0.3), 31);
     let system = tunable.interpreter();
     let changed =
         simulate(&system, tunable.description(), &parameters, &settings, &mut |_| ControlFlow::Continue(()))
@@ -209,12 +203,11 @@ fn values_changed_at_run_time_act_as_values_compiled_in() {
     let folded = support::run_with(&compile_source(&shipped("rssr_rigid"), &overrides, None), &settings);
     assert_eq!(changed.times, folded.run.times);
     for (index, channel) in folded.description.channels.iter().enumerate() {
-        // The two versions may drop other digits of an idle spin; everything else is one motion.
         let column = |rows: &[Vec<f64>]| rows.iter().map(|row| row[index]).collect::<Vec<f64>>();
         let (a, b) = (column(&changed.rows), column(&folded.run.rows));
         let scale = b.iter().fold(1.0_f64, |most, x| most.max(x.abs()));
-        // Two runs at tolerance 1e-11; rounding decides their steps.
+        // One and the same formulas but for the order of rounding: 3000 steps leave less than 1e-13.
         let error = largest_difference(&a, &b) / scale;
-        assert!(error < 1e-9, "{}: {error:e}", channel.name);
+        assert!(error < 1e-12, "{}: {error:e}", channel.name);
     }
 }

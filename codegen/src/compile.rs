@@ -73,7 +73,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     warnings.extend(remarks);
     let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
     let tapes = tape::lower(&derived.equations);
-    Ok(Compiled {
+    let compiled = Compiled {
         source: source.clone(),
         mechanism,
         topology,
@@ -83,7 +83,10 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         tapes,
         description: derived.description,
         sizes: derived.sizes,
-    })
+    };
+    let system = compiled.interpreter();
+    preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
+    Ok(compiled)
 }
 
 fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {

@@ -5,7 +5,7 @@ use linkwear_runtime::AssemblyError;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::JointId;
-use crate::model::{Joint, Mechanism};
+use crate::model::{Joint, Mechanism, Start};
 
 use super::Analysis;
 use super::rank::Rows;
@@ -21,13 +21,15 @@ fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// How far loops stay open: only the kinds that are.
+/// How far loops stay open: only the kinds that are, rounded.
 fn gap(metres: f64, radians: f64) -> String {
-    match (metres > 0.0, radians > 0.0) {
-        (true, true) => format!("{metres:.3} m and {radians:.3} rad"),
-        (false, true) => format!("{radians:.3} rad"),
-        _ => format!("{metres:.3} m"),
-    }
+    /// Next to a gap that people are told of, less is rounding.
+    const CLOSED: f64 = 1e-9;
+    let metres = Some(metres).filter(|gap| *gap > CLOSED || radians <= CLOSED);
+    let radians = Some(radians).filter(|gap| *gap > CLOSED);
+    let rounded = |gap: f64| if gap < 1e-3 { format!("{gap:.1e}") } else { format!("{gap:.3}") };
+    let parts = [metres.map(|gap| rounded(gap) + " m"), radians.map(|gap| rounded(gap) + " rad")];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
 
 /// Assembly failed although no driver stands in the way.
@@ -62,7 +64,11 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
         }
         AssemblyError::NonFinite { what } => {
             let message = format!("{what} is not a finite number in the start position");
-            Diagnostic::new(Code::StartNotFinite, message).help("check parameters, start values and drivers")
+            let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
+                .help("check the law of its driver, its start values and the parameters in them");
+            // `what` ends with the joint, or one of its variables.
+            let joint = what.rsplit(' ').next().and_then(|name| name.split('.').next()).unwrap_or_default();
+            at_joint(diagnostic, mechanism, joint, "of this joint")
         }
         AssemblyError::Setup(error) => Diagnostic::new(Code::StartNotFinite, error.to_string()),
     }
@@ -75,18 +81,32 @@ fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &s
     }
 }
 
-/// `names`: variables as assembly lists them, each beginning with `` `joint.q` ``.
+/// Whether a variable of the joint is among `names`, each of which begins with `` `joint.q` ``.
+fn among(names: &[String], joint: &Joint) -> bool {
+    names
+        .iter()
+        .any(|name| name.strip_prefix('`').and_then(|rest| rest.split('.').next()) == Some(&joint.name))
+}
+
+/// `names`: variables as assembly lists them.
 fn start_impossible(mechanism: &Mechanism, names: &[String], message: String) -> Diagnostic {
     let mut diagnostic = Diagnostic::new(Code::StartImpossible, message);
-    for start in mechanism.starts.iter().filter(|start| start.held) {
-        let prefix = format!("`{}.", mechanism.joint(start.joint).name);
-        if names.iter().any(|name| name.starts_with(&prefix)) {
-            diagnostic = diagnostic.at(start.span, "demanded here");
-        }
+    for joint in mechanism.joints.iter().filter(|joint| !joint.drives.is_empty() && among(names, joint)) {
+        diagnostic = diagnostic.at(joint.span, "driven from there");
+    }
+    for start in demanded(mechanism, names) {
+        diagnostic = diagnostic.at(start.span, "demanded here");
     }
     diagnostic.help(
-        "demand as many start values as there are freedoms, and give the others in [assembly] as guesses",
+        "demand no more start values than there are freedoms without a driver, and give the others in [assembly] \
+         as guesses",
     )
+}
+
+/// Demanded start values among `names`.
+fn demanded<'a>(mechanism: &'a Mechanism, names: &'a [String]) -> impl Iterator<Item = &'a Start> {
+    let starts = mechanism.starts.iter().filter(|start| start.held);
+    starts.filter(|start| among(names, mechanism.joint(start.joint)))
 }
 
 /// The loops close, but not where the drivers start.
@@ -96,6 +116,9 @@ pub fn out_of_reach(
     error: &AssemblyError,
 ) -> Diagnostic {
     let (names, loops) = match error {
+        AssemblyError::HeldPositions { names, .. } if demanded(mechanism, names).next().is_some() => {
+            return cannot_close(mechanism, error);
+        }
         AssemblyError::HeldPositions { names, residual_m, residual_rad } => {
             (names.as_slice(), format!("the loops stay open by {}", gap(*residual_m, *residual_rad)))
         }
@@ -105,9 +128,7 @@ pub fn out_of_reach(
         }
         other => return cannot_close(mechanism, other),
     };
-    let stuck = |joint: &&Joint| {
-        names.is_empty() || names.iter().any(|name| name.starts_with(&format!("`{}.", joint.name)))
-    };
+    let stuck = |joint: &&Joint| names.is_empty() || among(names, joint);
     let joints: Vec<&Joint> = drivers.iter().map(|(id, _)| mechanism.joint(*id)).filter(stuck).collect();
     if joints.is_empty() {
         return cannot_close(mechanism, error);
@@ -163,6 +184,15 @@ pub fn massless(mechanism: &Mechanism, joint: JointId, body: &str) -> Diagnostic
     Diagnostic::new(Code::MasslessFreedom, message)
         .at(joint.span, "this motion has no inertia")
         .help(format!("give `{body}` a moment of inertia, or use a joint without that freedom"))
+}
+
+/// A driver whose law has no finite first or second derivative at t = 0.
+pub fn abrupt_driver(mechanism: &Mechanism, joint: &str, what: &str) -> Diagnostic {
+    let message =
+        format!("the {what} that the driver of `{joint}` prescribes is not a finite number at t = 0");
+    let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
+        .help("let the law set out smoothly, for instance with `t^2` in place of `sqrt(t)`");
+    at_joint(diagnostic, mechanism, joint, "driven here")
 }
 
 /// Drivers must prescribe independent freedoms.

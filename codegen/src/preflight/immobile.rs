@@ -3,8 +3,9 @@
 
 use nalgebra::DMatrix;
 
+use crate::derive::row_count;
 use crate::id::JointId;
-use crate::model::Carrier;
+use crate::model::{Carrier, Closure};
 
 use super::Case;
 use super::samples::{ClosedPositions, Position, null_space};
@@ -38,9 +39,10 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     // A joint that closes a loop of joints at rest rests too.
     let cuts = case.topology.cuts.iter().copied().filter(|cut| {
         let loop_joints = loop_of(case, *cut);
-        !loop_joints.is_empty() && loop_joints.into_iter().all(still)
+        let could = row_count(&case.mechanism.joint(*cut).kind, Closure::Joint) < 6;
+        could && loop_joints.iter().any(|joint| rigid.contains(joint)) && loop_joints.into_iter().all(still)
     });
-    let cuts: Vec<JointId> = if rigid.is_empty() { Vec::new() } else { cuts.collect() };
+    let cuts: Vec<JointId> = cuts.collect();
     rigid.extend(cuts);
     rigid.sort_by_key(|joint| joint.index());
     rigid

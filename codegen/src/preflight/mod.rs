@@ -6,6 +6,7 @@
 mod failures;
 mod idle;
 mod immobile;
+mod prescribed;
 mod rank;
 mod reactions;
 mod samples;
@@ -17,6 +18,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::id::JointId;
 use crate::model::{Mechanism, Start, Topology};
 use crate::source::SourceFile;
+
+pub use prescribed::check_prescribed;
 
 use rank::Rows;
 use samples::ClosedPositions;
@@ -189,11 +192,10 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
             reason: "in every position tried, the other rows of its loops already forbid it".to_owned(),
         });
     }
-    let mut errors = if analysis.mobility == 0 {
-        vec![failures::locked(mechanism, &analysis)]
-    } else {
-        failures::conflicts(mechanism, &drivers, &rows)
-    };
+    let mut errors = failures::conflicts(mechanism, &drivers, &rows);
+    if analysis.mobility == 0 {
+        errors.insert(0, failures::locked(mechanism, &analysis));
+    }
     if let Some(error) = refusal.filter(|_| errors.is_empty()) {
         errors.push(failures::out_of_reach(mechanism, &drivers, &error));
     }
