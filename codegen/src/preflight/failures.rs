@@ -63,12 +63,12 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
             at_joint(diagnostic, mechanism, joint, "in this loop")
         }
         AssemblyError::NonFinite { what } => {
-            let message = format!("{what} is not a finite number in the start position");
+            let message = format!("the {what} is not a finite number in the start position");
             let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
-                .help("check the law of its driver, its start values and the parameters in them");
+                .help("check the points, start values and parameters of this joint");
             // `what` ends with the joint, or one of its variables.
             let joint = what.rsplit(' ').next().and_then(|name| name.split('.').next()).unwrap_or_default();
-            at_joint(diagnostic, mechanism, joint, "of this joint")
+            at_joint(diagnostic, mechanism, joint, "this joint")
         }
         AssemblyError::Setup(error) => Diagnostic::new(Code::StartNotFinite, error.to_string()),
     }
