@@ -197,6 +197,13 @@ impl Linkage {
         self.links.iter().map(|link| link.freedom.speeds()).sum()
     }
 
+    /// Speeds of joints, those of modes left out, by index among all.
+    #[must_use]
+    pub fn joint_speeds(&self) -> Vec<usize> {
+        let links = self.links.iter().filter(|link| !matches!(link.freedom, Freedom::Flexible { .. }));
+        links.flat_map(|link| link.first_speed..link.first_speed + link.freedom.speeds()).collect()
+    }
+
     /// Links from `link` to the root, itself first.
     pub fn path(&self, link: LinkIndex) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(link, |at| self.links[*at].parent)

@@ -31,7 +31,7 @@ mod wrench;
 
 pub use closure::row_count;
 pub use entries::{Derived, Purpose, derive};
-pub use linkage::Linkage;
+pub use linkage::{Freedom, Link, Linkage};
 
 use crate::expr::{ExprId, Graph};
 

@@ -100,7 +100,8 @@ impl Effect {
         let start = &positions.positions[0];
         let full = &start.jacobian;
         let driven: Vec<usize> = case.drivers().into_iter().map(|(_, speed)| speed).collect();
-        let free: Vec<usize> = (0..sizes.speeds).filter(|speed| !driven.contains(speed)).collect();
+        let mut free = case.linkage.joint_speeds();
+        free.retain(|speed| !driven.contains(speed));
         let jacobian = DMatrix::from_fn(full.nrows(), free.len(), |i, j| full[(i, free[j])]);
         let freedoms = null_space(&jacobian);
         let parameters = case.parameters();

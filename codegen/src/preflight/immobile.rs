@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::derive::row_count;
+use crate::derive::{Freedom, Link, row_count};
 use crate::id::JointId;
 use crate::model::{Carrier, Closure};
 
@@ -20,18 +20,22 @@ const NO_MASS: f64 = 1e-12;
 /// Joints that cannot move in any position tried. `fixed` joints do not count.
 pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId> {
     let mut moves = vec![false; case.system.sizes().all_speeds];
+    let joint_speeds = case.linkage.joint_speeds();
     for position in &positions.positions {
-        let free = null_space(&position.jacobian);
-        for (speed, moves) in moves.iter_mut().enumerate() {
-            *moves |= free.row(speed).amax() > REST;
+        let free = null_space(&position.jacobian.select_columns(&joint_speeds));
+        for (row, speed) in joint_speeds.iter().enumerate() {
+            moves[*speed] |= free.row(row).amax() > REST;
         }
     }
+    let own = |link: &&Link, joint: JointId| {
+        link.joint == joint && !matches!(link.freedom, Freedom::Flexible { .. })
+    };
     let still = |joint: JointId| {
-        let links = case.linkage.links.iter().filter(|link| link.joint == joint);
+        let links = case.linkage.links.iter().filter(|link| own(link, joint));
         links.flat_map(|link| link.first_speed..link.first_speed + link.freedom.speeds()).all(|v| !moves[v])
     };
     let has_freedom = |joint: JointId| {
-        case.linkage.links.iter().any(|link| link.joint == joint && link.freedom.speeds() > 0)
+        case.linkage.links.iter().any(|link| own(&link, joint) && link.freedom.speeds() > 0)
     };
     let tree =
         case.topology.tree.iter().map(|step| step.joint).filter(|joint| has_freedom(*joint) && still(*joint));

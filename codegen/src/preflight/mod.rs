@@ -40,13 +40,15 @@ pub struct Redundant {
 pub struct Analysis {
     /// Coordinates before drivers take freedoms away (4 for a quaternion).
     pub coordinates: usize,
-    /// Speeds before drivers take freedoms away.
+    /// Speeds before drivers take freedoms away, those of modes included.
     pub speeds: usize,
+    /// Modal coordinates of flexible bodies.
+    pub modes: usize,
     /// Constraint rows before redundant ones are dropped.
     pub constraint_rows: usize,
     /// Rows that are independent in general positions.
     pub independent_rows: usize,
-    /// Speeds less independent rows: the true number of freedoms.
+    /// Speeds less independent rows, with flexible bodies frozen: the true number of freedoms.
     pub mobility: usize,
     /// The Grübler-Kutzbach count, which knows no special geometry.
     pub grubler: i64,
@@ -102,11 +104,15 @@ impl Case<'_> {
     /// Closed positions; if the drivers' start positions are out of reach, such that drivers follow, with the reason.
     fn closed_positions(&self) -> Result<(ClosedPositions, Option<AssemblyError>), AssemblyError> {
         let parameters = self.parameters();
-        let error = match ClosedPositions::walk(self.description, self.system, &parameters) {
+        let joint_speeds = self.linkage.joint_speeds();
+        let walk = |description: &Description| {
+            ClosedPositions::walk(description, self.system, &parameters, &joint_speeds)
+        };
+        let error = match walk(self.description) {
             Ok(positions) => return Ok((positions, None)),
             Err(error) => error,
         };
-        match ClosedPositions::walk(&self.with_drivers_as_guesses(), self.system, &parameters) {
+        match walk(&self.with_drivers_as_guesses()) {
             Ok(positions) => Ok((positions, Some(error))),
             Err(_) => Err(error),
         }
@@ -184,7 +190,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     let rows = Rows::new(&positions, drivers.iter().map(|(_, speed)| *speed).collect());
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
-    analysis.mobility = analysis.speeds - analysis.independent_rows;
+    let joint_speeds = case.linkage.joint_speeds();
+    analysis.modes = analysis.speeds - joint_speeds.len();
+    analysis.mobility = joint_speeds.len() - Rows::of_speeds(&positions, &joint_speeds).rank();
     for (info, _) in description.rows.iter().zip(&keep).filter(|(_, kept)| !**kept) {
         analysis.redundant.push(Redundant {
             joint: info.joint.to_string(),
@@ -193,7 +201,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         });
     }
     let mut errors = failures::conflicts(mechanism, &drivers, &rows);
-    if analysis.mobility == 0 {
+    if analysis.speeds == analysis.independent_rows {
         errors.insert(0, failures::locked(mechanism, &analysis));
     }
     if let Some(error) = refusal.filter(|_| errors.is_empty()) {

@@ -32,6 +32,22 @@ impl Rows {
         Self { samples, driven }
     }
 
+    /// The rows by some speeds only.
+    #[must_use]
+    pub fn of_speeds(positions: &ClosedPositions, speeds: &[usize]) -> Self {
+        let mut chosen = Self::new(positions, Vec::new());
+        for sample in &mut chosen.samples {
+            *sample = sample.select_columns(speeds);
+        }
+        chosen
+    }
+
+    /// Generic rank.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.samples.iter().map(rank).max().unwrap_or(0)
+    }
+
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
     /// full rank; so the kept rows stay independent along the motion.
     #[must_use]

@@ -38,7 +38,7 @@ pub struct ClosedPositions {
 }
 
 impl ClosedPositions {
-    /// Assembles the mechanism at t = 0 and walks on from there.
+    /// Assembles the mechanism at t = 0 and walks on from there, along the given speeds; modes keep their shape.
     ///
     /// # Errors
     /// If Newton cannot close the loops.
@@ -46,10 +46,11 @@ impl ClosedPositions {
         description: &Description,
         system: &dyn System<f64>,
         parameters: &[f64],
+        joint_speeds: &[usize],
     ) -> Result<Self, AssemblyError> {
         let state = assemble(system, description, parameters, 0.0)?;
         let layout = Layout::new(&description.motions);
-        let walker = Walker { system, parameters, layout: &layout };
+        let walker = Walker { system, parameters, layout: &layout, joint_speeds };
         let mut positions = vec![walker.position(state.q)];
         let mut generator = 0x2545_F491_4F6C_DD1D_u64;
         let steps = if system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
@@ -77,6 +78,7 @@ struct Walker<'a> {
     system: &'a dyn System<f64>,
     parameters: &'a [f64],
     layout: &'a Layout,
+    joint_speeds: &'a [usize],
 }
 
 impl Walker<'_> {
@@ -112,7 +114,7 @@ impl Walker<'_> {
         last: &mut Option<DVector<f64>>,
         generator: &mut u64,
     ) -> Option<Position> {
-        let free = null_space(&from.jacobian);
+        let free = null_space(&from.jacobian.select_columns(self.joint_speeds));
         if free.ncols() == 0 {
             return None;
         }
@@ -132,16 +134,25 @@ impl Walker<'_> {
         let scaled = direction * (STEP / norm);
         *last = Some(scaled.clone());
         let mut q = from.q.clone();
-        self.layout.advance(&mut q, scaled.as_slice());
+        self.layout.advance(&mut q, &self.all_speeds(&scaled));
         for _ in 0..20 {
             let (phi, jacobian, mass) = self.equations(&q);
             if phi.iter().all(|residual| residual.abs() < CLOSED) {
                 return Some(Position { q, jacobian, mass });
             }
-            let correction = least_norm(&jacobian, &-phi)?;
-            self.layout.advance(&mut q, correction.as_slice());
+            let correction = least_norm(&jacobian.select_columns(self.joint_speeds), &-phi)?;
+            self.layout.advance(&mut q, &self.all_speeds(&correction));
         }
         None
+    }
+
+    /// A step of all speeds that moves only joints.
+    fn all_speeds(&self, step: &DVector<f64>) -> Vec<f64> {
+        let mut all = vec![0.0; self.system.sizes().all_speeds];
+        for (speed, amount) in self.joint_speeds.iter().zip(step.iter()) {
+            all[*speed] = *amount;
+        }
+        all
     }
 }
 
