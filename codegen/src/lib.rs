@@ -9,6 +9,7 @@ pub mod compile;
 pub mod derive;
 pub mod diagnostic;
 pub mod expr;
+pub mod flexible;
 pub mod id;
 pub mod model;
 pub mod preflight;
