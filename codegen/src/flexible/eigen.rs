@@ -1,13 +1,11 @@
-//! Eigenmodes of a stiffness and a mass matrix, mass-normalised, lowest first.
+//! Eigenmodes of a mass matrix beside a stiffness of 1, mass-normalised, lowest frequency first.
 //!
 //! Sums are written out, because products of nalgebra's dynamic matrices choose their kernel by the processor they run
 //! on, and the last bits with it; its decompositions are plain loops.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::line::Matrices;
-
-/// One eigenmode: xᵀ M x = 1, xᵀ K x = omega².
+/// One eigenmode: xᵀ M x = 1, xᵀ x = omega².
 #[derive(Clone, Debug)]
 pub struct Eigenmode {
     /// omega² [rad²/s²].
@@ -18,60 +16,57 @@ pub struct Eigenmode {
 
 /// aᵀ B c.
 pub fn product(a: &DVector<f64>, matrix: &DMatrix<f64>, c: &DVector<f64>) -> f64 {
-    let row = |i: usize| -> f64 { (0..c.len()).map(|j| matrix[(i, j)] * c[j]).sum() };
-    (0..a.len()).filter(|i| a[*i] != 0.0).map(|i| a[i] * row(i)).sum()
+    (0..c.len()).filter(|j| c[*j] != 0.0).map(|j| c[j] * matrix.column(j).dot(a)).sum()
 }
 
-/// The lowest `count` modes with some unknowns held at 0.
-///
-/// K + `shift` M must be definite on the free unknowns. Modes come orthogonal to `without` (rigid motions, orthogonal
-/// among each other or not), which are left out themselves. `None`: definiteness was lost to rounding.
-pub fn lowest(
-    matrices: &Matrices,
-    held: &[usize],
-    shift: f64,
-    without: &[DVector<f64>],
-    count: usize,
-) -> Option<Vec<Eigenmode>> {
-    let free: Vec<usize> = (0..matrices.mass.nrows()).filter(|unknown| !held.contains(unknown)).collect();
-    let stiffness = free_part(&matrices.stiffness, &free);
-    let mass = free_part(&matrices.mass, &free);
-    let shifted = DMatrix::from_fn(free.len(), free.len(), |i, j| stiffness[(i, j)] + shift * mass[(i, j)]);
-    let lower = shifted.cholesky()?.unpack();
-    // L⁻¹ M L⁻ᵀ has the eigenvalues 1 / (omega² + shift): the lowest modes are its largest, and the best determined.
-    let half = lower.solve_lower_triangular(&mass)?;
-    let whole = lower.solve_lower_triangular(&half.transpose())?;
-    let eigen = SymmetricEigen::new(DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        f64::midpoint(whole[(i, j)], whole[(j, i)])
-    }));
-    let mut order: Vec<usize> = (0..free.len()).collect();
+/// The lowest `count` modes among the unknowns orthogonal to `held`, which are orthonormal. `None`: there are not as many, or
+/// rounding buried them.
+pub fn lowest(mass: &DMatrix<f64>, held: &[DVector<f64>], count: usize) -> Option<Vec<Eigenmode>> {
+    if count == 0 {
+        return Some(vec![]);
+    }
+    // Eigenvalues are 1 / omega²: the lowest modes are the largest, and the best determined.
+    let eigen = SymmetricEigen::new(without(mass, held));
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-
-    let mut done: Vec<DVector<f64>> = vec![];
-    for rigid in without {
-        done.push(orthonormal(rigid.clone(), &matrices.mass, &done)?);
-    }
-    let upper = lower.transpose();
-    let mut modes = vec![];
-    for index in order.into_iter().skip(without.len()).take(count) {
-        let part = upper.solve_upper_triangular(&eigen.eigenvectors.column(index).into_owned())?;
-        let mut shape = DVector::zeros(matrices.mass.nrows());
-        for (unknown, value) in free.iter().zip(part.iter()) {
-            shape[*unknown] = *value;
+    let largest = eigen.eigenvalues[*order.first()?];
+    let (mut shapes, mut modes): (Vec<DVector<f64>>, Vec<Eigenmode>) = (vec![], vec![]);
+    for index in order.into_iter().take(count) {
+        // Rounding of the largest; NaN fails too.
+        if !matches!(
+            eigen.eigenvalues[index].partial_cmp(&(1e-13 * largest)),
+            Some(std::cmp::Ordering::Greater)
+        ) {
+            return None;
         }
-        let shape = orthonormal(shape, &matrices.mass, &done)?;
-        done.push(shape.clone());
-        modes.push(Eigenmode { square: product(&shape, &matrices.stiffness, &shape), shape });
+        let mut shape = eigen.eigenvectors.column(index).into_owned();
+        for row in held {
+            shape.axpy(-row.dot(&shape), row, 1.0);
+        }
+        let shape = mass_orthonormal(shape, mass, &shapes)?;
+        shapes.push(shape.clone());
+        modes.push(Eigenmode { square: shape.dot(&shape), shape });
     }
-    Some(modes)
+    (modes.len() == count).then_some(modes)
 }
 
-fn free_part(matrix: &DMatrix<f64>, free: &[usize]) -> DMatrix<f64> {
-    DMatrix::from_fn(free.len(), free.len(), |i, j| matrix[(free[i], free[j])])
+/// P M P with P the projection away from `held`.
+fn without(mass: &DMatrix<f64>, held: &[DVector<f64>]) -> DMatrix<f64> {
+    let mut projected = mass.clone();
+    for row in held {
+        let image = DVector::from_fn(row.len(), |i, _| projected.column(i).dot(row));
+        let square = image.dot(row);
+        for j in 0..row.len() {
+            for i in 0..row.len() {
+                projected[(i, j)] += square * row[i] * row[j] - image[i] * row[j] - row[i] * image[j];
+            }
+        }
+    }
+    projected
 }
 
-/// Length 1 and orthogonal to `others`, in the metric of the mass. Twice, because once leaves the rounding of the first.
-pub fn orthonormal(
+/// Length 1 and orthogonal to `others` in the metric of the mass. Twice, because once leaves the rounding of the first.
+pub fn mass_orthonormal(
     mut shape: DVector<f64>,
     mass: &DMatrix<f64>,
     others: &[DVector<f64>],
@@ -88,4 +83,24 @@ pub fn orthonormal(
         shape /= square.sqrt();
     }
     Some(shape)
+}
+
+/// Rows made orthonormal, in their order. `None`: they depend on each other.
+pub fn orthonormal(rows: &[DVector<f64>]) -> Option<Vec<DVector<f64>>> {
+    let mut done: Vec<DVector<f64>> = vec![];
+    for row in rows {
+        let (mut rest, length) = (row.clone(), row.norm());
+        for _ in 0..2 {
+            for other in &done {
+                rest.axpy(-other.dot(&rest), other, 1.0);
+            }
+        }
+        // Closer together than rounding can tell apart.
+        if rest.norm() <= 1e-12 * length {
+            return None;
+        }
+        let norm = rest.norm();
+        done.push(rest / norm);
+    }
+    Some(done)
 }

@@ -1,5 +1,7 @@
 //! Legendre polynomials on [-1, 1], their integrals, and Gauss's quadrature.
 
+use std::sync::LazyLock;
+
 /// P_0 to P_n at `s`.
 pub fn legendre(n: usize, s: f64) -> Vec<f64> {
     let mut values = vec![1.0, s];
@@ -11,33 +13,50 @@ pub fn legendre(n: usize, s: f64) -> Vec<f64> {
     values
 }
 
-/// ∫ P_j from -1 to s, for j >= 1; 0 at both ends. `p` holds P_0 to at least P_{j+1}.
+/// ∫ P_j from -1 to s; 0 at both ends but for j = 0. `p` holds P_0 to at least P_{j+1}.
 pub fn integral(p: &[f64], j: usize) -> f64 {
-    (p[j + 1] - p[j - 1]) / (2 * j + 1) as f64
+    match j {
+        0 => 1.0 + p[1],
+        _ => (p[j + 1] - p[j - 1]) / (2 * j + 1) as f64,
+    }
 }
 
-/// The integral of [`integral`], for j >= 2; 0 with its slope at both ends. `p` holds P_0 to at least P_{j+2}.
+/// The integral of [`integral`]; 0 at both ends but for j = 0 and 1. `p` holds P_0 to at least P_{j+2}.
 pub fn double_integral(p: &[f64], j: usize) -> f64 {
-    let above = (p[j + 2] - p[j]) / (2 * j + 3) as f64;
-    let below = (p[j] - p[j - 2]) / (2 * j - 1) as f64;
-    (above - below) / (2 * j + 1) as f64
+    match j {
+        0 => (1.0 + p[1]) * (1.0 + p[1]) / 2.0,
+        1 => (p[1] * p[1] * p[1] - 3.0 * p[1] - 2.0) / 6.0,
+        _ => {
+            let above = (p[j + 2] - p[j]) / (2 * j + 3) as f64;
+            let below = (p[j] - p[j - 2]) / (2 * j - 1) as f64;
+            (above - below) / (2 * j + 1) as f64
+        }
+    }
 }
 
-/// Points and weights on [-1, 1], exact for polynomials up to degree 2n - 1; exactly symmetric.
-///
-/// Bisection between the roots of the polynomial before: plain arithmetic, the same bits on every machine.
-pub fn gauss(n: usize) -> Vec<(f64, f64)> {
+/// Most points of a quadrature rule.
+const MOST_POINTS: usize = 32;
+
+/// Points and weights on [-1, 1] of the rule with n points (1 to [`MOST_POINTS`]), exact for polynomials up to degree
+/// 2n - 1; exactly symmetric.
+pub fn gauss(n: usize) -> &'static [(f64, f64)] {
+    static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(rules);
+    &RULES[n - 1]
+}
+
+/// All rules. Bisection between the roots of the polynomial before: plain arithmetic, the same bits on every machine.
+fn rules() -> Vec<Vec<(f64, f64)>> {
     let mut roots: Vec<f64> = vec![];
-    for degree in 1..=n {
+    let mut rules = vec![];
+    for degree in 1..=MOST_POINTS {
         let mut ends = vec![-1.0];
         ends.extend_from_slice(&roots);
         ends.push(1.0);
-        let between: Vec<f64> = ends.windows(2).map(|pair| root(degree, pair[0], pair[1])).collect();
-        roots = between;
+        roots = ends.windows(2).map(|pair| root(degree, pair[0], pair[1])).collect();
+        let symmetric = |i: usize| (roots[i] - roots[degree - 1 - i]) / 2.0;
+        rules.push((0..degree).map(symmetric).map(|s| (s, weight(degree, s))).collect());
     }
-    let symmetric = |i: usize| (roots[i] - roots[n - 1 - i]) / 2.0;
-    let points = (0..n).map(symmetric);
-    points.map(|s| (s, weight(n, s))).collect()
+    rules
 }
 
 fn root(degree: usize, mut low: f64, mut high: f64) -> f64 {
@@ -79,7 +98,7 @@ mod tests {
     #[test]
     fn integrals_agree_with_quadrature() {
         let rule = gauss(12);
-        for j in 2..8 {
+        for j in 0..8 {
             for end in [-0.7, 0.1, 0.9, 1.0] {
                 let over = |f: &dyn Fn(f64) -> f64| -> f64 {
                     let half = (end + 1.0) / 2.0;

@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use super::beam::{BeamInput, Counts, Theory, same_place};
+use super::beam::{BeamInput, Counts, Hold, Theory, same_place};
 use super::element::{Element, Rigidity};
-use super::line::Line;
+use super::line::{Anchor, Line};
 use super::section::{Material, Properties};
 
 /// A family of motion that does not couple with the others.
@@ -69,7 +69,8 @@ impl Mesh {
         let mut elements: [Vec<Element>; 4] = [const { vec![] }; 4];
         for (start, end, segment) in spans(input) {
             let waves = phases[segment] * (end - start);
-            let count = (waves / LONGEST).ceil().max(1.0);
+            // Rounding of a whole number is no reason for one more.
+            let count = (waves / LONGEST - 1e-9).ceil().max(1.0);
             let length = (end - start) / count;
             let degree = degree(waves / count);
             for index in 0..count as usize {
@@ -83,8 +84,9 @@ impl Mesh {
                 }
             }
         }
-        let lumps = Family::ALL.map(|family| mesh.lumps(input, family));
-        mesh.lines = elements.into_iter().zip(lumps).map(|(list, lumps)| Line::new(list, lumps)).collect();
+        let rest = Family::ALL.map(|family| (mesh.lumps(input, family), mesh.anchor(input, family)));
+        let lines = elements.into_iter().zip(rest);
+        mesh.lines = lines.map(|(list, (lumps, anchor))| Line::new(list, lumps, anchor)).collect();
         mesh
     }
 
@@ -115,6 +117,17 @@ impl Mesh {
         let element = self.stations[1..].iter().position(|end| *end > x).unwrap_or(last);
         let (start, end) = (self.stations[element], self.stations[element + 1]);
         (element, (2.0 * (x - start) / (end - start) - 1.0).clamp(-1.0, 1.0))
+    }
+
+    fn anchor(&self, input: &BeamInput, family: Family) -> Anchor {
+        let attachments = input.attachments();
+        let chord = [attachments.first(), attachments.last()].map(|end| end.map(|each| self.station(each.x)));
+        match (&input.hold, chord, family) {
+            (Hold::Free, ..) => Anchor::Mean,
+            (_, [Some(first), Some(second)], Family::Y | Family::Z) => Anchor::Chord(first, second),
+            (_, [Some(first), _], _) => Anchor::Point(first),
+            _ => Anchor::Start,
+        }
     }
 
     fn lumps(&self, input: &BeamInput, family: Family) -> Vec<(usize, [f64; 2])> {

@@ -73,7 +73,7 @@ impl Motions {
     /// Motion per mode at s of an element.
     pub fn at(&self, element: usize, s: f64) -> Vec<Motion> {
         let motion = |shape: &Shape| {
-            let field = self.mesh.line(shape.family).field(element, s, &shape.unknowns);
+            let field = self.mesh.line(shape.family).field(element, s, &shape.curve);
             let mut motion = Motion::default();
             match shape.family {
                 Family::Y => {
@@ -113,7 +113,7 @@ impl Motions {
         let of = &self.mesh.lines[0].elements()[element];
         let mut sum = square(self.shapes.len(), |_, _| 0.0);
         // Slopes are one degree below the deflection.
-        for (t, weight) in gauss(of.degree) {
+        for (t, weight) in gauss(of.degree).iter().copied() {
             let motions = self.at(element, f64::midpoint(s - 1.0, (s + 1.0) * t));
             let over = weight * (s + 1.0) / 2.0 * of.length / 2.0;
             for (k, row) in sum.iter_mut().enumerate() {
@@ -162,7 +162,7 @@ impl Motions {
             let section = &sections[*segment];
             let density = input.segments[*segment].material.density;
             // Twice the degree of the deflection, or of the slope plus two for x and the inner integral.
-            for (s, weight) in gauss(self.mesh.lines[0].elements()[element].degree + 2) {
+            for (s, weight) in gauss(self.mesh.lines[0].elements()[element].degree + 2).iter().copied() {
                 let over = weight * (end - start) / 2.0 * density;
                 let mut slice = self.slice(element, s, over * section.area);
                 slice.spread = [0.0, over * section.iz, over * section.iy];

@@ -131,9 +131,9 @@ fn craig_bampton_converges_to_the_full_modes() {
             assert!(found.iter().zip(&exact).all(|(found, exact)| *found > exact * (1.0 - 1e-12)));
             found[0] / exact[0] - 1.0
         });
-        // Fixed-interface modes fall in like n⁻⁶ or faster.
+        // Shear jumps at the attachment in the fixed-interface modes and not in the full ones: n⁻⁴, with 9 shapes 1e-5.
         assert!(errors[1] < errors[0] / 8.0 && errors[2] < errors[1] / 8.0, "{errors:?}");
-        assert!(errors[2] < 1e-6, "{errors:?}");
+        assert!(errors[2] < 1e-5, "{errors:?}");
     }
 }
 
