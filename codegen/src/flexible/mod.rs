@@ -1,3 +1,33 @@
-//! temp
-mod data;
-pub use data::{ModalData, Mode, Node, SecondOrder};
+//! Constants of one flexible body in its floating frame, computed once, in numbers.
+//!
+//! In: a beam (sections, steps, concentrated masses, how it is held) or a modal data file. Out: [`ModalData`],
+//! every number the equations of motion need. SI units throughout.
+//! Must never know mechanisms, TOML of mechanisms, expressions, ids: it is plain `f64` numerics.
+//!
+//! A beam runs through `beam` (checked input) -> `mesh` (elements of `element` in a `line`) -> `shapes` (by `eigen`) ->
+//! `motion` (sections in all modes) -> `integrals` -> `solved`.
+
+pub mod data;
+
+mod beam;
+mod eigen;
+mod element;
+mod error;
+mod integrals;
+mod legendre;
+mod line;
+mod mesh;
+mod motion;
+mod section;
+mod shapes;
+mod solved;
+
+pub use beam::{Attachment, BeamInput, ConcentratedMass, Counts, Hold, MODE_LIMIT, Segment, Theory};
+pub use data::{ModalData, Mode, Node, Outline, SecondOrder, Strain};
+pub use error::BeamError;
+pub use section::{Material, Properties, Section};
+pub use shapes::Truncated;
+pub use solved::{Beam, Resolution};
+
+#[cfg(test)]
+mod tests;

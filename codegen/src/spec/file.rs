@@ -136,6 +136,10 @@ pub struct BodySpec {
 pub struct FlexibleSpec {
     /// Number of bending modes kept, the lowest of both planes; 0 makes the body rigid.
     pub modes: Option<Quantity>,
+    /// Number of axial modes; with a chord frame the first is the static stretch. 0 by default.
+    pub axial: Option<Quantity>,
+    /// Number of torsional modes; 0 by default.
+    pub torsion: Option<Quantity>,
     /// Young's modulus.
     pub young: Option<Quantity>,
     /// Poisson's ratio; 0.3 by default.

@@ -248,7 +248,7 @@ texts_of! {
         flexible
     }
     struct FlexibleSpec {
-        modes, young, poisson, damping, frequencies, shear_coefficient, section, steps, masses, stations, data,
+        modes, axial, torsion, young, poisson, damping, frequencies, shear_coefficient, section, steps, masses, stations, data,
         origin, axes
     }
     struct SectionSpec { area, iy, iz, j, fibres, y_axis }

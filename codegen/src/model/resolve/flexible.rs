@@ -192,6 +192,8 @@ impl Resolver<'_> {
             ("young", spec.young.as_ref().map(|q| q.span)),
             ("poisson", spec.poisson.as_ref().map(|q| q.span)),
             ("modes", spec.modes.as_ref().map(|q| q.span)),
+            ("axial", spec.axial.as_ref().map(|q| q.span)),
+            ("torsion", spec.torsion.as_ref().map(|q| q.span)),
             ("damping", spec.damping.as_ref().map(|q| q.span)),
             ("theory", spec.theory.as_ref().map(|q| q.span)),
             ("held", spec.held.as_ref().map(|q| q.span)),

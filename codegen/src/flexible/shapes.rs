@@ -1,0 +1,218 @@
+//! Mode shapes of a beam under its hold, each family and each bending plane on its own.
+//! In: mesh and hold. Out: mass-normalised shapes with fixed signs in a fixed order, and what was left out.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::beam::{Attachment, BeamInput};
+use super::eigen::{Eigenmode, lowest, mass_orthonormal, orthonormal, product};
+use super::element::Rigidity;
+use super::error::BeamError;
+use super::line::{Curve, Line};
+use super::mesh::{Family, Mesh};
+
+/// One mode of a beam.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The motion it belongs to.
+    pub family: Family,
+    /// Number in its family, from 1.
+    pub number: usize,
+    /// omega² [rad²/s²].
+    pub square: f64,
+    /// Motion of the family's line; mass-normalised.
+    pub curve: Curve,
+}
+
+/// First frequencies that were left out [Hz]; what a warning about truncation needs.
+///
+/// Chord frames without axial or torsional modes: of the beam held at both ends of the chord, because the frame alone
+/// does not say how the neighbours hold it (a beam free at both ends has the same).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truncated {
+    /// Bending along y; with Craig-Bampton, the first fixed-interface frequency left out.
+    pub y: f64,
+    /// Bending along z; likewise.
+    pub z: f64,
+    /// Axial.
+    pub axial: f64,
+    /// Torsional.
+    pub torsion: f64,
+}
+
+/// Shapes in the order of the modal coordinates, and what was left out.
+pub fn shapes(input: &BeamInput, mesh: &Mesh) -> Result<(Vec<Shape>, Truncated), BeamError> {
+    let bending = input.modes.bending;
+    let planes = [Plane::new(input, mesh, Family::Y)?, Plane::new(input, mesh, Family::Z)?];
+    let (y, z) = share(bending, &planes[0].modes, &planes[1].modes);
+    let first = planes[0].keep(y)?;
+    let second = planes[1].keep(z)?;
+    let truncated_y = planes[0].modes[y].square;
+    let truncated_z = planes[1].modes[z].square;
+    let mut kept = merge(first, second);
+    let (axial, truncated_axial) = bar_modes(input, mesh, Family::Axial, input.modes.axial)?;
+    let (torsion, truncated_torsion) = bar_modes(input, mesh, Family::Torsion, input.modes.torsion)?;
+    kept.extend(axial);
+    kept.extend(torsion);
+    let hertz = |square: f64| square.sqrt() / (2.0 * PI);
+    let truncated = Truncated {
+        y: hertz(truncated_y),
+        z: hertz(truncated_z),
+        axial: hertz(truncated_axial),
+        torsion: hertz(truncated_torsion),
+    };
+    Ok((kept, truncated))
+}
+
+/// Frequencies this close count as equal: those of equal planes have equal bits, those of sections equal but for how
+/// they were written differ by rounding.
+const EQUAL: f64 = 1e-9;
+
+/// How many of the `count` lowest modes lie in each plane; of equal ones, y comes first.
+fn share(count: usize, along_y: &[Eigenmode], along_z: &[Eigenmode]) -> (usize, usize) {
+    let (mut y, mut z) = (0, 0);
+    while y + z < count {
+        if comes_first(along_y[y].square, along_z[z].square) { y += 1 } else { z += 1 }
+    }
+    (y, z)
+}
+
+fn comes_first(y: f64, z: f64) -> bool {
+    y <= z * (1.0 + EQUAL)
+}
+
+/// Both planes, lowest first.
+fn merge(along_y: Vec<Shape>, along_z: Vec<Shape>) -> Vec<Shape> {
+    let (mut y, mut z) = (along_y.into_iter().peekable(), along_z.into_iter().peekable());
+    let mut all = vec![];
+    loop {
+        let from_y = match (y.peek(), z.peek()) {
+            (Some(y), Some(z)) => comes_first(y.square, z.square),
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            (None, None) => return all,
+        };
+        all.extend(if from_y { y.next() } else { z.next() });
+    }
+}
+
+/// One bending plane with its eigenmodes (with Craig-Bampton: of fixed interfaces).
+struct Plane<'a> {
+    family: Family,
+    mesh: &'a Mesh,
+    mass: DMatrix<f64>,
+    /// Orthonormal rows that span the interface motions: held in the fixed-interface modes, and in energy the static shapes.
+    interface: Vec<DVector<f64>>,
+    modes: Vec<Eigenmode>,
+}
+
+impl<'a> Plane<'a> {
+    fn new(input: &BeamInput, mesh: &'a Mesh, family: Family) -> Result<Self, BeamError> {
+        let line = mesh.line(family);
+        let attachments = input.attachments();
+        let mut rows = vec![];
+        for (index, Attachment { x, rotation }) in attachments.iter().enumerate() {
+            let station = mesh.station(*x);
+            let chord = index == 0 || index + 1 == attachments.len();
+            if !chord {
+                rows.push(line.station(station, 0).clone());
+            }
+            if *rotation {
+                rows.push(line.station(station, 1).clone());
+            }
+        }
+        let mass = line.mass();
+        let interface = orthonormal(&rows).ok_or(BeamError::Extreme)?;
+        // One more than can be kept is left out and named.
+        let modes = lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?;
+        Ok(Self { family, mesh, mass, interface, modes })
+    }
+
+    /// The first `count` modes; with interfaces, the eigenmodes of what they and the static shapes span.
+    fn keep(&self, count: usize) -> Result<Vec<Shape>, BeamError> {
+        let mut modes = self.modes[..count].to_vec();
+        if !self.interface.is_empty() {
+            modes = craig_bampton(&self.mass, &self.interface, &modes).ok_or(BeamError::Extreme)?;
+        }
+        Ok(named(self.mesh, self.family, modes))
+    }
+}
+
+/// The static shape of an interface motion has the least energy of all with that motion; where the energy is the length
+/// of the unknowns, static shapes span what the rows of the interface span.
+fn craig_bampton(
+    mass: &DMatrix<f64>,
+    interface: &[DVector<f64>],
+    fixed: &[Eigenmode],
+) -> Option<Vec<Eigenmode>> {
+    let fixed = fixed.iter().map(|mode| mode.shape.normalize());
+    let basis: Vec<DVector<f64>> = interface.iter().cloned().chain(fixed).collect();
+    let n = basis.len();
+    let reduced = DMatrix::from_fn(n, n, |i, j| product(&basis[i.max(j)], mass, &basis[i.min(j)]));
+    let (mut shapes, mut modes): (Vec<DVector<f64>>, Vec<Eigenmode>) = (vec![], vec![]);
+    for mode in lowest(&reduced, &[], n)? {
+        let mut shape = DVector::zeros(mass.nrows());
+        for (factor, each) in mode.shape.iter().zip(&basis) {
+            shape.axpy(*factor, each, 1.0);
+        }
+        let shape = mass_orthonormal(shape, mass, &shapes)?;
+        shapes.push(shape.clone());
+        modes.push(Eigenmode { square: shape.dot(&shape), shape });
+    }
+    Some(modes)
+}
+
+/// Kept modes of a bar family, and the square of the first frequency left out.
+fn bar_modes(
+    input: &BeamInput,
+    mesh: &Mesh,
+    family: Family,
+    count: usize,
+) -> Result<(Vec<Shape>, f64), BeamError> {
+    let line = mesh.line(family);
+    let attachments = input.attachments();
+    let mass = line.mass();
+    // The anchor holds the first end of a chord. What pulls at the other stretches the bar as one static shape does,
+    // which many eigenmodes of the free end would only approach: it comes first, then modes with both ends held.
+    let far: Vec<DVector<f64>> =
+        attachments.last().map(|last| line.station(mesh.station(last.x), 0).clone()).into_iter().collect();
+    let far = orthonormal(&far).ok_or(BeamError::Extreme)?;
+    let fixed = if far.is_empty() { count } else { count.saturating_sub(1) };
+    let mut modes = lowest(&mass, &far, fixed + 1).ok_or(BeamError::Extreme)?;
+    let truncated = modes[fixed].square;
+    modes.truncate(fixed);
+    if count > 0 && !far.is_empty() {
+        modes = craig_bampton(&mass, &far, &modes).ok_or(BeamError::Extreme)?;
+    }
+    Ok((named(mesh, family, modes), truncated))
+}
+
+fn named(mesh: &Mesh, family: Family, modes: Vec<Eigenmode>) -> Vec<Shape> {
+    let line = mesh.line(family);
+    let shapes = modes.into_iter().enumerate().map(|(index, mode)| Shape {
+        family,
+        number: index + 1,
+        square: mode.square,
+        curve: upright(line, mesh.length(), mode.shape),
+    });
+    shapes.collect()
+}
+
+/// The shape with the sign fixed: the first of deflection at x = 0, slope there, deflection at the far end that is not
+/// small is positive.
+fn upright(line: &Line, length: f64, shape: DVector<f64>) -> Curve {
+    let curve = line.curve(shape);
+    let last = line.elements().len() - 1;
+    let (near, far) = (line.field(0, -1.0, &curve), line.field(last, 1.0, &curve));
+    let slope = match line.elements()[0].rigidity {
+        Rigidity::Bending { .. } => near.slope(),
+        Rigidity::Bar(_) => near.strain,
+    };
+    let signs = [near.value, slope * length, far.value];
+    let middles = (0..=last).map(|element| line.field(element, 0.0, &curve).value.abs());
+    let size = middles.fold(near.value.abs().max(far.value.abs()), f64::max);
+    // Far above rounding and far below what any mode has at one of these.
+    let first = signs.into_iter().find(|each| each.abs() > 1e-3 * size);
+    if first.is_some_and(|each| each < 0.0) { line.curve(-curve.unknowns) } else { curve }
+}
