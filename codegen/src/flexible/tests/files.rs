@@ -77,3 +77,12 @@ fn numbers_that_belong_to_no_body_are_refused() {
     let short = refused(|data| data.nodes[2].rotation.truncate(3));
     assert_eq!(short, DataError::Length { place: "rotation of node end".to_owned(), found: 3, expected: 4 });
 }
+
+#[test]
+fn the_documented_example_is_a_file() {
+    let documented = include_str!("../../../../docs/modal-data.md");
+    let example = documented.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next());
+    let data = ModalData::from_toml(example.expect("an example")).expect("sound data");
+    assert_eq!(data.node("tip").map(|node| node.displacement.len()), Some(2));
+    assert_eq!(data.coupling[1][0][2][1], 2.0);
+}
