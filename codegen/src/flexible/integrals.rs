@@ -35,18 +35,20 @@ pub fn integrals(slices: &[Slice], modes: usize, mass: f64, second: Vector) -> I
     let mut coupling = square(modes, |_, _| [[0.0; 3]; 3]);
     for slice in slices {
         for k in 0..modes {
-            for j in 0..3 {
-                gamma[k][j] += slice.mass * slice.displacement[k][j];
-                moment[k][0][j] += slice.mass * slice.x * slice.displacement[k][j];
+            let u = slice.displacement[k];
+            (0..3).for_each(|j| gamma[k][j] += slice.mass * u[j]);
+            add_outer(&mut moment[k], slice.mass, [slice.x, 0.0, 0.0], u);
+            for (axis, spread) in slice.spread.into_iter().enumerate() {
+                let mut unit = [0.0; 3];
+                unit[axis] = 1.0;
+                add_outer(&mut moment[k], spread, unit, turned(slice.rotation[k], axis));
             }
-            for axis in 0..3 {
-                let fibre = turned(slice.rotation[k], axis);
-                for j in 0..3 {
-                    moment[k][axis][j] += slice.spread[axis] * fibre[j];
+            for (l, block) in coupling[k].iter_mut().enumerate().take(k + 1) {
+                add_outer(block, slice.mass, u, slice.displacement[l]);
+                for (axis, spread) in slice.spread.into_iter().enumerate() {
+                    let fibres = [k, l].map(|mode| turned(slice.rotation[mode], axis));
+                    add_outer(block, spread, fibres[0], fibres[1]);
                 }
-            }
-            for l in 0..=k {
-                add_coupling(&mut coupling[k][l], slice, k, l);
             }
         }
     }
@@ -54,34 +56,31 @@ pub fn integrals(slices: &[Slice], modes: usize, mass: f64, second: Vector) -> I
     for k in 0..modes {
         for j in 0..3 {
             gamma[k][j] = snap(gamma[k][j], (mass * size[k][j]).sqrt());
-            for i in 0..3 {
-                moment[k][i][j] = snap(moment[k][i][j], (second[i] * size[k][j]).sqrt());
-                for l in 0..=k {
-                    let scale = (size[k][i] * size[l][j]).sqrt();
-                    coupling[k][l][i][j] = snap(coupling[k][l][i][j], scale);
-                }
-            }
         }
-        for l in 0..=k {
-            fix_trace(&mut coupling[k][l], if k == l { 1.0 } else { 0.0 });
-            coupling[l][k] = transposed(&coupling[k][l]);
+        snap_block(&mut moment[k], second, size[k]);
+        for (l, block) in coupling[k].iter_mut().enumerate().take(k + 1) {
+            snap_block(block, size[k], size[l]);
+            fix_trace(block, if k == l { 1.0 } else { 0.0 });
         }
     }
-    Integrals { gamma, moment, coupling }
+    let mirrored = square(modes, |k, l| if l <= k { coupling[k][l] } else { transposed(&coupling[l][k]) });
+    Integrals { gamma, moment, coupling: mirrored }
 }
 
-fn add_coupling(block: &mut Matrix, slice: &Slice, k: usize, l: usize) {
-    for i in 0..3 {
-        for j in 0..3 {
-            block[i][j] += slice.mass * slice.displacement[k][i] * slice.displacement[l][j];
+/// block += factor a bᵀ.
+fn add_outer(block: &mut Matrix, factor: f64, a: Vector, b: Vector) {
+    for (row, a) in block.iter_mut().zip(a) {
+        for (entry, b) in row.iter_mut().zip(b) {
+            *entry += factor * a * b;
         }
     }
-    for axis in 0..3 {
-        let (first, second) = (turned(slice.rotation[k], axis), turned(slice.rotation[l], axis));
-        for i in 0..3 {
-            for j in 0..3 {
-                block[i][j] += slice.spread[axis] * first[i] * second[j];
-            }
+}
+
+/// Entries that are rounding beside what rows and columns of these squared sizes allow become 0.
+fn snap_block(block: &mut Matrix, rows: Vector, columns: Vector) {
+    for (row, a) in block.iter_mut().zip(rows) {
+        for (entry, b) in row.iter_mut().zip(columns) {
+            *entry = snap(*entry, (a * b).sqrt());
         }
     }
 }

@@ -5,14 +5,16 @@
 //! Must never know mechanisms, TOML of mechanisms, expressions, ids: it is plain `f64` numerics.
 //!
 //! A beam runs through `beam` (checked input) -> `mesh` (elements of `element` in a `line`) -> `shapes` (by `eigen`) ->
-//! `motion` (sections in all modes) -> `integrals` -> `solved`.
+//! `motion` (sections in all modes) -> `integrals` -> `solved`. Modal data files run through `file` and `check`.
 
 pub mod data;
 
 mod beam;
+mod check;
 mod eigen;
 mod element;
 mod error;
+mod file;
 mod integrals;
 mod legendre;
 mod line;
@@ -23,8 +25,10 @@ mod shapes;
 mod solved;
 
 pub use beam::{Attachment, BeamInput, ConcentratedMass, Counts, Hold, MODE_LIMIT, Segment, Theory};
+pub use check::DataError;
 pub use data::{ModalData, Mode, Node, Outline, SecondOrder, Strain};
 pub use error::BeamError;
+pub use file::FileError;
 pub use section::{Material, Properties, Section};
 pub use shapes::Truncated;
 pub use solved::{Beam, Resolution};

@@ -114,10 +114,8 @@ fn a_stepped_cantilever_meets_its_frequency_equation() {
         let row = |order: i32| {
             let (stiff, mirrored) =
                 (if order < 2 { [1.0; 2] } else { rigidity }, f64::from((-1_i32).pow(order as u32)));
-            let scale = a.powi(order);
             let l = left.map(|shape| stiff[0] * shape[order as usize]);
             let r = right.map(|shape| -mirrored * stiff[1] * (b / a).powi(order) * shape[order as usize]);
-            let _ = scale;
             [l[0], l[1], r[0], r[1]]
         };
         let rows = [row(0), row(1), row(2), row(3)];

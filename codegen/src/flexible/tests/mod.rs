@@ -1,6 +1,7 @@
 //! What beams must do, against closed forms and independent quadrature.
 
 mod constants;
+mod files;
 mod frequencies;
 mod held;
 
