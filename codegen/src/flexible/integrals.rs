@@ -58,6 +58,7 @@ pub fn integrals(slices: &[Slice], modes: usize, mass: f64, second: Vector) -> I
             gamma[k][j] = snap(gamma[k][j], (mass * size[k][j]).sqrt());
         }
         snap_block(&mut moment[k], second, size[k]);
+        still_moment(&mut moment[k], second, size[k]);
         for (l, block) in coupling[k].iter_mut().enumerate().take(k + 1) {
             snap_block(block, size[k], size[l]);
             fix_trace(block, if k == l { 1.0 } else { 0.0 });
@@ -81,6 +82,19 @@ fn snap_block(block: &mut Matrix, rows: Vector, columns: Vector) {
     for (row, a) in block.iter_mut().zip(rows) {
         for (entry, b) in row.iter_mut().zip(columns) {
             *entry = snap(*entry, (a * b).sqrt());
+        }
+    }
+}
+
+/// Angular momentum about an axis is C_ij - C_ji; where it is rounding beside what the entries allow (modes of a free
+/// beam have none), both become the entry of the smaller allowance, so that code generated from them sees exactly 0.
+fn still_moment(block: &mut Matrix, rows: Vector, columns: Vector) {
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        let (upper, lower) = ((rows[i] * columns[j]).sqrt(), (rows[j] * columns[i]).sqrt());
+        if (block[i][j] - block[j][i]).abs() <= ROUNDING * upper.max(lower) {
+            let common = if upper < lower { block[i][j] } else { block[j][i] };
+            block[i][j] = common;
+            block[j][i] = common;
         }
     }
 }
