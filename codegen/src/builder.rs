@@ -206,6 +206,7 @@ impl Builder {
             let place = format!("{}:{}:{}", warning.file, warning.line, warning.column);
             written.warnings.push(format!("{place}: {} ({})", warning.message, warning.code));
         }
+        written.read.extend(compiled.mechanism.attached.iter().cloned());
         let runtime = self.runtime_path.as_deref().unwrap_or(DEFAULT_RUNTIME);
         let generated = compiled.rust_source_for(runtime);
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
-use linkwear_codegen::model::{Joint, JointKind, Parameter};
+use linkwear_codegen::model::{Body, Flexible, Joint, JointKind, Parameter};
 use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
@@ -47,9 +47,21 @@ fn machine(loaded: &Loaded) -> Value {
         "redundant": redundant,
         "non_unique": analysis.non_unique,
         "cut_joints": cuts,
+        "modal_coordinates": analysis.modes,
+        "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
         "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
         "warnings": loaded.warnings(),
     })
+}
+
+fn flexible_entry(body: &Body) -> Option<Value> {
+    let flexible = body.flexible.as_ref()?;
+    let pairs = |list: Vec<(&str, f64)>| -> Vec<Value> {
+        list.iter().map(|(name, hertz)| json!({ "name": name, "frequency_Hz": hertz })).collect()
+    };
+    let kept = flexible.data.modes.iter().map(|mode| (mode.name.as_str(), mode.frequency)).collect();
+    let left_out = flexible.left_out.iter().map(|mode| (mode.name.as_str(), mode.frequency)).collect();
+    Some(json!({ "body": body.name, "modes": pairs(kept), "left_out": pairs(left_out) }))
 }
 
 fn parameter_entry(parameter: &Parameter) -> Value {
@@ -70,7 +82,7 @@ fn text(compiled: &Compiled) -> String {
     let dropped = analysis.constraint_rows - analysis.independent_rows;
     let facts = [
         ("coordinates", analysis.coordinates.to_string(), coordinates_note(analysis)),
-        ("speeds", analysis.speeds.to_string(), String::new()),
+        ("speeds", analysis.speeds.to_string(), speeds_note(analysis)),
         (
             "constraint rows",
             analysis.constraint_rows.to_string(),
@@ -93,6 +105,11 @@ fn text(compiled: &Compiled) -> String {
         let rows = non_unique_by_joint(analysis);
         let _ = write!(text, "\nReactions that are not unique\n{}", short_table(&["", ""], rows));
     }
+    for body in &mechanism.bodies {
+        if let Some(flexible) = &body.flexible {
+            let _ = write!(text, "\nModes of {}\n{}", body.name, short_table(&["", "Hz"], mode_rows(flexible)));
+        }
+    }
     if !mechanism.joints.is_empty() {
         let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
         let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
@@ -102,6 +119,29 @@ fn text(compiled: &Compiled) -> String {
         let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
     }
     text
+}
+
+fn speeds_note(analysis: &Analysis) -> String {
+    match analysis.modes {
+        0 => String::new(),
+        modes => format!("{modes} of them of modes, which mobility does not count"),
+    }
+}
+
+/// Kept modes, those of one frequency together, then what comes next in every family.
+fn mode_rows(flexible: &Flexible) -> Vec<Vec<String>> {
+    let mut rows: Vec<(String, f64)> = Vec::new();
+    for mode in &flexible.data.modes {
+        match rows.last_mut() {
+            Some((names, frequency)) if *frequency == mode.frequency => {
+                names.push(' ');
+                names.push_str(&mode.name);
+            }
+            _ => rows.push((mode.name.clone(), mode.frequency)),
+        }
+    }
+    rows.extend(flexible.left_out.iter().map(|mode| (format!("left out: {}", mode.name), mode.frequency)));
+    rows.into_iter().map(|(name, frequency)| vec![name, format!("{frequency:.3}")]).collect()
 }
 
 /// Why there are more coordinates than speeds, where there are.

@@ -164,6 +164,8 @@ codes! {
     FrequencyAsSpeed = "W0106",
     /// Joints that never move although others do.
     RigidPart = "W0107",
+    /// A harmonic of a drive near a frequency of a flexible body.
+    NearResonance = "W0108",
 }
 
 impl Code {

@@ -149,10 +149,4 @@ impl ModalData {
             .all(|k| (0..self.modes.len()).all(|l| self.mass_matrix[k][l] == unit(k, l)));
         if normalised { "kg^0.5 m" } else { "1" }
     }
-
-    /// temp
-    pub fn read(path: &std::path::Path) -> Result<Self, String> {
-        let text = std::fs::read_to_string(path).map_err(|e| e.to_string())?;
-        toml::from_str(&text).map_err(|e| e.to_string())
-    }
 }

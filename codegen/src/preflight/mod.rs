@@ -9,6 +9,7 @@ mod immobile;
 mod prescribed;
 mod rank;
 mod reactions;
+mod resonance;
 mod samples;
 
 use linkwear_runtime::{AssemblyError, Description, System};
@@ -214,7 +215,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         return fail(errors);
     }
     let rigid = immobile::rigid_joints(case, &positions);
-    let warnings = if rigid.is_empty() { Vec::new() } else { vec![failures::rigid_part(mechanism, &rigid)] };
+    let mut warnings =
+        if rigid.is_empty() { Vec::new() } else { vec![failures::rigid_part(mechanism, &rigid)] };
+    warnings.extend(resonance::near_resonance(mechanism));
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     Ok(Findings { analysis, keep, warnings })

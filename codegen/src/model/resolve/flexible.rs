@@ -155,10 +155,11 @@ impl Resolver<'_> {
     ) -> Option<Flexible> {
         self.check_beam_keys(name, &spec.value);
         let path = self.source.beside(&file.value);
-        let data = match ModalData::read(&path) {
+        let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
+        let data = match text.and_then(|text| ModalData::from_toml(&text).map_err(|error| error.to_string())) {
             Ok(data) => data,
-            Err(error) => {
-                let message = format!("the modal data `{}` cannot be used: {error}", file.value);
+            Err(reason) => {
+                let message = format!("the modal data `{}` cannot be used: {reason}", file.value);
                 let fault = Diagnostic::new(Code::BadModalData, message).at(file.span, "");
                 self.report(fault.help("docs/modal-data.md describes the file; its path is relative to this file"));
                 return None;
