@@ -9,6 +9,7 @@
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod contact;
 mod dual;
 mod float;
 #[cfg(feature = "std")]
