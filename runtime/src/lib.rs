@@ -18,6 +18,7 @@ mod intrinsic;
 mod scalar;
 mod sincos;
 mod system;
+pub mod wear;
 
 #[cfg(feature = "std")]
 mod assemble;
