@@ -3,6 +3,9 @@
 
 use core::fmt;
 
+use super::{Area, Load, Pair};
+use crate::Scalar;
+
 /// Limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -30,6 +33,34 @@ pub struct Observed {
     pub clearance: f64,
     /// Radius of the journal [m].
     pub journal_radius: f64,
+}
+
+impl Observed {
+    /// Nothing seen yet of a joint with a radial clearance and journal radius [m].
+    pub fn nothing(clearance: f64, journal_radius: f64) -> Self {
+        Self {
+            pressure: 0.0,
+            pressure_speed: 0.0,
+            hertz_half_width: 0.0,
+            penetration: 0.0,
+            depth_per_cycle: 0.0,
+            clearance,
+            journal_radius,
+        }
+    }
+
+    /// Takes in what acts at one instant. The depth per cycle is for the caller to set.
+    pub fn include(&mut self, area: Area, load: &Load<f64>, pair: &Pair<f64>) {
+        let pressure = area.pressure(load, pair);
+        let raise = |largest: &mut f64, value: f64| *largest = Scalar::max(value, *largest);
+        raise(&mut self.pressure, pressure);
+        raise(&mut self.pressure_speed, pressure * Scalar::abs(load.sliding_speed));
+        raise(&mut self.penetration, load.penetration);
+        if area == Area::Hertz {
+            let half_width = area.half_angle(load, pair) * (pair.journal_radius + pair.clearance);
+            raise(&mut self.hertz_half_width, half_width);
+        }
+    }
 }
 
 /// A model used outside its range. Numbers in SI units.
@@ -191,6 +222,22 @@ mod tests {
             one(Observed { pressure: f64::NAN, ..SOUND }),
             Warning::PressureAboveHardness { .. }
         ));
+    }
+
+    #[test]
+    fn extremes_are_the_largest_of_what_was_seen() {
+        let pair = Pair { journal_radius: 0.01, length: 0.02, clearance: 1e-5, modulus: 115e9 };
+        let load = |normal_force, sliding_speed| Load { normal_force, penetration: 2e-7, sliding_speed };
+        let mut seen = Observed::nothing(1e-5, 0.01);
+        for load in [load(10.0, -3.0), load(40.0, 0.1), load(0.0, 9.0)] {
+            seen.include(Area::Hertz, &load, &pair);
+        }
+        let pressure = |force: f64| Area::Hertz.pressure(&load(force, 0.0), &pair);
+        assert_eq!(seen.pressure, pressure(40.0));
+        assert_eq!(seen.pressure_speed, pressure(10.0) * 3.0);
+        // F_n = p 2 b L; a few roundings.
+        assert!((seen.hertz_half_width / (40.0 / (pressure(40.0) * 2.0 * 0.02)) - 1.0).abs() < 1e-14);
+        assert_eq!((seen.penetration, seen.depth_per_cycle), (2e-7, 0.0));
     }
 
     #[test]
