@@ -8,7 +8,7 @@ use crate::backend::rust::{EmitInput, STATEMENTS_PER_FUNCTION, emit};
 use crate::derive::{self, Equations, Purpose};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{self, Closure, Mechanism, Overrides, Topology};
-use crate::preflight::{self, Analysis};
+use crate::preflight::{self, Analysis, Findings};
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
 use crate::spec;
@@ -64,15 +64,16 @@ pub struct FunctionCount {
 pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
-    let (mut mechanism, warnings) = model::resolve(&spec, &overrides)?;
+    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
     if let Some(closure) = options.closure {
         mechanism.closure = closure;
     }
     let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
-    let (analysis, keep) = analyse(source, &mechanism, &topology)?;
+    let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;
+    warnings.extend(remarks);
     let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
     let tapes = tape::lower(&derived.equations);
-    Ok(Compiled {
+    let compiled = Compiled {
         source: source.clone(),
         mechanism,
         topology,
@@ -82,14 +83,13 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         tapes,
         description: derived.description,
         sizes: derived.sizes,
-    })
+    };
+    let system = compiled.interpreter();
+    preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
+    Ok(compiled)
 }
 
-fn analyse(
-    source: &SourceFile,
-    mechanism: &Mechanism,
-    topology: &Topology,
-) -> Result<(Analysis, Vec<bool>), Diagnostics> {
+fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {
     let released = preflight::released(mechanism);
     let derived = derive::derive(&released, topology, None, Purpose::Analysis);
     let tapes = tape::lower(&derived.equations);

@@ -14,7 +14,7 @@ pub enum Entry {
     /// In: parameters, t. Out: guess of the free coordinates `q`, wish for the free speeds `v`.
     Start,
     /// In: parameters, t, q, v. Out: accelerations `v̇` (free speeds), multipliers, drive forces,
-    /// loop pivots (one per kept constraint row, positive; small next to 1 near a singular position).
+    /// loop pivots (one per kept constraint row, positive; small next to their usual size near a singular position).
     ForwardDynamics,
     /// In: parameters, t, q, v, drive forces. Out: `q̇`, power supplied [W], power dissipated [W].
     Rates,

@@ -129,10 +129,12 @@ fn curves(text: &mut String, description: &Description, run: &Run) {
         .map(|(at, channel)| {
             let values: Vec<f64> = run.rows.iter().map(|row| row[at]).collect();
             let (low, high) = range(&values);
+            // An end that is rounding next to the other is the zero that it means.
+            let zeroed = |end: f64| if end.abs() <= ROUNDING * (high - low) { 0.0 } else { end };
             vec![
                 format!("{} [{}]", channel.name, channel.unit),
                 sparkline(&values, WIDTH),
-                format!("{} to {}", number(low), number(high)),
+                format!("{} to {}", number(zeroed(low)), number(zeroed(high))),
             ]
         })
         .collect();

@@ -139,7 +139,7 @@ codes! {
     DriversInConflict = "E0604",
     /// Demanded start values that cannot be met.
     StartImpossible = "E0605",
-    /// Start values or residuals that are not numbers.
+    /// Start values, residuals or prescribed motions that are not finite at t = 0.
     StartNotFinite = "E0606",
     /// A freedom that moves no mass.
     MasslessFreedom = "E0607",
@@ -156,6 +156,8 @@ codes! {
     SpringWithoutDirection = "W0105",
     /// A frequency in Hz or rpm where an angular speed is needed.
     FrequencyAsSpeed = "W0106",
+    /// Joints that never move although others do.
+    RigidPart = "W0107",
 }
 
 impl Code {

@@ -3,7 +3,10 @@
 //! In: a derivation with all rows kept, run by the interpreter. Out: [`Analysis`] and the rows to keep.
 //! Never knows Rust syntax.
 
+mod failures;
 mod idle;
+mod immobile;
+mod prescribed;
 mod rank;
 mod reactions;
 mod samples;
@@ -11,10 +14,12 @@ mod samples;
 use linkwear_runtime::{AssemblyError, Description, System};
 
 use crate::derive::Linkage;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::id::JointId;
 use crate::model::{Mechanism, Start, Topology};
 use crate::source::SourceFile;
+
+pub use prescribed::check_prescribed;
 
 use rank::Rows;
 use samples::ClosedPositions;
@@ -80,6 +85,33 @@ impl Case<'_> {
         self.description.parameters.iter().map(|parameter| parameter.default).collect()
     }
 
+    /// The description with what drivers prescribe at t = 0 as guesses.
+    fn with_drivers_as_guesses(&self) -> Description {
+        let mut description = self.description.clone();
+        for (index, joint) in self.mechanism.joints.iter().enumerate() {
+            for drive in &joint.drives {
+                if let Some(link) = self.linkage.link_of_coordinate(JointId::new(index), drive.coordinate) {
+                    let coordinate = self.linkage.links[link].first_coordinate;
+                    description.coordinates.to_mut()[coordinate].held = false;
+                }
+            }
+        }
+        description
+    }
+
+    /// Closed positions; if the drivers' start positions are out of reach, such that drivers follow, with the reason.
+    fn closed_positions(&self) -> Result<(ClosedPositions, Option<AssemblyError>), AssemblyError> {
+        let parameters = self.parameters();
+        let error = match ClosedPositions::walk(self.description, self.system, &parameters) {
+            Ok(positions) => return Ok((positions, None)),
+            Err(error) => error,
+        };
+        match ClosedPositions::walk(&self.with_drivers_as_guesses(), self.system, &parameters) {
+            Ok(positions) => Ok((positions, Some(error))),
+            Err(_) => Err(error),
+        }
+    }
+
     /// Joint and speed of every driver.
     fn drivers(&self) -> Vec<(JointId, usize)> {
         let mut drivers = Vec::new();
@@ -116,11 +148,22 @@ pub fn released(mechanism: &Mechanism) -> Mechanism {
     released
 }
 
-/// Analyses a mechanism. Returns the analysis and which constraint rows to keep.
+/// What is known after the analysis.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// For people and reports.
+    pub analysis: Analysis,
+    /// Which constraint rows to keep.
+    pub keep: Vec<bool>,
+    /// Remarks.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Analyses a mechanism.
 ///
 /// # Errors
-/// If loops cannot close, nothing can move, or drivers contradict the loops or each other.
-pub fn analyse(case: &Case<'_>) -> Result<(Analysis, Vec<bool>), Diagnostics> {
+/// If loops cannot close, nothing can move, drivers contradict the loops or each other, or a motion has no inertia.
+pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     let (mechanism, description) = (case.mechanism, case.description);
     let sizes = case.system.sizes();
     let drivers = case.drivers();
@@ -133,8 +176,11 @@ pub fn analyse(case: &Case<'_>) -> Result<(Analysis, Vec<bool>), Diagnostics> {
         cuts: case.topology.cuts.iter().map(|cut| mechanism.joint(*cut).name.clone()).collect(),
         ..Analysis::default()
     };
-    let positions = ClosedPositions::walk(description, case.system, &case.parameters())
-        .map_err(|error| cannot_close(case.source, mechanism, &error))?;
+    let fail = |errors| Err(Diagnostics::from_list(errors).located(case.source));
+    let (positions, refusal) = match case.closed_positions() {
+        Ok(found) => found,
+        Err(error) => return fail(vec![failures::cannot_close(mechanism, &error)]),
+    };
     let rows = Rows::new(&positions, drivers.iter().map(|(_, speed)| *speed).collect());
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
@@ -146,17 +192,24 @@ pub fn analyse(case: &Case<'_>) -> Result<(Analysis, Vec<bool>), Diagnostics> {
             reason: "in every position tried, the other rows of its loops already forbid it".to_owned(),
         });
     }
-    let errors = if analysis.mobility == 0 {
-        vec![locked(mechanism, &analysis)]
-    } else {
-        conflicts(mechanism, &drivers, &rows)
-    };
-    if !errors.is_empty() {
-        return Err(Diagnostics::from_list(errors).located(case.source));
+    let mut errors = failures::conflicts(mechanism, &drivers, &rows);
+    if analysis.mobility == 0 {
+        errors.insert(0, failures::locked(mechanism, &analysis));
     }
+    if let Some(error) = refusal.filter(|_| errors.is_empty()) {
+        errors.push(failures::out_of_reach(mechanism, &drivers, &error));
+    }
+    if let Some((joint, body)) = immobile::massless(case, &positions).filter(|_| errors.is_empty()) {
+        errors.push(failures::massless(mechanism, joint, &body));
+    }
+    if !errors.is_empty() {
+        return fail(errors);
+    }
+    let rigid = immobile::rigid_joints(case, &positions);
+    let warnings = if rigid.is_empty() { Vec::new() } else { vec![failures::rigid_part(mechanism, &rigid)] };
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
-    Ok((analysis, keep))
+    Ok(Findings { analysis, keep, warnings })
 }
 
 /// 6 (bodies) minus what every joint takes away.
@@ -167,79 +220,4 @@ fn grubler(mechanism: &Mechanism) -> i64 {
         .map(|joint| crate::derive::row_count(&joint.kind, crate::model::Closure::Joint))
         .sum();
     6 * mechanism.bodies.len() as i64 - taken as i64
-}
-
-fn cannot_close(source: &SourceFile, mechanism: &Mechanism, error: &AssemblyError) -> Diagnostics {
-    let code = match error {
-        AssemblyError::HeldPositions { .. } | AssemblyError::HeldSpeeds { .. } => Code::StartImpossible,
-        AssemblyError::NonFinite { .. } | AssemblyError::Setup(_) => Code::StartNotFinite,
-        _ => Code::LoopDoesNotClose,
-    };
-    let mut diagnostic = Diagnostic::new(code, error.to_string());
-    let named = match error {
-        AssemblyError::NoConvergence { joint, .. }
-        | AssemblyError::HeldSpeeds { joint, .. }
-        | AssemblyError::SpeedsImpossible { joint, .. } => Some(joint),
-        _ => None,
-    };
-    if let Some(joint) = named.and_then(|name| mechanism.joints.iter().find(|joint| joint.name == *name)) {
-        diagnostic = diagnostic.at(joint.span, "this loop stays open");
-    }
-    diagnostic = diagnostic
-        .help("check lengths and points, or start Newton nearer to the wanted assembly with [assembly]");
-    Diagnostics::from_list(vec![diagnostic]).located(source)
-}
-
-fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
-    let names: Vec<&str> = mechanism.joints.iter().map(|joint| joint.name.as_str()).collect();
-    let mut diagnostic = Diagnostic::new(
-        Code::Locked,
-        format!(
-            "nothing can move: {} speeds are held by {} independent constraint rows",
-            analysis.speeds, analysis.independent_rows
-        ),
-    )
-    .help(format!(
-        "the joints {} form a structure; free one of them (for instance make a revolute spherical) \
-         or correct axes that should be parallel or meet in a point",
-        names.join(", ")
-    ));
-    if let Some(joint) =
-        analysis.cuts.first().and_then(|cut| mechanism.joints.iter().find(|j| j.name == *cut))
-    {
-        diagnostic = diagnostic.at(joint.span, "the loop closed here is rigid");
-    }
-    diagnostic
-}
-
-/// Drivers must prescribe independent freedoms.
-fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Rows) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    for group in rows.driver_conflicts() {
-        let names: Vec<&str> =
-            group.iter().map(|driver| mechanism.joint(drivers[*driver].0).name.as_str()).collect();
-        let (code, message) = if names.len() == 1 {
-            (
-                Code::DriverOnDependentCoordinate,
-                format!("the loops leave joint `{}` no motion to drive", names[0]),
-            )
-        } else {
-            (
-                Code::DriversInConflict,
-                format!(
-                    "the loops couple the driven joints {}: they cannot all be prescribed",
-                    names.join(", ")
-                ),
-            )
-        };
-        let mut diagnostic =
-            Diagnostic::new(code, message).help("keep as many drivers as there are freedoms to drive");
-        for name in &names {
-            if let Some(joint) = mechanism.joints.iter().find(|joint| joint.name == **name) {
-                diagnostic = diagnostic.at(joint.span, "driven here");
-            }
-        }
-        errors.push(diagnostic);
-    }
-    errors
 }

@@ -128,7 +128,11 @@ mod tests {
     #[test]
     fn a_row_of_rounding_errors_is_dropped() {
         let sample = |noise: f64| DMatrix::from_row_slice(2, 2, &[1.0, 2.0, noise, 3.0 * noise]);
-        let positions = [1e-16, -2e-16].map(|noise| Position { q: Vec::new(), jacobian: sample(noise) });
+        let positions = [1e-16, -2e-16].map(|noise| Position {
+            q: Vec::new(),
+            jacobian: sample(noise),
+            mass: DMatrix::identity(2, 2),
+        });
         let rows = Rows::new(&ClosedPositions { positions: positions.to_vec() }, vec![1]);
         assert_eq!(rows.independent(), [true, false]);
         assert!(rows.driver_conflicts().is_empty());

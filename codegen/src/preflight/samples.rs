@@ -27,6 +27,8 @@ pub struct Position {
     pub q: Vec<f64>,
     /// Jacobian of all rows by all speeds, scaled so that lengths count as angles times the mechanism's size.
     pub jacobian: DMatrix<f64>,
+    /// Mass matrix of all speeds.
+    pub mass: DMatrix<f64>,
 }
 
 /// Closed positions, the assembled start first.
@@ -78,8 +80,8 @@ struct Walker<'a> {
 }
 
 impl Walker<'_> {
-    /// Residuals and Jacobian of all rows.
-    fn constraints(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
+    /// Residuals of all rows, their Jacobian and the mass matrix.
+    fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>, DMatrix<f64>) {
         let sizes = self.system.sizes();
         let (n, m) = (sizes.all_speeds, sizes.all_rows);
         let zeros = vec![0.0; n];
@@ -89,12 +91,18 @@ impl Walker<'_> {
         let first = n * (n + 1) / 2 + n;
         let phi = DVector::from_column_slice(&output[first..first + m]);
         let jacobian = DMatrix::from_row_slice(m, n, &output[first + m..first + m + m * n]);
-        (phi, jacobian)
+        let mut mass = DMatrix::zeros(n, n);
+        let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+        for ((i, j), value) in upper.zip(&output) {
+            mass[(i, j)] = *value;
+            mass[(j, i)] = *value;
+        }
+        (phi, jacobian, mass)
     }
 
     fn position(&self, q: Vec<f64>) -> Position {
-        let (_, jacobian) = self.constraints(&q);
-        Position { q, jacobian }
+        let (_, jacobian, mass) = self.equations(&q);
+        Position { q, jacobian, mass }
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
@@ -126,9 +134,9 @@ impl Walker<'_> {
         let mut q = from.q.clone();
         self.layout.advance(&mut q, scaled.as_slice());
         for _ in 0..20 {
-            let (phi, jacobian) = self.constraints(&q);
+            let (phi, jacobian, mass) = self.equations(&q);
             if phi.iter().all(|residual| residual.abs() < CLOSED) {
-                return Some(Position { q, jacobian });
+                return Some(Position { q, jacobian, mass });
             }
             let correction = least_norm(&jacobian, &-phi)?;
             self.layout.advance(&mut q, correction.as_slice());

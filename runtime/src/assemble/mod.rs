@@ -8,7 +8,7 @@
 mod newton;
 mod speeds;
 
-use crate::{AssemblyError, Description, Evaluator, Motion, System};
+use crate::{AssemblyError, Description, Evaluator, Motion, System, VariableInfo};
 use newton::Newton;
 
 /// Coordinates and speeds of the free motions.
@@ -89,8 +89,15 @@ fn conflicts(evaluator: &Evaluator<'_>, held: &[bool], wanted: &[f64], reached: 
         .enumerate()
         // Far above the accuracy of assembly, far below what a user would call different.
         .filter(|(i, _)| held[*i] && (wanted[*i] - reached[*i]).abs() > 1e-8)
-        .map(|(i, c)| format!("`{}` ({} {}, reachable {})", c.name, wanted[i], c.unit, reached[i]))
+        .map(|(i, c)| wanted_and_reached(c, wanted[i], reached[i]))
         .collect()
+}
+
+/// A variable with both of its values, for a message: rounded to a millionth.
+fn wanted_and_reached(variable: &VariableInfo, wanted: f64, reached: f64) -> String {
+    // Adding 0 turns -0 into 0.
+    let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    format!("`{}` ({} {}, reachable {})", variable.name, rounded(wanted), variable.unit, rounded(reached))
 }
 
 /// Columns of the Jacobian that held coordinates freeze, and for held positions of poses (in W) the rows

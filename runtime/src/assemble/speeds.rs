@@ -1,5 +1,6 @@
 //! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
 
+use super::wanted_and_reached;
 use crate::linear::{Orthogonal, add_scaled, largest};
 use crate::{AssemblyError, Evaluator};
 
@@ -35,7 +36,7 @@ pub(super) fn consistent(
                 .enumerate()
                 // Far above rounding, far below what a user would call different.
                 .filter(|(i, _)| held[*i] && (wish[*i] - free[*i]).abs() > 1e-8 * wish[*i].abs().max(1.0))
-                .map(|(i, s)| format!("`{}` ({} {}, reachable {})", s.name, wish[i], s.unit, free[i]))
+                .map(|(i, s)| wanted_and_reached(s, wish[i], free[i]))
                 .collect();
             return Err(AssemblyError::HeldSpeeds { names, joint, residual });
         }

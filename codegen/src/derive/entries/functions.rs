@@ -97,7 +97,7 @@ impl Deriver<'_> {
             ),
             Block::vector(
                 "pivots",
-                "Pivots of the loop rows, positive; small next to 1 near a singular position.",
+                "Pivots of the loop rows, positive; small next to their usual size near a singular position.",
                 "",
                 result.solution.pivots,
             ),

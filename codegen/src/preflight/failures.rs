@@ -1,0 +1,219 @@
+//! What a user is told when a mechanism cannot be assembled, cannot move, or is driven against itself.
+//! In: what the analysis found. Out: diagnostics with places and cures. Never computes.
+
+use linkwear_runtime::AssemblyError;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::id::JointId;
+use crate::model::{Joint, Mechanism, Start};
+
+use super::Analysis;
+use super::rank::Rows;
+
+const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
+
+fn named<'a>(mechanism: &'a Mechanism, name: &str) -> Option<&'a Joint> {
+    mechanism.joints.iter().find(|joint| joint.name == name)
+}
+
+/// `R1`, `R2` and so on, in backticks.
+fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// How far loops stay open: only the kinds that are, rounded.
+fn gap(metres: f64, radians: f64) -> String {
+    /// Next to a gap that people are told of, less is rounding.
+    const CLOSED: f64 = 1e-9;
+    let metres = Some(metres).filter(|gap| *gap > CLOSED || radians <= CLOSED);
+    let radians = Some(radians).filter(|gap| *gap > CLOSED);
+    let rounded = |gap: f64| if gap < 1e-3 { format!("{gap:.1e}") } else { format!("{gap:.3}") };
+    let parts = [metres.map(|gap| rounded(gap) + " m"), radians.map(|gap| rounded(gap) + " rad")];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
+}
+
+/// Assembly failed although no driver stands in the way.
+pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic {
+    match error {
+        AssemblyError::NoConvergence { joint, meaning, residual_m, residual_rad, .. } => {
+            let open = gap(*residual_m, *residual_rad);
+            let message = format!("the loop through `{joint}` does not close: it stays open by {open}");
+            let diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message).help(CLOSE);
+            at_joint(diagnostic, mechanism, joint, &format!("worst: {meaning}"))
+        }
+        AssemblyError::HeldPositions { names, residual_m, residual_rad } => {
+            let open = gap(*residual_m, *residual_rad);
+            let message = format!(
+                "the start values of {} cannot all be met: with them the loops stay open by {open}",
+                names.join(", ")
+            );
+            start_impossible(mechanism, names, message)
+        }
+        AssemblyError::HeldSpeeds { names, joint, .. } => {
+            let message = format!(
+                "the start speeds of {} cannot all be met: the loop through `{joint}` forbids it",
+                names.join(", ")
+            );
+            start_impossible(mechanism, names, message)
+        }
+        AssemblyError::SpeedsImpossible { joint, .. } => {
+            let message = format!("no speeds fit the loop through `{joint}` in the start position");
+            let diagnostic =
+                Diagnostic::new(Code::LoopDoesNotClose, message).help("start in another position");
+            at_joint(diagnostic, mechanism, joint, "in this loop")
+        }
+        AssemblyError::NonFinite { what } => {
+            let message = format!("the {what} is not a finite number in the start position");
+            let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
+                .help("check the points, start values and parameters of this joint");
+            // `what` ends with the joint, or one of its variables.
+            let joint = what.rsplit(' ').next().and_then(|name| name.split('.').next()).unwrap_or_default();
+            at_joint(diagnostic, mechanism, joint, "this joint")
+        }
+        AssemblyError::Setup(error) => Diagnostic::new(Code::StartNotFinite, error.to_string()),
+    }
+}
+
+fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &str) -> Diagnostic {
+    match named(mechanism, joint) {
+        Some(joint) => diagnostic.at(joint.span, text),
+        None => diagnostic,
+    }
+}
+
+/// Whether a variable of the joint is among `names`, each of which begins with `` `joint.q` ``.
+fn among(names: &[String], joint: &Joint) -> bool {
+    names
+        .iter()
+        .any(|name| name.strip_prefix('`').and_then(|rest| rest.split('.').next()) == Some(&joint.name))
+}
+
+/// `names`: variables as assembly lists them.
+fn start_impossible(mechanism: &Mechanism, names: &[String], message: String) -> Diagnostic {
+    let mut diagnostic = Diagnostic::new(Code::StartImpossible, message);
+    for joint in mechanism.joints.iter().filter(|joint| !joint.drives.is_empty() && among(names, joint)) {
+        diagnostic = diagnostic.at(joint.span, "driven from there");
+    }
+    for start in demanded(mechanism, names) {
+        diagnostic = diagnostic.at(start.span, "demanded here");
+    }
+    diagnostic.help(
+        "demand no more start values than there are freedoms without a driver, and give the others in [assembly] \
+         as guesses",
+    )
+}
+
+/// Demanded start values among `names`.
+fn demanded<'a>(mechanism: &'a Mechanism, names: &'a [String]) -> impl Iterator<Item = &'a Start> {
+    let starts = mechanism.starts.iter().filter(|start| start.held);
+    starts.filter(|start| among(names, mechanism.joint(start.joint)))
+}
+
+/// The loops close, but not where the drivers start.
+pub fn out_of_reach(
+    mechanism: &Mechanism,
+    drivers: &[(JointId, usize)],
+    error: &AssemblyError,
+) -> Diagnostic {
+    let (names, loops) = match error {
+        AssemblyError::HeldPositions { names, .. } if demanded(mechanism, names).next().is_some() => {
+            return cannot_close(mechanism, error);
+        }
+        AssemblyError::HeldPositions { names, residual_m, residual_rad } => {
+            (names.as_slice(), format!("the loops stay open by {}", gap(*residual_m, *residual_rad)))
+        }
+        AssemblyError::NoConvergence { joint, residual_m, residual_rad, .. } => {
+            let open = gap(*residual_m, *residual_rad);
+            (&[][..], format!("the loop through `{joint}` stays open by {open}"))
+        }
+        other => return cannot_close(mechanism, other),
+    };
+    let stuck = |joint: &&Joint| names.is_empty() || among(names, joint);
+    let joints: Vec<&Joint> = drivers.iter().map(|(id, _)| mechanism.joint(*id)).filter(stuck).collect();
+    if joints.is_empty() {
+        return cannot_close(mechanism, error);
+    }
+    let message = format!(
+        "where the driver of {} starts, at t = 0, {loops}",
+        quoted(joints.iter().map(|joint| joint.name.as_str()))
+    );
+    let mut diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message)
+        .help("let the law start at a position that the loop can reach, or change lengths");
+    if !names.is_empty() {
+        diagnostic = diagnostic.help(format!("nearest positions found: {}", names.join(", ")));
+    }
+    for joint in joints {
+        diagnostic = diagnostic.at(joint.span, "driven here");
+    }
+    diagnostic
+}
+
+/// No freedom at all.
+pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
+    let names = quoted(mechanism.joints.iter().map(|joint| joint.name.as_str()));
+    let message = format!(
+        "nothing can move: {} speeds are held by {} independent constraint rows",
+        analysis.speeds, analysis.independent_rows
+    );
+    let mut diagnostic = Diagnostic::new(Code::Locked, message).help(format!(
+        "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
+         or correct axes that should be parallel or meet in a point"
+    ));
+    if let Some(joint) = analysis.cuts.first().and_then(|cut| named(mechanism, cut)) {
+        diagnostic = diagnostic.at(joint.span, "the loop closed here is rigid");
+    }
+    diagnostic
+}
+
+/// Some joints can never move although others do.
+pub fn rigid_part(mechanism: &Mechanism, joints: &[JointId]) -> Diagnostic {
+    let names = quoted(joints.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
+    let mut diagnostic =
+        Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, though other joints do"))
+            .help("make them `fixed` if that is meant; otherwise free one, or correct lengths and axes");
+    for joint in joints {
+        diagnostic = diagnostic.at(mechanism.joint(*joint).span, "cannot move");
+    }
+    diagnostic
+}
+
+/// A motion without inertia.
+pub fn massless(mechanism: &Mechanism, joint: JointId, body: &str) -> Diagnostic {
+    let joint = mechanism.joint(joint);
+    let message = format!("joint `{}` can move `{body}` without moving any mass", joint.name);
+    Diagnostic::new(Code::MasslessFreedom, message)
+        .at(joint.span, "this motion has no inertia")
+        .help(format!("give `{body}` a moment of inertia, or use a joint without that freedom"))
+}
+
+/// A driver whose law has no finite first or second derivative at t = 0.
+pub fn abrupt_driver(mechanism: &Mechanism, joint: &str, what: &str) -> Diagnostic {
+    let message =
+        format!("the {what} that the driver of `{joint}` prescribes is not a finite number at t = 0");
+    let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
+        .help("let the law set out smoothly, for instance with `t^2` in place of `sqrt(t)`");
+    at_joint(diagnostic, mechanism, joint, "driven here")
+}
+
+/// Drivers must prescribe independent freedoms.
+pub fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Rows) -> Vec<Diagnostic> {
+    let mut errors = Vec::new();
+    for group in rows.driver_conflicts() {
+        let joints: Vec<&Joint> = group.iter().map(|driver| mechanism.joint(drivers[*driver].0)).collect();
+        let names = quoted(joints.iter().map(|joint| joint.name.as_str()));
+        let (code, message) = if joints.len() == 1 {
+            (Code::DriverOnDependentCoordinate, format!("the loops leave joint {names} no motion to drive"))
+        } else {
+            let message =
+                format!("the loops couple the driven joints {names}: they cannot all be prescribed");
+            (Code::DriversInConflict, message)
+        };
+        let mut diagnostic =
+            Diagnostic::new(code, message).help("keep as many drivers as there are freedoms to drive");
+        for joint in joints {
+            diagnostic = diagnostic.at(joint.span, "driven here");
+        }
+        errors.push(diagnostic);
+    }
+    errors
+}

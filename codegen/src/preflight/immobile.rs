@@ -1,0 +1,106 @@
+//! Joints that never move although the mechanism does, and motions that move no mass.
+//! In: closed positions with Jacobian and mass matrix. Out: joints. Never words a message.
+
+use nalgebra::DMatrix;
+
+use crate::derive::row_count;
+use crate::id::JointId;
+use crate::model::{Carrier, Closure};
+
+use super::Case;
+use super::samples::{ClosedPositions, Position, null_space};
+
+/// Shares of a unit motion below this are rest; rounding leaves 1e-12.
+const REST: f64 = 1e-7;
+
+/// Smallest eigenvalue of a mass matrix scaled to a unit diagonal. Rounding leaves 1e-15; slender rods, whose spin
+/// hardly moves any mass, have a diagonal of their own and stay far above.
+const NO_MASS: f64 = 1e-12;
+
+/// Joints that cannot move in any position tried. `fixed` joints do not count.
+pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId> {
+    let mut moves = vec![false; case.system.sizes().all_speeds];
+    for position in &positions.positions {
+        let free = null_space(&position.jacobian);
+        for (speed, moves) in moves.iter_mut().enumerate() {
+            *moves |= free.row(speed).amax() > REST;
+        }
+    }
+    let still = |joint: JointId| {
+        let links = case.linkage.links.iter().filter(|link| link.joint == joint);
+        links.flat_map(|link| link.first_speed..link.first_speed + link.freedom.speeds()).all(|v| !moves[v])
+    };
+    let has_freedom = |joint: JointId| {
+        case.linkage.links.iter().any(|link| link.joint == joint && link.freedom.speeds() > 0)
+    };
+    let tree =
+        case.topology.tree.iter().map(|step| step.joint).filter(|joint| has_freedom(*joint) && still(*joint));
+    let mut rigid: Vec<JointId> = tree.collect();
+    // A joint that closes a loop of joints at rest rests too.
+    let cuts = case.topology.cuts.iter().copied().filter(|cut| {
+        let loop_joints = loop_of(case, *cut);
+        let could = row_count(&case.mechanism.joint(*cut).kind, Closure::Joint) < 6;
+        could && loop_joints.iter().any(|joint| rigid.contains(joint)) && loop_joints.into_iter().all(still)
+    });
+    let cuts: Vec<JointId> = cuts.collect();
+    rigid.extend(cuts);
+    rigid.sort_by_key(|joint| joint.index());
+    rigid
+}
+
+/// Tree joints of the loop that a cut closes.
+fn loop_of(case: &Case<'_>, cut: JointId) -> Vec<JointId> {
+    let joint = case.mechanism.joint(cut);
+    let to_ground = |mut carrier: Carrier| {
+        let mut path = Vec::new();
+        while let Carrier::Body(body) = carrier {
+            let Some(step) = case.topology.tree.iter().find(|step| step.outboard == body) else { break };
+            path.push(step.joint);
+            carrier = step.inboard;
+        }
+        path
+    };
+    let (one, other) = (to_ground(joint.parent), to_ground(joint.child));
+    let shared = |joint: &JointId, path: &[JointId]| path.contains(joint);
+    let mut path: Vec<JointId> = one.iter().copied().filter(|joint| !shared(joint, &other)).collect();
+    path.extend(other.iter().copied().filter(|joint| !shared(joint, &one)));
+    path
+}
+
+/// A joint (with the body it carries) whose motion moves no mass in any position tried. Elimination divides by the
+/// masses of the tree, so loops that would lend it inertia do not help.
+pub fn massless(case: &Case<'_>, positions: &ClosedPositions) -> Option<(JointId, String)> {
+    let driven: Vec<usize> = case.drivers().into_iter().map(|(_, speed)| speed).collect();
+    let free: Vec<usize> =
+        (0..case.system.sizes().all_speeds).filter(|speed| !driven.contains(speed)).collect();
+    let mut found = None;
+    for position in &positions.positions {
+        let speed = free[weightless(position, &free)?];
+        found = found.or(Some(speed));
+    }
+    let speed = found?;
+    let link = case
+        .linkage
+        .links
+        .iter()
+        .find(|link| (link.first_speed..link.first_speed + link.freedom.speeds()).contains(&speed))?;
+    let body = case.topology.tree.iter().find(|step| step.joint == link.joint)?.outboard;
+    Some((link.joint, case.mechanism.body(body).name.clone()))
+}
+
+/// The free speed with the largest share in a motion without inertia, if there is such a motion.
+fn weightless(position: &Position, free: &[usize]) -> Option<usize> {
+    let n = free.len();
+    if n == 0 {
+        return None;
+    }
+    let mass = DMatrix::from_fn(n, n, |i, j| position.mass[(free[i], free[j])]);
+    let largest = mass.diagonal().amax();
+    if let Some(zero) = (0..n).find(|i| mass[(*i, *i)] <= f64::MIN_POSITIVE.max(1e-30 * largest)) {
+        return Some(zero);
+    }
+    let scaled = DMatrix::from_fn(n, n, |i, j| mass[(i, j)] / (mass[(i, i)] * mass[(j, j)]).sqrt());
+    let eigen = scaled.symmetric_eigen();
+    let least = eigen.eigenvalues.imin();
+    (eigen.eigenvalues[least] < NO_MASS).then(|| eigen.eigenvectors.column(least).icamax())
+}
