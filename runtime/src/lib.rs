@@ -49,13 +49,14 @@ pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
-pub use system::{Entry, Sizes, System};
+pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 
 #[cfg(feature = "std")]
 pub use assemble::{State, assemble, assemble_with};
 #[cfg(feature = "std")]
 pub use description::{
-    Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
+    Channel, ContactInfo, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text,
+    VariableInfo, WearInfo,
 };
 #[cfg(feature = "std")]
 pub use dynamics::{Dynamics, SINGULAR_PIVOT};
