@@ -23,6 +23,8 @@ pub mod wear;
 #[cfg(feature = "std")]
 mod assemble;
 #[cfg(feature = "std")]
+pub mod clearance;
+#[cfg(feature = "std")]
 mod description;
 #[cfg(feature = "std")]
 mod dynamics;
@@ -52,7 +54,9 @@ pub use sincos::sin_cos;
 pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use assemble::{State, assemble, assemble_with};
+pub use assemble::{
+    State, assemble, assemble_resting, assemble_with, check_clearances, offset_columns, place,
+};
 #[cfg(feature = "std")]
 pub use description::{
     Channel, ContactInfo, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text,
@@ -72,7 +76,8 @@ pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SP
 pub use record::write_csv;
 #[cfg(feature = "std")]
 pub use simulate::{
-    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate,
+    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span, Statistics, TurnMeasure,
+    TurnMeasures, TurnRunner, TurnState, simulate,
 };
 #[cfg(feature = "std")]
 pub use singular::{LOST_RANK, NEARLY_LOST};

@@ -5,6 +5,7 @@
 
 pub mod bars;
 pub mod body;
+pub mod journal;
 
 use linkwear_runtime::{
     Channel, Description, DriverInfo, Entry, Layout, Motion, ParameterInfo, RowInfo, Sizes, System,
@@ -96,6 +97,7 @@ impl<M: Model> Dense<M> {
             rows,
             all_rows: rows + dropped,
             drivers: prescribed.len(),
+            contacts: 0,
             channels: channels.len(),
             workspace: 0,
         };
@@ -118,6 +120,7 @@ impl<M: Model> Dense<M> {
             drivers: (0..prescribed.len()).map(driver).collect(),
             channels: channels.into(),
             turn_driver: (!prescribed.is_empty()).then_some(0),
+            contacts: vec![].into(),
         };
         Self { model, description, layout, sizes }
     }
@@ -255,6 +258,7 @@ impl<M: Model> System<f64> for Dense<M> {
                 let multipliers = &multipliers[..self.sizes.rows];
                 output.copy_from_slice(&self.model.observe(&q, &v, multipliers, drives));
             }
+            Entry::Contacts => {}
             Entry::EquationsOfMotion => {
                 let (q, v) = rest.split_at(self.sizes.all_coordinates);
                 let terms = self.model.terms(p, q, v);
