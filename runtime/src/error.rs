@@ -49,6 +49,12 @@ pub enum SetupError {
         /// Radius of the journal or ball [m].
         journal_radius: f64,
     },
+    /// An output column is asked for that the mechanism does not have.
+    #[error("the mechanism has no output `{name}`; check the name of the joint or body")]
+    NoChannel {
+        /// Its name.
+        name: String,
+    },
     /// A setting of the run makes no sense.
     #[error("setting `{name}` is {value}; it must be {need}")]
     Setting {

@@ -76,8 +76,8 @@ pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SP
 pub use record::write_csv;
 #[cfg(feature = "std")]
 pub use simulate::{
-    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span, Statistics, TurnMeasure,
-    TurnMeasures, TurnRunner, TurnState, simulate,
+    BRANCH_PART, IdealJoint, IdealMeasure, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span,
+    Statistics, TurnMeasure, TurnMeasures, TurnRunner, TurnState, simulate,
 };
 #[cfg(feature = "std")]
 pub use singular::{LOST_RANK, NEARLY_LOST};

@@ -1,5 +1,7 @@
 //! What belongs to the state of a trajectory can be saved and comes back bit for bit.
 
+use linkwear_runtime::TurnState;
+use linkwear_runtime::clearance::JointState;
 use linkwear_runtime::contact::ImpactMemory;
 use linkwear_runtime::wear::{Limits, Observed, Profile, Warning};
 
@@ -36,4 +38,21 @@ fn warnings_come_back() {
     assert_eq!(warnings.len(), 1);
     let text = serde_json::to_string(&warnings).unwrap();
     assert_eq!(serde_json::from_str::<Vec<Warning>>(&text).unwrap(), warnings);
+}
+
+#[test]
+fn a_trajectory_between_two_turns_comes_back() {
+    let worn = JointState {
+        memory: ImpactMemory::in_contact(1.0 / 3.0),
+        worn: 0.1 + 0.2,
+        profile: Some(Profile::unworn(8).unwrap()),
+    };
+    let state = TurnState {
+        t: 1.0 / 7.0,
+        q: vec![1e-300, -0.0],
+        v: vec![0.1],
+        joints: vec![worn, JointState::unworn()],
+    };
+    let text = serde_json::to_string(&state).unwrap();
+    assert_eq!(serde_json::from_str::<TurnState>(&text).unwrap(), state);
 }

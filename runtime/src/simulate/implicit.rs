@@ -16,6 +16,8 @@ pub(super) fn run_generalized_alpha(
 ) -> Result<(), RunError> {
     sampler.sample_at_start(motion, state)?;
     let mut derivative = vec![0.0; state.len()];
+    let powers = state.len() - motion.first_integral();
+    let (mut before, mut now) = (vec![0.0; powers], vec![0.0; powers]);
     let mut sampled = state.to_vec();
     let mut method: Option<(GeneralizedAlpha, f64)> = None;
     let (mut t, n) = (sampler.begin(), motion.first_integral());
@@ -30,8 +32,7 @@ pub(super) fn run_generalized_alpha(
         }
         let Some((method, h)) = &mut method else { break };
         motion.derivative(t, state, &mut derivative)?;
-        let mut power = derivative.split_off(n);
-        let mut now = power.clone();
+        before.copy_from_slice(&derivative[n..]);
         for i in 1..=steps {
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             let spent = (method.iterations(), method.evaluations());
@@ -40,7 +41,7 @@ pub(super) fn run_generalized_alpha(
             sampler.statistics.evaluations += method.evaluations() - spent.1;
             outcome?;
             t = next;
-            take_over(motion, method, t, (state, &mut power, &mut now), *h);
+            take_over(motion, method, t, (state, &mut before, &mut now), *h);
             let evaluator = &mut motion.dynamics.evaluator;
             evaluator.closure(t, method.q(), method.v());
             sampler.note_loop_error(evaluator.loop_error());

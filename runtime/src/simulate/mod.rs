@@ -4,17 +4,21 @@
 
 mod contacts;
 mod events;
+mod ideal;
 mod implicit;
 mod motion;
 mod sampler;
 mod schedule;
 mod settings;
 mod turns;
+mod warning;
 
-pub use contacts::{RunWarning, TurnMeasure};
+pub use contacts::TurnMeasure;
+pub use ideal::{IdealJoint, IdealMeasure};
 pub use motion::{BRANCH_PART, JUMP_FLOOR};
 pub use settings::{Integrator, Run, Settings, Span, Statistics};
 pub use turns::{TurnMeasures, TurnRunner, TurnState};
+pub use warning::RunWarning;
 
 use std::ops::ControlFlow;
 
@@ -50,7 +54,7 @@ pub fn simulate(
     let mut state = motion.join(&start);
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
     let stopped = run(&mut motion, &mut sampler, &mut state, settings.integrator, progress);
-    Ok(sampler.finish(&motion, contacts::step_limits(settings.integrator), stopped.err()))
+    Ok(sampler.finish(&motion, warning::step_limits(settings.integrator), stopped.err()))
 }
 
 /// Runs a schedule to its end with a method; `state` is then where it got.

@@ -198,7 +198,8 @@ impl<'a> ConstrainedMotion<'a> {
         Ok(correction)
     }
 
-    /// Writes rates of the coordinates, and powers of drivers, forces and contacts at the last forward dynamics.
+    /// Writes rates of the coordinates, and powers of drivers, forces and contacts at the last forward dynamics:
+    /// wear grows with the state and by its method, [CS (18)-(20)].
     pub(super) fn powers(
         &mut self,
         t: f64,

@@ -257,7 +257,7 @@ impl Sampler {
         kinetic
     }
 
-    /// Gives the recorded samples away; `limits`: see [`super::contacts::step_limits`].
+    /// Gives the recorded samples away; `limits`: see [`super::warning::step_limits`].
     pub(super) fn finish(
         mut self,
         motion: &ConstrainedMotion<'_>,

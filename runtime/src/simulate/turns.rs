@@ -1,10 +1,10 @@
 //! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
 //! In: a mechanism, a method, clearances. Out: [`TurnMeasure`]s. Never knows how wear follows from them.
 
-use super::contacts::step_limits;
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::Schedule;
+use super::warning::step_limits;
 use super::{Integrator, Progress, RunWarning, Settings, Span, Statistics, TurnMeasure};
 use crate::clearance::JointState;
 use crate::wear::Profile;
