@@ -4,6 +4,9 @@
 
 use std::borrow::Cow;
 
+use crate::contact::{Onset, Restitution, Stiffness, Strength};
+use crate::wear::{Area, Measure};
+
 /// Text that is static in generated code and owned elsewhere.
 pub type Text = Cow<'static, str>;
 /// A list that is static in generated code and owned elsewhere.
@@ -104,6 +107,62 @@ pub struct Description {
     pub channels: List<Channel>,
     /// Index of the first driver on a revolute joint: 2 pi of it is a turn.
     pub turn_driver: Option<usize>,
+    /// Joints with clearance, in the order of [`crate::Entry::Contacts`].
+    pub contacts: List<ContactInfo>,
+}
+
+/// A joint with clearance: what the laws of contact, friction and wear need. SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactInfo {
+    /// The joint.
+    pub joint: Text,
+    /// A ball in a socket; else a journal in a bearing, free in the two directions across its axis.
+    pub ball: bool,
+    /// Radius of the journal or ball [m].
+    pub journal_radius: f64,
+    /// Length of the bearing [m]; for a ball the socket's diameter.
+    pub length: f64,
+    /// Elastic modulus E* of the pair [Pa].
+    pub modulus: f64,
+    /// Stiffness of the contact.
+    pub stiffness: Stiffness,
+    /// Law of restitution.
+    pub law: Restitution,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Exponent of penetration in the normal force.
+    pub exponent: f64,
+    /// Least impact speed that damping is related to [m/s].
+    pub impact_speed_floor: f64,
+    /// Friction: strength, onset, slope over sliding speed [s/m]; nothing without friction.
+    pub friction: Option<(Strength, Onset, f64)>,
+    /// Wear; nothing if the joint does not wear.
+    pub wear: Option<WearInfo>,
+}
+
+/// How a joint wears, and when it has failed. SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WearInfo {
+    /// Dimensionless wear coefficient k of Archard's law.
+    pub coefficient: f64,
+    /// Hardness of the softer side [Pa].
+    pub hardness: f64,
+    /// Model of the contact area.
+    pub area: Area,
+    /// What of the profile counts as wear W.
+    pub measure: Measure,
+    /// Growth of the clearance per wear, gamma of `c + gamma dW`.
+    pub feedback: f64,
+    /// Feeds the worn profile back to the local gap, instead of the scalar clearance.
+    pub profile: bool,
+    /// Bearing angles of the profile.
+    pub bins: usize,
+    /// Wear at which the joint has failed, `W_crit` [m].
+    pub threshold: f64,
+    /// Revolutions that one cycle of the life stands for.
+    pub revolutions_per_cycle: f64,
+    /// Limit of mean pressure times sliding speed [Pa m/s], if one is known.
+    pub pressure_speed: Option<f64>,
 }
 
 /// What generated code says about itself, as plain tables: names, units and flags in the order of the fields of
@@ -128,6 +187,8 @@ pub struct Tables {
     pub channels: &'static [(&'static str, &'static str, bool)],
     /// See [`Description::turn_driver`].
     pub turn_driver: Option<usize>,
+    /// See [`Description::contacts`].
+    pub contacts: &'static [ContactInfo],
 }
 
 impl Description {
@@ -174,6 +235,7 @@ impl Description {
                 .map(|&(name, unit, wraps)| Channel { name: name.into(), unit: unit.into(), wraps })
                 .collect(),
             turn_driver: tables.turn_driver,
+            contacts: tables.contacts.into(),
         }
     }
 }

@@ -3,6 +3,8 @@
 
 use thiserror::Error;
 
+use crate::contact::OutOfRange;
+
 /// Numbers that do not belong to the mechanism, found before anything runs.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SetupError {
@@ -25,6 +27,33 @@ pub enum SetupError {
         name: String,
         /// Its value.
         value: f64,
+    },
+    /// A constant of a joint with clearance is out of range.
+    #[error("joint `{joint}`: {reason}")]
+    Contact {
+        /// The joint.
+        joint: String,
+        /// Which constant, its value, and what it must be.
+        reason: OutOfRange,
+    },
+    /// The clearance of a joint is no clearance of its journal.
+    #[error(
+        "joint `{joint}` has a radial clearance of {clearance:.4e} m on a journal of radius {journal_radius:.4e} m; \
+         it must be above zero and below the radius: change the parameters it comes from"
+    )]
+    Clearance {
+        /// The joint.
+        joint: String,
+        /// Radial clearance, wear included [m].
+        clearance: f64,
+        /// Radius of the journal or ball [m].
+        journal_radius: f64,
+    },
+    /// An output column is asked for that the mechanism does not have.
+    #[error("the mechanism has no output `{name}`; check the name of the joint or body")]
+    NoChannel {
+        /// Its name.
+        name: String,
     },
     /// A setting of the run makes no sense.
     #[error("setting `{name}` is {value}; it must be {need}")]

@@ -2,6 +2,7 @@
 //! In: a [`System`], its [`Description`], parameter values. Out: slices by [`Entry`].
 //! Never knows integrators.
 
+use crate::clearance::Clearances;
 use crate::linear::dot;
 use crate::{Description, Entry, Layout, SetupError, Sizes, System};
 
@@ -18,6 +19,7 @@ pub struct Evaluator<'a> {
     row_scales: Vec<f64>,
     /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
     multipliers: Vec<f64>,
+    clearances: Clearances,
     input: Vec<f64>,
     workspace: Vec<f64>,
     outputs: [Vec<f64>; Entry::ALL.len()],
@@ -127,6 +129,7 @@ impl<'a> Evaluator<'a> {
         same("kept rows", sizes.rows, kept.len())?;
         same("described drivers", sizes.drivers, description.drivers.len())?;
         same("described channels", sizes.channels, description.channels.len())?;
+        same("described joints with clearance", sizes.contacts, description.contacts.len())?;
         if let Some(at) = parameters.iter().position(|value| !value.is_finite()) {
             let name = description.parameters[at].name.to_string();
             return Err(SetupError::Parameter { name, value: parameters[at] });
@@ -143,6 +146,7 @@ impl<'a> Evaluator<'a> {
             row_lengths: vec![0.0; sizes.rows],
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
+            clearances: Clearances::new(&description.contacts)?,
             input,
             workspace: vec![0.0; sizes.workspace],
             outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
@@ -198,10 +202,43 @@ impl<'a> Evaluator<'a> {
         self.ask(Entry::Start, t, &[]).split_at(n)
     }
 
-    /// Accelerations, multipliers, drive forces and pivots.
+    /// Joints with clearance: their laws, states, and contacts at the last evaluation.
+    #[must_use]
+    pub fn clearances(&self) -> &Clearances {
+        &self.clearances
+    }
+
+    /// The same, to restore what they remember or to change their wear.
+    pub fn clearances_mut(&mut self) -> &mut Clearances {
+        &mut self.clearances
+    }
+
+    /// Motion of every joint with clearance, [`crate::CONTACT_MOTION`] values each.
+    pub fn contact_motion(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
+        self.ask(Entry::Contacts, t, &[q, v])
+    }
+
+    /// Evaluates the contacts; their wrenches go into every answer from here on. Nothing to do without clearance.
+    pub fn touch(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        if self.sizes.contacts > 0 {
+            self.ask(Entry::Contacts, t, &[q, v]);
+            self.clearances.evaluate(&self.outputs[Entry::Contacts as usize]);
+        }
+    }
+
+    /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
+        self.touch(t, q, v);
+        let clearances = core::mem::take(&mut self.clearances);
+        self.forward_under(t, q, v, clearances.wrenches());
+        self.clearances = clearances;
+        self.last_forward()
+    }
+
+    /// The same with given wrenches of the contacts, whatever the laws say.
+    pub fn forward_under(&mut self, t: f64, q: &[f64], v: &[f64], wrenches: &[f64]) -> Forward<'_> {
         self.multipliers.fill(0.0);
-        self.ask(Entry::ForwardDynamics, t, &[q, v]);
+        self.ask(Entry::ForwardDynamics, t, &[q, v, wrenches]);
         self.last_forward()
     }
 
@@ -322,7 +359,10 @@ impl<'a> Evaluator<'a> {
             multipliers[*row] = *multiplier;
         }
         let drives = &forward[n + m..n + m + self.sizes.drivers];
-        self.ask(Entry::Observe, t, &[q, v, &forward[..n], &multipliers, drives]);
+        let clearances = core::mem::take(&mut self.clearances);
+        let wrenches = clearances.wrenches();
+        self.ask(Entry::Observe, t, &[q, v, &forward[..n], &multipliers, drives, wrenches]);
+        self.clearances = clearances;
         self.outputs[Entry::ForwardDynamics as usize] = forward;
         self.multipliers = multipliers;
         &self.outputs[Entry::Observe as usize]
@@ -341,10 +381,13 @@ impl<'a> Evaluator<'a> {
         &self.outputs[Entry::Prescribed as usize]
     }
 
-    /// Mass matrix, bias, constraint rows of all coordinates.
+    /// Mass matrix, bias, constraint rows of all coordinates, under the wrenches of the last [`Self::touch`].
     pub fn equations(&mut self, t: f64, all_q: &[f64], all_v: &[f64]) -> Equations<'_> {
         let (n, m) = (self.sizes.all_speeds, self.sizes.all_rows);
-        let output = self.ask(Entry::EquationsOfMotion, t, &[all_q, all_v]);
+        let clearances = core::mem::take(&mut self.clearances);
+        self.ask(Entry::EquationsOfMotion, t, &[all_q, all_v, clearances.wrenches()]);
+        self.clearances = clearances;
+        let output = &self.outputs[Entry::EquationsOfMotion as usize];
         let (mass, rest) = output.split_at(n * (n + 1) / 2);
         let (bias, rest) = rest.split_at(n);
         let (positions, rest) = rest.split_at(m);

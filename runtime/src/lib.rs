@@ -9,6 +9,7 @@
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod contact;
 mod dual;
 mod float;
 #[cfg(feature = "std")]
@@ -17,9 +18,12 @@ mod intrinsic;
 mod scalar;
 mod sincos;
 mod system;
+pub mod wear;
 
 #[cfg(feature = "std")]
 mod assemble;
+#[cfg(feature = "std")]
+pub mod clearance;
 #[cfg(feature = "std")]
 mod description;
 #[cfg(feature = "std")]
@@ -47,13 +51,16 @@ pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
-pub use system::{Entry, Sizes, System};
+pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use assemble::{State, assemble, assemble_with};
+pub use assemble::{
+    State, assemble, assemble_resting, assemble_with, check_clearances, offset_columns, place,
+};
 #[cfg(feature = "std")]
 pub use description::{
-    Channel, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text, VariableInfo,
+    Channel, ContactInfo, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text,
+    VariableInfo, WearInfo,
 };
 #[cfg(feature = "std")]
 pub use dynamics::{Dynamics, SINGULAR_PIVOT};
@@ -69,7 +76,8 @@ pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SP
 pub use record::write_csv;
 #[cfg(feature = "std")]
 pub use simulate::{
-    BRANCH_PART, Integrator, JUMP_FLOOR, Progress, Run, Settings, Span, Statistics, simulate,
+    BRANCH_PART, IdealJoint, IdealMeasure, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span,
+    Statistics, TurnMeasure, TurnMeasures, TurnRunner, TurnState, simulate,
 };
 #[cfg(feature = "std")]
 pub use singular::{LOST_RANK, NEARLY_LOST};

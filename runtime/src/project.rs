@@ -63,6 +63,8 @@ pub struct Projector {
     delta: Vec<f64>,
     right: Vec<f64>,
     scales: Vec<f64>,
+    /// Natural size of each free speed's motion: how readily a correction moves it.
+    sizes: Vec<f64>,
     gram: Cholesky,
     orthogonal: Orthogonal,
     factored: Factored,
@@ -97,7 +99,14 @@ impl Projector {
             strictness: 1.0,
             keep_lost: false,
             scales: vec![0.0; m],
+            sizes: vec![1.0; n],
         }
+    }
+
+    /// Sets the natural size of each free speed's motion, 1 unless told otherwise: corrections are smallest
+    /// relative to it. Micrometres of a clearance stay out of the correction of a loop of metres.
+    pub fn set_sizes(&mut self, sizes: &[f64]) {
+        self.sizes.copy_from_slice(sizes);
     }
 
     /// Loop error over all rows after the last projection.
@@ -225,7 +234,7 @@ impl Projector {
         let n = self.delta.len();
         self.scales.copy_from_slice(evaluator.row_scales());
         for (scale, row) in self.scales.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
-            row.iter_mut().for_each(|x| *x *= *scale);
+            row.iter_mut().zip(&self.sizes).for_each(|(x, size)| *x *= *scale * size);
         }
         if level == 0 && self.gram.factor_gram(&self.jacobian, n) > TRUSTED_PIVOT {
             self.factored = Factored::Gram;
@@ -251,6 +260,7 @@ impl Projector {
         } else {
             self.orthogonal.solve(&self.right, &mut self.delta);
         }
+        self.delta.iter_mut().zip(&self.sizes).for_each(|(x, size)| *x *= size);
     }
 }
 

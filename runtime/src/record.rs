@@ -3,15 +3,17 @@
 
 use std::io::{self, Write};
 
+use crate::clearance::ContactChannels;
 use crate::{Description, Run};
 
-/// Writes the header `t [s],name [unit],...` and one line per sample.
+/// Writes the header `t [s],name [unit],...` and one line per sample. Columns of contacts follow the generated ones.
 ///
 /// # Errors
 /// What the writer reports.
 pub fn write_csv(writer: &mut dyn Write, description: &Description, run: &Run) -> io::Result<()> {
     write!(writer, "t [s]")?;
-    for channel in description.channels.iter() {
+    let contacts = ContactChannels::new(description);
+    for channel in description.channels.iter().chain(contacts.channels()) {
         write!(writer, ",{} [{}]", channel.name, channel.unit)?;
     }
     writeln!(writer)?;
@@ -58,6 +60,7 @@ mod tests {
             drivers: vec![].into(),
             channels: std::borrow::Cow::Owned(channels),
             turn_driver: None,
+            contacts: vec![].into(),
         }
     }
 

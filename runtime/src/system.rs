@@ -13,8 +13,8 @@ pub enum Entry {
     Prescribed,
     /// In: parameters, t. Out: guess of the free coordinates `q`, wish for the free speeds `v`.
     Start,
-    /// In: parameters, t, q, v. Out: accelerations `v̇` (free speeds), multipliers, drive forces,
-    /// loop pivots (one per kept constraint row, positive; small next to their usual size near a singular position).
+    /// In: parameters, t, q, v, contact wrenches ([`CONTACT_WRENCH`] each). Out: accelerations `v̇` (free speeds),
+    /// multipliers, drive forces, loop pivots (one per kept constraint row, positive; small next to their usual size near a singular position).
     ForwardDynamics,
     /// In: parameters, t, q, v, drive forces. Out: `q̇`, power supplied [W], power dissipated [W].
     Rates,
@@ -25,18 +25,31 @@ pub enum Entry {
     /// In: parameters, t, q, v. Out: kinetic energy [J], potential energy [J].
     Energy,
     /// In: parameters, t, q, v, `v̇`, multipliers of every row (kept and dropped alike; zero for dropped rows
-    /// except where kept rows lose rank), drive forces. Out: one value per output channel.
+    /// except where kept rows lose rank), drive forces, contact wrenches. Out: one value per output channel.
     Observe,
-    /// In: parameters, t, ALL coordinates, ALL speeds (driven ones too, tree order).
+    /// In: parameters, t, ALL coordinates, ALL speeds (driven ones too, tree order), contact wrenches.
     /// Out: upper triangle of M (row by row), h (with gravity, springs and damping on the left side:
     /// `M v̇ + h = Q_drive + Phi_qᵀ lambda`), and of every row, kept and dropped alike: Phi, Phi_q (row
     /// major), gamma. Dropped rows take over where the kept ones happen to lose rank.
     EquationsOfMotion,
+    /// In: parameters, t, q, v. Out: [`CONTACT_MOTION`] values for every joint with clearance, [CS (7)-(12)].
+    Contacts,
 }
+
+/// Values per joint with clearance in the output of [`Entry::Contacts`], in the frame of the bearing (the joint's
+/// parent; for a revolute joint e_z is the axis): offset of the journal's centre from the bearing's (3) [m], its
+/// rate seen from the bearing (3) [m/s], angular velocity of the journal relative to the bearing (3) [rad/s],
+/// clearance [m].
+pub const CONTACT_MOTION: usize = 10;
+
+/// Values per joint with clearance that contact laws hand back: force on the journal (3) [N] and moment about the
+/// journal's centre (3) [N m], in the frame of the bearing. The opposite acts on the bearing at the same place. A
+/// revolute joint takes force x, y and moment z; the other components belong to its constraints and are ignored.
+pub const CONTACT_WRENCH: usize = 6;
 
 impl Entry {
     /// Every entry, in the order in which generated code lists them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Prescribed,
         Self::Start,
         Self::ForwardDynamics,
@@ -45,6 +58,7 @@ impl Entry {
         Self::Energy,
         Self::Observe,
         Self::EquationsOfMotion,
+        Self::Contacts,
     ];
 
     /// Name in snake case, as functions of generated code are called.
@@ -59,6 +73,7 @@ impl Entry {
             Self::Energy => "energy",
             Self::Observe => "observe",
             Self::EquationsOfMotion => "equations_of_motion",
+            Self::Contacts => "contacts",
         }
     }
 }
@@ -82,6 +97,8 @@ pub struct Sizes {
     pub all_rows: usize,
     /// Drivers.
     pub drivers: usize,
+    /// Joints with clearance.
+    pub contacts: usize,
     /// Output channels of [`Entry::Observe`].
     pub channels: usize,
     /// Length of the scratch slice that [`System::evaluate`] wants.
@@ -94,12 +111,14 @@ impl Sizes {
     pub const fn input(&self, entry: Entry) -> usize {
         let base = self.parameters + 1;
         let state = base + self.coordinates + self.speeds;
+        let wrenches = CONTACT_WRENCH * self.contacts;
         match entry {
             Entry::Prescribed | Entry::Start => base,
-            Entry::ForwardDynamics | Entry::Closure | Entry::Energy => state,
+            Entry::Closure | Entry::Energy | Entry::Contacts => state,
+            Entry::ForwardDynamics => state + wrenches,
             Entry::Rates => state + self.drivers,
-            Entry::Observe => state + self.speeds + self.all_rows + self.drivers,
-            Entry::EquationsOfMotion => base + self.all_coordinates + self.all_speeds,
+            Entry::Observe => state + self.speeds + self.all_rows + self.drivers + wrenches,
+            Entry::EquationsOfMotion => base + self.all_coordinates + self.all_speeds + wrenches,
         }
     }
 
@@ -116,6 +135,7 @@ impl Sizes {
             Entry::Energy => 2,
             Entry::Observe => self.channels,
             Entry::EquationsOfMotion => n * (n + 1) / 2 + n + self.all_rows * (n + 2),
+            Entry::Contacts => CONTACT_MOTION * self.contacts,
         }
     }
 }

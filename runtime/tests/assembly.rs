@@ -19,7 +19,7 @@ fn four_bar(angles: [(f64, bool); 3], speeds: [(f64, bool); 3], redundant: Optio
             ..Bar::unit(froms[i], 0.0, 0.0)
         })
         .collect();
-    Dense::new(Bars { bars, loops: vec![(1, At::End(2))], redundant }, &[("gravity", 9.81)])
+    Dense::new(Bars { bars, loops: vec![(1, At::End(2))], redundant, bearing: None }, &[("gravity", 9.81)])
 }
 
 fn start<M: common::Model>(system: &Dense<M>) -> Result<State, AssemblyError> {
@@ -100,8 +100,10 @@ fn bars_too_short_say_how_far_the_loop_stays_open() {
         bar(At::End(0), 0.2, 0.2),
         bar(At::Ground(0.9, 0.0), 0.1, 3.0),
     ];
-    let system =
-        Dense::new(Bars { bars, loops: vec![(1, At::End(2))], redundant: None }, &[("gravity", 9.81)]);
+    let system = Dense::new(
+        Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None },
+        &[("gravity", 9.81)],
+    );
     let error = start(&system).expect_err("0.3 m are missing");
     let AssemblyError::NoConvergence { ref joint, residual_m, .. } = error else { panic!("{error}") };
     assert_eq!(joint, "loop0");
@@ -136,7 +138,7 @@ fn a_driver_against_a_dead_point_is_told() {
         Bar::unit(At::End(2), 0.0, 0.0),
     ];
     let loops = vec![(3, At::Ground(3.0, 0.0)), (2, At::Ground(2.0, 0.0))];
-    let mut system = Dense::new(Bars { bars, loops, redundant: None }, &[("gravity", 9.81)]);
+    let mut system = Dense::new(Bars { bars, loops, redundant: None, bearing: None }, &[("gravity", 9.81)]);
     system.model.bars[1].from = At::Ground(3.0, 0.0);
     // The chain itself is rigid and consistent: it starts at rest.
     assert!(start(&system).is_ok());

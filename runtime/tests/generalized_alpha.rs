@@ -39,7 +39,10 @@ fn damped_four_bar() -> Dense<Bars> {
     let bar = |from, length, angle| Bar { length, ..Bar::unit(from, angle, 0.0) };
     let crank = Bar { damping: 0.2, speed: (8.0, true), ..bar(At::Ground(0.0, 0.0), 0.3, 0.3) };
     let bars = vec![crank, bar(At::End(0), 1.0, 0.7), bar(At::Ground(0.9, 0.0), 0.8, 1.4)];
-    Dense::new(Bars { bars, loops: vec![(1, At::End(2))], redundant: Some(0.0) }, &[("gravity", 9.81)])
+    Dense::new(
+        Bars { bars, loops: vec![(1, At::End(2))], redundant: Some(0.0), bearing: None },
+        &[("gravity", 9.81)],
+    )
 }
 
 fn pinned_body() -> Dense<Body> {
@@ -107,8 +110,10 @@ fn a_driver_past_the_dead_point_fails_newton_and_keeps_the_samples() {
     let bar = |from, length, angle| Bar { length, ..Bar::unit(from, angle, 0.0) };
     let driven = Bar { law: Some(|t| [1.8 + t, 1.0, 0.0]), ..bar(At::Ground(0.9, 0.0), 0.8, 1.8) };
     let bars = vec![bar(At::Ground(0.0, 0.0), 0.3, 0.3), bar(At::End(0), 1.0, 0.7), driven];
-    let system =
-        Dense::new(Bars { bars, loops: vec![(1, At::End(2))], redundant: None }, &[("gravity", 9.81)]);
+    let system = Dense::new(
+        Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None },
+        &[("gravity", 9.81)],
+    );
     let result = run(&system, implicit(1e-3, 0.8), 3.0, 301);
     assert!(matches!(result.stopped, Some(RunError::NewtonFailed { .. })), "{:?}", result.stopped);
     assert!(result.rows.len() > 10);

@@ -31,7 +31,7 @@ fn four_bar(law: Option<Law>) -> Dense<Bars> {
     let bar = |from, length, angle| Bar { length, ..Bar::unit(from, angle, 0.0) };
     let crank = Bar { law, start: (0.3, false), speed: (8.0, false), ..bar(At::Ground(0.0, 0.0), 0.3, 0.3) };
     let bars = vec![crank, bar(At::End(0), 1.0, 0.7), bar(At::Ground(0.9, 0.0), 0.8, 1.4)];
-    dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: Some(0.0) })
+    dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: Some(0.0), bearing: None })
 }
 
 /// Rocker angle of the four-bar in closed form (the assembly with the loop above ground).
@@ -77,7 +77,7 @@ fn a_pendulum_hung_in_a_loop_moves_like_the_pendulum_alone() {
             Bar::unit(At::End(0), 0.0, 0.0),
             Bar::unit(At::Ground(1.0, 0.0), angle, 0.0),
         ];
-        dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None })
+        dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None })
     };
     let result = run(&parallel(-0.5), dopri5(1e-12), 2.0, 21);
     let expected = parallel_reference(1.0, -0.5, 0.0, &result.times);
@@ -125,7 +125,7 @@ fn n_four_bar(n: usize) -> Dense<Bars> {
         bars.push(Bar::unit(At::Ground(i as f64, 0.0), FRAC_PI_2, -1.0));
         loops.push((i, At::End(n + i)));
     }
-    dense(Bars { bars, loops, redundant: None })
+    dense(Bars { bars, loops, redundant: None, bearing: None })
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn a_start_exactly_in_line_uses_the_rank_revealing_solve() {
         Bar::unit(At::End(0), 0.0, 0.0),
         Bar::unit(At::Ground(1.0, 0.0), 0.0, -2.0),
     ];
-    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None });
+    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None });
     let result = run(&system, dopri5(1e-9), 0.3, 4);
     assert_eq!(result.stopped, None);
     assert!(result.statistics.rank_revealing_solves > 0);
@@ -176,7 +176,7 @@ fn a_driver_past_the_dead_point_loses_the_assembly() {
     let bar = |from, length, angle| Bar { length, ..Bar::unit(from, angle, 0.0) };
     let driven = Bar { law: Some(|t| [1.8 + t, 1.0, 0.0]), ..bar(At::Ground(0.9, 0.0), 0.8, 1.8) };
     let bars = vec![bar(At::Ground(0.0, 0.0), 0.3, 0.3), bar(At::End(0), 1.0, 0.7), driven];
-    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None });
+    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None });
     for integrator in [dopri5(1e-8), Integrator::Rk4 { step: 1e-3 }] {
         let result = run(&system, integrator, 3.0, 301);
         let stopped = result.stopped.expect("the loop opens");
@@ -210,7 +210,7 @@ fn a_driver_that_jumps_loses_the_assembly() {
     let law: Law = |t| if t < 0.5 { [1.8, 0.0, 0.0] } else { [3.1, 0.0, 0.0] };
     let driven = Bar { law: Some(law), ..bar(At::Ground(0.9, 0.0), 0.8, 1.8) };
     let bars = vec![bar(At::Ground(0.0, 0.0), 0.3, 0.3), bar(At::End(0), 1.0, 0.7), driven];
-    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None });
+    let system = dense(Bars { bars, loops: vec![(1, At::End(2))], redundant: None, bearing: None });
     for integrator in [dopri5(1e-8), Integrator::Rk4 { step: 1e-2 }] {
         let result = run(&system, integrator, 1.0, 11);
         let Some(RunError::LostAssembly { t, joint, residual_m, .. }) = result.stopped else {

@@ -6,7 +6,10 @@
 //! it and the branch is the guess's; speeds by one minimum-norm solve from the wish.
 
 mod newton;
+mod resting;
 mod speeds;
+
+pub use resting::{assemble_resting, check_clearances, offset_columns, place};
 
 use crate::{AssemblyError, Description, Evaluator, Motion, System, VariableInfo};
 use newton::Newton;

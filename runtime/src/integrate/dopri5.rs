@@ -179,6 +179,24 @@ impl Dopri5 {
         }
     }
 
+    /// Takes the last accepted step again, only up to `t` within it: something happens there that the steps
+    /// before and after must not be mixed with. Once per accepted step.
+    ///
+    /// # Errors
+    /// What the problem reports.
+    pub fn retake(&mut self, problem: &mut dyn Problem, t: f64) -> Result<(), RunError> {
+        core::mem::swap(&mut self.y, &mut self.next);
+        self.slopes.swap(0, 6);
+        let (before, longer) = (self.before, self.step);
+        self.t = before;
+        // A part of a step that was accepted is accepted, whatever its own estimate says.
+        let (error, _) = self.attempt(problem, t - before, t)?;
+        problem.reached(t, &self.slopes[6]);
+        self.accept(t - before, t, error.min(1.0), true);
+        self.step = self.step.min(longer);
+        Ok(())
+    }
+
     /// Error (1 is just accepted) of a step, and the component it belongs to.
     fn attempt(
         &mut self,

@@ -61,6 +61,8 @@ pub struct GeneralizedAlpha {
     matrix: Vec<f64>,
     lu: Lu,
     orthogonal: Orthogonal,
+    /// Natural size of each free speed's motion.
+    sizes: Vec<f64>,
     /// Step that the Newton matrix was made for; 0: none.
     factored_step: f64,
     rank_lost: bool,
@@ -126,11 +128,20 @@ impl GeneralizedAlpha {
             matrix: vec![0.0; (n + m) * (n + m)],
             lu: Lu::new(n + m),
             orthogonal: Orthogonal::new(n + m, n + m),
+            sizes: vec![1.0; n],
             factored_step: 0.0,
             rank_lost: false,
             iterations: 0,
             evaluations: 0,
         }
+    }
+
+    /// Sets the natural size of each free speed's motion, 1 unless told otherwise: difference quotients and the end
+    /// of the iteration go by it. A contact is as stiff as its penetrations are small.
+    #[must_use]
+    pub fn with_sizes(mut self, sizes: &[f64]) -> Self {
+        self.sizes.copy_from_slice(sizes);
+        self
     }
 
     /// Time to which the method's own accelerations belong, in steps after the state's time.
@@ -214,7 +225,9 @@ impl GeneralizedAlpha {
         }
         add_scaled(&mut self.x, -1.0, &self.shifted[..n]);
         add_scaled(&mut self.scaled_multipliers, -1.0, &self.shifted[n..]);
-        largest(&self.shifted[..n])
+        let relative = self.shifted[..n].iter().zip(&self.sizes).map(|(x, size)| x.abs() / size);
+        // What is not a number wins.
+        relative.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
     }
 
     /// Residual of the balance of forces (times `h²`) and of the constraints, for the present unknowns.
@@ -239,6 +252,7 @@ impl GeneralizedAlpha {
         for (place, a) in next.free.iter().zip(&next.v_dot) {
             next.all_a[*place] = *a;
         }
+        evaluator.touch(t, &next.q, &next.v);
         let equations = evaluator.equations(t, &next.all_q, &next.all_v);
         equations.unpack_mass(all, &mut next.mass);
         for (i, balance) in next.balance.iter_mut().enumerate() {
@@ -271,11 +285,12 @@ impl GeneralizedAlpha {
         }
         for j in 0..n {
             let kept = self.x[j];
-            self.x[j] = kept + DIFFERENCE;
+            let difference = DIFFERENCE * self.sizes[j];
+            self.x[j] = kept + difference;
             self.evaluate(evaluator, t, h);
             self.x[j] = kept;
             for (i, (moved, base)) in self.residual.iter().zip(&self.shifted).enumerate() {
-                self.matrix[i * size + j] = (moved - base) / DIFFERENCE;
+                self.matrix[i * size + j] = (moved - base) / difference;
             }
         }
         let pivot = self.lu.factor(&self.matrix);

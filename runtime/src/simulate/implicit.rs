@@ -16,9 +16,11 @@ pub(super) fn run_generalized_alpha(
 ) -> Result<(), RunError> {
     sampler.sample_at_start(motion, state)?;
     let mut derivative = vec![0.0; state.len()];
+    let powers = state.len() - motion.first_integral();
+    let (mut before, mut now) = (vec![0.0; powers], vec![0.0; powers]);
     let mut sampled = state.to_vec();
     let mut method: Option<(GeneralizedAlpha, f64)> = None;
-    let (mut t, n) = (0.0, state.len() - 2);
+    let (mut t, n) = (sampler.begin(), motion.first_integral());
     while let Some(target) = sampler.next_stop(t) {
         let (from, steps) = (t, steps_between(t, target, longest));
         // One step size up to the next stop; another one starts the method afresh, because its own
@@ -30,7 +32,7 @@ pub(super) fn run_generalized_alpha(
         }
         let Some((method, h)) = &mut method else { break };
         motion.derivative(t, state, &mut derivative)?;
-        let mut power = [derivative[n], derivative[n + 1]];
+        before.copy_from_slice(&derivative[n..]);
         for i in 1..=steps {
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             let spent = (method.iterations(), method.evaluations());
@@ -39,7 +41,7 @@ pub(super) fn run_generalized_alpha(
             sampler.statistics.evaluations += method.evaluations() - spent.1;
             outcome?;
             t = next;
-            take_over(motion, method, t, (state, &mut power), *h);
+            take_over(motion, method, t, (state, &mut before, &mut now), *h);
             let evaluator = &mut motion.dynamics.evaluator;
             evaluator.closure(t, method.q(), method.v());
             sampler.note_loop_error(evaluator.loop_error());
@@ -59,18 +61,18 @@ fn take_over(
     motion: &mut ConstrainedMotion<'_>,
     method: &GeneralizedAlpha,
     t: f64,
-    (state, power): (&mut [f64], &mut [f64; 2]),
+    (state, before, now): (&mut [f64], &mut [f64], &mut [f64]),
     h: f64,
 ) {
     let (q, v) = (method.q(), method.v());
-    let rates = motion.dynamics.evaluator.rates(t, q, v);
-    let now = [rates.supplied, rates.dissipated];
     let n = q.len() + v.len();
+    // The rates of the coordinates go where the coordinates come next.
+    motion.powers(t, q, v, &mut state[..q.len()], now);
     state[..q.len()].copy_from_slice(q);
     state[q.len()..n].copy_from_slice(v);
-    for ((work, before), now) in state[n..].iter_mut().zip(power.iter_mut()).zip(now) {
-        *work += 0.5 * h * (*before + now);
-        *before = now;
+    for ((work, before), now) in state[n..].iter_mut().zip(before).zip(now) {
+        *work += 0.5 * h * (*before + *now);
+        *before = *now;
     }
 }
 
@@ -95,5 +97,6 @@ fn start(
         }
     }
     let (q, v, _) = motion.split(state);
-    Ok(GeneralizedAlpha::new(&motion.dynamics.evaluator, rho, (q, v), &v_dot, &shifted))
+    let method = GeneralizedAlpha::new(&motion.dynamics.evaluator, rho, (q, v), &v_dot, &shifted);
+    Ok(method.with_sizes(motion.sizes()))
 }

@@ -1,10 +1,10 @@
 //! The mechanism as an initial value problem on its constraints: state = coordinates, speeds, work
-//! supplied, work dissipated. In: states. Out: derivatives, projected states.
-//! Never knows samples.
+//! supplied, work dissipated, and per joint with clearance the [`Totals`]. In: states. Out: derivatives,
+//! projected states. Never knows samples.
 
 use crate::integrate::Problem;
 use crate::linear::largest;
-use crate::{Correction, Dynamics, LoopError, Projector, RunError, State};
+use crate::{Correction, Dynamics, LoopError, Motion, Projector, RunError, State, offset_columns};
 
 /// A projection may move coordinates or speeds by this part of what the step itself moved them...
 pub const BRANCH_PART: f64 = 0.1;
@@ -20,6 +20,42 @@ const PROJECTED_STAGES: f64 = 0.05;
 /// Energies smaller than this [J] are noise to the step control.
 const ENERGY_FLOOR: f64 = 1e-9;
 
+/// Offsets of a journal are judged relative to the clearance, their rates relative to the clearance times this
+/// [1/s]: contacts ring at some kilohertz.
+const CONTACT_RATE: f64 = 1e4;
+
+/// Numbers per joint with clearance that are integrated with the state.
+pub(super) const TOTALS: usize = 4;
+
+/// What a contact has done since the state was joined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Totals {
+    /// Wear integral [J].
+    pub(super) wear: f64,
+    /// Depth by the contact area [m].
+    pub(super) depth: f64,
+    /// Integral of the normal force [N s].
+    pub(super) impulse: f64,
+    /// Energy lost in damping and friction [J].
+    pub(super) loss: f64,
+}
+
+impl Totals {
+    pub(super) fn of(values: &[f64]) -> Self {
+        Self { wear: values[0], depth: values[1], impulse: values[2], loss: values[3] }
+    }
+
+    /// What came on top of `before`.
+    pub(super) fn since(self, before: Self) -> Self {
+        Self {
+            wear: self.wear - before.wear,
+            depth: self.depth - before.depth,
+            impulse: self.impulse - before.impulse,
+            loss: self.loss - before.loss,
+        }
+    }
+}
+
 /// Dynamics and projection of one mechanism, with what was counted.
 pub(super) struct ConstrainedMotion<'a> {
     pub(super) dynamics: Dynamics<'a>,
@@ -28,6 +64,11 @@ pub(super) struct ConstrainedMotion<'a> {
     stage: Vec<f64>,
     coordinates: usize,
     speeds: usize,
+    contacts: usize,
+    /// Natural size of every coordinate and speed, 1 unless it moves a journal in its bearing.
+    scales: Vec<f64>,
+    /// Natural size of the motion along every free speed.
+    sizes: Vec<f64>,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
     pub(super) energy_scale: f64,
 }
@@ -40,16 +81,91 @@ impl<'a> ConstrainedMotion<'a> {
             dynamics,
             projections: 0,
             projector,
-            stage: vec![0.0; sizes.coordinates + sizes.speeds + 2],
+            stage: vec![0.0; sizes.coordinates + sizes.speeds + 2 + TOTALS * sizes.contacts],
             coordinates: sizes.coordinates,
             speeds: sizes.speeds,
+            contacts: sizes.contacts,
+            scales: vec![1.0; sizes.coordinates + sizes.speeds],
+            sizes: vec![1.0; sizes.speeds],
             energy_scale: ENERGY_FLOOR,
         }
     }
 
     /// The flat state of a start without any work done.
     pub(super) fn join(&self, state: &State) -> Vec<f64> {
-        [&state.q[..], &state.v, &[0.0, 0.0]].concat()
+        [&state.q[..], &state.v, &vec![0.0; 2 + TOTALS * self.contacts]].concat()
+    }
+
+    /// Place of the work in a flat state; everything from there on is a plain integral.
+    pub(super) fn first_integral(&self) -> usize {
+        self.coordinates + self.speeds
+    }
+
+    /// What the contacts have done, of a flat state, joint by joint.
+    pub(super) fn totals<'y>(&self, y: &'y [f64]) -> impl Iterator<Item = Totals> + 'y {
+        y[self.first_integral() + 2..].chunks_exact(TOTALS).map(Totals::of)
+    }
+
+    /// Energy lost in all contacts, of a flat state [J].
+    pub(super) fn contact_loss(&self, y: &[f64]) -> f64 {
+        self.totals(y).map(|totals| totals.loss).sum()
+    }
+
+    /// Energy stored in all contacts at a state [J]; their wrenches are then those of this state.
+    pub(super) fn elastic_energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
+        self.dynamics.evaluator.touch(t, q, v);
+        self.dynamics.evaluator.clearances().elastic_energy()
+    }
+
+    /// Penetration of one contact at a flat state [m].
+    pub(super) fn penetration(&mut self, joint: usize, t: f64, y: &[f64]) -> f64 {
+        let (q, v) = y[..self.first_integral()].split_at(self.coordinates);
+        self.dynamics.evaluator.touch(t, q, v);
+        self.dynamics.evaluator.clearances().touches()[joint].penetration()
+    }
+
+    /// Natural sizes of the motion along the free speeds.
+    pub(super) fn sizes(&self) -> &[f64] {
+        &self.sizes
+    }
+
+    /// Learns at a state how small the motion in the clearances is. Without clearance nothing changes.
+    pub(super) fn learn_sizes(&mut self, t: f64, state: &State) {
+        if self.contacts == 0 {
+            return;
+        }
+        let columns = offset_columns(&mut self.dynamics.evaluator, t, &state.q);
+        self.dynamics.evaluator.touch(t, &state.q, &state.v);
+        let (evaluator, sizes) = (&self.dynamics.evaluator, &mut self.sizes);
+        sizes.fill(1.0);
+        for (column, touch) in columns.iter().zip(evaluator.clearances().touches()) {
+            for row in column {
+                for (size, moved) in sizes.iter_mut().zip(row) {
+                    *size = size.min(touch.clearance / moved.abs());
+                }
+            }
+        }
+        let (coordinates, speeds) = self.scales.split_at_mut(self.coordinates);
+        for (scale, size) in speeds.iter_mut().zip(&*sizes) {
+            *scale = (size * CONTACT_RATE).min(1.0);
+        }
+        for group in evaluator.layout().free() {
+            let own = |from: usize, to: usize| {
+                sizes[group.speed + from..group.speed + to]
+                    .iter()
+                    .fold(1.0_f64, |least, size| least.min(*size))
+            };
+            let places = &mut coordinates[group.coordinate..];
+            match group.motion {
+                Motion::Scalar { .. } => places[0] = own(0, 1),
+                Motion::Rotation => places[..4].fill(own(0, 3)),
+                Motion::Pose => {
+                    places[..4].fill(own(0, 3));
+                    places[4..7].fill(own(3, 6));
+                }
+            }
+        }
+        self.projector.set_sizes(&self.sizes);
     }
 
     /// Coordinates, speeds, and (work supplied, work dissipated) of a flat state.
@@ -82,15 +198,32 @@ impl<'a> ConstrainedMotion<'a> {
         Ok(correction)
     }
 
+    /// Writes rates of the coordinates, and powers of drivers, forces and contacts at the last forward dynamics:
+    /// wear grows with the state and by its method, [CS (18)-(20)].
+    pub(super) fn powers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        coordinates: &mut [f64],
+        powers: &mut [f64],
+    ) {
+        let rates = self.dynamics.evaluator.rates(t, q, v);
+        coordinates.copy_from_slice(rates.coordinates);
+        (powers[0], powers[1]) = (rates.supplied, rates.dissipated);
+        let touches = self.dynamics.evaluator.clearances().touches();
+        for (powers, touch) in powers[2..].chunks_exact_mut(TOTALS).zip(touches) {
+            powers.copy_from_slice(&[touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss]);
+        }
+    }
+
     /// Writes rates of coordinates, accelerations of the last forward dynamics, and powers.
     fn write_derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (q, v, _) = self.split(y);
         let accelerations = self.dynamics.evaluator.last_forward().accelerations;
         derivative[self.coordinates..][..self.speeds].copy_from_slice(accelerations);
-        let rates = self.dynamics.evaluator.rates(t, q, v);
-        derivative[..self.coordinates].copy_from_slice(rates.coordinates);
-        let work = &mut derivative[self.coordinates + self.speeds..];
-        (work[0], work[1]) = (rates.supplied, rates.dissipated);
+        let (coordinates, work) = derivative.split_at_mut(self.first_integral());
+        self.powers(t, q, v, &mut coordinates[..self.coordinates], work);
         if work.iter().all(|power| power.is_finite()) {
             Ok(())
         } else {
@@ -148,7 +281,12 @@ impl Problem for ConstrainedMotion<'_> {
     }
 
     fn scale(&self, index: usize) -> f64 {
-        if index < self.coordinates + self.speeds { 1.0 } else { self.energy_scale }
+        let Some(integral) = index.checked_sub(self.first_integral()) else { return self.scales[index] };
+        match integral.checked_sub(2).map(|integral| integral % TOTALS) {
+            None | Some(0 | 3) => self.energy_scale,
+            // Depth and impulse are as smooth as the wear integral, and have no natural size of their own.
+            Some(_) => f64::INFINITY,
+        }
     }
 
     fn name(&self, index: usize) -> String {
@@ -157,7 +295,11 @@ impl Problem for ConstrainedMotion<'_> {
             None => description.coordinates[index].name.to_string(),
             Some(index) if index < self.speeds => format!("speed {}", description.speeds[index].name),
             Some(index) if index == self.speeds => "work supplied".to_owned(),
-            Some(_) => "work dissipated".to_owned(),
+            Some(index) if index == self.speeds + 1 => "work dissipated".to_owned(),
+            Some(index) => {
+                let joint = &description.contacts[(index - self.speeds - 2) / TOTALS].joint;
+                format!("contact integrals of {joint}")
+            }
         }
     }
 }

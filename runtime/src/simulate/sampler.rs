@@ -1,12 +1,14 @@
-//! What is recorded along the way: sampled rows, unwrapped angles, energy balance, loop error.
+//! What is recorded along the way: sampled rows, unwrapped angles, energy balance, loop error, turns.
 //! In: states at steps and sample times. Out: a [`Run`]. Never knows integrators.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use super::contacts::Follower;
 use super::motion::ConstrainedMotion;
 use super::schedule::Schedule;
 use super::{Progress, Run, Statistics};
+use crate::clearance::ContactChannels;
 use crate::{LoopError, RunError};
 
 /// Recorder of one run.
@@ -18,28 +20,95 @@ pub(super) struct Sampler {
     /// Last value of every channel, unwrapped.
     last: Option<Vec<f64>>,
     wraps: Vec<bool>,
+    /// Values of all channels, those of contacts last.
+    values: Vec<f64>,
+    contact_channels: ContactChannels,
     start_energy: f64,
     kinetic: f64,
     work: (f64, f64),
+    contact_loss: f64,
+    /// Joints with clearance, where there are any.
+    pub(super) follower: Option<Follower>,
+    /// Where the present turn ends; the run stops there when joints with clearance are measured.
+    turn_end: Option<f64>,
+    /// A contact whose gap closes at the end of the present step.
+    pub(super) closing: Option<usize>,
 }
 
 impl Sampler {
     pub(super) fn new(motion: &mut ConstrainedMotion<'_>, schedule: Schedule, state: &[f64]) -> Self {
-        let channels = &motion.dynamics.evaluator.description().channels;
-        let wraps = channels.iter().map(|channel| channel.wraps).collect();
+        let description = motion.dynamics.evaluator.description();
+        let contact_channels = ContactChannels::new(description);
+        let channels = description.channels.iter().chain(contact_channels.channels());
+        let wraps: Vec<bool> = channels.map(|channel| channel.wraps).collect();
+        let begin = schedule.begin;
+        let follower = Follower::new(motion, begin, state);
         let (q, v, work) = motion.split(state);
-        let (kinetic, potential) = motion.dynamics.evaluator.energy(0.0, q, v);
+        let (kinetic, potential) = motion.dynamics.evaluator.energy(begin, q, v);
         motion.energy_scale = motion.energy_scale.max(kinetic);
-        Self {
+        let elastic = motion.elastic_energy(begin, q, v);
+        let mut sampler = Self {
             schedule,
             statistics: Statistics::default(),
             times: Vec::with_capacity(schedule.samples),
             rows: Vec::with_capacity(schedule.samples),
             last: None,
+            values: vec![0.0; wraps.len()],
             wraps,
-            start_energy: kinetic + potential,
+            contact_channels,
+            start_energy: kinetic + potential + elastic,
             kinetic,
             work,
+            contact_loss: motion.contact_loss(state),
+            follower,
+            turn_end: None,
+            closing: None,
+        };
+        if begin == schedule.start {
+            sampler.find_turn_end(motion);
+        }
+        sampler
+    }
+
+    /// Where the run begins [s].
+    pub(super) fn begin(&self) -> f64 {
+        self.schedule.begin
+    }
+
+    /// Length of the run [s].
+    pub(super) fn duration(&self) -> f64 {
+        self.schedule.end - self.schedule.begin
+    }
+
+    /// A time that no step may pass: the end, or before it the end of a turn that is measured.
+    pub(super) fn hard_stop(&self, t: f64) -> f64 {
+        if self.follower.is_some() && t < self.schedule.start {
+            self.schedule.start
+        } else {
+            self.turn_end.unwrap_or(self.schedule.end)
+        }
+    }
+
+    fn find_turn_end(&mut self, motion: &mut ConstrainedMotion<'_>) {
+        self.turn_end = match &self.follower {
+            Some(follower) if motion.dynamics.evaluator.description().turn_driver.is_some() => {
+                self.schedule.end_of_turn(&mut motion.dynamics.evaluator, follower.turn_begin())
+            }
+            _ => None,
+        };
+    }
+
+    /// Joints with clearance after an accepted step: what they remember, what turns did.
+    fn follow(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
+        let closing = self.closing.take();
+        let Some(follower) = &mut self.follower else { return };
+        follower.accept(motion, t, state, closing);
+        if t == self.schedule.start {
+            follower.begin_turn(motion);
+            self.find_turn_end(motion);
+        } else if self.turn_end == Some(t) {
+            follower.end_turn(motion);
+            self.find_turn_end(motion);
         }
     }
 
@@ -55,6 +124,7 @@ impl Sampler {
         } else {
             self.schedule.end
         };
+        let next = next.min(self.hard_stop(t));
         if t < next { Some(next) } else { None }
     }
 
@@ -69,17 +139,18 @@ impl Sampler {
         self.times.len() < self.schedule.samples && self.schedule.time(self.times.len()) == t
     }
 
-    /// The state at t = 0: a sample unless the run settles first.
+    /// The state at the begin: a sample unless the run settles first.
     pub(super) fn sample_at_start(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
         state: &[f64],
     ) -> Result<(), RunError> {
         let mut state = state.to_vec();
-        if self.is_due(0.0) {
-            self.sample(motion, 0.0, &mut state)
+        let begin = self.begin();
+        if self.is_due(begin) {
+            self.sample(motion, begin, &mut state)
         } else {
-            self.observe(motion, 0.0, &state, None)
+            self.observe(motion, begin, &state, None)
         }
     }
 
@@ -108,11 +179,14 @@ impl Sampler {
         state: &[f64],
     ) -> Result<(), RunError> {
         self.statistics.steps += 1;
+        self.follow(motion, t, state);
         let kinetic = self.note_energy(motion, t, state);
         let (_, _, work) = motion.split(state);
         self.statistics.energy_throughput_J +=
             (work.0 - self.work.0).abs() + (work.1 - self.work.1).abs() + (kinetic - self.kinetic).abs();
-        (self.kinetic, self.work) = (kinetic, work);
+        let contact_loss = motion.contact_loss(state);
+        self.statistics.energy_throughput_J += (contact_loss - self.contact_loss).abs();
+        (self.kinetic, self.work, self.contact_loss) = (kinetic, work, contact_loss);
         motion.energy_scale = motion.energy_scale.max(kinetic);
         // Between samples an angle may turn more than once: follow it at every step.
         if self.wraps.contains(&true) && !self.is_due(t) {
@@ -124,7 +198,7 @@ impl Sampler {
 
     /// Tells the caller how far the run is.
     pub(super) fn report(&self, t: f64, progress: Progress<'_>) -> Result<(), RunError> {
-        match progress(t / self.schedule.end) {
+        match progress((t - self.schedule.begin) / self.duration()) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RunError::Interrupted { t }),
         }
@@ -140,12 +214,18 @@ impl Sampler {
     ) -> Result<(), RunError> {
         let (q, v, _) = motion.split(state);
         motion.dynamics.accelerate(t, q, v)?;
-        let values = motion.dynamics.evaluator.observe(t, q, v);
+        let generated = motion.dynamics.evaluator.observe(t, q, v);
+        let count = generated.len();
+        self.values[..count].copy_from_slice(generated);
+        let touches = motion.dynamics.evaluator.clearances().touches();
+        self.contact_channels.write(touches, &mut self.values[count..]);
+        let values = &self.values;
         if row.is_some()
             && let Some(i) = values.iter().position(|x| !x.is_finite())
         {
-            let what = motion.dynamics.evaluator.description().channels[i].name.to_string();
-            return Err(RunError::NonFinite { t, what });
+            let channels = motion.dynamics.evaluator.description().channels.iter();
+            let name = channels.chain(self.contact_channels.channels()).nth(i).map(|channel| &channel.name);
+            return Err(RunError::NonFinite { t, what: name.map(ToString::to_string).unwrap_or_default() });
         }
         let last = self.last.get_or_insert_with(|| values.to_vec());
         for ((last, value), wraps) in last.iter_mut().zip(values).zip(&self.wraps) {
@@ -168,16 +248,31 @@ impl Sampler {
     fn note_energy(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) -> f64 {
         let (q, v, (supplied, dissipated)) = motion.split(state);
         let (kinetic, potential) = motion.dynamics.evaluator.energy(t, q, v);
-        let error = (kinetic + potential - self.start_energy - supplied + dissipated).abs();
+        let mut error = kinetic + potential - self.start_energy - supplied + dissipated;
+        if self.follower.is_some() {
+            error += motion.elastic_energy(t, q, v) + motion.contact_loss(state);
+        }
+        let error = error.abs();
         self.statistics.energy_error_J = self.statistics.energy_error_J.max(error);
         kinetic
     }
 
-    /// Gives the recorded samples away.
-    pub(super) fn finish(mut self, motion: &ConstrainedMotion<'_>, stopped: Option<RunError>) -> Run {
+    /// Gives the recorded samples away; `limits`: see [`super::warning::step_limits`].
+    pub(super) fn finish(
+        mut self,
+        motion: &ConstrainedMotion<'_>,
+        limits: Option<(f64, f64)>,
+        stopped: Option<RunError>,
+    ) -> Run {
         self.statistics.evaluations += motion.dynamics.evaluations;
         self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
         self.statistics.projections = motion.projections;
-        Run { times: self.times, rows: self.rows, statistics: self.statistics, stopped }
+        let mut run = Run { times: self.times, rows: self.rows, stopped, ..Run::default() };
+        run.statistics = self.statistics;
+        if let Some(follower) = self.follower {
+            run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
+            run.turns = follower.into_measures();
+        }
+        run
     }
 }

@@ -7,6 +7,8 @@ use crate::{Evaluator, RunError, Scalar};
 /// Times of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Schedule {
+    /// Where the run begins.
+    pub begin: f64,
     /// First sample, after settling.
     pub start: f64,
     /// End and last sample.
@@ -19,7 +21,31 @@ impl Schedule {
     pub(super) fn new(evaluator: &mut Evaluator<'_>, settings: &Settings) -> Result<Self, RunError> {
         let start = end_of(evaluator, 0.0, settings.settle)?;
         let end = end_of(evaluator, start, settings.span)?;
-        Ok(Self { start, end, samples: settings.samples })
+        Ok(Self { begin: 0.0, start, end, samples: settings.samples })
+    }
+
+    /// One turn of the turn driver from `begin`, without samples.
+    pub(super) fn turn(evaluator: &mut Evaluator<'_>, begin: f64) -> Result<Self, RunError> {
+        let end = end_of_turns(evaluator, begin, 1.0, LONGEST_SEARCH)?;
+        Ok(Self { begin, start: begin, end, samples: 0 })
+    }
+
+    /// End of the turn that begins at `from`; nothing beyond the end of the run. If a sample or the end is due
+    /// there but for rounding, it is that time: no step of a last bit is left over.
+    pub(super) fn end_of_turn(&self, evaluator: &mut Evaluator<'_>, from: f64) -> Option<f64> {
+        let slack = 1e-11 * self.end.abs();
+        let time = end_of_turns(evaluator, from, 1.0, self.end + slack).ok()?;
+        if (time - self.end).abs() <= slack {
+            return Some(self.end);
+        }
+        if self.samples > 1 {
+            let last = (self.samples - 1) as f64;
+            let nearest = self.time(((time - self.start) / (self.end - self.start) * last).round() as usize);
+            if (time - nearest).abs() <= slack {
+                return Some(nearest);
+            }
+        }
+        (time < self.end).then_some(time)
     }
 
     /// Time of sample `index`; the ends are exact.
@@ -36,7 +62,7 @@ impl Schedule {
 fn end_of(evaluator: &mut Evaluator<'_>, from: f64, span: Span) -> Result<f64, RunError> {
     match span {
         Span::Time(seconds) => Ok(from + seconds),
-        Span::Turns(turns) => end_of_turns(evaluator, from, turns),
+        Span::Turns(turns) => end_of_turns(evaluator, from, turns, LONGEST_SEARCH),
     }
 }
 
@@ -45,7 +71,7 @@ const LONGEST_SEARCH: f64 = 1e9;
 const MOST_STRIDES: usize = 2_000_000;
 
 /// First time after `from` at which the driver has made `turns` turns, in either direction.
-fn end_of_turns(evaluator: &mut Evaluator<'_>, from: f64, turns: f64) -> Result<f64, RunError> {
+fn end_of_turns(evaluator: &mut Evaluator<'_>, from: f64, turns: f64, limit: f64) -> Result<f64, RunError> {
     let driver = evaluator.description().turn_driver.ok_or(RunError::NoTurns)?;
     let mut law = |t: f64| {
         let values = evaluator.prescribed(t);
@@ -73,7 +99,7 @@ fn end_of_turns(evaluator: &mut Evaluator<'_>, from: f64, turns: f64) -> Result<
         }
         most = most.max(reached);
         t = next;
-        if t > LONGEST_SEARCH {
+        if t > limit {
             break;
         }
     }
@@ -103,7 +129,7 @@ mod tests {
 
     #[test]
     fn samples_hit_both_ends_exactly() {
-        let schedule = Schedule { start: 0.1, end: 0.7, samples: 7 };
+        let schedule = Schedule { begin: 0.0, start: 0.1, end: 0.7, samples: 7 };
         assert_eq!(schedule.time(0), 0.1);
         assert_eq!(schedule.time(6), 0.7);
         // One rounding of a number below 1.

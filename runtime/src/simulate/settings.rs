@@ -1,5 +1,6 @@
 //! What a run is told and what it gives back. In: nothing. Out: plain data.
 
+use super::{RunWarning, TurnMeasure};
 use crate::{RunError, SINGULAR_PIVOT, SetupError};
 
 /// Method of integration.
@@ -118,10 +119,11 @@ pub struct Statistics {
     pub max_loop_error_m: f64,
     /// The same of the rows in radians [rad].
     pub max_loop_error_rad: f64,
-    /// Largest |E - E0 - supplied + dissipated| at any step or sample [J].
+    /// Largest |E - E0 - supplied + dissipated| at any step or sample [J]; E with the energy stored in contacts,
+    /// dissipated with what damping and friction of contacts took.
     pub energy_error_J: f64,
     /// What went through: sum over the steps of |work supplied| + |work dissipated| + |change of kinetic
-    /// energy| [J]; the measure for the error.
+    /// energy| + |lost in contacts| [J]; the measure for the error.
     pub energy_throughput_J: f64,
 }
 
@@ -130,10 +132,15 @@ pub struct Statistics {
 pub struct Run {
     /// Times of the samples [s].
     pub times: Vec<f64>,
-    /// One row per sample, one value per channel; angles that wrap are unwrapped along time.
+    /// One row per sample, one value per channel (those of contacts after the generated ones, see
+    /// [`crate::clearance::ContactChannels`]); angles that wrap are unwrapped along time.
     pub rows: Vec<Vec<f64>>,
     /// Cost and quality.
     pub statistics: Statistics,
+    /// For every full turn after settling, what every joint with clearance did in it.
+    pub turns: Vec<TurnMeasure>,
+    /// Where the result is not to be trusted.
+    pub warnings: Vec<RunWarning>,
     /// Why the run ended before its time, if it did.
     pub stopped: Option<RunError>,
 }

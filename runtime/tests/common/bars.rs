@@ -1,8 +1,9 @@
 //! Planar mechanisms of uniform bars with absolute angles, from +x counterclockwise; gravity in -y.
-//! Pendulums, four-bars and chains of them are lists of bars and loops. Parameter 0: gravity [m/s²].
+//! Pendulums, four-bars and chains of them are lists of bars and loops. The first bar may turn in a bearing with
+//! clearance, whose offset is the last two coordinates. Parameter 0: gravity [m/s²], 1: that clearance [m].
 
 use super::{Model, Start, Terms};
-use linkwear_runtime::Motion;
+use linkwear_runtime::{ContactInfo, Motion};
 use nalgebra::{DMatrix, DVector};
 
 /// Where a bar begins or a loop ends.
@@ -50,6 +51,8 @@ pub struct Bars {
     pub loops: Vec<(usize, At)>,
     /// Offset of a dropped row that repeats the first kept one; 0 is consistent.
     pub redundant: Option<f64>,
+    /// Clearance between the first bar and its place on the ground.
+    pub bearing: Option<ContactInfo>,
 }
 
 impl Bars {
@@ -67,6 +70,11 @@ impl Bars {
     pub fn position(&self, place: At, q: &[f64]) -> [f64; 2] {
         match place {
             At::Ground(x, y) => [x, y],
+            At::End(0) if self.bearing.is_some() => {
+                let [x, y] = self.position(self.bars[0].from, q);
+                let (n, length) = (self.bars.len(), self.bars[0].length);
+                [x + q[n] + length * q[0].cos(), y + q[n + 1] + length * q[0].sin()]
+            }
             At::End(bar) => {
                 let [x, y] = self.position(self.bars[bar].from, q);
                 [x + self.bars[bar].length * q[bar].cos(), y + self.bars[bar].length * q[bar].sin()]
@@ -81,6 +89,38 @@ impl Bars {
         arms
     }
 
+    /// Whether a place moves with the first bar in a bearing.
+    fn floats(&self, place: At) -> bool {
+        self.bearing.is_some() && self.chain(place).last() == Some(&0)
+    }
+
+    /// Terms of the offset of the bearing.
+    fn add_offset(&self, gravity: f64, q: &[f64], v: &[f64], terms: &mut Terms) {
+        let (x, y) = (self.bars.len(), self.bars.len() + 1);
+        for (bar, data) in self.bars.iter().enumerate().filter(|(bar, _)| self.floats(At::End(*bar))) {
+            terms.mass[(x, x)] += data.mass;
+            terms.mass[(y, y)] += data.mass;
+            terms.bias[y] += data.mass * gravity;
+            for (i, a) in self.arms(bar) {
+                let arm = data.mass * a;
+                for (axis, direction) in [(x, -q[i].sin()), (y, q[i].cos())] {
+                    terms.mass[(i, axis)] += arm * direction;
+                    terms.mass[(axis, i)] += arm * direction;
+                }
+                terms.bias[x] -= arm * q[i].cos() * v[i] * v[i];
+                terms.bias[y] -= arm * q[i].sin() * v[i] * v[i];
+            }
+        }
+        for (k, (bar, target)) in self.loops.iter().enumerate() {
+            for (place, sign) in [(At::End(*bar), 1.0), (*target, -1.0)] {
+                if self.floats(place) {
+                    terms.rows[(2 * k, x)] += sign;
+                    terms.rows[(2 * k + 1, y)] += sign;
+                }
+            }
+        }
+    }
+
     fn laws(&self) -> impl Iterator<Item = Law> + '_ {
         self.bars.iter().filter_map(|bar| bar.law)
     }
@@ -90,7 +130,27 @@ impl Model for Bars {
     fn motions(&self) -> Vec<Motion> {
         let mut drivers = 0..;
         let motion = |bar: &Bar| Motion::Scalar { driver: bar.law.and_then(|_| drivers.next()) };
-        self.bars.iter().map(motion).collect()
+        let offset = self.bearing.iter().flat_map(|_| [Motion::Scalar { driver: None }; 2]);
+        self.bars.iter().map(motion).chain(offset).collect()
+    }
+
+    fn contacts(&self) -> Vec<ContactInfo> {
+        self.bearing.iter().cloned().collect()
+    }
+
+    fn contact_motion(&self, parameters: &[f64], q: &[f64], v: &[f64]) -> Vec<f64> {
+        let n = self.bars.len();
+        let values = |_: &_| [q[n], q[n + 1], 0.0, v[n], v[n + 1], 0.0, 0.0, 0.0, v[0], parameters[1]];
+        self.bearing.iter().flat_map(values).collect()
+    }
+
+    fn load(&self, terms: &mut Terms, wrenches: &[f64]) {
+        if let [fx, fy, _, _, _, moment] = wrenches {
+            let n = self.bars.len();
+            terms.bias[n] -= fx;
+            terms.bias[n + 1] -= fy;
+            terms.bias[0] -= moment;
+        }
     }
 
     fn prescribed(&self, t: f64) -> Vec<[f64; 3]> {
@@ -134,6 +194,9 @@ impl Model for Bars {
                 terms.gamma[2 * k + 1] += arm * q[i].sin() * v[i] * v[i];
             }
         }
+        if self.bearing.is_some() {
+            self.add_offset(parameters[0], q, v, &mut terms);
+        }
         terms
     }
 
@@ -151,8 +214,10 @@ impl Model for Bars {
             let root = *self.chain(At::End(bar)).last().expect("a bar ends its own chain");
             self.position(self.bars[root].from, q)[1]
         };
-        let weight = |bar: usize| self.bars[bar].mass * parameters[0] * (height(bar) + ground(bar));
-        (0.5 * speeds.dot(&(terms.mass * &speeds)), (0..q.len()).map(weight).sum())
+        let offset = |bar: usize| if self.floats(At::End(bar)) { q[self.bars.len() + 1] } else { 0.0 };
+        let weight =
+            |bar: usize| self.bars[bar].mass * parameters[0] * (height(bar) + ground(bar) + offset(bar));
+        (0.5 * speeds.dot(&(terms.mass * &speeds)), (0..self.bars.len()).map(weight).sum())
     }
 
     fn dissipated(&self, v: &[f64]) -> f64 {
@@ -161,7 +226,9 @@ impl Model for Bars {
 
     fn start(&self) -> (Start, Start) {
         let free = || self.bars.iter().filter(|bar| bar.law.is_none());
-        (free().map(|bar| bar.start).collect(), free().map(|bar| bar.speed).collect())
+        let offset = || self.bearing.iter().flat_map(|_| [(0.0, false); 2]);
+        let start = free().map(|bar| bar.start).chain(offset()).collect();
+        (start, free().map(|bar| bar.speed).chain(offset()).collect())
     }
 
     fn channels(&self) -> Vec<(String, &'static str, bool)> {

@@ -5,10 +5,11 @@
 
 pub mod bars;
 pub mod body;
+pub mod journal;
 
 use linkwear_runtime::{
-    Channel, Description, DriverInfo, Entry, Layout, Motion, ParameterInfo, RowInfo, Sizes, System,
-    VariableInfo,
+    CONTACT_WRENCH, Channel, ContactInfo, Description, DriverInfo, Entry, Layout, Motion, ParameterInfo,
+    RowInfo, Sizes, System, VariableInfo,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -40,6 +41,16 @@ pub trait Model {
     fn dissipated(&self, _v: &[f64]) -> f64 {
         0.0
     }
+    /// Joints with clearance.
+    fn contacts(&self) -> Vec<ContactInfo> {
+        Vec::new()
+    }
+    /// Values of `Entry::Contacts` from all coordinates and speeds.
+    fn contact_motion(&self, _parameters: &[f64], _q: &[f64], _v: &[f64]) -> Vec<f64> {
+        Vec::new()
+    }
+    /// Puts the wrenches of contacts into the bias.
+    fn load(&self, _terms: &mut Terms, _wrenches: &[f64]) {}
     /// Start values of the free coordinates and speeds.
     fn start(&self) -> (Start, Start);
     /// Channel names with units and whether they wrap.
@@ -96,6 +107,7 @@ impl<M: Model> Dense<M> {
             rows,
             all_rows: rows + dropped,
             drivers: prescribed.len(),
+            contacts: model.contacts().len(),
             channels: channels.len(),
             workspace: 0,
         };
@@ -118,6 +130,7 @@ impl<M: Model> Dense<M> {
             drivers: (0..prescribed.len()).map(driver).collect(),
             channels: channels.into(),
             turn_driver: (!prescribed.is_empty()).then_some(0),
+            contacts: model.contacts().into(),
         };
         Self { model, description, layout, sizes }
     }
@@ -147,9 +160,10 @@ impl<M: Model> Dense<M> {
         (free, driven)
     }
 
-    fn forward(&self, p: &[f64], t: f64, q: &[f64], v: &[f64], output: &mut [f64]) {
+    fn forward(&self, p: &[f64], t: f64, (q, v, wrenches): (&[f64], &[f64], &[f64]), output: &mut [f64]) {
         let (all_q, all_v) = self.all(t, q, v);
-        let terms = self.model.terms(p, &all_q, &all_v);
+        let mut terms = self.model.terms(p, &all_q, &all_v);
+        self.model.load(&mut terms, wrenches);
         let (free, driven) = self.places();
         let mut a = DVector::zeros(all_v.len());
         for (law, place) in self.model.prescribed(t).iter().zip(&driven) {
@@ -241,7 +255,7 @@ impl<M: Model> System<f64> for Dense<M> {
                 let (q, v) = self.model.start();
                 output.iter_mut().zip(q.iter().chain(&v)).for_each(|(out, (value, _))| *out = *value);
             }
-            Entry::ForwardDynamics => self.forward(p, t, state().0, state().1, output),
+            Entry::ForwardDynamics => self.forward(p, t, state(), output),
             Entry::Rates => self.rates(p, t, state().0, state().1, state().2, output),
             Entry::Closure => self.closure(p, t, state().0, state().1, output),
             Entry::Energy => {
@@ -251,13 +265,21 @@ impl<M: Model> System<f64> for Dense<M> {
             Entry::Observe => {
                 let (q, v) = self.all(t, state().0, state().1);
                 let (multipliers, drives) = state().2[s..].split_at(self.sizes.all_rows);
+                let drives = &drives[..self.sizes.drivers];
                 // Dropped rows of the models here have no share in their columns.
                 let multipliers = &multipliers[..self.sizes.rows];
                 output.copy_from_slice(&self.model.observe(&q, &v, multipliers, drives));
             }
+            Entry::Contacts => {
+                let (q, v) = self.all(t, state().0, state().1);
+                output.copy_from_slice(&self.model.contact_motion(p, &q, &v));
+            }
             Entry::EquationsOfMotion => {
                 let (q, v) = rest.split_at(self.sizes.all_coordinates);
-                let terms = self.model.terms(p, q, v);
+                let (v, wrenches) = v.split_at(self.sizes.all_speeds);
+                assert_eq!(wrenches.len(), CONTACT_WRENCH * self.sizes.contacts);
+                let mut terms = self.model.terms(p, q, v);
+                self.model.load(&mut terms, wrenches);
                 let size = v.len();
                 let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j))).map(|at| terms.mass[at]);
                 let rows = terms.rows.transpose();

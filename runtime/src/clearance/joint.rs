@@ -1,0 +1,253 @@
+//! One joint with clearance: its laws, built once, and one evaluation of them.
+//! In: [`ContactInfo`]; then motion, wear so far, memory. Out: [`Touch`].
+
+use crate::contact::{
+    Friction, ImpactMemory, Laws, LocalGap, Normal, OutOfRange, RevoluteContact, RevoluteMotion,
+    SphericalContact, SphericalMotion, Stiffness, bearing_angle, positive,
+};
+use crate::wear::{Archard, Load, Pair, Profile, ScalarFeedback, worn_gap};
+use crate::{CONTACT_MOTION, CONTACT_WRENCH, ContactInfo, WearInfo};
+
+/// A joint with clearance and its laws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearance {
+    laws: Laws,
+    stiffness: Stiffness,
+    radius: f64,
+    length: f64,
+    modulus: f64,
+    ball: bool,
+    wear: Option<(Archard, WearInfo)>,
+}
+
+/// A contact at one instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Touch {
+    /// Journal centre minus bearing centre, in the bearing's frame [m].
+    pub offset: [f64; 3],
+    /// Angle of the offset about the joint's axis, in (-pi, pi] [rad]; zero for a ball.
+    pub angle: f64,
+    /// Radial clearance with its mean wear [m]: what stiffness and area go by.
+    pub clearance: f64,
+    /// Gap where the bodies are nearest, negative while they touch [m].
+    pub gap: f64,
+    /// Rate of the penetration [m/s].
+    pub penetration_rate: f64,
+    /// Normal force, never negative [N].
+    pub normal_force: f64,
+    /// Slope of the elastic force over the penetration [N/m].
+    pub tangent_stiffness: f64,
+    /// Sliding speed [m/s]; of a journal with its sign, of a ball the magnitude.
+    pub sliding_speed: f64,
+    /// Energy stored in the contact [J].
+    pub elastic_energy: f64,
+    /// Power lost in damping and friction [W].
+    pub loss: f64,
+    /// Rate of the wear integral, F_n |v_t| [W].
+    pub wear_power: f64,
+    /// Rate of the depth by the joint's contact area [m/s]; zero if it does not wear.
+    pub depth_rate: f64,
+    /// Force on the journal [N] and moment about its centre [N m], in the bearing's frame.
+    pub wrench: [f64; CONTACT_WRENCH],
+}
+
+impl Touch {
+    /// Minus the gap [m].
+    #[must_use]
+    pub fn penetration(&self) -> f64 {
+        -self.gap
+    }
+
+    /// Unit vector from the bearing's centre to the contact, in the bearing's frame; the first axis if centred.
+    #[must_use]
+    pub fn normal(&self) -> [f64; 3] {
+        let [x, y, z] = self.offset;
+        let distance = (x * x + y * y + z * z).sqrt();
+        if distance > 0.0 { self.offset.map(|component| component / distance) } else { [1.0, 0.0, 0.0] }
+    }
+}
+
+impl Clearance {
+    /// The laws of a joint.
+    ///
+    /// # Errors
+    /// If a constant is out of range.
+    pub fn new(info: &ContactInfo) -> Result<Self, OutOfRange> {
+        let normal = Normal::new(info.law, info.restitution, info.exponent, info.impact_speed_floor)?;
+        let friction = match info.friction {
+            Some((strength, onset, slope)) => Friction::new(strength, onset, slope)?,
+            None => Friction::none(),
+        };
+        let (Stiffness::Given(stiffness) | Stiffness::Hertz { modulus: stiffness }) = info.stiffness;
+        positive("contact stiffness", stiffness)?;
+        let wear = match info.wear {
+            Some(wear) => {
+                ScalarFeedback::new(wear.feedback)?;
+                if info.ball && wear.profile {
+                    let need = "left out: a ball has no bearing angle";
+                    return Err(OutOfRange { name: "wear profile of a ball", value: wear.bins as f64, need });
+                }
+                Some((Archard::new(wear.coefficient, wear.hardness, wear.area)?, wear))
+            }
+            None => None,
+        };
+        Ok(Self {
+            laws: Laws { normal, friction },
+            stiffness: info.stiffness,
+            radius: positive("journal radius", info.journal_radius)?,
+            length: positive("bearing length", info.length)?,
+            modulus: positive("contact modulus", info.modulus)?,
+            ball: info.ball,
+            wear,
+        })
+    }
+
+    /// Directions in which the journal is free: two across the axis, or three of a ball.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        if self.ball { 3 } else { 2 }
+    }
+
+    /// Radius of the journal or ball [m].
+    #[must_use]
+    pub fn journal_radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Its law of normal force.
+    #[must_use]
+    pub fn normal_law(&self) -> &Normal {
+        &self.laws.normal
+    }
+
+    /// Archard's law and what was said about wear; nothing if it does not wear.
+    #[must_use]
+    pub fn wear(&self) -> Option<&(Archard, WearInfo)> {
+        self.wear.as_ref()
+    }
+
+    /// K at a clearance [m], [N/m^n].
+    #[must_use]
+    pub fn stiffness(&self, clearance: f64) -> f64 {
+        self.stiffness.value(self.radius, clearance)
+    }
+
+    /// Penetration [m] of a contact at rest that carries `force` [N] at a clearance [m].
+    #[must_use]
+    pub fn resting_penetration(&self, clearance: f64, force: f64) -> f64 {
+        self.laws.normal.resting_penetration(self.stiffness(clearance), force)
+    }
+
+    /// Geometry for areas at a clearance [m].
+    #[must_use]
+    pub fn pair(&self, clearance: f64) -> Pair<f64> {
+        Pair { journal_radius: self.radius, length: self.length, clearance, modulus: self.modulus }
+    }
+
+    /// One evaluation: `motion` as [`crate::Entry::Contacts`] gives it, `worn` [m] on top of its clearance, a worn
+    /// profile of the bearing on top of that.
+    ///
+    /// Stiffness and area go by the clearance plus the mean of the profile, which stays the same through a
+    /// run: a stiffness that changed along the way would not give back the energy it took.
+    #[must_use]
+    pub fn evaluate(
+        &self,
+        motion: &[f64],
+        worn: f64,
+        profile: Option<&Profile>,
+        memory: &ImpactMemory<f64>,
+    ) -> Touch {
+        debug_assert_eq!(motion.len(), CONTACT_MOTION);
+        let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
+        let (offset, offset_rate, turning) = (three(0), three(3), three(6));
+        let round = motion[9] + worn;
+        let clearance = round + profile.map_or(0.0, Profile::mean);
+        let stiffness = self.stiffness(clearance);
+        let mut touch = if self.ball {
+            let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
+            self.ball_touch(&motion, clearance, stiffness, memory)
+        } else {
+            let [x, y, _] = offset;
+            let gap = match profile {
+                Some(profile) => worn_gap(round, profile, None, bearing_angle([x, y]), 0.0),
+                None => LocalGap::round(round),
+            };
+            let offset_rate = [offset_rate[0], offset_rate[1]];
+            let motion = RevoluteMotion { offset: [x, y], offset_rate, joint_speed: turning[2] };
+            self.journal_touch(&motion, &gap, stiffness, memory)
+        };
+        touch.clearance = clearance;
+        self.finish(&mut touch);
+        touch
+    }
+
+    fn journal_touch(
+        &self,
+        motion: &RevoluteMotion<f64>,
+        gap: &LocalGap<f64>,
+        stiffness: f64,
+        memory: &ImpactMemory<f64>,
+    ) -> Touch {
+        let contact = RevoluteContact::new(motion, self.radius, gap);
+        let force = contact.force(&self.laws, stiffness, memory);
+        Touch {
+            offset: [motion.offset[0], motion.offset[1], 0.0],
+            angle: contact.angle,
+            gap: contact.gap,
+            penetration_rate: contact.penetration_rate,
+            normal_force: force.normal_force,
+            sliding_speed: contact.sliding_speed,
+            elastic_energy: force.elastic_energy,
+            loss: force.damping_loss + force.friction_loss,
+            wrench: [force.force[0], force.force[1], 0.0, 0.0, 0.0, force.torque],
+            ..Touch::default()
+        }
+    }
+
+    fn ball_touch(
+        &self,
+        motion: &SphericalMotion<f64>,
+        clearance: f64,
+        stiffness: f64,
+        memory: &ImpactMemory<f64>,
+    ) -> Touch {
+        let contact = SphericalContact::new(motion, self.radius, clearance);
+        let force = contact.force(&self.laws, stiffness, memory);
+        let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
+        Touch {
+            offset: motion.offset,
+            gap: contact.gap,
+            penetration_rate: contact.penetration_rate,
+            normal_force: force.normal_force,
+            sliding_speed: contact.sliding_speed,
+            elastic_energy: force.elastic_energy,
+            loss: force.damping_loss + force.friction_loss,
+            wrench: [fx, fy, fz, mx, my, mz],
+            ..Touch::default()
+        }
+    }
+
+    fn finish(&self, touch: &mut Touch) {
+        let depth = touch.penetration();
+        let law = &self.laws.normal;
+        if depth > 0.0 {
+            // n K p^(n-1), from the energy K p^(n+1)/(n+1).
+            let n = law.exponent();
+            touch.tangent_stiffness = n * (n + 1.0) * touch.elastic_energy / (depth * depth);
+        }
+        touch.wear_power = touch.normal_force * touch.sliding_speed.abs();
+        if let Some((archard, _)) = &self.wear {
+            touch.depth_rate = archard.rates(&Self::load(touch), &self.pair(touch.clearance)).depth;
+        }
+    }
+
+    /// What acts on the contact, for laws of wear.
+    #[must_use]
+    pub fn load(touch: &Touch) -> Load<f64> {
+        Load {
+            normal_force: touch.normal_force,
+            penetration: touch.penetration(),
+            sliding_speed: touch.sliding_speed,
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! All joints with clearance of a mechanism, with what each remembers and how far it is worn.
+//! In: the answer of [`crate::Entry::Contacts`]. Out: [`Touch`]es and the wrenches. Does not allocate while it runs.
+
+use super::{Clearance, Touch};
+use crate::contact::{ImpactMemory, crossing_speed};
+use crate::wear::Profile;
+use crate::{CONTACT_MOTION, CONTACT_WRENCH, ContactInfo, SetupError};
+
+/// What belongs to a joint with clearance between two steps, besides coordinates and speeds: saved and
+/// restored with them.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct JointState {
+    /// What the running contact remembers.
+    pub memory: ImpactMemory<f64>,
+    /// Radial clearance on top of that of the parameters [m].
+    pub worn: f64,
+    /// Depth by bearing angle, on top of both.
+    pub profile: Option<Profile>,
+}
+
+impl JointState {
+    /// An unworn joint, apart.
+    #[must_use]
+    pub fn unworn() -> Self {
+        Self { memory: ImpactMemory::apart(), worn: 0.0, profile: None }
+    }
+}
+
+/// The joints with clearance of one mechanism; empty for most.
+#[derive(Clone, Debug, Default)]
+pub struct Clearances {
+    joints: Vec<Clearance>,
+    states: Vec<JointState>,
+    touches: Vec<Touch>,
+    wrenches: Vec<f64>,
+}
+
+impl Clearances {
+    /// Builds the laws of every joint.
+    ///
+    /// # Errors
+    /// [`SetupError::Contact`] if a constant is out of range.
+    pub fn new(contacts: &[ContactInfo]) -> Result<Self, SetupError> {
+        let build = |info: &ContactInfo| {
+            Clearance::new(info)
+                .map_err(|reason| SetupError::Contact { joint: info.joint.to_string(), reason })
+        };
+        let joints = contacts.iter().map(build).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self {
+            states: vec![JointState::unworn(); joints.len()],
+            touches: vec![Touch::default(); joints.len()],
+            wrenches: vec![0.0; CONTACT_WRENCH * joints.len()],
+            joints,
+        })
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.joints.is_empty()
+    }
+
+    /// The joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Clearance] {
+        &self.joints
+    }
+
+    /// What belongs to each between two steps.
+    #[must_use]
+    pub fn states(&self) -> &[JointState] {
+        &self.states
+    }
+
+    /// The same, to restore it or to change wear. As many as joints.
+    pub fn states_mut(&mut self) -> &mut [JointState] {
+        &mut self.states
+    }
+
+    /// Every contact at the last evaluation.
+    #[must_use]
+    pub fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
+    /// The wrenches of the last evaluation, joint by joint.
+    #[must_use]
+    pub fn wrenches(&self) -> &[f64] {
+        &self.wrenches
+    }
+
+    /// Energy stored in all contacts at the last evaluation [J].
+    #[must_use]
+    pub fn elastic_energy(&self) -> f64 {
+        self.touches.iter().map(|touch| touch.elastic_energy).sum()
+    }
+
+    /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
+    pub fn evaluate(&mut self, motions: &[f64]) {
+        let each = self.joints.iter().zip(&self.states).zip(&mut self.touches);
+        for (((joint, state), touch), motion) in each.zip(motions.chunks_exact(CONTACT_MOTION)) {
+            *touch = joint.evaluate(motion, state.worn, state.profile.as_ref(), &state.memory);
+        }
+        for (wrench, touch) in self.wrenches.chunks_exact_mut(CONTACT_WRENCH).zip(&self.touches) {
+            wrench.copy_from_slice(&touch.wrench);
+        }
+    }
+
+    /// Brings the memories up to date after a step from `before` to the last evaluation. A gap that closed
+    /// within it remembers the speed at the crossing, both taken as linear.
+    pub fn remember(&mut self, before: &[Touch]) {
+        for ((state, before), now) in self.states.iter_mut().zip(before).zip(&self.touches) {
+            let at = |touch: &Touch| (touch.penetration(), touch.penetration_rate);
+            let speed = crossing_speed(at(before), at(now));
+            state.memory = state.memory.updated(now.penetration(), speed);
+        }
+    }
+
+    /// A gap that closes just now, whatever rounding says of its sign.
+    pub fn close(&mut self, index: usize) {
+        let speed = self.touches[index].penetration_rate.max(0.0);
+        self.states[index].memory = ImpactMemory::in_contact(speed);
+    }
+
+    /// Memories of contacts that nobody has followed so far: those that touch take their present rate.
+    pub fn begin(&mut self) {
+        for (state, now) in self.states.iter_mut().zip(&self.touches) {
+            state.memory = ImpactMemory::apart().updated(now.penetration(), now.penetration_rate);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Joints with clearance of one mechanism: from what generated code says about their motion to the wrenches it
+//! wants back. In: the answer of [`crate::Entry::Contacts`], constants of the joints. Out: wrenches, powers, what a
+//! contact remembers. Never knows equations of motion, integrators or files.
+//!
+//! All branches of the laws live in [`crate::contact`] and [`crate::wear`]; here they are only fed.
+
+mod channels;
+mod joint;
+mod joints;
+
+pub use channels::ContactChannels;
+pub use joint::{Clearance, Touch};
+pub use joints::{Clearances, JointState};

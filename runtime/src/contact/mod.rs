@@ -1,0 +1,37 @@
+//! Contact laws of joints with clearance: stiffness, normal force, friction, and their sum on a journal in
+//! its bearing (revolute) or a ball in its socket (spherical).
+//! In: relative position and motion of the two centres, clearance, material. Out: forces on the journal or
+//! ball, sliding speed, and where the power goes. Never knows mechanisms, states or integrators.
+//!
+//! Laws are generic over [`crate::Scalar`] and choose by `select` alone, so that trajectories can run side by side in
+//! lanes. What is decided once, before a run (which law, which exponent), is an ordinary `match`.
+//!
+//! Signs, checked against energy: `offset` is journal centre MINUS bearing centre, the normal points from
+//! the bearing's centre to the contact, and the forces act ON the journal. The bearing gets their
+//! opposite at the same point. Components are in the bearing's frame.
+
+mod friction;
+mod memory;
+mod normal;
+mod range;
+mod revolute;
+mod spherical;
+mod stiffness;
+
+pub use friction::{Friction, Onset, Strength};
+pub use memory::{ImpactMemory, crossing_speed};
+pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce, Restitution};
+pub use range::OutOfRange;
+pub(crate) use range::{not_negative, positive};
+pub use revolute::{LocalGap, RevoluteContact, RevoluteForce, RevoluteMotion, bearing_angle};
+pub use spherical::{SphericalContact, SphericalForce, SphericalMotion};
+pub use stiffness::{Stiffness, effective_radius, equivalent_modulus};
+
+/// The laws of one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Laws {
+    /// Normal force.
+    pub normal: Normal,
+    /// Friction.
+    pub friction: Friction,
+}

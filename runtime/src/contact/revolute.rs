@@ -1,0 +1,327 @@
+//! A journal in its bearing, [CS (9)-(13), (16), (17)]: gap, penetration, sliding, forces on the journal.
+//! In: motion of the journal's centre in the bearing's frame, relative speed of the joint, local gap.
+//! Out: one [`RevoluteContact`], from it one [`RevoluteForce`]. Never knows generalised coordinates.
+
+use super::{ImpactMemory, Laws};
+use crate::Scalar;
+
+/// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
+const CENTRED: f64 = 1e-60;
+
+/// Motion of a journal as its bearing sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RevoluteMotion<T> {
+    /// Journal centre minus bearing centre, in the bearing's frame [m].
+    pub offset: [T; 2],
+    /// Its rate in that frame [m/s].
+    pub offset_rate: [T; 2],
+    /// Speed of the journal relative to the bearing about the third axis [rad/s].
+    pub joint_speed: T,
+}
+
+/// Radial gap of centred bodies where they touch.
+///
+/// With a worn profile it depends on the bearing angle, and on the angle in the journal if that wears
+/// too. Slopes tilt the direction in which the gap opens; the forces follow, so that a worn contact
+/// stores and returns energy like a round one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalGap<T> {
+    /// Radial clearance at the contact angle, wear included [m].
+    pub clearance: T,
+    /// Its slope by the contact angle at a fixed joint angle [m/rad].
+    pub slope: T,
+    /// Its slope by the joint angle at a fixed contact angle [m/rad]: minus the slope of the journal's
+    /// depth by the angle in the journal.
+    pub joint_slope: T,
+}
+
+impl<T: Scalar> LocalGap<T> {
+    /// The gap of round bodies with a radial clearance [m].
+    #[inline]
+    pub fn round(clearance: T) -> Self {
+        Self { clearance, slope: T::constant(0.0), joint_slope: T::constant(0.0) }
+    }
+}
+
+/// Geometry and sliding of a contact at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RevoluteContact<T> {
+    /// Contact angle atan2(y, x) in the bearing's frame, in (-pi, pi] [rad].
+    pub angle: T,
+    /// Distance of the centres [m].
+    pub distance: T,
+    /// Gap [m]; negative while the bodies touch.
+    pub gap: T,
+    /// Penetration, minus the gap [m].
+    pub penetration: T,
+    /// Rate of the penetration [m/s].
+    pub penetration_rate: T,
+    /// Unit vector from the bearing's centre to the contact.
+    pub normal: [T; 2],
+    /// Unit vector a quarter turn ahead of the normal.
+    pub tangent: [T; 2],
+    /// Speed of the journal's surface over the bearing's along the tangent [m/s].
+    pub sliding_speed: T,
+    /// Slope of the penetration along the tangent, zero for round bodies.
+    tilt: T,
+    /// Slope of the penetration by the joint angle [m/rad], zero for round bodies.
+    joint_slope: T,
+    journal_radius: T,
+}
+
+/// Forces of a contact at one instant and where their power goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RevoluteForce<T> {
+    /// Normal force F_n >= 0 [N].
+    pub normal_force: T,
+    /// Friction force along minus the tangent [N], with the sign of the sliding speed.
+    pub friction_force: T,
+    /// Force on the journal, at its centre, in the bearing's frame [N].
+    pub force: [T; 2],
+    /// Torque on the journal about its centre [N m].
+    pub torque: T,
+    /// Energy stored in the contact [J].
+    pub elastic_energy: T,
+    /// Its rate [W].
+    pub elastic_power: T,
+    /// Power lost in the contact's damping [W].
+    pub damping_loss: T,
+    /// Power lost in friction [W].
+    pub friction_loss: T,
+}
+
+/// Contact angle atan2(y, x) [rad] of a journal centre at `offset` [m] in the bearing's frame, in
+/// (-pi, pi]; zero for a centred journal. Where a profile is to be read.
+#[inline]
+pub fn bearing_angle<T: Scalar>(offset: [T; 2]) -> T {
+    let (_, normal) = direction(offset);
+    normal[1].atan2(normal[0])
+}
+
+/// Distance and unit vector of an offset; finite, with finite derivatives, also at zero.
+#[inline]
+fn direction<T: Scalar>([x, y]: [T; 2]) -> (T, [T; 2]) {
+    let c = T::constant;
+    let square = x * x + y * y;
+    let centred = square.lt(c(CENTRED));
+    let distance = T::select(centred, c(1.0), square).sqrt();
+    let normal = [T::select(centred, c(1.0), x / distance), T::select(centred, c(0.0), y / distance)];
+    (T::select(centred, c(0.0), distance), normal)
+}
+
+impl<T: Scalar> RevoluteContact<T> {
+    /// Gap and sliding of a journal of radius `journal_radius` [m], [CS (11)-(13), (17)].
+    ///
+    /// The sliding speed is that of the surfaces: t . offset_rate + r_j joint_speed. [CS (17)] has it
+    /// the other way round, bearing minus journal, which is right only for forces on the bearing.
+    #[inline]
+    pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, gap: &LocalGap<T>) -> Self {
+        let (distance, normal) = direction(motion.offset);
+        let tangent = [-normal[1], normal[0]];
+        let [vx, vy] = motion.offset_rate;
+        let radial_speed = normal[0] * vx + normal[1] * vy;
+        let around = tangent[0] * vx + tangent[1] * vy;
+        // Centred bodies have no contact angle that could change the gap.
+        let centred = distance.lt(T::constant(f64::MIN_POSITIVE));
+        let divisor = T::select(centred, T::constant(1.0), distance);
+        let tilt = -(T::select(centred, T::constant(0.0), gap.slope) / divisor);
+        let joint_slope = -gap.joint_slope;
+        let penetration = distance - gap.clearance;
+        Self {
+            angle: normal[1].atan2(normal[0]),
+            distance,
+            gap: -penetration,
+            penetration,
+            penetration_rate: radial_speed + tilt * around + joint_slope * motion.joint_speed,
+            normal,
+            tangent,
+            sliding_speed: around + journal_radius * motion.joint_speed,
+            tilt,
+            joint_slope,
+            journal_radius,
+        }
+    }
+
+    /// Forces on the journal, [CS (16)] in the direction that takes energy away:
+    /// F = -F_n n - mu F_n sign(v_t) t, torque -r_j mu F_n sign(v_t).
+    #[inline]
+    pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> RevoluteForce<T> {
+        let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
+        let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
+        let friction_force = laws.friction.signed(self.sliding_speed) * normal.force;
+        let along = friction_force + normal.force * self.tilt;
+        RevoluteForce {
+            normal_force: normal.force,
+            friction_force,
+            force: [
+                -(normal.force * self.normal[0] + along * self.tangent[0]),
+                -(normal.force * self.normal[1] + along * self.tangent[1]),
+            ],
+            torque: -(self.journal_radius * friction_force + normal.force * self.joint_slope),
+            elastic_energy: normal.elastic_energy,
+            elastic_power: normal.elastic_power,
+            damping_loss: normal.damping_loss,
+            friction_loss: friction_force * self.sliding_speed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Dual;
+    use crate::contact::{Friction, Normal, Onset, Restitution, Strength};
+    use core::f64::consts::PI;
+    use proptest::prelude::*;
+
+    fn laws() -> Laws {
+        let strength = Strength::Coulomb { coefficient: 0.05 };
+        Laws {
+            normal: Normal::new(Restitution::LankaraniNikravesh, 0.9, 1.5, 1e-3).unwrap(),
+            friction: Friction::new(strength, Onset::Smoothed { speed: 1e-3 }, 0.0).unwrap(),
+        }
+    }
+
+    const K: f64 = 4.85e11;
+
+    #[test]
+    fn a_row_of_the_independent_solution_is_met() {
+        // RSSR with 10 µm clearance at R1, Exudyn 1.13.6, row t = 0 of one settled turn: x, y, xdot, ydot,
+        // then alpha, p, pdot, F_n; E* = 115 GPa, r_j 10 mm, e 0.9, impact speed at the floor. The speed of
+        // the crank is 4 pi rad/s.
+        let motion = RevoluteMotion {
+            offset: [8.903_622_561e-6, 4.653_009_373e-6],
+            offset_rate: [-0.001_318_628_486, 0.002_387_400_265],
+            joint_speed: 4.0 * PI,
+        };
+        let stiffness = crate::contact::Stiffness::Hertz { modulus: 115e9 }.value(0.01, 1e-5);
+        let contact = RevoluteContact::new(&motion, 0.01, &LocalGap::round(1e-5));
+        let force = contact.force(&laws(), stiffness, &ImpactMemory::in_contact(0.0));
+        // Ten printed digits; p loses two of them against the clearance, F_n has 1.5 times its error.
+        assert!((contact.angle - 0.481_561_615_3).abs() < 1e-9);
+        assert!((contact.penetration / 4.614_308_708e-8 - 1.0).abs() < 1e-7, "{}", contact.penetration);
+        // The rate is a difference of numbers of 2e-3 m/s with ten digits.
+        assert!((contact.penetration_rate + 6.290_717_92e-5).abs() < 1e-11, "{}", contact.penetration_rate);
+        assert!((contact.sliding_speed - 0.128_390_334_8).abs() < 1e-9, "{}", contact.sliding_speed);
+        assert!((force.normal_force / 4.765_438_801 - 1.0).abs() < 2e-7, "{}", force.normal_force);
+    }
+
+    #[test]
+    fn a_centred_journal_gives_numbers() {
+        let d = |value, derivative| Dual::new(value, derivative);
+        let motion = RevoluteMotion {
+            offset: [d(0.0, 1.0), d(0.0, 0.5)],
+            offset_rate: [d(0.1, 0.0), d(0.2, 0.0)],
+            joint_speed: d(12.0, 0.0),
+        };
+        let gap = LocalGap { slope: d(1e-6, 0.0), ..LocalGap::round(d(1e-5, 0.0)) };
+        let contact = RevoluteContact::new(&motion, d(0.01, 0.0), &gap);
+        let force = contact.force(&laws(), d(K, 0.0), &ImpactMemory::apart());
+        assert_eq!((contact.angle.value, contact.penetration.value), (0.0, -1e-5));
+        assert_eq!((force.force[0].value, force.force[1].value, force.torque.value), (0.0, 0.0, 0.0));
+        for x in [contact.angle, contact.distance, contact.penetration_rate, contact.sliding_speed] {
+            assert!(x.value.is_finite() && x.derivative.is_finite());
+        }
+        for x in [force.force[0], force.force[1], force.torque, force.friction_loss] {
+            assert!(x.value.is_finite() && x.derivative.is_finite());
+        }
+    }
+
+    #[test]
+    fn angles_are_those_of_the_bearing_frame() {
+        assert_eq!(bearing_angle([0.0, 2e-5]), PI / 2.0);
+        assert_eq!(bearing_angle([-2e-5, 0.0]), PI);
+        assert_eq!(bearing_angle([0.0, 0.0]), 0.0);
+    }
+
+    #[test]
+    fn a_journal_turning_forwards_is_held_back_at_the_contact() {
+        let motion = RevoluteMotion { offset: [1.1e-5, 0.0], offset_rate: [0.0, 0.0], joint_speed: 12.0 };
+        let contact = RevoluteContact::new(&motion, 0.01, &LocalGap::round(1e-5));
+        let out = contact.force(&laws(), K, &ImpactMemory::in_contact(0.0));
+        assert!(out.normal_force > 0.0 && out.torque < 0.0);
+        assert_eq!(out.force[0], -out.normal_force);
+        // mu F_n against the surface's motion, which at this contact is along +y.
+        assert!((out.force[1] / (-0.05 * out.normal_force) - 1.0).abs() < 1e-15);
+        assert!((out.torque / (0.01 * out.force[1]) - 1.0).abs() < 1e-15);
+    }
+
+    /// Inputs as one list: offset, its rate, joint speed, clearance, slopes, impact speed.
+    fn evaluate<T: Scalar>(x: [T; 9]) -> ([T; 3], RevoluteForce<T>) {
+        let motion = RevoluteMotion { offset: [x[0], x[1]], offset_rate: [x[2], x[3]], joint_speed: x[4] };
+        let gap = LocalGap { clearance: x[5], slope: x[6], joint_slope: x[7] };
+        let contact = RevoluteContact::new(&motion, T::constant(0.01), &gap);
+        let out = contact.force(&laws(), T::constant(K), &ImpactMemory::in_contact(x[8]));
+        ([out.force[0], out.force[1], out.torque], out)
+    }
+
+    fn inputs() -> impl Strategy<Value = [f64; 9]> {
+        let round = (0.0..2.0 * PI, -5e-7..5e-7_f64, -0.01..0.01_f64, -0.01..0.01_f64, -20.0..20.0_f64);
+        (round, 5e-6..5e-5_f64, -1e-6..1e-6_f64, -1e-6..1e-6_f64, 0.0..0.02_f64).prop_map(
+            |((angle, p, vx, vy, omega), c, slope, joint_slope, impact)| {
+                let r = c + p;
+                [r * angle.cos(), r * angle.sin(), vx, vy, omega, c, slope, joint_slope, impact]
+            },
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn power_of_the_forces_is_stored_or_lost(x in inputs()) {
+            let ([fx, fy, torque], out) = evaluate(x);
+            let power = fx * x[2] + fy * x[3] + torque * x[4];
+            let expected = -(out.elastic_power + out.damping_loss + out.friction_loss);
+            let scale = out.normal_force * (x[2].abs() + x[3].abs() + 0.01 * x[4].abs());
+            // Some twenty roundings of terms below the scale, which is below three times the largest.
+            prop_assert!((power - expected).abs() <= 1e-14 * scale, "{} {}", power, expected);
+            prop_assert!(out.friction_loss >= 0.0 && out.damping_loss >= 0.0);
+        }
+
+        #[test]
+        fn elastic_energy_changes_by_the_elastic_power(x in inputs()) {
+            // Along the motion: the offset moves with its rate, the gap with its slopes.
+            let c = Dual::<f64>::constant;
+            let square = x[0] * x[0] + x[1] * x[1];
+            let angle_rate = (x[0] * x[3] - x[1] * x[2]) / square;
+            let gap_rate = x[6] * angle_rate + x[7] * x[4];
+            let dual = [
+                Dual::new(x[0], x[2]), Dual::new(x[1], x[3]), c(x[2]), c(x[3]), c(x[4]),
+                Dual::new(x[5], gap_rate), c(x[6]), c(x[7]), c(x[8]),
+            ];
+            let (_, out) = evaluate(dual);
+            let scale = out.elastic_power.value.abs() + out.normal_force.value * 0.01;
+            // As above; the derivative of atan2 is not used.
+            prop_assert!((out.elastic_energy.derivative - out.elastic_power.value).abs() <= 1e-14 * scale);
+        }
+
+        #[test]
+        fn derivatives_of_the_forces_agree_with_central_differences(x in inputs(), index in 0..9_usize) {
+            // Kinks (onset of contact, clamp, smoothing, floor) within the step are left out.
+            let step = [1e-10, 1e-10, 1e-6, 1e-6, 1e-3, 1e-10, 1e-10, 1e-10, 1e-6][index];
+            let shifted = |by: f64| { let mut y = x; y[index] += by; y };
+            let motion = |y: [f64; 9]| RevoluteMotion { offset: [y[0], y[1]], offset_rate: [y[2], y[3]], joint_speed: y[4] };
+            let sides = [shifted(-step), shifted(step)].map(|y| {
+                let gap = LocalGap { clearance: y[5], slope: y[6], joint_slope: y[7] };
+                let contact = RevoluteContact::new(&motion(y), 0.01, &gap);
+                let damped = 1.0 + laws().normal.damping_factor() * contact.penetration_rate / y[8].max(1e-3);
+                (contact.penetration > 0.0, contact.sliding_speed.abs() < 1e-3, damped > 0.0, y[8] > 1e-3)
+            });
+            prop_assume!(sides[0] == sides[1]);
+            prop_assume!((x[0].hypot(x[1]) - x[5]).abs() > 2e-8);
+            let mut dual = x.map(Dual::<f64>::constant);
+            dual[index] = Dual::variable(x[index]);
+            let (exact, out) = evaluate(dual);
+            let (low, high) = (evaluate(shifted(-step)).0, evaluate(shifted(step)).0);
+            for i in 0..3 {
+                let difference = (high[i] - low[i]) / (2.0 * step);
+                // Rounding of a force over the step, and (step/size)² of truncation: sizes are 2e-8 m for
+                // the penetration, 1e-3 m/s and 0.1 rad/s (r_j omega = 1e-3 m/s) for the speeds.
+                let scale = out.normal_force.value * [5e7, 5e7, 1e3, 1e3, 10.0, 5e7, 5e7, 5e7, 1e3][index];
+                prop_assert!(
+                    (exact[i].derivative - difference).abs() <= 1e-3 * exact[i].derivative.abs() + 2e-4 * scale,
+                    "{} {} {}", i, exact[i].derivative, difference
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! Follows joints with clearance from step to step: what contacts remember, what a turn did to each joint, where
+//! wear goes around the bearing, whether steps are fine enough. In: accepted steps. Out: [`TurnMeasure`]s,
+//! [`RunWarning`]s. Never knows integrators.
+
+use std::f64::consts::PI;
+
+use super::motion::{ConstrainedMotion, Totals};
+use super::warning::RunWarning;
+use crate::clearance::{Clearance, Touch};
+use crate::linear::dot;
+use crate::wear::{Observed, Profile};
+use crate::{CONTACT_MOTION, CONTACT_WRENCH, Evaluator};
+
+/// What one turn of the turn driver did to one joint with clearance.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[allow(non_snake_case, reason = "units at the end of a name keep their case")]
+pub struct TurnMeasure {
+    /// Number of the turn, counted from 1 after settling.
+    pub turn: u64,
+    /// Index of the joint among [`crate::Description::contacts`].
+    pub joint: usize,
+    /// S = ∫ F_n |v_t| dt [J], integrated with the state.
+    pub wear_integral_J: f64,
+    /// ∫ k/(H A) F_n |v_t| dt [m]; zero if the joint does not wear.
+    pub depth_m: f64,
+    /// Average over time of the normal force [N].
+    pub mean_normal_force_N: f64,
+    /// Largest normal force at the end of a step [N].
+    pub peak_normal_force_N: f64,
+    /// How often the bodies came apart.
+    pub contact_losses: u64,
+    /// Part of the time in which they touched, by steps that ended in contact.
+    pub touching_part: f64,
+    /// Energy lost in damping and friction [J].
+    pub loss_J: f64,
+    /// Depth by bearing angle that came on top; nothing if the joint keeps no profile.
+    pub deposit: Option<Profile>,
+    /// Extremes, for warnings of the wear laws; nothing if the joint does not wear.
+    pub observed: Option<Observed>,
+}
+
+/// Contact for less than this part of a turn draws a warning.
+const RARE: f64 = 0.5;
+/// A penetration this many times that of the last probe makes the effective mass worth asking again.
+const PROBE_AGAIN: f64 = 1.1;
+
+/// One joint within the present turn.
+struct Track {
+    /// Totals at the begin of the turn and at the last step.
+    begin: Totals,
+    last: Totals,
+    peak: f64,
+    losses: u64,
+    touching: f64,
+    deposit: Option<Profile>,
+    observed: Option<Observed>,
+    probed_penetration: f64,
+    frequency: f64,
+}
+
+/// Follows all joints with clearance of a run.
+pub(super) struct Follower {
+    tracks: Vec<Track>,
+    /// Contacts at the last accepted step.
+    touches: Vec<Touch>,
+    t: f64,
+    turn_begin: f64,
+    turn: u64,
+    longest_step: f64,
+    probe: Vec<f64>,
+    measures: Vec<TurnMeasure>,
+}
+
+impl Follower {
+    /// Begins at a state; nothing to follow without clearance.
+    pub(super) fn new(motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) -> Option<Self> {
+        let evaluator = &motion.dynamics.evaluator;
+        if evaluator.clearances().is_empty() {
+            return None;
+        }
+        let track = |joint: &Clearance| Track {
+            begin: Totals::default(),
+            last: Totals::default(),
+            peak: 0.0,
+            losses: 0,
+            touching: 0.0,
+            deposit: empty_deposit(joint),
+            observed: None,
+            probed_penetration: 0.0,
+            frequency: 0.0,
+        };
+        let mut follower = Self {
+            tracks: evaluator.clearances().joints().iter().map(track).collect(),
+            touches: Vec::new(),
+            t,
+            turn_begin: t,
+            turn: 0,
+            longest_step: 0.0,
+            probe: vec![0.0; evaluator.sizes().contacts * CONTACT_WRENCH + evaluator.sizes().speeds],
+            measures: Vec::new(),
+        };
+        let (q, v, _) = motion.split(state);
+        motion.dynamics.evaluator.touch(t, q, v);
+        follower.touches = motion.dynamics.evaluator.clearances().touches().to_vec();
+        for (track, totals) in follower.tracks.iter_mut().zip(motion.totals(state)) {
+            track.last = totals;
+        }
+        follower.probe_frequencies(motion, state);
+        follower.begin_turn(motion);
+        Some(follower)
+    }
+
+    /// Contacts at the last accepted step.
+    pub(super) fn touches(&self) -> &[Touch] {
+        &self.touches
+    }
+
+    /// What turns did.
+    pub(super) fn into_measures(self) -> Vec<TurnMeasure> {
+        self.measures
+    }
+
+    /// Takes in an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
+    pub(super) fn accept(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+        closing: Option<usize>,
+    ) {
+        let step = t - self.t;
+        self.longest_step = self.longest_step.max(step);
+        self.t = t;
+        let totals = motion.totals(state);
+        let (q, v, _) = motion.split(state);
+        let evaluator = &mut motion.dynamics.evaluator;
+        evaluator.touch(t, q, v);
+        let clearances = evaluator.clearances_mut();
+        clearances.remember(&self.touches);
+        if let Some(joint) = closing {
+            clearances.close(joint);
+        }
+        let joints = clearances.joints().iter().zip(clearances.touches());
+        for (((track, before), (joint, now)), totals) in
+            self.tracks.iter_mut().zip(&self.touches).zip(joints).zip(totals)
+        {
+            track.take_in(joint, (before, now), totals, step);
+        }
+        self.touches.copy_from_slice(clearances.touches());
+        self.probe_frequencies(motion, state);
+    }
+
+    /// Forgets what was before: a turn begins here.
+    pub(super) fn begin_turn(&mut self, motion: &ConstrainedMotion<'_>) {
+        self.turn_begin = self.t;
+        let joints = motion.dynamics.evaluator.clearances().joints();
+        for ((track, joint), touch) in self.tracks.iter_mut().zip(joints).zip(&self.touches) {
+            track.begin = track.last;
+            track.peak = touch.normal_force;
+            (track.losses, track.touching) = (0, 0.0);
+            track.deposit = empty_deposit(joint);
+            track.observed = joint.wear().map(|(archard, _)| {
+                let mut observed = Observed::nothing(touch.clearance, joint.journal_radius());
+                observed.include(archard.area(), &Clearance::load(touch), &joint.pair(touch.clearance));
+                observed
+            });
+        }
+    }
+
+    /// A turn ends here: notes what it did, and begins the next one.
+    pub(super) fn end_turn(&mut self, motion: &ConstrainedMotion<'_>) {
+        self.turn += 1;
+        let duration = self.t - self.turn_begin;
+        for (joint, track) in self.tracks.iter_mut().enumerate() {
+            let done = track.last.since(track.begin);
+            self.measures.push(TurnMeasure {
+                turn: self.turn,
+                joint,
+                wear_integral_J: done.wear,
+                depth_m: done.depth,
+                mean_normal_force_N: done.impulse / duration,
+                peak_normal_force_N: track.peak,
+                contact_losses: track.losses,
+                touching_part: (track.touching / duration).min(1.0),
+                loss_J: done.loss,
+                deposit: track.deposit.take(),
+                observed: track.observed,
+            });
+        }
+        self.begin_turn(motion);
+    }
+
+    /// When the present turn began [s].
+    pub(super) fn turn_begin(&self) -> f64 {
+        self.turn_begin
+    }
+
+    /// What of the run is doubtful.
+    pub(super) fn warnings(&self, evaluator: &Evaluator<'_>, limits: Option<(f64, f64)>) -> Vec<RunWarning> {
+        let mut warnings = Vec::new();
+        for (joint, track) in self.tracks.iter().enumerate() {
+            let name = || evaluator.description().contacts[joint].joint.to_string();
+            let (step, frequency) = (self.longest_step, track.frequency);
+            if let Some((accurate, stable)) = limits
+                && step * frequency > accurate
+            {
+                warnings.push(RunWarning::StepTooCoarse { joint: name(), step, frequency, accurate, stable });
+            }
+            let own = self.measures.iter().filter(|measure| measure.joint == joint);
+            let rarest = own.min_by(|a, b| a.touching_part.total_cmp(&b.touching_part));
+            if let Some(TurnMeasure { turn, touching_part, .. }) = rarest
+                && *touching_part < RARE
+            {
+                let (turn, touching_part) = (*turn, *touching_part);
+                warnings.push(RunWarning::ContactLost { joint: name(), turn, touching_part });
+            }
+        }
+        warnings
+    }
+
+    /// Asks for the frequency of every contact that is deeper than it has ever been.
+    fn probe_frequencies(&mut self, motion: &mut ConstrainedMotion<'_>, state: &[f64]) {
+        let (q, v, _) = motion.split(state);
+        for (joint, (track, touch)) in self.tracks.iter_mut().zip(&self.touches).enumerate() {
+            if touch.penetration() > PROBE_AGAIN * track.probed_penetration {
+                track.probed_penetration = touch.penetration();
+                let evaluator = &mut motion.dynamics.evaluator;
+                let inverse = inverse_mass(evaluator, (self.t, q, v), (joint, touch), &mut self.probe);
+                let frequency = (touch.tangent_stiffness * inverse).sqrt();
+                // Lost numbers stop a run elsewhere.
+                if frequency.is_finite() {
+                    track.frequency = track.frequency.max(frequency);
+                }
+            }
+        }
+    }
+}
+
+impl Track {
+    fn take_in(&mut self, joint: &Clearance, (before, now): (&Touch, &Touch), totals: Totals, step: f64) {
+        let done = totals.since(self.last);
+        self.last = totals;
+        self.peak = self.peak.max(now.normal_force);
+        self.losses += u64::from(before.gap < 0.0 && now.gap >= 0.0);
+        if now.gap < 0.0 {
+            self.touching += step;
+        }
+        let Some((archard, _)) = joint.wear() else { return };
+        if let Some(observed) = &mut self.observed {
+            observed.include(archard.area(), &Clearance::load(now), &joint.pair(now.clearance));
+        }
+        if let Some(deposit) = &mut self.deposit
+            && done.wear != 0.0
+        {
+            spread(deposit, joint, (before, now), done.wear);
+        }
+    }
+}
+
+/// Profile that takes in the depth of one turn, if the joint keeps one.
+fn empty_deposit(joint: &Clearance) -> Option<Profile> {
+    let (_, wear) = joint.wear()?;
+    if wear.profile { Profile::unworn(wear.bins).ok() } else { None }
+}
+
+/// Spreads the wear integral of a step [J] over the bearing angles the contact passed in it.
+///
+/// The amount is the integral of the step by the method itself, so the sum over all angles has its order. The
+/// place is taken as linear in time in pieces of at most half a bin: off by less than the width of a bin.
+fn spread(deposit: &mut Profile, joint: &Clearance, (before, now): (&Touch, &Touch), wear_integral: f64) {
+    let Some((archard, _)) = joint.wear() else { return };
+    let half_angle =
+        |touch: &Touch| archard.area().half_angle(&Clearance::load(touch), &joint.pair(touch.clearance));
+    let touching = |touch: &Touch| touch.gap < 0.0;
+    let (from, to) = match (touching(before), touching(now)) {
+        (false, true) => (now, now),
+        (true, false) => (before, before),
+        _ => (before, now),
+    };
+    let pair = joint.pair(now.clearance);
+    let surface = (pair.journal_radius + pair.clearance) * pair.length;
+    let amount = archard.volume_rate() * wear_integral / surface;
+    let arc = (to.angle - from.angle + PI).rem_euclid(2.0 * PI) - PI;
+    let pieces = (2.0 * arc.abs() / deposit.bin_angle()).ceil().max(1.0);
+    let (first, last) = (half_angle(from), half_angle(to));
+    for piece in 0..pieces as usize {
+        let part = (piece as f64 + 0.5) / pieces;
+        deposit.deposit(from.angle + part * arc, first + part * (last - first), amount / pieces);
+    }
+}
+
+/// Inverse of the mass [1/kg] that a contact moves along its normal: what a unit force there changes in the
+/// acceleration of the offset. Leaves the forward dynamics under another wrench.
+fn inverse_mass(
+    evaluator: &mut Evaluator<'_>,
+    (t, q, v): (f64, &[f64], &[f64]),
+    (joint, touch): (usize, &Touch),
+    storage: &mut [f64],
+) -> f64 {
+    let (wrenches, change) = storage.split_at_mut(evaluator.sizes().contacts * CONTACT_WRENCH);
+    let normal = touch.normal();
+    wrenches.copy_from_slice(evaluator.clearances().wrenches());
+    change.copy_from_slice(evaluator.forward_under(t, q, v, wrenches).accelerations);
+    for (wrench, component) in wrenches[joint * CONTACT_WRENCH..].iter_mut().zip(normal) {
+        *wrench += component;
+    }
+    let loaded = evaluator.forward_under(t, q, v, wrenches).accelerations;
+    change.iter_mut().zip(loaded).for_each(|(change, loaded)| *change = loaded - *change);
+    // Rates of the offset are linear in the speeds: accelerations in their place give its acceleration.
+    let rate = |motion: &[f64]| dot(&motion[joint * CONTACT_MOTION + 3..][..3], &normal);
+    let moving = rate(evaluator.contact_motion(t, q, change));
+    change.fill(0.0);
+    moving - rate(evaluator.contact_motion(t, q, change))
+}

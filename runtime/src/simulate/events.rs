@@ -1,0 +1,152 @@
+//! Locates where gaps close within an adaptive step, and ends the step there. In: an accepted step and the contacts
+//! at its begin. Out: the step, shortened where needed. Never knows forces.
+//!
+//! A gap that closes changes the equations; a step across mixes both sides, and the speed at which it closed is the
+//! initial value of the contact. Gap and rate at both ends of a step give a cubic; where it says that a gap
+//! closes (or that a contact opens and closes again), the dense output of the step is searched.
+
+use super::motion::ConstrainedMotion;
+use super::sampler::Sampler;
+use crate::RunError;
+use crate::clearance::Touch;
+use crate::integrate::Dopri5;
+
+/// Accuracy of a located onset, as a part of the step.
+const LOCATED: f64 = 1e-12;
+/// Onsets in this first part of a step belong to its begin.
+const AT_BEGIN: f64 = 1e-9;
+
+/// What happens in a step first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Event {
+    /// Part of the step at which it happens.
+    at: f64,
+    /// The contact whose gap closes there; nothing if a contact only opened for a while.
+    closing: Option<usize>,
+}
+
+/// Ends the last step of `method` where the first gap closes within it.
+pub(super) fn stop_at_contact(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    method: &mut Dopri5,
+    between: &mut [f64],
+) -> Result<(), RunError> {
+    let Some(follower) = &sampler.follower else { return Ok(()) };
+    let (begin, length) = (method.before(), method.t() - method.before());
+    let after: &[f64] = method.y();
+    let (q, v, _) = motion.split(after);
+    motion.dynamics.evaluator.touch(method.t(), q, v);
+    let mut first: Option<Event> = None;
+    for joint in 0..follower.touches().len() {
+        let after = motion.dynamics.evaluator.clearances().touches()[joint];
+        let touching = motion.dynamics.evaluator.clearances().states()[joint].memory.touching > 0.5;
+        let curve = Cubic::new(&follower.touches()[joint], &after, length);
+        let mut penetration = |part: f64| -> f64 {
+            method.interpolate(begin + part * length, between);
+            motion.penetration(joint, begin + part * length, between)
+        };
+        if let Some(event) = curve.event((joint, touching), &mut penetration)
+            && first.is_none_or(|first| event.at < first.at)
+        {
+            first = Some(event);
+        }
+        // The search left the contacts at other places of the step.
+        let (q, v, _) = motion.split(method.y());
+        motion.dynamics.evaluator.touch(method.t(), q, v);
+    }
+    if let Some(event) = first {
+        sampler.closing = event.closing;
+        if event.at < 1.0 {
+            method.retake(motion, begin + event.at * length)?;
+        }
+    }
+    Ok(())
+}
+
+/// Penetration over a step, as the cubic through values and rates at both ends; time in steps.
+struct Cubic {
+    from: f64,
+    to: f64,
+    from_rate: f64,
+    to_rate: f64,
+}
+
+impl Cubic {
+    fn new(before: &Touch, after: &Touch, length: f64) -> Self {
+        Self {
+            from: before.penetration(),
+            to: after.penetration(),
+            from_rate: before.penetration_rate * length,
+            to_rate: after.penetration_rate * length,
+        }
+    }
+
+    fn at(&self, part: f64) -> f64 {
+        let rise = self.to - self.from;
+        let a = self.from_rate + self.to_rate - 2.0 * rise;
+        let b = 3.0 * rise - 2.0 * self.from_rate - self.to_rate;
+        ((a * part + b) * part + self.from_rate) * part + self.from
+    }
+
+    /// Where the rate vanishes, if it has opposite signs at the ends.
+    fn turning_point(&self) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        let rise = self.to - self.from;
+        let a = self.from_rate + self.to_rate - 2.0 * rise;
+        let b = 3.0 * rise - 2.0 * self.from_rate - self.to_rate;
+        let rate = |part: f64| (3.0 * a * part + 2.0 * b) * part + self.from_rate;
+        // Where it is exactly does not matter.
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            if (rate(middle) > 0.0) == (self.from_rate > 0.0) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// The first event; `touching`: a contact runs at the begin of the step, also if its penetration is still zero
+    /// there but for rounding.
+    fn event(
+        &self,
+        (joint, touching): (usize, bool),
+        penetration: &mut dyn FnMut(f64) -> f64,
+    ) -> Option<Event> {
+        let turns = (self.from_rate > 0.0) != (self.to_rate > 0.0);
+        let close = |high: f64, penetration: &mut dyn FnMut(f64) -> f64| {
+            let at = root(high, penetration);
+            Some(Event { at, closing: Some(joint) }).filter(|event| event.at > AT_BEGIN)
+        };
+        match (touching, self.to > 0.0) {
+            (false, true) if self.from < 0.0 => close(1.0, penetration),
+            (false, false) if turns && self.from_rate > 0.0 => {
+                let top = self.turning_point();
+                let touches = self.from < 0.0 && self.at(top) > 0.0 && penetration(top) > 0.0;
+                if touches { close(top, penetration) } else { None }
+            }
+            (true, true) if turns && self.from_rate < 0.0 => {
+                let bottom = self.turning_point();
+                let opens = self.at(bottom) < 0.0 && penetration(bottom) < 0.0;
+                opens.then_some(Event { at: bottom, closing: None })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Where the penetration gets above zero between the begin of the step and `high`.
+fn root(mut high: f64, penetration: &mut dyn FnMut(f64) -> f64) -> f64 {
+    let mut low = 0.0;
+    while high - low > LOCATED {
+        let middle = 0.5 * (low + high);
+        if penetration(middle) > 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
+}

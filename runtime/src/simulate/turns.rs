@@ -1,0 +1,179 @@
+//! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
+//! In: a mechanism, a method, clearances. Out: [`TurnMeasure`]s. Never knows how wear follows from them.
+
+use super::motion::ConstrainedMotion;
+use super::sampler::Sampler;
+use super::schedule::Schedule;
+use super::warning::step_limits;
+use super::{Integrator, Progress, RunWarning, Settings, Span, Statistics, TurnMeasure};
+use crate::clearance::JointState;
+use crate::wear::Profile;
+use crate::{
+    Description, Dynamics, Evaluator, RunError, SetupError, State, System, assemble_resting,
+    check_clearances, place,
+};
+
+/// All that has to be kept to go on with a trajectory.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TurnState {
+    /// Time [s].
+    pub t: f64,
+    /// Free coordinates.
+    pub q: Vec<f64>,
+    /// Free speeds.
+    pub v: Vec<f64>,
+    /// What contacts remember and how far joints are worn.
+    pub joints: Vec<JointState>,
+}
+
+/// What one measured turn gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurnMeasures {
+    /// One per joint with clearance.
+    pub joints: Vec<TurnMeasure>,
+    /// What is doubtful about the turn.
+    pub warnings: Vec<RunWarning>,
+    /// Cost and quality of the turn.
+    pub statistics: Statistics,
+}
+
+/// Runs a mechanism turn by turn.
+pub struct TurnRunner<'a> {
+    motion: ConstrainedMotion<'a>,
+    integrator: Integrator,
+    t: f64,
+    state: State,
+}
+
+impl<'a> TurnRunner<'a> {
+    /// Starts at t = 0 as [`super::simulate`] does.
+    ///
+    /// # Errors
+    /// If parameters or the method make no sense, or nothing turns, or there is no consistent start.
+    pub fn new(
+        system: &'a dyn System<f64>,
+        description: &'a Description,
+        parameters: &[f64],
+        integrator: Integrator,
+        singular_pivot: f64,
+    ) -> Result<Self, RunError> {
+        let settings = Settings { singular_pivot, ..Settings::new(integrator, Span::Turns(1.0), 0) };
+        settings.check()?;
+        if description.turn_driver.is_none() {
+            return Err(RunError::NoTurns);
+        }
+        let mut evaluator = Evaluator::new(system, description, parameters)?;
+        let state = assemble_resting(&mut evaluator, 0.0)?;
+        let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
+        motion.learn_sizes(0.0, &state);
+        Ok(Self { motion, integrator, t: 0.0, state })
+    }
+
+    /// Everything that has to be kept to go on from here.
+    #[must_use]
+    pub fn state(&self) -> TurnState {
+        TurnState {
+            t: self.t,
+            q: self.state.q.clone(),
+            v: self.state.v.clone(),
+            joints: self.motion.dynamics.evaluator.clearances().states().to_vec(),
+        }
+    }
+
+    /// Goes on from a kept state.
+    ///
+    /// # Errors
+    /// If it does not belong to this mechanism.
+    pub fn restore(&mut self, kept: &TurnState) -> Result<(), SetupError> {
+        let sizes = self.motion.dynamics.evaluator.sizes();
+        let same = |what, expected, found| {
+            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
+        };
+        same("coordinates", sizes.coordinates, kept.q.len())?;
+        same("speeds", sizes.speeds, kept.v.len())?;
+        same("joints with clearance", sizes.contacts, kept.joints.len())?;
+        let joints = self.motion.dynamics.evaluator.clearances_mut().states_mut();
+        joints.clone_from_slice(&kept.joints);
+        (self.t, self.state) = (kept.t, State { q: kept.q.clone(), v: kept.v.clone() });
+        self.motion.learn_sizes(self.t, &self.state);
+        Ok(())
+    }
+
+    /// Present radial clearances with their mean wear [m], joint by joint.
+    pub fn clearances(&mut self) -> Vec<f64> {
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        evaluator.touch(self.t, &self.state.q, &self.state.v);
+        evaluator.clearances().touches().iter().map(|touch| touch.clearance).collect()
+    }
+
+    /// Sets how far a joint is worn: radial clearance [m] on top of that of the parameters, and a depth by bearing
+    /// angle on top of both. A journal in contact keeps its penetration: it follows the surface.
+    ///
+    /// # Errors
+    /// If there is no such joint, or the clearance is none; nothing has changed then.
+    pub fn set_worn(&mut self, joint: usize, worn: f64, profile: Option<Profile>) -> Result<(), SetupError> {
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        let count = evaluator.sizes().contacts;
+        if joint >= count {
+            let what = "joints with clearance";
+            return Err(SetupError::Length { what, expected: count, found: joint + 1 });
+        }
+        evaluator.touch(self.t, &self.state.q, &self.state.v);
+        let before = evaluator.clearances().touches().to_vec();
+        let kept = evaluator.clearances().states()[joint].clone();
+        let now = &mut evaluator.clearances_mut().states_mut()[joint];
+        (now.worn, now.profile) = (worn, profile);
+        if let Err(error) = check_clearances(evaluator, self.t, &self.state) {
+            evaluator.clearances_mut().states_mut()[joint] = kept;
+            return Err(error);
+        }
+        let opened = evaluator.clearances().touches()[joint].gap - before[joint].gap;
+        if before[joint].gap < 0.0 {
+            let mut targets: Vec<_> = before.iter().map(|touch| Some(touch.offset)).collect();
+            let normal = before[joint].normal();
+            targets[joint] = Some(std::array::from_fn(|i| before[joint].offset[i] + opened * normal[i]));
+            // Where loops do not let it, the journal finds its way through the settling turns.
+            let _ = place(evaluator, self.t, &mut self.state, &targets);
+        }
+        self.motion.learn_sizes(self.t, &self.state);
+        Ok(())
+    }
+
+    /// Runs turns without measuring them.
+    ///
+    /// # Errors
+    /// As [`Self::measure`].
+    pub fn settle(&mut self, turns: u32, progress: Progress<'_>) -> Result<(), RunError> {
+        for _ in 0..turns {
+            self.measure(progress)?;
+        }
+        Ok(())
+    }
+
+    /// Runs one turn and says what it did; `progress` hears the finished part of this turn.
+    ///
+    /// # Errors
+    /// Why the turn could not be finished, or [`RunError::Interrupted`]; the runner is then where it was before
+    /// the turn.
+    pub fn measure(&mut self, progress: Progress<'_>) -> Result<TurnMeasures, RunError> {
+        let schedule = Schedule::turn(&mut self.motion.dynamics.evaluator, self.t)?;
+        let kept = self.motion.dynamics.evaluator.clearances().states().to_vec();
+        let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
+        let mut state = self.motion.join(&self.state);
+        let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
+        if let Err(error) = super::run(&mut self.motion, &mut sampler, &mut state, self.integrator, progress)
+        {
+            self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept);
+            return Err(error);
+        }
+        let (q, v, _) = self.motion.split(&state);
+        self.state = State { q: q.to_vec(), v: v.to_vec() };
+        self.t = schedule.end;
+        let run = sampler.finish(&self.motion, step_limits(self.integrator), None);
+        let mut statistics = run.statistics;
+        statistics.evaluations -= evaluations;
+        statistics.projections -= projections;
+        Ok(TurnMeasures { joints: run.turns, warnings: run.warnings, statistics })
+    }
+}

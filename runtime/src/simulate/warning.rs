@@ -1,0 +1,69 @@
+//! What makes the numbers of a run doubtful, as data. In: what a run met. Out: [`RunWarning`]s. Never stops anything.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+use super::settings::Integrator;
+
+/// Something about a run that makes its numbers doubtful. Nothing is stopped for it.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum RunWarning {
+    /// The steps are long against the oscillation of a contact.
+    StepTooCoarse {
+        /// The joint.
+        joint: String,
+        /// Longest step taken [s].
+        step: f64,
+        /// Largest angular frequency of the contact, sqrt(k/m) [rad/s].
+        frequency: f64,
+        /// Step times frequency up to which the method is accurate.
+        accurate: f64,
+        /// Step times frequency up to which it is stable at all.
+        stable: f64,
+    },
+    /// The bodies were apart for most of a turn.
+    ContactLost {
+        /// The joint.
+        joint: String,
+        /// The turn in which contact was rarest, counted from 1.
+        turn: u64,
+        /// Part of its time in which the bodies touched.
+        touching_part: f64,
+    },
+}
+
+impl fmt::Display for RunWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StepTooCoarse { joint, step, frequency, accurate, stable } => {
+                let what = if step * frequency > *stable { "unstable" } else { "inaccurate" };
+                write!(
+                    f,
+                    "joint `{joint}`: steps of {step:.3e} s are {what} for a contact of {:.4} kHz; take {:.2e} s \
+                     or less",
+                    frequency / (2.0 * PI) * 1e-3,
+                    accurate / frequency
+                )
+            }
+            Self::ContactLost { joint, turn, touching_part } => write!(
+                f,
+                "joint `{joint}` is without contact for {:.1} % of turn {turn}; forces and wear are those of \
+                 impacts: drive it slower, or check load and clearance",
+                100.0 * (1.0 - touching_part)
+            ),
+        }
+    }
+}
+
+/// Step times contact frequency up to which a method of fixed step is accurate, and stable.
+///
+/// Runge-Kutta loses (h omega)^6/144 of an oscillation per step and is stable to 2 sqrt 2. Generalised-alpha is
+/// stable, but its phase is off by (h omega)²/12: 2 % at a half. Adaptive steps look after themselves.
+pub(super) fn step_limits(integrator: Integrator) -> Option<(f64, f64)> {
+    match integrator {
+        Integrator::Rk4 { .. } => Some((1.0, 2.0 * std::f64::consts::SQRT_2)),
+        Integrator::GeneralizedAlpha { .. } => Some((0.5, f64::INFINITY)),
+        Integrator::Dopri5 { .. } => None,
+    }
+}

@@ -1,0 +1,20 @@
+//! Archard wear of a contact and what it does to the clearance.
+//! In: normal force, sliding speed, penetration, geometry, material. Out: rates to integrate with the state, depth by bearing
+//! angle, the next clearance, warnings. Never knows mechanisms, integrators or random numbers.
+//!
+//! Two models of feedback that are not mixed silently: one number (`feedback`), or a depth per angle
+//! (`profile`).
+
+mod archard;
+mod area;
+mod feedback;
+mod limits;
+#[cfg(feature = "std")]
+mod profile;
+
+pub use archard::{Archard, WearRates};
+pub use area::{Area, Load, Pair};
+pub use feedback::{Measure, ScalarFeedback};
+pub use limits::{Limits, Observed, Warning};
+#[cfg(feature = "std")]
+pub use profile::{DEFAULT_BINS, Profile, ProfileError, worn_gap};
