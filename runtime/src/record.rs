@@ -58,6 +58,7 @@ mod tests {
             drivers: vec![].into(),
             channels: std::borrow::Cow::Owned(channels),
             turn_driver: None,
+            contacts: vec![].into(),
         }
     }
 

@@ -75,7 +75,7 @@ pub fn calibrate<F: FineScale>(
     }
     let mut factor = first_guess(&settings, fine, cycles)?;
     // Factors with too long and too short a life, and the logarithms of life over life wanted.
-    let (mut long, mut short): (Option<(f64, f64)>, Option<(f64, f64)>) = (None, None);
+    let (mut long, mut short) = (None::<(f64, f64)>, None::<(f64, f64)>);
     let mut nearest = f64::NAN;
     for _ in 0..MOST_LIVES {
         let life = life(&settings, fine, factor, cycles)?;

@@ -127,7 +127,7 @@ mod tests {
     fn a_power_law_is_met_between_and_beyond_its_points() {
         let places: Vec<f64> = (0..17).map(|i| 0.1 * f64::from(i)).collect();
         let curve = Curve::logarithmic(&places, places.iter().map(|x| 3e-13 * (0.4 * x).exp()).collect());
-        for place in [-0.3, 0.0, 0.03, 0.77, 1.6, 1.9] {
+        for place in [-0.3_f64, 0.0, 0.03, 0.77, 1.6, 1.9] {
             let expected = 3e-13 * (0.4 * place).exp();
             // ln of 3e-13 is 29: its rounding, 4e-15, is that of the value.
             assert!((at(&places, &curve, place) / expected - 1.0).abs() < 4e-14, "{place}");

@@ -15,6 +15,8 @@ const LARGEST_GROWTH: f64 = 4.0;
 const LARGEST_CUT: f64 = 0.2;
 /// Part of the step that the error would just allow.
 const SAFETY: f64 = 0.9;
+/// What is left of the known noise after a step: a kink that was taken for noise is forgotten in some ten steps.
+const NOISE_KEPT: f64 = 0.9;
 
 /// Mean increments since the begin of a path: per joint the depth [m], then the bins of its profile [m].
 pub(super) type Increments = Vec<f64>;
@@ -36,7 +38,7 @@ pub(super) struct Path {
     pub(super) span: u64,
     /// What a revolution wears at its end; unknown if geometry was constant.
     pub(super) end: Option<Vec<RevolutionWear>>,
-    /// Estimated error of W per joint [m].
+    /// Estimated error per joint [cycles].
     pub(super) error: Vec<f64>,
 }
 
@@ -133,22 +135,12 @@ impl<F: FineScale> Walker<'_, F> {
             // Equal steps to the end; a hair of slack keeps rounding from adding one.
             let length = left / ((left / control.step.max(shortest) - 1e-9).ceil().max(1.0));
             let trial = self.attempt(&from, &from_rate, length)?;
-            // Error over gain goes with the square of the step; what does not shrink at all is noise.
-            let is_noise = refused.is_some_and(|(before, ratio)| trial.ratio > ratio * (length / before));
-            if is_noise {
-                control.noise = control.noise.max(trial.ratio);
-            }
-            let allowed = tolerance.max(2.0 * control.noise);
-            let factor = SAFETY * libm::sqrt(allowed / trial.ratio.max(f64::MIN_POSITIVE));
-            if trial.ratio > allowed && length > shortest {
+            if !accepts(control, trial.ratio, length, refused, (tolerance, shortest)) {
                 refused = Some((length, trial.ratio));
-                control.step = (length * factor.max(LARGEST_CUT)).max(shortest);
                 span = span.min((control.step.floor() as u64).max(1));
                 path.span = span;
                 continue;
             }
-            control.step = (length * factor.min(LARGEST_GROWTH)).max(shortest);
-            control.noise *= 0.7;
             refused = None;
             let to_rate = self::rates(self.settings, &trial.measured);
             path.segments.push(Segment {
@@ -183,30 +175,63 @@ impl<F: FineScale> Walker<'_, F> {
         let to = moved(&|i| (2.0 * k1[i] + 3.0 * k2[i] + 4.0 * k3[i]) / 9.0);
         let measured = self.measure(&to, &mut state)?;
         let k4 = rates(self.settings, &measured);
-        let error =
-            |i: usize| -> f64 { length * (-5.0 / 72.0 * k1[i] + k2[i] / 12.0 + k3[i] / 9.0 - k4[i] / 8.0) };
+        // The pair's own estimate goes with the third derivative alone. Wear that goes with the root of the
+        // clearance (Hertz) has none, although steps err; a second difference of the stages sees it. Its factor
+        // makes both equal for wear that is linear in the clearance.
+        let error = |i: usize| {
+            let own = -5.0 / 72.0 * k1[i] + k2[i] / 12.0 + k3[i] / 9.0 - k4[i] / 8.0;
+            let second = (k1[i] - 2.0 * k2[i] + k4[i]) / 24.0;
+            length * own.abs().max(second.abs())
+        };
         let errors: Increments = (0..to.len()).map(error).collect();
         let gains: Increments = to.iter().zip(from).map(|(to, from)| to - from).collect();
-        let (error, ratio) = self.judge(&errors, &gains);
+        let (error, ratio) = self.judge(&errors, &gains, length);
         Ok(Trial { to, measured, state, ratio, error })
     }
 
-    /// Error of W per joint [m], and the largest over the largest gain, both as parts of the thresholds: a joint
-    /// that hardly wears does not set the step.
-    fn judge(&self, errors: &[f64], gains: &[f64]) -> (Vec<f64>, f64) {
+    /// Error per joint in cycles, and the largest error of W over the largest gain, both as parts of the thresholds:
+    /// a joint that hardly wears does not set the step.
+    ///
+    /// An error of W early in life grows with the rate of wear, the same error as a time does not: it can be summed.
+    fn judge(&self, errors: &[f64], gains: &[f64], length: f64) -> (Vec<f64>, f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let (mut first, mut per_joint) = (0, Vec::with_capacity(self.base.len()));
         let (mut error, mut gain) = (0.0_f64, 0.0_f64);
         for joint in &self.settings.joints {
             let next = first + joint.width();
             let wrong = largest(joint.decisive(&errors[first..next]));
+            let gained = largest(joint.decisive(&gains[first..next]));
             error = error.max(wrong / joint.threshold);
-            gain = gain.max(largest(joint.decisive(&gains[first..next])) / joint.threshold);
-            per_joint.push(wrong);
+            gain = gain.max(gained / joint.threshold);
+            per_joint.push(if gained > 0.0 { wrong / gained * length } else { 0.0 });
             first = next;
         }
         (per_joint, if gain > 0.0 { error / gain } else { 0.0 })
     }
+}
+
+/// Whether a step of a length is good enough, by its error over its gain and that of a longer one that was refused
+/// before; sets the next step to try.
+fn accepts(
+    control: &mut Control,
+    ratio: f64,
+    length: f64,
+    refused: Option<(f64, f64)>,
+    (tolerance, shortest): (f64, f64),
+) -> bool {
+    // Error over gain goes with the square of the step; what does not shrink even in proportion is noise.
+    if refused.is_some_and(|(before, refused)| ratio > refused * (length / before)) {
+        control.noise = control.noise.max(ratio);
+    }
+    let allowed = tolerance.max(2.0 * control.noise);
+    let factor = SAFETY * libm::sqrt(allowed / ratio.max(f64::MIN_POSITIVE));
+    let accepted = ratio <= allowed || length <= shortest;
+    let factor = if accepted { factor.min(LARGEST_GROWTH) } else { factor.max(LARGEST_CUT) };
+    control.step = (length * factor).max(shortest);
+    if accepted {
+        control.noise *= NOISE_KEPT;
+    }
+    accepted
 }
 
 /// Mean increments per cycle.

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::state::JointState;
 use crate::ContactInfo;
+use crate::contact::OutOfRange;
 use crate::wear::{Limits, Measure, Profile, ScalarFeedback};
 
 /// What counts as the wear W of a joint.
@@ -193,16 +194,27 @@ impl LifeSettings {
 }
 
 impl JointLife {
-    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear.
-    pub fn of_contact(contact: &ContactInfo, clearance: f64) -> Option<Self> {
-        let wear = contact.wear?;
+    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear. W is that of the
+    /// profile if the profile feeds back, else the depth by the model of the area.
+    ///
+    /// # Errors
+    /// If a number of the joint is out of range.
+    pub fn of_contact(contact: &ContactInfo, clearance: f64) -> Result<Option<Self>, SettingsError> {
+        let Some(wear) = contact.wear else { return Ok(None) };
+        let joint = contact.joint.clone().into_owned();
         let feedback = if wear.profile {
             Feedback::Profile
         } else {
-            Feedback::Scalar(ScalarFeedback::new(wear.feedback).ok()?)
+            let wrong = |error: OutOfRange| SettingsError::Joint {
+                joint: joint.clone(),
+                name: error.name,
+                value: error.value,
+                need: error.need,
+            };
+            Feedback::Scalar(ScalarFeedback::new(wear.feedback).map_err(wrong)?)
         };
-        Some(Self {
-            joint: contact.joint.clone().into_owned(),
+        let lives = Self {
+            joint,
             journal_radius: contact.journal_radius,
             clearance,
             threshold: wear.threshold,
@@ -211,7 +223,9 @@ impl JointLife {
             feedback,
             bins: wear.profile.then_some(wear.bins),
             limits: Limits { hardness: wear.hardness, pressure_speed: wear.pressure_speed },
-        })
+        };
+        lives.check()?;
+        Ok(Some(lives))
     }
 
     fn check(&self) -> Result<(), SettingsError> {
@@ -276,5 +290,67 @@ impl JointLife {
             WearOf::Depth => &increment[..1],
             WearOf::Profile(_) => &increment[1..],
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WearInfo;
+    use crate::contact::{Restitution, Stiffness};
+    use crate::wear::Area;
+
+    fn contact(wear: Option<WearInfo>) -> ContactInfo {
+        ContactInfo {
+            joint: "R1".into(),
+            ball: false,
+            journal_radius: 0.01,
+            length: 0.02,
+            modulus: 115e9,
+            stiffness: Stiffness::Hertz { modulus: 115e9 },
+            law: Restitution::LankaraniNikravesh,
+            restitution: 0.9,
+            exponent: 1.5,
+            impact_speed_floor: 1e-3,
+            friction: None,
+            wear,
+        }
+    }
+
+    const WEAR: WearInfo = WearInfo {
+        coefficient: 1e-8,
+        hardness: 3.5e9,
+        area: Area::Hertz,
+        measure: Measure::Maximum,
+        feedback: 0.1,
+        profile: false,
+        bins: 72,
+        threshold: 80e-6,
+        revolutions_per_cycle: 1e7,
+        pressure_speed: Some(2e6),
+    };
+
+    #[test]
+    fn a_described_joint_lives_as_its_description_says() {
+        let of = |wear| JointLife::of_contact(&contact(wear), 1e-5);
+        assert_eq!(of(None), Ok(None));
+        let scalar = of(Some(WEAR)).unwrap().unwrap();
+        assert_eq!((scalar.wear, scalar.bins, scalar.gamma()), (WearOf::Depth, None, 0.1));
+        assert_eq!((scalar.clearance, scalar.threshold, scalar.revolutions_per_cycle), (1e-5, 80e-6, 1e7));
+        assert_eq!(scalar.limits, Limits { hardness: 3.5e9, pressure_speed: Some(2e6) });
+        let profile = of(Some(WearInfo { profile: true, ..WEAR })).unwrap().unwrap();
+        assert_eq!((profile.wear, profile.bins), (WearOf::Profile(Measure::Maximum), Some(72)));
+        assert_eq!(profile.feedback, Feedback::Profile);
+        for wrong in [WearInfo { feedback: -1.0, ..WEAR }, WearInfo { threshold: 0.0, ..WEAR }] {
+            assert!(matches!(of(Some(wrong)), Err(SettingsError::Joint { .. })));
+        }
+    }
+
+    #[test]
+    fn without_feedback_geometry_stays() {
+        let profile = JointLife::of_contact(&contact(Some(WearInfo { profile: true, ..WEAR })), 1e-5);
+        let settings = LifeSettings::new(vec![profile.unwrap().unwrap()]).without_feedback();
+        assert_eq!(settings.joints[0].feedback, Feedback::Scalar(ScalarFeedback::NONE));
+        assert_eq!(settings.joints[0].wear, WearOf::Profile(Measure::Maximum));
     }
 }

@@ -41,7 +41,7 @@ pub struct JointState {
     pub wear: f64,
     /// Sum Lambda of the mean increments [m].
     pub exposure: f64,
-    /// Estimated error of W by the wear steps [m], summed over all steps.
+    /// Estimated error of the life by the wear steps [cycles], summed over all steps.
     pub error: f64,
     /// Depth by bearing angle, if it is kept.
     pub profile: Option<Profile>,

@@ -175,7 +175,7 @@ impl JointTable {
 /// Largest relative error at the points left out of a table with every second point.
 fn left_out(settings: &LifeSettings, path: &[Point], joint: usize) -> f64 {
     let last = path.len() - 1;
-    let kept = |index: &usize| index % 2 == 0 || *index == last;
+    let kept = |index: &usize| index.is_multiple_of(2) || *index == last;
     let point =
         |index: usize| Point { wear: path[index].wear.clone(), measured: path[index].measured.clone() };
     let half: Vec<Point> = (0..path.len()).filter(kept).map(point).collect();
