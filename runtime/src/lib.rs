@@ -37,6 +37,8 @@ pub mod integrate;
 #[cfg(feature = "std")]
 mod layout;
 #[cfg(feature = "std")]
+pub mod life;
+#[cfg(feature = "std")]
 pub mod linear;
 #[cfg(feature = "std")]
 mod project;

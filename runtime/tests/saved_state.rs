@@ -1,9 +1,16 @@
 //! What belongs to the state of a trajectory can be saved and comes back bit for bit.
 
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
 use linkwear_runtime::TurnState;
 use linkwear_runtime::clearance::JointState;
 use linkwear_runtime::contact::ImpactMemory;
-use linkwear_runtime::wear::{Limits, Observed, Profile, Warning};
+use linkwear_runtime::life::{
+    Feedback, FineScale, JointLife, JointWear, LifeSettings, LifeState, Mean, Outcome, RevolutionWear,
+    WearOf, run_life,
+};
+use linkwear_runtime::wear::{Limits, Measure, Observed, Profile, Warning};
 
 #[test]
 fn memory_of_a_contact_comes_back() {
@@ -55,4 +62,68 @@ fn a_trajectory_between_two_turns_comes_back() {
     };
     let text = serde_json::to_string(&state).unwrap();
     assert_eq!(serde_json::from_str::<TurnState>(&text).unwrap(), state);
+}
+
+/// Wear by angle that depends on what ran before.
+struct Unsettled;
+
+impl FineScale for Unsettled {
+    type State = Option<Vec<f64>>;
+    type Error = Infallible;
+
+    fn measure(
+        &mut self,
+        joints: &[JointWear],
+        state: &mut Self::State,
+    ) -> Result<Vec<RevolutionWear>, Infallible> {
+        let worn = joints[0].profile.as_ref().expect("the profile is fed back").maximum();
+        let memory = state.get_or_insert_with(|| vec![0.1, 0.7]);
+        memory[0] = (3.7 * memory[0] + memory[1] + worn).sin();
+        let mut profile = Profile::unworn(12).expect("12 bins are enough");
+        profile.deposit(memory[0], 0.8, 1e-13 * (1.0 + 1e4 * worn));
+        Ok(vec![RevolutionWear {
+            wear_integral: 2.0 + 0.1 * memory[0],
+            depth: 3.25e-13,
+            profile: Some(profile),
+            mean_force: 32.0 / 3.0,
+            peak_force: 55.1,
+            contact_losses: 0.0,
+            separated: 0.0,
+            observed: Observed { pressure: 4e9, ..Observed::nothing(1e-5, 0.01) },
+        }])
+    }
+}
+
+#[test]
+fn a_trajectory_written_after_every_step_ends_with_the_same_bits() {
+    let joint = JointLife {
+        joint: "R1".to_owned(),
+        journal_radius: 0.01,
+        clearance: 1e-5,
+        threshold: 8e-6,
+        revolutions_per_cycle: 2e7 / 3.0,
+        wear: WearOf::Profile(Measure::Mean),
+        feedback: Feedback::Profile,
+        bins: Some(12),
+        limits: Limits { hardness: 3.5e9, pressure_speed: None },
+    };
+    let settings = LifeSettings::new(vec![joint]);
+    let mut whole = LifeState::new(&settings, 5).unwrap();
+    run_life(&settings, &mut Unsettled, &Mean, &mut whole, &mut |_| ControlFlow::Continue(())).unwrap();
+    let mut saved = LifeState::new(&settings, 5).unwrap();
+    let mut stops = 0;
+    loop {
+        let stop = &mut |_: &_| ControlFlow::Break(());
+        let outcome = run_life(&settings, &mut Unsettled, &Mean, &mut saved, stop).unwrap();
+        let text = serde_json::to_string(&saved).unwrap();
+        let read: LifeState<Option<Vec<f64>>> = serde_json::from_str(&text).unwrap();
+        assert_eq!(read, saved);
+        saved = read;
+        if outcome != Outcome::Cancelled {
+            break;
+        }
+        stops += 1;
+    }
+    assert!(stops > 3 && whole.warnings.len() == 1 && whole.failure.is_some());
+    assert_eq!(saved, whole);
 }

@@ -221,6 +221,8 @@ fn joint_row(compiled: &Compiled, joint: &Joint) -> Vec<String> {
         JointKind::Universal(..) => "universal",
         JointKind::Spherical => "spherical",
         JointKind::Planar { .. } => "planar",
+        JointKind::Journal { .. } => "revolute, clearance",
+        JointKind::Socket => "spherical, clearance",
         JointKind::Fixed => "fixed",
         JointKind::Free => "free",
     };

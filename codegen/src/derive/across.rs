@@ -267,15 +267,15 @@ pub fn joint_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
         | JointKind::Prismatic(axis)
         | JointKind::Cylindrical(axis)
         | JointKind::Screw(axis, _) => both(*axis, &parent, &child, sides.in_child),
-        JointKind::Planar { normal, first } => {
-            let own = Frame::with_z_and_x(normal.parent, first.parent);
-            (own, Frame::between(normal.parent, normal.child).times(&own))
+        JointKind::Planar { normal: axis, first } | JointKind::Journal { axis, first } => {
+            let own = Frame::with_z_and_x(axis.parent, first.parent);
+            (own, Frame::between(axis.parent, axis.child).times(&own))
         }
         JointKind::Universal(first, second) => {
             let own = Frame::with_z_and_x(first.parent, second.parent);
             (own, Frame::between(first.parent, first.child).times(&own))
         }
-        JointKind::Spherical | JointKind::Fixed | JointKind::Free => {
+        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {
             let own = if sides.in_child { child } else { parent };
             (own, own)
         }

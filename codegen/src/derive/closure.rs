@@ -54,8 +54,8 @@ pub fn row_count(kind: &JointKind, closure: Closure) -> usize {
         (Closure::Log, _) | (_, JointKind::Fixed) => 6,
         (_, JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..)) => 5,
         (_, JointKind::Cylindrical(_) | JointKind::Universal(..)) => 4,
-        (_, JointKind::Spherical | JointKind::Planar { .. }) => 3,
-        (_, JointKind::Free) => 0,
+        (_, JointKind::Spherical | JointKind::Planar { .. } | JointKind::Journal { .. }) => 3,
+        (_, JointKind::Free | JointKind::Socket) => 0,
     }
 }
 
@@ -77,7 +77,11 @@ fn rows_of(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, ex
     let kind = &geometry.mechanism.joint(cut.joint).kind;
     let slides = matches!(
         kind,
-        JointKind::Prismatic(_) | JointKind::Cylindrical(_) | JointKind::Screw(..) | JointKind::Planar { .. }
+        JointKind::Prismatic(_)
+            | JointKind::Cylindrical(_)
+            | JointKind::Screw(..)
+            | JointKind::Planar { .. }
+            | JointKind::Journal { .. }
     );
     let place = match (exact, slides) {
         (false, false) => Place::Own,

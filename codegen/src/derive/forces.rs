@@ -7,6 +7,7 @@ use crate::model::{Carrier, ForceKind, JointKind, Passive};
 
 use super::across::{Across, sides_of};
 use super::closure::link_wrenches;
+use super::contacts::{ContactWrench, contact_forces};
 use super::joint_state::JointStates;
 use super::linkage::{Freedom, LinkIndex};
 use super::wrench::Wrench;
@@ -31,7 +32,7 @@ pub struct Loads {
 }
 
 /// Collects all loads.
-pub fn loads(g: &mut Graph, state: &JointStates<'_>) -> Loads {
+pub fn loads(g: &mut Graph, state: &JointStates<'_>, contacts: &[ContactWrench]) -> Loads {
     let linkage = state.geometry.linkage;
     let zero = g.zero();
     let none = Wrench::zero(g);
@@ -46,6 +47,10 @@ pub fn loads(g: &mut Graph, state: &JointStates<'_>) -> Loads {
     };
     for at in 0..linkage.links.len() {
         loads.elasticity(g, state, at);
+    }
+    for contact in contacts {
+        g.begin_section(format!("contact in {}", state.geometry.mechanism.joint(contact.joint).name));
+        contact_forces(g, &mut loads, state, contact);
     }
     for index in 0..state.geometry.mechanism.joints.len() {
         let joint = JointId::new(index);
@@ -87,7 +92,7 @@ impl Loads {
 
     fn joint_force(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
         let kind = &state.geometry.mechanism.joint(joint).kind;
-        if let (JointKind::Spherical, Passive::Damping { coefficient, .. }) = (kind, passive) {
+        if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) = (kind, passive) {
             let coefficient = state.lower(g, coefficient);
             return self.spherical_damping(g, state, joint, coefficient);
         }
@@ -133,8 +138,7 @@ impl Loads {
     fn spherical_damping(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, c: ExprId) {
         let linkage = state.geometry.linkage;
         let sections = Sections::new(state, joint);
-        if let Some(at) = linkage.link_of_joint[joint.index()] {
-            debug_assert_eq!(linkage.links[at].freedom, Freedom::Ball);
+        if let Some(at) = linkage.ball_of(joint) {
             let rotation = state.motion.poses.relative[at].rotation;
             let mut omega = state.motion.relative_omega(g, linkage, at);
             let outer = sections.rate(g, state, Side::Outboard);
@@ -193,7 +197,7 @@ impl Loads {
     }
 
     /// A wrench on the child of a joint and its opposite on the parent.
-    fn pair(
+    pub(super) fn pair(
         &mut self,
         g: &mut Graph,
         state: &JointStates<'_>,

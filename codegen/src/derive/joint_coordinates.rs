@@ -40,7 +40,7 @@ pub fn joint_coordinates(
         duals: Vec::new(),
     };
     match kind {
-        JointKind::Revolute(_) | JointKind::Screw(..) => turn(g, &mut list, across, &axes, z),
+        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Journal { .. } => turn(g, &mut list, across, &axes, z),
         JointKind::Prismatic(_) => slide(g, &mut list, across, z),
         JointKind::Cylindrical(_) => {
             turn(g, &mut list, across, &axes, z);
@@ -57,7 +57,7 @@ pub fn joint_coordinates(
             let own = UniversalAxes::new(geometry, sides, first, second);
             universal(g, &mut list, across, &axes, &own);
         }
-        JointKind::Spherical | JointKind::Fixed | JointKind::Free => {}
+        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {}
     }
     list
 }

@@ -56,7 +56,7 @@ impl<'a> RowMaker<'a> {
                 self.tilts(own);
                 self.thread(own[2], lead / std::f64::consts::TAU);
             }
-            JointKind::Planar { .. } => {
+            JointKind::Planar { .. } | JointKind::Journal { .. } => {
                 self.translations(&[2], own, "the joint");
                 self.tilts(own);
             }
@@ -64,7 +64,7 @@ impl<'a> RowMaker<'a> {
                 self.translations(&[0, 1, 2], own, &beside);
                 self.rotations(own);
             }
-            JointKind::Free => {}
+            JointKind::Free | JointKind::Socket => {}
         }
         self.rows
     }

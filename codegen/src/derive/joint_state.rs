@@ -27,10 +27,13 @@ pub struct JointStates<'a> {
 #[must_use]
 pub fn coordinate_count(kind: &JointKind) -> usize {
     match kind {
-        JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
+        JointKind::Revolute(_)
+        | JointKind::Prismatic(_)
+        | JointKind::Screw(..)
+        | JointKind::Journal { .. } => 1,
         JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
         JointKind::Planar { .. } => 3,
-        JointKind::Spherical | JointKind::Fixed | JointKind::Free => 0,
+        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => 0,
     }
 }
 
@@ -39,7 +42,7 @@ pub fn coordinate_count(kind: &JointKind) -> usize {
 pub fn is_angle(kind: &JointKind, coordinate: usize) -> bool {
     match kind {
         JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Universal(..) => true,
-        JointKind::Cylindrical(_) => coordinate == 0,
+        JointKind::Cylindrical(_) | JointKind::Journal { .. } => coordinate == 0,
         JointKind::Planar { .. } => coordinate == 2,
         _ => false,
     }

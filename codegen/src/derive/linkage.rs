@@ -216,6 +216,15 @@ impl Linkage {
         self.path(b).find(|link| on_a.contains(link))
     }
 
+    /// The link of a tree joint that turns like a ball.
+    #[must_use]
+    pub fn ball_of(&self, joint: JointId) -> Option<usize> {
+        let last = self.link_of_joint[joint.index()]?;
+        self.path(Some(last))
+            .take_while(|at| self.links[*at].joint == joint)
+            .find(|at| self.links[*at].freedom == Freedom::Ball)
+    }
+
     /// The link whose motion carries this coordinate of a tree joint.
     #[must_use]
     pub fn link_of_coordinate(&self, joint: JointId, coordinate: usize) -> Option<usize> {

@@ -53,8 +53,11 @@ fn joint_turn(kind: &JointKind, reversed: bool) -> Frame {
         | JointKind::Cylindrical(axis)
         | JointKind::Screw(axis, _)
         | JointKind::Universal(axis, _)
-        | JointKind::Planar { normal: axis, .. } => axis,
-        JointKind::Spherical | JointKind::Fixed | JointKind::Free => return Frame::IDENTITY,
+        | JointKind::Planar { normal: axis, .. }
+        | JointKind::Journal { axis, .. } => axis,
+        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {
+            return Frame::IDENTITY;
+        }
     };
     if reversed { Frame::between(axis.child, axis.parent) } else { Frame::between(axis.parent, axis.child) }
 }
@@ -96,6 +99,15 @@ impl Builder<'_> {
                     (2, Motion::Turn(inner(normal), 0.0)),
                 ]
             }
+            JointKind::Journal { axis, first } => {
+                let second = cross(inner(axis), inner(first));
+                vec![
+                    (1, Motion::Slide(inner(first))),
+                    (2, Motion::Slide(second)),
+                    (0, Motion::Turn(inner(axis), 0.0)),
+                ]
+            }
+            JointKind::Socket => return self.socket(step, inboard),
             JointKind::Fixed => return self.single(step, inboard, Freedom::Weld),
             JointKind::Spherical => return self.single(step, inboard, Freedom::Ball),
             JointKind::Free => return self.single(step, None, Freedom::Free),
@@ -120,6 +132,27 @@ impl Builder<'_> {
         let frame = self.linkage.links[last].frame;
         self.linkage.links[last].frame = turn.times(&frame).snapped();
         last
+    }
+
+    /// A ball that clearance lets move along axes of its socket.
+    fn socket(&mut self, step: TreeJoint, inboard: LinkIndex) -> usize {
+        let slides = |own: &mut Self, mut parent: LinkIndex, sign: f64| {
+            for index in 0..3 {
+                let axis = own.parent_frame(parent).axis(index).map(|x| sign * x);
+                parent = Some(own.slide(step, parent, 3 + index, axis));
+            }
+            parent
+        };
+        if step.reversed {
+            // Seen from the ball, the socket turns about it and then slides along its own axes.
+            let ball = self.single(step, inboard, Freedom::Ball);
+            self.linkage.links[ball].joint_coordinate = usize::MAX;
+            return slides(self, Some(ball), -1.0).expect("three slides were added");
+        }
+        let last = slides(self, inboard, 1.0);
+        let ball = self.single(step, last, Freedom::Ball);
+        self.linkage.links[ball].joint_coordinate = usize::MAX;
+        ball
     }
 
     fn parent_frame(&self, parent: LinkIndex) -> Frame {

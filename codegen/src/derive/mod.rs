@@ -7,6 +7,7 @@
 mod across;
 mod closure;
 mod composite;
+mod contacts;
 mod deformation;
 mod dynamics;
 mod entries;

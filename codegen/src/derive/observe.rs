@@ -107,7 +107,7 @@ fn joint_coordinates(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels
         list.push(format!("{name}.v{suffix}"), units[1], false, all.speed[coordinate]);
         list.push(format!("{name}.a{suffix}"), units[2], false, all.acceleration[coordinate]);
     }
-    if matches!(data.kind, JointKind::Spherical | JointKind::Free) {
+    if matches!(data.kind, JointKind::Spherical | JointKind::Socket | JointKind::Free) {
         let sides = super::across::sides_of(observed.state.geometry, joint);
         let parent = displacement(g, observed, sides.parent);
         let child = displacement(g, observed, sides.child);
@@ -309,7 +309,12 @@ fn tree_wrench(
 fn slides(kind: &JointKind) -> bool {
     matches!(
         kind,
-        JointKind::Prismatic(_) | JointKind::Cylindrical(_) | JointKind::Screw(..) | JointKind::Planar { .. }
+        JointKind::Prismatic(_)
+            | JointKind::Cylindrical(_)
+            | JointKind::Screw(..)
+            | JointKind::Planar { .. }
+            | JointKind::Journal { .. }
+            | JointKind::Socket
     )
 }
 

@@ -123,6 +123,8 @@ codes! {
     BadModes = "E0413",
     /// A place where a flexible body has no node.
     NoNodeHere = "E0414",
+    /// Clearance or wear that a joint cannot have.
+    BadClearance = "E0415",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",

@@ -71,6 +71,8 @@ impl JointKind {
             Self::Universal(..) => "universal",
             Self::Spherical => "spherical",
             Self::Planar { .. } => "planar",
+            Self::Journal { .. } => "revolute",
+            Self::Socket => "spherical",
             Self::Fixed => "fixed",
             Self::Free => "free",
         }
@@ -81,12 +83,12 @@ impl JointKind {
     pub const fn coordinates(&self) -> &'static [Coordinate] {
         use Coordinate::{Angle, Length};
         match self {
-            Self::Revolute(_) | Self::Screw(..) => &[Angle],
+            Self::Revolute(_) | Self::Screw(..) | Self::Journal { .. } => &[Angle],
             Self::Prismatic(_) => &[Length],
             Self::Cylindrical(_) => &[Angle, Length],
             Self::Universal(..) => &[Angle, Angle],
             Self::Planar { .. } => &[Length, Length, Angle],
-            Self::Spherical | Self::Fixed | Self::Free => &[],
+            Self::Spherical | Self::Socket | Self::Fixed | Self::Free => &[],
         }
     }
 
@@ -96,7 +98,7 @@ impl JointKind {
     pub const fn start_values(&self) -> &'static [Coordinate] {
         use Coordinate::{Angle, Length};
         match self {
-            Self::Spherical => &[Angle, Angle, Angle],
+            Self::Spherical | Self::Socket => &[Angle, Angle, Angle],
             Self::Free => &[Angle, Angle, Angle, Length, Length, Length],
             _ => self.coordinates(),
         }
@@ -105,7 +107,7 @@ impl JointKind {
     /// Whether the joint constrains the relative orientation of its bodies.
     #[must_use]
     pub const fn holds_orientation(&self) -> bool {
-        !matches!(self, Self::Spherical | Self::Free)
+        !matches!(self, Self::Spherical | Self::Socket | Self::Free)
     }
 
     /// Number of constraint rows of the joint when it is cut.
@@ -115,8 +117,8 @@ impl JointKind {
             Self::Fixed => 6,
             Self::Revolute(_) | Self::Prismatic(_) | Self::Screw(..) => 5,
             Self::Cylindrical(_) | Self::Universal(..) => 4,
-            Self::Spherical | Self::Planar { .. } => 3,
-            Self::Free => 0,
+            Self::Spherical | Self::Planar { .. } | Self::Journal { .. } => 3,
+            Self::Free | Self::Socket => 0,
         }
     }
 

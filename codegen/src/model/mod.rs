@@ -4,6 +4,8 @@
 //! Everything is stated in one reference pose, in the ground frame W (docs/notation.md). A point may
 //! have one position per body, where branches of a loop are described open.
 
+use linkwear_runtime::ContactInfo;
+
 use crate::flexible::{ModalData, Node};
 use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::Span;
@@ -243,6 +245,16 @@ pub enum JointKind {
         /// Direction of `q1`, at right angles to the normal.
         first: Axis,
     },
+    /// Rotation about an axis, and what clearance allows across it. The rotation `q` is coordinate 0; the
+    /// journal's offset along axes of the bearing follows as coordinates 1 and 2.
+    Journal {
+        /// Axis of the bearing.
+        axis: Axis,
+        /// Direction in which the offset's first component is measured.
+        first: Axis,
+    },
+    /// Free rotation, and what clearance allows of translation: coordinates 3 to 5.
+    Socket,
     /// No relative motion.
     Fixed,
     /// No constraint.
@@ -277,8 +289,19 @@ pub struct Joint {
     pub drives: Vec<Drive>,
     /// Viscous damping, springs and actuator forces, by coordinate.
     pub passive: Vec<Passive>,
+    /// Clearance, contact and wear; nothing for an ideal joint.
+    pub clearance: Option<Box<Clearance>>,
     /// Where it is written.
     pub span: Span,
+}
+
+/// A joint with clearance.
+#[derive(Clone, Debug)]
+pub struct Clearance {
+    /// Radial clearance [m], a formula over parameters.
+    pub radial: Formula,
+    /// Laws of contact, friction and wear with their constants.
+    pub laws: ContactInfo,
 }
 
 /// A prescribed coordinate of a joint.

@@ -1,8 +1,8 @@
 //! Which joints carry the bodies (the spanning tree) and which close loops (the cuts).
 //! In: [`Mechanism`]. Out: [`Topology`]. Never knows equations.
 //!
-//! The tree grows from the ground by the best joint at its rim: driven joints first (their coordinate is
-//! eliminated, so it must be a coordinate), then joints with start values, then those with more constraint
+//! The tree grows from the ground by the best joint at its rim: driven joints and those with clearance first (their
+//! coordinates are asked for, so they must be coordinates), then joints with start values, then those with more constraint
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
 
@@ -82,7 +82,7 @@ fn classes(mechanism: &Mechanism) -> Vec<Class> {
     let mentioned = mentioned(mechanism);
     let class = |(position, joint): (usize, &Joint)| {
         let passive = !joint.passive.is_empty() || mentioned[position];
-        (joint.drives.is_empty(), !started[position], 6 - joint.kind.rows(), !passive)
+        (joint.drives.is_empty() && joint.clearance.is_none(), !started[position], 6 - joint.kind.rows(), !passive)
     };
     mechanism.joints.iter().enumerate().map(class).collect()
 }
@@ -124,8 +124,10 @@ fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
         | JointKind::Cylindrical(axis)
         | JointKind::Screw(axis, _) => differs(axis),
         JointKind::Universal(first, second) => differs(first) || differs(second),
-        JointKind::Planar { normal, first } => differs(normal) || differs(first),
-        JointKind::Spherical | JointKind::Fixed | JointKind::Free => false,
+        JointKind::Planar { normal: axis, first } | JointKind::Journal { axis, first } => {
+            differs(axis) || differs(first)
+        }
+        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => false,
     };
     let point = match &mechanism.point(joint.at).position {
         Position::Shared(_) => false,

@@ -35,8 +35,119 @@ pub struct File {
     pub assembly: Table<StartSpec>,
     /// Start values of joint coordinates and speeds that are met exactly.
     pub initial: Table<StartSpec>,
+    /// Clearance of revolute and spherical joints, by joint, with the laws of contact.
+    pub clearance: Table<ClearanceSpec>,
+    /// Wear of joints with clearance, by joint.
+    pub wear: Table<WearSpec>,
     /// Groups of points, bodies and joints made several times.
     pub repeat: Table<RepeatSpec>,
+}
+
+/// A joint with clearance: the joint's first body is the bearing or socket, its second the journal or ball.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["radial", "journal_radius"]))]
+pub struct ClearanceSpec {
+    /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
+    pub radial: Option<Quantity>,
+    /// Radius of the journal or ball.
+    pub journal_radius: Option<Quantity>,
+    /// Length of the bearing.
+    pub length: Option<Quantity>,
+    /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
+    pub modulus: Option<Quantity>,
+    /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
+    pub stiffness: Option<Quantity>,
+    /// Law of restitution: "lankarani_nikravesh" (default), "exact", "hunt_crossley", "flores", "lee_wang".
+    pub law: Option<At<RestitutionSpec>>,
+    /// Coefficient of restitution.
+    pub restitution: Option<Quantity>,
+    /// Exponent of penetration; 1.5 by default.
+    pub exponent: Option<Quantity>,
+    /// Least impact speed that damping is related to; 1 mm/s by default.
+    pub impact_speed_floor: Option<Quantity>,
+    /// Coefficient of friction, at high speed; 0 by default.
+    pub friction: Option<Quantity>,
+    /// Coefficient of friction at rest (Stribeck); by default that at high speed.
+    pub static_friction: Option<Quantity>,
+    /// Stribeck speed; 10 mm/s by default.
+    pub stribeck_speed: Option<Quantity>,
+    /// Growth of the coefficient of friction with sliding speed; 0 by default.
+    pub friction_slope: Option<Quantity>,
+    /// Sliding speed below which friction is smoothed; 1 mm/s by default. Two speeds: Ambrosio's correction.
+    pub friction_speed: Option<At<Vec<Quantity>>>,
+    /// Our own assumption.
+    pub assumed: bool,
+}
+
+/// Law of restitution of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RestitutionSpec {
+    /// Lankarani and Nikravesh; returns more than it is given.
+    #[default]
+    LankaraniNikravesh,
+    /// Returns exactly what it is given.
+    Exact,
+    /// Hunt and Crossley.
+    HuntCrossley,
+    /// Flores et al.
+    Flores,
+    /// Lee and Wang.
+    LeeWang,
+}
+
+/// How a joint with clearance wears, and when it has failed.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("required" = ["coefficient", "hardness", "threshold"]))]
+pub struct WearSpec {
+    /// Dimensionless wear coefficient k of Archard's law.
+    pub coefficient: Option<Quantity>,
+    /// Hardness of the softer side.
+    pub hardness: Option<Quantity>,
+    /// Area that carries the load: "hertz" (default), "projected", "conformal".
+    pub area: Option<At<AreaSpec>>,
+    /// Wear depth at which the joint has failed.
+    pub threshold: Option<Quantity>,
+    /// Growth of the clearance per wear; 1 by default, 0 for no feedback.
+    pub feedback: Option<Quantity>,
+    /// Feeds the worn profile back to the gap instead of the clearance.
+    pub profile: Option<bool>,
+    /// Bearing angles of the profile; 72 by default.
+    pub bins: Option<At<i64>>,
+    /// What of the profile counts: "mean" (default) or "maximum".
+    pub measure: Option<At<MeasureSpec>>,
+    /// Revolutions that one cycle stands for; 1 by default.
+    pub revolutions_per_cycle: Option<Quantity>,
+    /// Limit of mean pressure times sliding speed.
+    pub pressure_speed: Option<Quantity>,
+    /// Our own assumption.
+    pub assumed: bool,
+}
+
+/// Model of the contact area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum AreaSpec {
+    /// Journal diameter times length.
+    Projected,
+    /// Width of Hertz's line contact times length.
+    #[default]
+    Hertz,
+    /// Arc over which the circles overlap, times length.
+    Conformal,
+}
+
+/// What of a worn profile counts as wear.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MeasureSpec {
+    /// Mean depth.
+    #[default]
+    Mean,
+    /// Greatest depth.
+    Maximum,
 }
 
 /// How loops are closed.

@@ -34,6 +34,9 @@ pub struct ScalarFeedback {
 }
 
 impl ScalarFeedback {
+    /// No feedback: the clearance stays.
+    pub const NONE: Self = Self { gamma: 0.0 };
+
     /// `gamma` [1]: clearance gained per wear; zero switches the feedback off.
     ///
     /// # Errors

@@ -159,9 +159,15 @@ impl Profile {
     /// nothing changes).
     #[must_use]
     pub fn add_scaled(&mut self, other: &Self, factor: f64) -> bool {
-        let fits = self.depths.len() == other.depths.len();
+        self.add_depths(&other.depths, factor)
+    }
+
+    /// Adds a depth [m] to every bin, times a factor; says whether the bins fit (if not, nothing changes).
+    #[must_use]
+    pub fn add_depths(&mut self, depths: &[f64], factor: f64) -> bool {
+        let fits = self.depths.len() == depths.len();
         if fits {
-            for (depth, more) in self.depths.iter_mut().zip(&other.depths) {
+            for (depth, more) in self.depths.iter_mut().zip(depths) {
                 *depth += factor * more;
             }
         }

@@ -16,6 +16,7 @@ pub fn sizes(sizes: Sizes, runtime: &TokenStream) -> TokenStream {
         rows,
         all_rows,
         drivers,
+        contacts,
         channels,
         workspace,
     } = sizes;
@@ -28,15 +29,16 @@ pub fn sizes(sizes: Sizes, runtime: &TokenStream) -> TokenStream {
         rows,
         all_rows,
         drivers,
+        contacts,
         channels,
         workspace,
     ]
     .map(Literal::usize_unsuffixed);
-    let [p, q, v, aq, av, r, ar, d, c, w] = numbers;
+    let [p, q, v, aq, av, r, ar, d, k, c, w] = numbers;
     quote! {
         #runtime::Sizes {
             parameters: #p, coordinates: #q, speeds: #v, all_coordinates: #aq, all_speeds: #av,
-            rows: #r, all_rows: #ar, drivers: #d, channels: #c, workspace: #w,
+            rows: #r, all_rows: #ar, drivers: #d, contacts: #k, channels: #c, workspace: #w,
         }
     }
 }
@@ -73,6 +75,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         let (name, unit, wraps) = (&*channel.name, &*channel.unit, channel.wraps);
         quote!((#name, #unit, #wraps))
     });
+    let contacts = own.contacts.iter().map(|contact| super::contact::contact(contact, runtime));
     let turn_driver = option(own.turn_driver);
     let tables = [
         table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
@@ -82,6 +85,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         table("QUATERNIONS", quote!(usize), quaternions.map(|index| quote!(#index)).collect()),
         table("ROWS", quote!((&str, &str, bool, Option<usize>)), rows.collect()),
         table("DRIVERS", quote!((&str, bool)), drivers.collect()),
+        table("CONTACTS", quote!(#runtime::ContactInfo), contacts.collect()),
         table("CHANNELS", quote!((&str, &str, bool)), channels.collect()),
     ];
     quote! {
@@ -103,6 +107,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
                             drivers: &DRIVERS,
                             channels: &CHANNELS,
                             turn_driver: #turn_driver,
+                            contacts: &CONTACTS,
                         },
                     )
                 });

@@ -1,6 +1,7 @@
 //! Writes tapes as specialised, unrolled Rust: a documented struct that implements the runtime's contract.
 //! In: [`EmitInput`]. Out: source text, the same bytes every time. Never knows mechanics.
 
+mod contact;
 mod describe;
 mod function;
 mod names;

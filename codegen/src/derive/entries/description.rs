@@ -2,7 +2,7 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes, VariableInfo,
+    ContactInfo, Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes, VariableInfo,
 };
 
 use super::Deriver;
@@ -21,6 +21,7 @@ impl Deriver<'_> {
             rows: self.keep.iter().filter(|kept| **kept).count(),
             all_rows: self.keep.len(),
             drivers: self.drivers.len(),
+            contacts: self.contacts.len(),
             channels: self.channels.len(),
             workspace: 0,
         }
@@ -75,7 +76,10 @@ impl Deriver<'_> {
         let turn_driver = self
             .drivers
             .iter()
-            .position(|driver| matches!(self.mechanism.joint(driver.joint).kind, JointKind::Revolute(_)));
+            .position(|driver| {
+                let kind = &self.mechanism.joint(driver.joint).kind;
+                matches!(kind, JointKind::Revolute(_) | JointKind::Journal { .. })
+            });
         Description {
             name: self.mechanism.name.clone().into(),
             parameters: parameters.into(),
@@ -87,7 +91,13 @@ impl Deriver<'_> {
             drivers: drivers.into(),
             channels: self.channels.clone().into(),
             turn_driver,
+            contacts: self.contact_infos().into(),
         }
+    }
+
+    fn contact_infos(&self) -> Vec<ContactInfo> {
+        let joints = self.contacts.iter().map(|contact| self.mechanism.joint(contact.joint));
+        joints.filter_map(|joint| joint.clearance.as_ref()).map(|clearance| clearance.laws.clone()).collect()
     }
 
     fn motions(&self) -> Vec<MotionInfo> {
@@ -127,6 +137,16 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
         let name = &joint.name;
         match link.freedom {
             Freedom::Rotation { .. } | Freedom::Translation { .. } => {
+                let offset = match (&joint.kind, link.joint_coordinate) {
+                    (JointKind::Journal { .. }, coordinate @ (1 | 2)) => Some(coordinate - 1),
+                    (JointKind::Socket, coordinate) => Some(coordinate - 3),
+                    _ => None,
+                };
+                if let Some(axis) = offset.map(|axis| ["x", "y", "z"][axis]) {
+                    positions.push((format!("{name}.{axis}"), "m"));
+                    speeds.push((format!("{name}.v{axis}"), "m/s"));
+                    continue;
+                }
                 let several = coordinate_count(&joint.kind) > 1;
                 let suffix = if several { (link.joint_coordinate + 1).to_string() } else { String::new() };
                 let angle = is_angle(&joint.kind, link.joint_coordinate);

@@ -5,6 +5,7 @@ use linkwear_runtime::Entry;
 
 use super::{Deriver, Instant};
 use crate::derive::composite::mass_matrix;
+use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
 use crate::derive::inertia::LinkMass;
 use crate::derive::joint_state::JointStates;
@@ -103,7 +104,9 @@ impl Deriver<'_> {
             ),
         ];
         let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
-        self.function(Entry::ForwardDynamics, doc, self.state_inputs(), outputs)
+        let mut inputs = self.state_inputs();
+        inputs.push(self.contact_input());
+        self.function(Entry::ForwardDynamics, doc, inputs, outputs)
     }
 
     pub(super) fn rates(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
@@ -230,10 +233,36 @@ impl Deriver<'_> {
             self.lambda.clone(),
         ));
         inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
+        inputs.push(self.contact_input());
         let names = self.channels.iter().map(|channel| channel.name.to_string()).collect();
         let doc = "One value per output column, SI, components in W.";
         let outputs = vec![Block::vector("channels", doc, "", list.values).named(names)];
         self.function(Entry::Observe, "Everything a user may want to see or record.", inputs, outputs)
+    }
+
+    fn contact_input(&self) -> Block {
+        let entries = self.contacts.iter().flat_map(|contact| [contact.force, contact.moment].concat());
+        let doc = "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
+        Block::vector("contact", doc, "[CS (17)]", entries.collect())
+    }
+
+    pub(super) fn contacts(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
+        let joints: Vec<JointId> = self.contacts.iter().map(|contact| contact.joint).collect();
+        let entries = self.with_graph(|g, own| {
+            let geometry = own.geometry();
+            let v_dot = vec![g.zero(); v.len()];
+            let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
+            let mut entries = Vec::new();
+            for joint in &joints {
+                g.begin_section(format!("motion in the clearance of {}", own.mechanism.joint(*joint).name));
+                entries.extend(contact_motion(g, &state, *joint));
+            }
+            entries
+        });
+        let doc = "Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.";
+        let outputs = vec![Block::matrix("contacts", doc, "[CS (7)-(12)]", joints.len(), 10, entries)];
+        let doc = "How the journals of joints with clearance lie and move in their bearings.";
+        self.function(Entry::Contacts, doc, self.state_inputs(), outputs)
     }
 
     pub(super) fn equations_of_motion(&mut self, masses: &[LinkMass]) -> Function {
@@ -272,6 +301,7 @@ impl Deriver<'_> {
         let mut inputs = self.base_inputs();
         inputs.push(Block::vector("q", "All coordinates, driven ones included.", "", q));
         inputs.push(Block::vector("v", "All speeds, driven ones included.", "", v));
+        inputs.push(self.contact_input());
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
         self.function(Entry::EquationsOfMotion, doc, inputs, outputs)
     }

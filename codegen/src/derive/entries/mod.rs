@@ -14,6 +14,7 @@ use crate::model::{Mechanism, Topology};
 use super::{Equations, Function};
 use crate::derive::across::{ModalState, Motion};
 use crate::derive::closure::{CutRows, cut_rows};
+use crate::derive::contacts::ContactWrench;
 use crate::derive::dynamics::Partition;
 use crate::derive::forces::{Loads, loads};
 use crate::derive::inertia::{Geometry, LinkMass};
@@ -90,6 +91,8 @@ struct Deriver<'a> {
     /// Multipliers of all rows.
     lambda: Vec<ExprId>,
     drive: Vec<ExprId>,
+    /// Symbols of the wrenches that contact laws hand in.
+    contacts: Vec<ContactWrench>,
     keep: Vec<bool>,
     row_info: Vec<(JointId, String, bool)>,
     channels: Vec<Channel>,
@@ -155,6 +158,7 @@ impl<'a> Deriver<'a> {
             v_dot: Vec::new(),
             lambda: Vec::new(),
             drive: Vec::new(),
+            contacts: Vec::new(),
             keep,
             row_info: Vec::new(),
             channels: Vec::new(),
@@ -220,6 +224,15 @@ impl<'a> Deriver<'a> {
             let symbol = self.g.symbol(format!("{name}_drive"));
             self.drive.push(symbol);
         }
+        for (index, joint) in self.mechanism.joints.iter().enumerate() {
+            if joint.clearance.is_some() {
+                let mut part = |what: &str| {
+                    ["x", "y", "z"].map(|axis| self.g.symbol(format!("{}_contact_{what}{axis}", joint.name)))
+                };
+                let (force, moment) = (part("f"), part("m"));
+                self.contacts.push(ContactWrench { joint: JointId::new(index), force, moment });
+            }
+        }
     }
 
     /// Coordinates, speeds and accelerations with the drivers' laws inserted.
@@ -279,7 +292,7 @@ impl<'a> Deriver<'a> {
         let modes = self.linkage.links.iter().map(|link| modal_state(link, q, v, v_dot)).collect();
         let motion = Motion { poses, twists, accelerations, ground, modes };
         let state = JointStates { geometry: &geometry, motion: &motion, q, v, v_dot };
-        let loads = loads(g, &state);
+        let loads = loads(g, &state, &self.contacts);
         let cuts = cut_rows(g, &geometry, &motion, exact);
         Instant { motion, loads, cuts }
     }
@@ -320,6 +333,7 @@ impl<'a> Deriver<'a> {
             self.energy(&dynamic, &masses),
             self.observe(&q, &v, &masses),
             self.equations_of_motion(&masses),
+            self.contacts(&q, &v, &dynamic),
         ];
         debug_assert!(list.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name()));
         list

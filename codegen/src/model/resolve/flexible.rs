@@ -276,7 +276,7 @@ pub(super) fn hinges(carrier: Carrier, joints: &[Joint]) -> Vec<[f64; 3]> {
                 list.push(own(axis));
             }
             JointKind::Universal(first, second) => list.extend([own(first), own(second)]),
-            JointKind::Planar { normal, .. } => list.push(own(normal)),
+            JointKind::Planar { normal: axis, .. } | JointKind::Journal { axis, .. } => list.push(own(axis)),
             _ => {}
         }
     }

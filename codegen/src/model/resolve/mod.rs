@@ -6,6 +6,7 @@
 
 mod beam;
 mod bodies;
+mod clearance;
 mod connect;
 mod flexible;
 mod forces;
@@ -95,8 +96,10 @@ impl Resolver<'_> {
         self.resolve_points(&file);
         let kinds = file.joints.0.iter().map(|(name, joint)| self.joint_kind(name, joint)).collect();
         self.joint_kinds = kinds;
+        self.loosen(&file);
         let mut bodies = self.resolve_bodies(&file.bodies);
-        let joints = self.resolve_joints(&file.joints);
+        let mut joints = self.resolve_joints(&file.joints);
+        self.resolve_clearances(&file, &mut joints);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
         self.find_carriers(&file, &bodies, &joints);

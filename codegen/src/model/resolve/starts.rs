@@ -24,7 +24,12 @@ impl Resolver<'_> {
         for (table, key, held) in [(&file.assembly, "assembly", false), (&file.initial, "initial", true)] {
             for (name, value) in &table.0 {
                 let what = format!("[{key}]");
-                if let Some((Thing::Body(body), _)) = self.names.find(&name.value) {
+                let bends = file
+                    .bodies
+                    .0
+                    .iter()
+                    .any(|(body, spec)| body.value == name.value && spec.value.flexible.is_some());
+                if let (Some((Thing::Body(body), _)), true) = (self.names.find(&name.value), bends) {
                     self.modal_start(body, name, &value.value, value.span, held);
                     continue;
                 }
@@ -94,7 +99,7 @@ impl Resolver<'_> {
         };
         let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
         self.report(match (kind, needed) {
-            (JointKind::Spherical, _) => fault.help(
+            (JointKind::Spherical | JointKind::Socket, _) => fault.help(
                 "give the three components of the rotation vector: `[\"0 deg\", \"0 deg\", \"30 deg\"]`",
             ),
             (JointKind::Free, _) => {

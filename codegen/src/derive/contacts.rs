@@ -1,0 +1,134 @@
+//! Joints with clearance: motion of the journal in its bearing, and what contact forces do, [CS (7)-(12)].
+//! In: link motion, wrenches handed in from outside. Out: [`linkwear_runtime::Entry::Contacts`], loads. Never
+//! knows laws of contact: those have branches and live in the runtime.
+//!
+//! A revolute with clearance is free along two directions of the bearing; a ball along all three. Offset and turn
+//! are coordinates of the joint, so the generalised force of a contact wrench on the journal (its opposite acts on
+//! the bearing at the same place) is the wrench itself: J_rel of [CS (8)] is a selection.
+
+use crate::expr::{ExprId, Graph, Vec3};
+use crate::id::JointId;
+use crate::model::JointKind;
+
+use super::across::{joint_axes, sides_of};
+use super::forces::Loads;
+use super::joint_state::JointStates;
+use super::wrench::Wrench;
+
+/// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactWrench {
+    /// The joint.
+    pub joint: JointId,
+    /// [N].
+    pub force: Vec3,
+    /// [N m].
+    pub moment: Vec3,
+}
+
+/// Coordinates of a joint that are its offset.
+fn offsets(kind: &JointKind) -> &'static [usize] {
+    match kind {
+        JointKind::Journal { .. } => &[1, 2],
+        JointKind::Socket => &[3, 4, 5],
+        _ => &[],
+    }
+}
+
+/// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
+pub fn contact_motion(g: &mut Graph, state: &JointStates<'_>, joint: JointId) -> Vec<ExprId> {
+    let linkage = state.geometry.linkage;
+    let data = state.geometry.mechanism.joint(joint);
+    let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
+    if linkage.link_of_joint[joint.index()].is_some() {
+        for (axis, coordinate) in offsets(&data.kind).iter().enumerate() {
+            let link = linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
+            offset[axis] = state.q[linkage.links[link].first_coordinate];
+            rate[axis] = state.v[linkage.links[link].first_speed];
+        }
+        if let Some(ball) = linkage.ball_of(joint) {
+            let relative = state.motion.relative_omega(g, linkage, ball);
+            turn = if linkage.reversed[joint.index()] {
+                g.neg3(relative)
+            } else {
+                g.mul_vec3(state.motion.poses.relative[ball].rotation, relative)
+            };
+        } else {
+            let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
+            turn[2] = state.v[linkage.links[link].first_speed];
+        }
+    } else {
+        let across = state.across(g, joint);
+        let axes = joint_axes(state.geometry, sides_of(state.geometry, joint));
+        let journal = matches!(data.kind, JointKind::Journal { .. });
+        for j in 0..3 {
+            let axis = across.parent_axis(g, &axes, j);
+            if journal && j == 2 {
+                turn[2] = g.dot3(axis, across.omega);
+                continue;
+            }
+            offset[j] = g.dot3(axis, across.distance);
+            rate[j] = g.dot3(axis, across.slide);
+            if !journal {
+                turn[j] = g.dot3(axis, across.omega);
+            }
+        }
+    }
+    let clearance = match &data.clearance {
+        Some(clearance) => state.lower(g, &clearance.radial),
+        None => g.zero(),
+    };
+    offset.into_iter().chain(rate).chain(turn).chain([clearance]).collect()
+}
+
+/// Adds what a contact wrench does.
+pub fn contact_forces(g: &mut Graph, loads: &mut Loads, state: &JointStates<'_>, contact: &ContactWrench) {
+    let linkage = state.geometry.linkage;
+    let joint = contact.joint;
+    let kind = &state.geometry.mechanism.joint(joint).kind;
+    if linkage.link_of_joint[joint.index()].is_none() {
+        let across = state.across(g, joint);
+        let axes = joint_axes(state.geometry, sides_of(state.geometry, joint));
+        let journal = matches!(kind, JointKind::Journal { .. });
+        let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
+        for j in 0..3 {
+            let axis = across.parent_axis(g, &axes, j);
+            if !journal || j < 2 {
+                let part = g.scale3(contact.force[j], axis);
+                force = g.add3(force, part);
+            }
+            if !journal || j == 2 {
+                let part = g.scale3(contact.moment[j], axis);
+                moment = g.add3(moment, part);
+            }
+        }
+        return loads.pair(g, state, joint, &across, moment, force);
+    }
+    for (axis, coordinate) in offsets(kind).iter().enumerate() {
+        let link = linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
+        let speed = linkage.links[link].first_speed;
+        loads.joint[speed] = g.add(loads.joint[speed], contact.force[axis]);
+    }
+    let Some(ball) = linkage.ball_of(joint) else {
+        let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
+        let speed = linkage.links[link].first_speed;
+        loads.joint[speed] = g.add(loads.joint[speed], contact.moment[2]);
+        return;
+    };
+    let rotation = state.motion.poses.relative[ball].rotation;
+    let (own, reaction) = if linkage.reversed[joint.index()] {
+        // The outboard body is the socket, which feels the opposite in its own frame.
+        (g.neg3(contact.moment), g.mul_vec3(rotation, contact.moment))
+    } else {
+        (g.transpose_mul_vec3(rotation, contact.moment), g.neg3(contact.moment))
+    };
+    let first = linkage.links[ball].first_speed;
+    for (i, component) in own.into_iter().enumerate() {
+        loads.joint[first + i] = g.add(loads.joint[first + i], component);
+    }
+    if let Some(parent) = linkage.links[ball].parent {
+        let force = g.zero_vector();
+        let reaction = Wrench { moment: reaction, force };
+        loads.reactions[parent] = loads.reactions[parent].plus(g, reaction);
+    }
+}

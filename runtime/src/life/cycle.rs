@@ -1,0 +1,275 @@
+//! The loop over cycles: measure, follow the mean path, draw, feed back, compare with the threshold.
+//! In: settings, fine scale, draw, state. Out: the state further on, records to an observer, the end of the life.
+//! Never knows whether the fine scale is a table or the dynamics, nor where random numbers come from.
+
+use std::ops::ControlFlow;
+
+use super::draw::IncrementDraw;
+use super::fine::{FineScale, RevolutionWear};
+use super::path::{Path, Walker, rates};
+use super::settings::LifeSettings;
+use super::state::{CycleJoint, CycleRecord, Failure, JointState, LifeState};
+use super::stop::Stop;
+
+/// How a life that did not fail to run came to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// A joint reached its threshold.
+    Failed(Failure),
+    /// The observer stopped it; the state goes on from there.
+    Cancelled,
+    /// It lasts longer than was asked for; the state goes on with a larger limit.
+    CycleLimit,
+}
+
+/// Runs a trajectory to its end. A state that was saved goes on with the same bits as one that was not.
+///
+/// The observer gets every cycle and may stop the life; the state is then at the end of the step, which on the mean
+/// path can be several cycles, all of them observed.
+///
+/// # Errors
+/// If it cannot go on; the state is that after the last whole step and can be kept.
+pub fn run_life<F: FineScale>(
+    settings: &LifeSettings,
+    fine: &mut F,
+    draw: &dyn IncrementDraw,
+    state: &mut LifeState<F::State>,
+    observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
+) -> Result<Outcome, Stop<F::Error>> {
+    settings.check()?;
+    state.check(settings)?;
+    loop {
+        if let Some(failure) = state.failure {
+            return Ok(Outcome::Failed(failure));
+        }
+        if state.cycle >= settings.most_cycles {
+            return Ok(Outcome::CycleLimit);
+        }
+        if advance(settings, fine, draw, state, observer)?.is_break() && state.failure.is_none() {
+            return Ok(Outcome::Cancelled);
+        }
+    }
+}
+
+/// One step: a cycle, or several on the mean path.
+fn advance<F: FineScale>(
+    settings: &LifeSettings,
+    fine: &mut F,
+    draw: &dyn IncrementDraw,
+    state: &mut LifeState<F::State>,
+    observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
+) -> Result<ControlFlow<()>, Stop<F::Error>> {
+    let base = state.joints.clone();
+    let mut walker = Walker {
+        settings,
+        fine,
+        base: &base,
+        state: state.fine.clone(),
+        cycle: state.cycle,
+        measurements: state.measurements,
+    };
+    let measured = match state.measured.clone() {
+        Some(measured) => measured,
+        None => {
+            let width = settings.joints.iter().map(|joint| joint.width()).sum();
+            let mut fine_state = walker.state.clone();
+            let measured = walker.measure(&vec![0.0; width], &mut fine_state)?;
+            walker.state = fine_state;
+            measured
+        }
+    };
+    let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
+    let mut control = state.control;
+    let path = walker.follow(&measured, &mut control, most)?;
+    let (fine_state, measurements) = (walker.state, walker.measurements);
+
+    let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;
+    // From here on nothing fails: the state changes as a whole.
+    for (joint, wear) in measured.iter().enumerate() {
+        let mut seen = wear.observed;
+        seen.depth_per_cycle = cycles.first_increment(joint);
+        settings.joints[joint].limits.warnings(&seen).for_each(|warning| state.warn(joint, warning));
+    }
+    let mut flow = ControlFlow::Continue(());
+    for record in cycles.records(settings, &base, state.cycle, &measured) {
+        if observer(&record).is_break() {
+            flow = ControlFlow::Break(());
+        }
+        if settings.keep_cycles {
+            state.cycles.push(record);
+        }
+    }
+    state.failure = cycles.failure;
+    state.measured = if cycles.is_mean { path.end } else { None };
+    state.cycle += cycles.ends.len() as u64;
+    if let Some((_, last)) = cycles.ends.into_iter().next_back() {
+        state.joints = last;
+    }
+    for (joint, error) in state.joints.iter_mut().zip(&path.error) {
+        joint.error += error;
+    }
+    (state.fine, state.control, state.measurements) = (fine_state, control, measurements);
+    Ok(flow)
+}
+
+/// Whole cycles that a step may cover, from what a revolution wears now: half the way to failure, so that wear that
+/// speeds up does not carry a stage far beyond, where a table ends and a worn joint may not run any more.
+fn reachable<E>(
+    settings: &LifeSettings,
+    base: &[JointState],
+    measured: &[RevolutionWear],
+    cycle: u64,
+    is_mean: bool,
+) -> Result<u64, Stop<E>> {
+    let rates = rates(settings, measured);
+    let (mut rest, mut life) = (rates.as_slice(), f64::INFINITY);
+    for (joint, base) in settings.joints.iter().zip(base) {
+        let (rate, others) = rest.split_at(joint.width());
+        rest = others;
+        let increment = joint.after(base, rate, 1.0).wear - base.wear;
+        if cycle == 0 && increment >= joint.threshold {
+            let (joint, threshold) = (joint.joint.clone(), joint.threshold);
+            return Err(Stop::ThresholdBelowFirstIncrement { joint, threshold, increment });
+        }
+        if joint.decisive(rate).iter().any(|depth| *depth > 0.0) {
+            life = life.min((joint.threshold - base.wear) / increment);
+        }
+    }
+    if life == f64::INFINITY && rates.iter().all(|rate| *rate == 0.0) {
+        return Err(Stop::NoWear { cycle: cycle + 1 });
+    }
+    Ok(if is_mean { (0.5 * life).ceil().max(1.0) as u64 } else { 1 })
+}
+
+/// What the cycles of a path come to, after the draw.
+struct Cycles {
+    /// Mean increments dLambda [m] per joint, and the joints, at the end of every cycle.
+    ends: Vec<(Vec<f64>, Vec<JointState>)>,
+    failure: Option<Failure>,
+    /// Whether the end is that of the mean path, where the next measurement stands already.
+    is_mean: bool,
+}
+
+impl Cycles {
+    /// `origin` is the trajectory's number and the cycles done before.
+    fn of<E>(
+        settings: &LifeSettings,
+        base: &[JointState],
+        path: &Path,
+        draw: &dyn IncrementDraw,
+        (trajectory, done): (u64, u64),
+    ) -> Result<Self, Stop<E>> {
+        let mut cycles = Self { ends: Vec::new(), failure: None, is_mean: true };
+        let mut factors = vec![1.0; base.len()];
+        for cycle in 1..=path.span {
+            let increments = path.at(cycle as f64);
+            let mean = worn(settings, base, &increments, &vec![1.0; base.len()]);
+            let before = cycles.ends.last().map_or(base, |(_, joints)| joints.as_slice());
+            let gains: Vec<f64> = mean.iter().zip(before).map(|(to, from)| to.wear - from.wear).collect();
+            // Without a mean path over several cycles the draw sees every cycle from its own begin.
+            if !draw.is_mean() {
+                for (joint, gain) in gains.iter().enumerate() {
+                    let value = draw.draw(joint, trajectory, done, *gain);
+                    if !(value >= 0.0 && value.is_finite()) {
+                        let (joint, cycle) = (settings.joints[joint].joint.clone(), done + 1);
+                        return Err(Stop::Drawn { joint, cycle, value });
+                    }
+                    factors[joint] = if *gain > 0.0 { value / gain } else { 0.0 };
+                }
+                cycles.is_mean = factors.iter().all(|factor| *factor == 1.0);
+            }
+            let mut joints = if cycles.is_mean { mean } else { worn(settings, base, &increments, &factors) };
+            for ((joint, from), gain) in joints.iter_mut().zip(before).zip(&gains) {
+                joint.exposure = from.exposure + gain;
+            }
+            let failed =
+                (0..base.len()).filter(|joint| joints[*joint].wear >= settings.joints[*joint].threshold);
+            let crossing = |joint: usize| {
+                let time = crossing(settings, base, path, joint, (factors[joint], cycle));
+                Failure { joint, cycles: done as f64 + time, whole_cycles: done + cycle }
+            };
+            cycles.failure = failed.map(crossing).min_by(|a, b| a.cycles.total_cmp(&b.cycles));
+            cycles.ends.push((gains, joints));
+            if cycles.failure.is_some() {
+                break;
+            }
+        }
+        Ok(cycles)
+    }
+
+    /// Mean increment of the first cycle [m].
+    fn first_increment(&self, joint: usize) -> f64 {
+        self.ends.first().map_or(0.0, |(gains, _)| gains[joint])
+    }
+
+    fn records<'c>(
+        &'c self,
+        settings: &'c LifeSettings,
+        base: &'c [JointState],
+        done: u64,
+        measured: &'c [RevolutionWear],
+    ) -> impl Iterator<Item = CycleRecord> + 'c {
+        let record = move |(index, (gains, joints)): (usize, &'c (Vec<f64>, Vec<JointState>))| {
+            let before = if index == 0 { base } else { self.ends[index - 1].1.as_slice() };
+            let joint = |at: usize| CycleJoint {
+                clearance: before[at].clearance,
+                mean_increment: gains[at],
+                increment: joints[at].wear - before[at].wear,
+                wear: joints[at].wear,
+                wear_integral: measured[at].wear_integral,
+                mean_force: measured[at].mean_force,
+                peak_force: measured[at].peak_force,
+                contact_losses: measured[at].contact_losses,
+            };
+            let used = joints.iter().zip(&settings.joints).map(|(state, joint)| state.wear / joint.threshold);
+            CycleRecord {
+                cycle: done + index as u64 + 1,
+                used: used.fold(0.0, f64::max),
+                joints: (0..joints.len()).map(joint).collect(),
+            }
+        };
+        self.ends.iter().enumerate().map(record)
+    }
+}
+
+/// All joints after `factors` times the increments.
+fn worn(
+    settings: &LifeSettings,
+    base: &[JointState],
+    increments: &[f64],
+    factors: &[f64],
+) -> Vec<JointState> {
+    let mut rest = increments;
+    let mut joints = Vec::with_capacity(base.len());
+    for ((joint, base), factor) in settings.joints.iter().zip(base).zip(factors) {
+        let (increment, others) = rest.split_at(joint.width());
+        rest = others;
+        joints.push(joint.after(base, increment, *factor));
+    }
+    joints
+}
+
+/// When, in cycles since the begin of the path, a joint reached its threshold in a cycle of it.
+fn crossing(
+    settings: &LifeSettings,
+    base: &[JointState],
+    path: &Path,
+    joint: usize,
+    (factor, cycle): (f64, u64),
+) -> f64 {
+    let first = settings.joints[..joint].iter().map(|joint| joint.width()).sum::<usize>();
+    let lives = &settings.joints[joint];
+    let is_worn = |time: f64| {
+        let increments = path.at(time);
+        lives.after(&base[joint], &increments[first..first + lives.width()], factor).wear >= lives.threshold
+    };
+    let (mut early, mut late) = ((cycle - 1) as f64, cycle as f64);
+    // Down to neighbouring numbers.
+    loop {
+        let middle = 0.5 * (early + late);
+        if middle <= early || middle >= late {
+            return late;
+        }
+        if is_worn(middle) { late = middle } else { early = middle }
+    }
+}

@@ -1,0 +1,282 @@
+//! The mean path of wear over a cycle, or over several in one step. In: joints at its begin, the fine scale.
+//! Out: mean increments at any time of it, an estimate of their error. Never knows draws, thresholds or records.
+//!
+//! Bogacki and Shampine's pair of order 3 and 2 (Appl. Math. Lett. 2 (1989) 321-325): its last stage is the first of
+//! the next step, which is what counts when a stage costs revolutions of the dynamics.
+
+use super::fine::{FineScale, JointWear, RevolutionWear};
+use super::settings::{Feedback, LifeSettings, WearStep};
+use super::state::{Control, JointState};
+use super::stop::Stop;
+
+/// The next step is at most so many times longer.
+const LARGEST_GROWTH: f64 = 4.0;
+/// And at least this part of the one refused.
+const LARGEST_CUT: f64 = 0.2;
+/// Part of the step that the error would just allow.
+const SAFETY: f64 = 0.9;
+/// What is left of the known noise after a step: a kink that was taken for noise is forgotten in some ten steps.
+const NOISE_KEPT: f64 = 0.9;
+
+/// Mean increments since the begin of a path: per joint the depth [m], then the bins of its profile [m].
+pub(super) type Increments = Vec<f64>;
+
+/// One step of a path: a cubic between two measurements. Times in cycles.
+struct Segment {
+    start: f64,
+    length: f64,
+    from: Increments,
+    to: Increments,
+    from_rate: Increments,
+    to_rate: Increments,
+}
+
+/// A finished path.
+pub(super) struct Path {
+    segments: Vec<Segment>,
+    /// Whole cycles that it covers.
+    pub(super) span: u64,
+    /// What a revolution wears at its end; unknown if geometry was constant.
+    pub(super) end: Option<Vec<RevolutionWear>>,
+    /// Estimated error per joint [cycles].
+    pub(super) error: Vec<f64>,
+}
+
+impl Path {
+    /// Increments at a time in cycles after its begin.
+    pub(super) fn at(&self, time: f64) -> Increments {
+        let index = self.segments.partition_point(|segment| segment.start < time).max(1) - 1;
+        self.segments.get(index).map_or_else(Vec::new, |segment| segment.at(time))
+    }
+}
+
+impl Segment {
+    fn at(&self, time: f64) -> Increments {
+        let part = (time - self.start) / self.length;
+        // Rounding of equal steps must not part the end from what was measured there.
+        if part >= 1.0 - 1e-9 {
+            return self.to.clone();
+        }
+        let value = |i: usize| {
+            let rise = self.to[i] - self.from[i];
+            let (m0, m1) = (self.length * self.from_rate[i], self.length * self.to_rate[i]);
+            let (a, b) = (m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1);
+            ((a * part + b) * part + m0) * part + self.from[i]
+        };
+        (0..self.from.len()).map(value).collect()
+    }
+}
+
+/// Walks along the mean path from where the joints are.
+pub(super) struct Walker<'a, F: FineScale> {
+    pub(super) settings: &'a LifeSettings,
+    pub(super) fine: &'a mut F,
+    /// Joints at the begin.
+    pub(super) base: &'a [JointState],
+    /// State of the fine scale, after every accepted step.
+    pub(super) state: F::State,
+    /// Whole cycles before the path.
+    pub(super) cycle: u64,
+    pub(super) measurements: u64,
+}
+
+/// A step that was tried.
+struct Trial<S> {
+    to: Increments,
+    measured: Vec<RevolutionWear>,
+    state: S,
+    /// Error over gain.
+    ratio: f64,
+    error: Vec<f64>,
+}
+
+impl<F: FineScale> Walker<'_, F> {
+    /// What a revolution wears after these increments.
+    pub(super) fn measure(
+        &mut self,
+        increments: &[f64],
+        state: &mut F::State,
+    ) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+        let mut rest = increments;
+        let mut joints = Vec::with_capacity(self.base.len());
+        for (joint, base) in self.settings.joints.iter().zip(self.base) {
+            let (increment, others) = rest.split_at(joint.width());
+            rest = others;
+            let JointState { clearance, wear, profile, .. } = joint.after(base, increment, 1.0);
+            let profile = profile.filter(|_| joint.feedback == Feedback::Profile);
+            joints.push(JointWear { clearance, wear, profile });
+        }
+        self.measurements += 1;
+        measure(self.settings, self.fine, &joints, state, self.cycle + 1)
+    }
+
+    /// The path from a measurement at its begin over the cycles of one step, at most `most`, or over one cycle.
+    pub(super) fn follow(
+        &mut self,
+        start: &[RevolutionWear],
+        control: &mut Control,
+        most: u64,
+    ) -> Result<Path, Stop<F::Error>> {
+        let rates = rates(self.settings, start);
+        let nothing = vec![0.0; rates.len()];
+        let WearStep::Adaptive { tolerance, shortest, longest } = self.settings.step else {
+            let (from_rate, to_rate) = (rates.clone(), rates.clone());
+            let segment = Segment { start: 0.0, length: 1.0, from: nothing, to: rates, from_rate, to_rate };
+            let error = vec![0.0; self.base.len()];
+            return Ok(Path { segments: vec![segment], span: 1, end: None, error });
+        };
+        // A jump of several cycles is one step.
+        let mut span = (control.step.floor() as u64).clamp(1, most.min(longest).max(1));
+        let mut path = Path { segments: Vec::new(), span, end: None, error: vec![0.0; self.base.len()] };
+        let (mut time, mut from, mut from_rate) = (0.0, nothing, rates);
+        let mut refused: Option<(f64, f64)> = None;
+        loop {
+            let left = span as f64 - time;
+            // Equal steps to the end; a hair of slack keeps rounding from adding one.
+            let length = left / ((left / control.step.max(shortest) - 1e-9).ceil().max(1.0));
+            let trial = self.attempt(&from, &from_rate, length)?;
+            if !accepts(control, trial.ratio, length, refused, (tolerance, shortest)) {
+                refused = Some((length, trial.ratio));
+                span = span.min((control.step.floor() as u64).max(1));
+                path.span = span;
+                continue;
+            }
+            refused = None;
+            let to_rate = self::rates(self.settings, &trial.measured);
+            path.segments.push(Segment {
+                start: time,
+                length,
+                from: core::mem::replace(&mut from, trial.to.clone()),
+                to: trial.to,
+                from_rate: core::mem::replace(&mut from_rate, to_rate.clone()),
+                to_rate,
+            });
+            path.error.iter_mut().zip(&trial.error).for_each(|(sum, more)| *sum += more);
+            self.state = trial.state;
+            // The last of equal steps ends there, up to rounding.
+            time += length;
+            if span as f64 - time < 1e-9 {
+                path.end = Some(trial.measured);
+                return Ok(path);
+            }
+        }
+    }
+
+    /// One step of the pair.
+    fn attempt(&mut self, from: &[f64], k1: &[f64], length: f64) -> Result<Trial<F::State>, Stop<F::Error>> {
+        let mut state = self.state.clone();
+        let moved = |rate: &dyn Fn(usize) -> f64| -> Increments {
+            from.iter().enumerate().map(|(i, value)| value + length * rate(i)).collect()
+        };
+        let measured = self.measure(&moved(&|i| 0.5 * k1[i]), &mut state)?;
+        let k2 = rates(self.settings, &measured);
+        let measured = self.measure(&moved(&|i| 0.75 * k2[i]), &mut state)?;
+        let k3 = rates(self.settings, &measured);
+        let to = moved(&|i| (2.0 * k1[i] + 3.0 * k2[i] + 4.0 * k3[i]) / 9.0);
+        let measured = self.measure(&to, &mut state)?;
+        let k4 = rates(self.settings, &measured);
+        // The pair's own estimate goes with the third derivative alone. Wear that goes with the root of the
+        // clearance (Hertz) has none, although steps err; a second difference of the stages sees it. Its factor
+        // makes both equal for wear that is linear in the clearance.
+        let error = |i: usize| {
+            let own = -5.0 / 72.0 * k1[i] + k2[i] / 12.0 + k3[i] / 9.0 - k4[i] / 8.0;
+            let second = (k1[i] - 2.0 * k2[i] + k4[i]) / 24.0;
+            length * own.abs().max(second.abs())
+        };
+        let errors: Increments = (0..to.len()).map(error).collect();
+        let gains: Increments = to.iter().zip(from).map(|(to, from)| to - from).collect();
+        let (error, ratio) = self.judge(&errors, &gains, length);
+        Ok(Trial { to, measured, state, ratio, error })
+    }
+
+    /// Error per joint in cycles, and the largest error of W over the largest gain, both as parts of the thresholds:
+    /// a joint that hardly wears does not set the step.
+    ///
+    /// An error of W early in life grows with the rate of wear, the same error as a time does not: it can be summed.
+    fn judge(&self, errors: &[f64], gains: &[f64], length: f64) -> (Vec<f64>, f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let (mut first, mut per_joint) = (0, Vec::with_capacity(self.base.len()));
+        let (mut error, mut gain) = (0.0_f64, 0.0_f64);
+        for joint in &self.settings.joints {
+            let next = first + joint.width();
+            let wrong = largest(joint.decisive(&errors[first..next]));
+            let gained = largest(joint.decisive(&gains[first..next]));
+            error = error.max(wrong / joint.threshold);
+            gain = gain.max(gained / joint.threshold);
+            per_joint.push(if gained > 0.0 { wrong / gained * length } else { 0.0 });
+            first = next;
+        }
+        (per_joint, if gain > 0.0 { error / gain } else { 0.0 })
+    }
+}
+
+/// Whether a step of a length is good enough, by its error over its gain and that of a longer one that was refused
+/// before; sets the next step to try.
+fn accepts(
+    control: &mut Control,
+    ratio: f64,
+    length: f64,
+    refused: Option<(f64, f64)>,
+    (tolerance, shortest): (f64, f64),
+) -> bool {
+    // Error over gain goes with the square of the step; what does not shrink even in proportion is noise.
+    if refused.is_some_and(|(before, refused)| ratio > refused * (length / before)) {
+        control.noise = control.noise.max(ratio);
+    }
+    let allowed = tolerance.max(2.0 * control.noise);
+    let factor = SAFETY * libm::sqrt(allowed / ratio.max(f64::MIN_POSITIVE));
+    let accepted = ratio <= allowed || length <= shortest;
+    let factor = if accepted { factor.min(LARGEST_GROWTH) } else { factor.max(LARGEST_CUT) };
+    control.step = (length * factor).max(shortest);
+    if accepted {
+        control.noise *= NOISE_KEPT;
+    }
+    accepted
+}
+
+/// Mean increments per cycle.
+pub(super) fn rates(settings: &LifeSettings, measured: &[RevolutionWear]) -> Increments {
+    let mut rates = Vec::with_capacity(settings.joints.iter().map(|joint| joint.width()).sum());
+    for (joint, wear) in settings.joints.iter().zip(measured) {
+        rates.push(joint.revolutions_per_cycle * wear.depth);
+        if let (Some(_), Some(profile)) = (joint.bins, &wear.profile) {
+            rates.extend(profile.depths().iter().map(|depth| joint.revolutions_per_cycle * depth));
+        }
+    }
+    rates
+}
+
+/// Asks the fine scale in a cycle (from 1), and refuses joints and answers that mean nothing.
+pub(super) fn measure<F: FineScale>(
+    settings: &LifeSettings,
+    fine: &mut F,
+    joints: &[JointWear],
+    state: &mut F::State,
+    cycle: u64,
+) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+    for (joint, worn) in settings.joints.iter().zip(joints) {
+        let clearance = worn.clearance + worn.profile.as_ref().map_or(0.0, |profile| profile.maximum());
+        let (name, journal_radius) = (joint.joint.clone(), joint.journal_radius);
+        if clearance >= journal_radius {
+            return Err(Stop::ClearanceAboveJournal { joint: name, cycle, clearance, journal_radius });
+        }
+    }
+    let measured = fine.measure(joints, state).map_err(|error| Stop::Fine { cycle, error })?;
+    let shape = |what, expected, found| {
+        if expected == found { Ok(()) } else { Err(Stop::Shape { what, expected, found }) }
+    };
+    shape("joints", settings.joints.len(), measured.len())?;
+    for (joint, wear) in settings.joints.iter().zip(&measured) {
+        if let Some(bins) = joint.bins {
+            let found = wear.profile.as_ref().map_or(0, |profile| profile.depths().len());
+            shape("bins of a profile", bins, found)?;
+        }
+        if let Some((name, value)) = wear.flaw() {
+            return Err(Stop::Measured { joint: joint.joint.clone(), cycle, name, value });
+        }
+        if wear.separated > settings.most_separated {
+            return Err(Stop::ContactLost { joint: joint.joint.clone(), cycle, separated: wear.separated });
+        }
+    }
+    Ok(measured)
+}

@@ -1,0 +1,356 @@
+//! What a life is asked to be. In: a joint's description or a caller's numbers. Out: checked settings, and how an
+//! increment changes a joint. Never knows the fine scale.
+
+use thiserror::Error;
+
+use super::state::JointState;
+use crate::ContactInfo;
+use crate::contact::OutOfRange;
+use crate::wear::{Limits, Measure, Profile, ScalarFeedback};
+
+/// What counts as the wear W of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WearOf {
+    /// The depth by the model of the contact area.
+    Depth,
+    /// The mean or maximum of the depth by bearing angle.
+    Profile(Measure),
+}
+
+/// What wear does to the geometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feedback {
+    /// The clearance grows: c_(n+1) = c_n + gamma dW_n.
+    Scalar(ScalarFeedback),
+    /// The gap grows where the profile says so.
+    Profile,
+}
+
+/// How wear is stepped from cycle to cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WearStep {
+    /// One measurement per cycle, geometry constant within it: the recursion of the paper as it stands.
+    Cycle,
+    /// Geometry changes within a cycle; steps are parts of a cycle or, on the mean path, several cycles.
+    Adaptive {
+        /// Error of a step over the wear gained in it.
+        tolerance: f64,
+        /// Shortest step, as a part of a cycle: shorter ones would follow noise.
+        shortest: f64,
+        /// Longest step in cycles.
+        longest: u64,
+    },
+}
+
+impl WearStep {
+    /// For a fine scale that costs seconds.
+    pub const FULL: Self = Self::Adaptive { tolerance: 1e-4, shortest: 0.25, longest: 16 };
+    /// For a table.
+    pub const TABLE: Self = Self::Adaptive { tolerance: 1e-6, shortest: 0.01, longest: 16 };
+    /// For a calibration, which compares lives with each other to seven digits.
+    pub(super) const FINE: Self = Self::Adaptive { tolerance: 1e-7, shortest: 1e-4, longest: 1 };
+}
+
+/// A wearing joint over its life. SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointLife {
+    /// Its name.
+    pub joint: String,
+    /// Radius of the journal or ball [m].
+    pub journal_radius: f64,
+    /// Clearance c0 of the unworn joint [m].
+    pub clearance: f64,
+    /// Wear `W_crit` at which it has failed [m].
+    pub threshold: f64,
+    /// Revolutions that one cycle stands for.
+    pub revolutions_per_cycle: f64,
+    /// What W is.
+    pub wear: WearOf,
+    /// What W does.
+    pub feedback: Feedback,
+    /// Bins of the profile to keep; nothing if none is kept.
+    pub bins: Option<usize>,
+    /// Where the models end.
+    pub limits: Limits,
+}
+
+/// Everything about a life but its fine scale and its draws.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LifeSettings {
+    /// Wearing joints, in the order of the fine scale.
+    pub joints: Vec<JointLife>,
+    /// How wear is stepped.
+    pub step: WearStep,
+    /// Ends a life that has not failed; it may be exceeded by the rest of a jump.
+    pub most_cycles: u64,
+    /// Part of a revolution without contact above which Archard's sliding wear is meaningless.
+    pub most_separated: f64,
+    /// Whether the state keeps the records of all cycles (the observer sees them anyway).
+    pub keep_cycles: bool,
+}
+
+/// Settings or a state that make no sense.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum SettingsError {
+    /// There is nothing to wear.
+    #[error("no joint wears; give a joint with clearance a `[wear]` section")]
+    NoJoint,
+    /// A number of a joint is out of range.
+    #[error("{name} of joint `{joint}` is {value}; it must be {need}")]
+    Joint {
+        /// The joint.
+        joint: String,
+        /// What it is.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        need: &'static str,
+    },
+    /// A number of the run is out of range.
+    #[error("{name} is {value}; it must be {need}")]
+    Run {
+        /// What it is.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        need: &'static str,
+    },
+    /// W or the feedback need a profile, and none is kept.
+    #[error("joint `{joint}` needs a wear profile; give the number of its bins")]
+    NoProfile {
+        /// The joint.
+        joint: String,
+    },
+    /// A table knows wear as one number.
+    #[error(
+        "joint `{joint}` feeds its profile back, which no table of the clearance holds; use full coupling"
+    )]
+    TableOfProfile {
+        /// The joint.
+        joint: String,
+    },
+    /// A saved state is that of another mechanism or other settings.
+    #[error("the saved state does not fit: {what} is {found}, these settings have {expected}; start afresh")]
+    State {
+        /// What differs.
+        what: &'static str,
+        /// In the settings.
+        expected: usize,
+        /// In the state.
+        found: usize,
+    },
+}
+
+impl LifeSettings {
+    /// Settings for these joints with the steps of full coupling.
+    pub fn new(joints: Vec<JointLife>) -> Self {
+        Self { joints, step: WearStep::FULL, most_cycles: 100_000, most_separated: 0.5, keep_cycles: true }
+    }
+
+    /// The same life with the geometry of the unworn joints throughout: the paper's second baseline.
+    #[must_use]
+    pub fn without_feedback(mut self) -> Self {
+        for joint in &mut self.joints {
+            joint.feedback = Feedback::Scalar(ScalarFeedback::NONE);
+        }
+        self
+    }
+
+    /// The same life with cycles of `factor` times as many revolutions.
+    #[must_use]
+    pub fn with_longer_cycles(mut self, factor: f64) -> Self {
+        for joint in &mut self.joints {
+            joint.revolutions_per_cycle *= factor;
+        }
+        self
+    }
+
+    /// Whether everything makes sense.
+    ///
+    /// # Errors
+    /// The first thing that does not.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        if self.joints.is_empty() {
+            return Err(SettingsError::NoJoint);
+        }
+        self.joints.iter().try_for_each(JointLife::check)?;
+        let run = |name, value: f64, need, fits: bool| {
+            if fits { Ok(()) } else { Err(SettingsError::Run { name, value, need }) }
+        };
+        let separated = self.most_separated;
+        let in_unit = separated > 0.0 && separated <= 1.0;
+        run("the accepted part without contact", separated, "above 0 and at most 1", in_unit)?;
+        if let WearStep::Adaptive { tolerance, shortest, longest } = self.step {
+            let in_open = tolerance > 0.0 && tolerance < 1.0;
+            run("the tolerance of the wear step", tolerance, "between 0 and 1", in_open)?;
+            let part = shortest > 0.0 && shortest <= 1.0;
+            run("the shortest wear step", shortest, "above 0 and at most 1 cycle", part)?;
+            run("the longest wear step", longest as f64, "1 cycle or more", longest >= 1)?;
+        }
+        Ok(())
+    }
+}
+
+impl JointLife {
+    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear. W is that of the
+    /// profile if the profile feeds back, else the depth by the model of the area.
+    ///
+    /// # Errors
+    /// If a number of the joint is out of range.
+    pub fn of_contact(contact: &ContactInfo, clearance: f64) -> Result<Option<Self>, SettingsError> {
+        let Some(wear) = contact.wear else { return Ok(None) };
+        let joint = contact.joint.clone().into_owned();
+        let feedback = if wear.profile {
+            Feedback::Profile
+        } else {
+            let wrong = |error: OutOfRange| SettingsError::Joint {
+                joint: joint.clone(),
+                name: error.name,
+                value: error.value,
+                need: error.need,
+            };
+            Feedback::Scalar(ScalarFeedback::new(wear.feedback).map_err(wrong)?)
+        };
+        let lives = Self {
+            joint,
+            journal_radius: contact.journal_radius,
+            clearance,
+            threshold: wear.threshold,
+            revolutions_per_cycle: wear.revolutions_per_cycle,
+            wear: if wear.profile { WearOf::Profile(wear.measure) } else { WearOf::Depth },
+            feedback,
+            bins: wear.profile.then_some(wear.bins),
+            limits: Limits { hardness: wear.hardness, pressure_speed: wear.pressure_speed },
+        };
+        lives.check()?;
+        Ok(Some(lives))
+    }
+
+    fn check(&self) -> Result<(), SettingsError> {
+        let numbers = [
+            ("the journal radius", self.journal_radius),
+            ("the clearance", self.clearance),
+            ("the wear threshold", self.threshold),
+            ("revolutions_per_cycle", self.revolutions_per_cycle),
+        ];
+        let wrong = |name, value, need| SettingsError::Joint { joint: self.joint.clone(), name, value, need };
+        if let Some((name, value)) =
+            numbers.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()))
+        {
+            return Err(wrong(name, value, "finite and above 0"));
+        }
+        match self.bins {
+            Some(bins) if bins < Profile::FEWEST_BINS => {
+                Err(wrong("the number of bins", bins as f64, "4 or more"))
+            }
+            None if self.wear != WearOf::Depth || self.feedback == Feedback::Profile => {
+                Err(SettingsError::NoProfile { joint: self.joint.clone() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Length of the joint's increments: the depth, then the bins of the profile.
+    pub(super) fn width(&self) -> usize {
+        1 + self.bins.unwrap_or(0)
+    }
+
+    /// gamma [1], zero if only the profile feeds back.
+    pub(super) fn gamma(&self) -> f64 {
+        match self.feedback {
+            Feedback::Scalar(feedback) => feedback.gamma(),
+            Feedback::Profile => 0.0,
+        }
+    }
+
+    /// The joint after `factor` times a mean increment (see [`Self::width`]).
+    pub(super) fn after(&self, state: &JointState, increment: &[f64], factor: f64) -> JointState {
+        let profile = state.profile.as_ref().map(|profile| {
+            let mut worn = profile.clone();
+            let fits = worn.add_depths(&increment[1..], factor);
+            debug_assert!(fits, "increments are as wide as the joint says");
+            worn
+        });
+        let wear = match (self.wear, &profile) {
+            (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
+            _ => state.wear + factor * increment[0],
+        };
+        let clearance = match self.feedback {
+            Feedback::Scalar(feedback) => feedback.next_clearance(state.clearance, wear - state.wear),
+            Feedback::Profile => state.clearance,
+        };
+        JointState { clearance, wear, profile, ..*state }
+    }
+
+    /// The part of an increment that W is made of.
+    pub(super) fn decisive<'i>(&self, increment: &'i [f64]) -> &'i [f64] {
+        match self.wear {
+            WearOf::Depth => &increment[..1],
+            WearOf::Profile(_) => &increment[1..],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::WearInfo;
+    use crate::contact::{Restitution, Stiffness};
+    use crate::wear::Area;
+
+    fn contact(wear: Option<WearInfo>) -> ContactInfo {
+        ContactInfo {
+            joint: "R1".into(),
+            ball: false,
+            journal_radius: 0.01,
+            length: 0.02,
+            modulus: 115e9,
+            stiffness: Stiffness::Hertz { modulus: 115e9 },
+            law: Restitution::LankaraniNikravesh,
+            restitution: 0.9,
+            exponent: 1.5,
+            impact_speed_floor: 1e-3,
+            friction: None,
+            wear,
+        }
+    }
+
+    const WEAR: WearInfo = WearInfo {
+        coefficient: 1e-8,
+        hardness: 3.5e9,
+        area: Area::Hertz,
+        measure: Measure::Maximum,
+        feedback: 0.1,
+        profile: false,
+        bins: 72,
+        threshold: 80e-6,
+        revolutions_per_cycle: 1e7,
+        pressure_speed: Some(2e6),
+    };
+
+    #[test]
+    fn a_described_joint_lives_as_its_description_says() {
+        let of = |wear| JointLife::of_contact(&contact(wear), 1e-5);
+        assert_eq!(of(None), Ok(None));
+        let scalar = of(Some(WEAR)).unwrap().unwrap();
+        assert_eq!((scalar.wear, scalar.bins, scalar.gamma()), (WearOf::Depth, None, 0.1));
+        assert_eq!((scalar.clearance, scalar.threshold, scalar.revolutions_per_cycle), (1e-5, 80e-6, 1e7));
+        assert_eq!(scalar.limits, Limits { hardness: 3.5e9, pressure_speed: Some(2e6) });
+        let profile = of(Some(WearInfo { profile: true, ..WEAR })).unwrap().unwrap();
+        assert_eq!((profile.wear, profile.bins), (WearOf::Profile(Measure::Maximum), Some(72)));
+        assert_eq!(profile.feedback, Feedback::Profile);
+        for wrong in [WearInfo { feedback: -1.0, ..WEAR }, WearInfo { threshold: 0.0, ..WEAR }] {
+            assert!(matches!(of(Some(wrong)), Err(SettingsError::Joint { .. })));
+        }
+    }
+
+    #[test]
+    fn without_feedback_geometry_stays() {
+        let profile = JointLife::of_contact(&contact(Some(WearInfo { profile: true, ..WEAR })), 1e-5);
+        let settings = LifeSettings::new(vec![profile.unwrap().unwrap()]).without_feedback();
+        assert_eq!(settings.joints[0].feedback, Feedback::Scalar(ScalarFeedback::NONE));
+        assert_eq!(settings.joints[0].wear, WearOf::Profile(Measure::Maximum));
+    }
+}

@@ -1,0 +1,171 @@
+//! The state of a trajectory as one value: saved, it goes on with the same bits. In: settings. Out: the state and
+//! the records of cycles. Never knows files or formats.
+
+use super::fine::RevolutionWear;
+use super::settings::{LifeSettings, SettingsError};
+use crate::wear::{Profile, Warning};
+
+/// A trajectory between two cycles. `S` is the state of the fine scale.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct LifeState<S> {
+    /// Number of the trajectory, which picks its random numbers.
+    pub trajectory: u64,
+    /// Whole cycles done.
+    pub cycle: u64,
+    /// The wearing joints.
+    pub joints: Vec<JointState>,
+    /// The fine scale.
+    pub fine: S,
+    /// What a revolution wears now, if it was measured already.
+    pub measured: Option<Vec<RevolutionWear>>,
+    /// Control of the wear step.
+    pub control: Control,
+    /// How it ended, if it has.
+    pub failure: Option<Failure>,
+    /// Warnings, the first of each kind and joint.
+    pub warnings: Vec<JointWarning>,
+    /// Records of the cycles, if they are kept.
+    pub cycles: Vec<CycleRecord>,
+    /// Measurements asked of the fine scale.
+    pub measurements: u64,
+}
+
+/// How worn a joint is.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct JointState {
+    /// Clearance [m]; with feedback by profile that of the unworn joint.
+    pub clearance: f64,
+    /// Wear W [m].
+    pub wear: f64,
+    /// Sum Lambda of the mean increments [m].
+    pub exposure: f64,
+    /// Estimated error of the life by the wear steps [cycles], summed over all steps.
+    pub error: f64,
+    /// Depth by bearing angle, if it is kept.
+    pub profile: Option<Profile>,
+}
+
+/// What the step control remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Control {
+    /// Next step to try, in cycles.
+    pub step: f64,
+    /// Relative error that does not shrink with the step: noise of the fine scale.
+    pub noise: f64,
+}
+
+/// The end of a life.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Failure {
+    /// Index of the joint that failed first.
+    pub joint: usize,
+    /// Life in cycles, W = `W_crit` interpolated within the last one.
+    pub cycles: f64,
+    /// Life as an inspection after every cycle sees it.
+    pub whole_cycles: u64,
+}
+
+/// A warning of a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct JointWarning {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Cycle in which it was first seen, counted from 1.
+    pub cycle: u64,
+    /// What is out of range.
+    pub warning: Warning,
+}
+
+/// One cycle.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CycleRecord {
+    /// Its number, counted from 1.
+    pub cycle: u64,
+    /// Largest W over `W_crit` of a joint at its end: 1 or more is failure.
+    pub used: f64,
+    /// The wearing joints.
+    pub joints: Vec<CycleJoint>,
+}
+
+/// A joint in one cycle. Revolutions are those last measured before the cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CycleJoint {
+    /// Clearance at the begin [m].
+    pub clearance: f64,
+    /// Mean increment dLambda [m].
+    pub mean_increment: f64,
+    /// Increment dW [m].
+    pub increment: f64,
+    /// W at the end [m].
+    pub wear: f64,
+    /// Wear integral of a revolution [J].
+    pub wear_integral: f64,
+    /// Mean normal force [N].
+    pub mean_force: f64,
+    /// Largest normal force [N].
+    pub peak_force: f64,
+    /// Losses of contact in a revolution.
+    pub contact_losses: f64,
+}
+
+impl<S: Default> LifeState<S> {
+    /// A trajectory that begins with unworn joints.
+    ///
+    /// # Errors
+    /// If the settings make no sense.
+    pub fn new(settings: &LifeSettings, trajectory: u64) -> Result<Self, SettingsError> {
+        settings.check()?;
+        let joints = settings.joints.iter().map(|joint| JointState {
+            clearance: joint.clearance,
+            wear: 0.0,
+            exposure: 0.0,
+            error: 0.0,
+            profile: joint.bins.and_then(|bins| Profile::unworn(bins).ok()),
+        });
+        Ok(Self {
+            trajectory,
+            cycle: 0,
+            joints: joints.collect(),
+            fine: S::default(),
+            measured: None,
+            control: Control { step: 1.0, noise: 0.0 },
+            failure: None,
+            warnings: Vec::new(),
+            cycles: Vec::new(),
+            measurements: 0,
+        })
+    }
+}
+
+impl<S> LifeState<S> {
+    /// Whether the state is one of these settings.
+    pub(super) fn check(&self, settings: &LifeSettings) -> Result<(), SettingsError> {
+        let same = |what, expected, found| {
+            if expected == found { Ok(()) } else { Err(SettingsError::State { what, expected, found }) }
+        };
+        same("the number of wearing joints", settings.joints.len(), self.joints.len())?;
+        for (joint, state) in settings.joints.iter().zip(&self.joints) {
+            let found = state.profile.as_ref().map_or(0, |profile| profile.depths().len());
+            same("the number of bins of a profile", joint.bins.unwrap_or(0), found)?;
+        }
+        let measured = self.measured.as_ref().map_or(settings.joints.len(), Vec::len);
+        same("the number of measured joints", settings.joints.len(), measured)
+    }
+
+    /// Notes a warning unless the joint had one of its kind; numbers are those of the first.
+    pub(super) fn warn(&mut self, joint: usize, warning: Warning) {
+        let kind = core::mem::discriminant(&warning);
+        let known =
+            |seen: &JointWarning| seen.joint == joint && core::mem::discriminant(&seen.warning) == kind;
+        if !self.warnings.iter().any(known) {
+            self.warnings.push(JointWarning { joint, cycle: self.cycle + 1, warning });
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! `table` coupling: what a revolution wears, measured once along the life and looked up afterwards.
+//! In: a fine scale, settings. Out: a fine scale that costs nothing, and what is known of its error.
+//! Never knows trajectories.
+//!
+//! Points are equally spaced in the logarithm of the clearance from c0 to c0 + gamma `W_crit`; between them depth
+//! and wear integral are monotone cubics, log over log. Several joints would need a grid in all their clearances;
+//! instead each has its table along the path that all of them take in the deterministic life. That assumes that a
+//! joint wears nearly alike when the others are worn more or less than on that path; [`TableReport::others`] says
+//! how nearly, by the extreme case.
+
+use core::convert::Infallible;
+
+use super::fine::{FineScale, JointWear, RevolutionWear};
+use super::interpolate::{Curve, find};
+use super::path::measure;
+use super::settings::{Feedback, JointLife, LifeSettings, SettingsError};
+use super::stop::Stop;
+use crate::wear::{Observed, Profile};
+
+/// Points of a table unless told otherwise.
+pub const DEFAULT_POINTS: usize = 17;
+
+/// What revolutions wear, by the wear of their joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    joints: Vec<JointTable>,
+    report: TableReport,
+}
+
+/// What a table was made from and how good it is. Errors are relative, of the depth per revolution.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TableReport {
+    /// Points along the life.
+    pub points: usize,
+    /// Measurements spent.
+    pub measurements: usize,
+    /// Largest error of a table with every second point at the points left out: per joint, an upper estimate for the
+    /// whole table unless its points miss a resonance altogether.
+    pub left_out: Vec<f64>,
+    /// Per joint, difference between the table and a joint that is unworn while all others are at the end of their
+    /// life: the most that "each along the common path" can be wrong. Nothing with one joint.
+    pub others: Option<Vec<f64>>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct JointTable {
+    /// Wear that doubles the clearance [m]: places are ln(1 + W/scale).
+    scale: f64,
+    places: Vec<f64>,
+    depth: Curve,
+    wear_integral: Curve,
+    mean_force: Curve,
+    peak_force: Curve,
+    contact_losses: Curve,
+    separated: Curve,
+    bins: Vec<Curve>,
+    observed: Vec<Observed>,
+}
+
+/// Wear of all joints and what a revolution does there.
+struct Point {
+    wear: Vec<f64>,
+    measured: Vec<RevolutionWear>,
+}
+
+impl Table {
+    /// Measures `points` points along the deterministic life (more with several joints, which need a predictor each).
+    /// `progress` gets the finished part, 0 to 1.
+    ///
+    /// # Errors
+    /// If the settings make no sense or feed a profile back, or as [`Stop`] says.
+    pub fn measure<F: FineScale>(
+        settings: &LifeSettings,
+        fine: &mut F,
+        points: usize,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, Stop<F::Error>> {
+        settings.check()?;
+        if points < 3 {
+            let (name, need) = ("the number of points of a table", "3 or more");
+            return Err(SettingsError::Run { name, value: points as f64, need }.into());
+        }
+        if let Some(joint) = settings.joints.iter().find(|joint| joint.feedback == Feedback::Profile) {
+            return Err(SettingsError::TableOfProfile { joint: joint.joint.clone() }.into());
+        }
+        let mut survey = Survey { settings, fine, state: F::State::default(), measurements: 0 };
+        let path = survey.path(points, progress)?;
+        let joints: Vec<JointTable> =
+            (0..settings.joints.len()).map(|joint| JointTable::of(settings, &path, joint)).collect();
+        let others = if joints.len() > 1 { Some(survey.others(&path, &joints)?) } else { None };
+        let left_out = (0..joints.len()).map(|joint| left_out(settings, &path, joint)).collect();
+        let report = TableReport { points: path.len(), measurements: survey.measurements, left_out, others };
+        Ok(Self { joints, report })
+    }
+
+    /// What a revolution wears at a joint (index among the wearing joints) worn by W [m].
+    pub fn at(&self, joint: usize, wear: f64) -> RevolutionWear {
+        self.joints[joint].at(wear)
+    }
+
+    /// What it was made from and how good it is.
+    pub fn report(&self) -> &TableReport {
+        &self.report
+    }
+}
+
+impl FineScale for Table {
+    type State = ();
+    type Error = Infallible;
+
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+        Ok(self.joints.iter().zip(joints).map(|(table, joint)| table.at(joint.wear)).collect())
+    }
+}
+
+/// Wear that doubles the clearance [m]; without feedback only the others' wear counts, and any scale does.
+fn scale(joint: &JointLife) -> f64 {
+    let gamma = joint.gamma();
+    if gamma > 0.0 { joint.clearance / gamma } else { joint.threshold }
+}
+
+impl JointTable {
+    fn of(settings: &LifeSettings, path: &[Point], joint: usize) -> Self {
+        let scale = scale(&settings.joints[joint]);
+        let mut places: Vec<f64> = Vec::with_capacity(path.len());
+        let mut points: Vec<&RevolutionWear> = Vec::with_capacity(path.len());
+        for point in path {
+            let place = libm::log1p(point.wear[joint] / scale);
+            // A joint that does not wear stays at one place.
+            if places.last().is_none_or(|last| place > last + 1e-12) {
+                places.push(place);
+                points.push(&point.measured[joint]);
+            }
+        }
+        let column =
+            |of: fn(&RevolutionWear) -> f64| points.iter().map(|point| of(point)).collect::<Vec<_>>();
+        let bin = |bin: usize| {
+            let depth = |point: &&RevolutionWear| point.profile.as_ref().map_or(0.0, |p| p.depths()[bin]);
+            Curve::plain(&places, points.iter().map(depth).collect())
+        };
+        let bins = (0..settings.joints[joint].bins.unwrap_or(0)).map(bin).collect();
+        Self {
+            scale,
+            depth: Curve::logarithmic(&places, column(|wear| wear.depth)),
+            wear_integral: Curve::logarithmic(&places, column(|wear| wear.wear_integral)),
+            mean_force: Curve::plain(&places, column(|wear| wear.mean_force)),
+            peak_force: Curve::plain(&places, column(|wear| wear.peak_force)),
+            contact_losses: Curve::plain(&places, column(|wear| wear.contact_losses)),
+            separated: Curve::plain(&places, column(|wear| wear.separated)),
+            bins,
+            observed: points.iter().map(|point| point.observed).collect(),
+            places,
+        }
+    }
+
+    fn at(&self, wear: f64) -> RevolutionWear {
+        let cell = find(&self.places, libm::log1p(wear / self.scale));
+        // Only beyond the last point can a line fall below zero.
+        let value = |curve: &Curve| curve.at(cell).max(0.0);
+        let depths: Vec<f64> = self.bins.iter().map(value).collect();
+        RevolutionWear {
+            wear_integral: value(&self.wear_integral),
+            depth: value(&self.depth),
+            profile: if depths.is_empty() { None } else { Profile::try_from(depths).ok() },
+            mean_force: value(&self.mean_force),
+            peak_force: value(&self.peak_force),
+            contact_losses: value(&self.contact_losses),
+            separated: value(&self.separated).min(1.0),
+            observed: self.observed[cell.nearest()],
+        }
+    }
+}
+
+/// Largest relative error at the points left out of a table with every second point.
+fn left_out(settings: &LifeSettings, path: &[Point], joint: usize) -> f64 {
+    let last = path.len() - 1;
+    let kept = |index: &usize| index.is_multiple_of(2) || *index == last;
+    let point =
+        |index: usize| Point { wear: path[index].wear.clone(), measured: path[index].measured.clone() };
+    let half: Vec<Point> = (0..path.len()).filter(kept).map(point).collect();
+    let table = JointTable::of(settings, &half, joint);
+    let lives = &settings.joints[joint];
+    let error =
+        |index: usize| difference(lives, &path[index].measured[joint], &table.at(path[index].wear[joint]));
+    (0..path.len()).filter(|index| !kept(index)).map(error).fold(0.0, f64::max)
+}
+
+/// Relative difference of what two revolutions add to W.
+fn difference(joint: &JointLife, truth: &RevolutionWear, table: &RevolutionWear) -> f64 {
+    let (truth, table) = (gain(joint, truth), gain(joint, table));
+    if truth == table { 0.0 } else { (table - truth).abs() / truth.abs().max(f64::MIN_POSITIVE) }
+}
+
+/// W that one cycle adds to an unworn joint [m].
+fn gain(joint: &JointLife, wear: &RevolutionWear) -> f64 {
+    use super::settings::WearOf;
+    let per_revolution = match (joint.wear, &wear.profile) {
+        (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
+        _ => wear.depth,
+    };
+    joint.revolutions_per_cycle * per_revolution
+}
+
+/// Measures along the deterministic life.
+struct Survey<'a, F: FineScale> {
+    settings: &'a LifeSettings,
+    fine: &'a mut F,
+    state: F::State,
+    measurements: usize,
+}
+
+impl<F: FineScale> Survey<'_, F> {
+    fn measure(&mut self, wear: &[f64]) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+        let worn = |(joint, wear): (&JointLife, &f64)| JointWear {
+            clearance: joint.clearance + joint.gamma() * wear,
+            wear: *wear,
+            profile: None,
+        };
+        let joints: Vec<JointWear> = self.settings.joints.iter().zip(wear).map(worn).collect();
+        self.measurements += 1;
+        measure(self.settings, self.fine, &joints, &mut self.state, 1)
+    }
+
+    /// Points at which the joint that leads has its places; the others are where they are then (Heun's method).
+    fn path(&mut self, points: usize, progress: &mut dyn FnMut(f64)) -> Result<Vec<Point>, Stop<F::Error>> {
+        let joints = &self.settings.joints;
+        let mut wear = vec![0.0; joints.len()];
+        let mut measured = self.measure(&wear)?;
+        let gains = |measured: &[RevolutionWear]| -> Vec<f64> {
+            joints.iter().zip(measured).map(|(joint, wear)| gain(joint, wear)).collect()
+        };
+        let pace = |gains: &[f64], joint: usize| gains[joint] / joints[joint].threshold;
+        let first = gains(&measured);
+        let lead = (0..joints.len())
+            .fold(0, |lead, joint| if pace(&first, joint) > pace(&first, lead) { joint } else { lead });
+        if first[lead] == 0.0 {
+            return Err(Stop::NoWear { cycle: 1 });
+        }
+        let mut path = vec![Point { wear: wear.clone(), measured: measured.clone() }];
+        if joints.iter().all(|joint| joint.gamma() == 0.0) {
+            return Ok(path);
+        }
+        let scale = scale(&joints[lead]);
+        let end = libm::log1p(joints[lead].threshold / scale);
+        for index in 1..points {
+            let next = scale * libm::expm1(end * index as f64 / (points - 1) as f64);
+            let before = gains(&measured);
+            let step = next - wear[lead];
+            let moved = |share: &dyn Fn(usize) -> f64| -> Vec<f64> {
+                let place = |(joint, wear): (usize, &f64)| {
+                    if joint == lead { next } else { wear + step * share(joint) }
+                };
+                wear.iter().enumerate().map(place).collect()
+            };
+            let mut there = moved(&|joint| before[joint] / before[lead]);
+            if joints.len() > 1 {
+                let after = gains(&self.measure(&there)?);
+                if after[lead] == 0.0 {
+                    return Err(Stop::NoWear { cycle: 1 });
+                }
+                there = moved(&|joint| 0.5 * (before[joint] / before[lead] + after[joint] / after[lead]));
+            }
+            measured = self.measure(&there)?;
+            if gains(&measured)[lead] == 0.0 {
+                return Err(Stop::NoWear { cycle: 1 });
+            }
+            wear = there;
+            path.push(Point { wear: wear.clone(), measured: measured.clone() });
+            progress(index as f64 / (points - 1) as f64);
+        }
+        Ok(path)
+    }
+
+    /// Each joint unworn while the others are at the end of the path, against its table.
+    fn others(&mut self, path: &[Point], tables: &[JointTable]) -> Result<Vec<f64>, Stop<F::Error>> {
+        let Some(end) = path.last() else { return Ok(Vec::new()) };
+        let mut errors = Vec::with_capacity(tables.len());
+        for (joint, table) in tables.iter().enumerate() {
+            let mut wear = end.wear.clone();
+            wear[joint] = 0.0;
+            let measured = self.measure(&wear)?;
+            errors.push(difference(&self.settings.joints[joint], &measured[joint], &table.at(0.0)));
+        }
+        Ok(errors)
+    }
+}

@@ -1,0 +1,6 @@
+//! Lives over analytic fine scales, whose wear per revolution is a formula of the clearance.
+
+mod analytic;
+mod stops;
+mod tables;
+mod trajectories;

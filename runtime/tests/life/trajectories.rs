@@ -1,0 +1,336 @@
+//! Trajectories with their own fine scale: against exact lives, through a saved state, with draws.
+
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+use linkwear_runtime::life::{
+    Feedback, FineScale, IncrementDraw, JointWear, LifeSettings, LifeState, Mean, Outcome, RevolutionWear,
+    WearOf, WearStep, run_life,
+};
+use linkwear_runtime::wear::{Measure, Profile};
+
+use crate::analytic::{
+    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, exact_revolutions, go_on, joint, live, revolution, settings,
+    with_profile,
+};
+
+/// Exponents of the area models, and constant wear.
+const EXPONENTS: [f64; 4] = [0.0, 0.005, 1.0 / 3.0, 0.5];
+
+#[test]
+fn lives_of_the_area_models_are_those_of_their_differential_equation() {
+    for exponent in EXPONENTS {
+        for gamma in [0.0, 0.1, 1.0] {
+            for tolerance in [1e-3, 1e-5, 1e-7] {
+                let settings = settings(exponent, gamma, 25.1, adaptive(tolerance));
+                let (life, _) = live(&settings, &mut Powers::one(exponent)).unwrap();
+                // The tolerance bounds the error of order 2 per step, kept is that of order 3; rounding 1e-13.
+                assert!(
+                    (life / 25.1 - 1.0).abs() < tolerance + 1e-13,
+                    "{exponent} {gamma} {tolerance}: {life}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn full_coupling_needs_few_measurements_and_none_far_beyond_failure() {
+    let mut fine = Powers::one(0.5);
+    let (life, state) = live(&settings(0.5, 1.0, 25.1, WearStep::FULL), &mut fine).unwrap();
+    // 0.02 cycle of 25 is what table and full coupling may differ by; a tenth of that is left to the steps.
+    assert!((life - 25.1).abs() < 2e-3, "{life}");
+    // One step of three per cycle would be 79.
+    assert!(fine.calls < 79, "{}", fine.calls);
+    assert_eq!(state.measurements, fine.calls as u64);
+    // The last step ends with the whole cycle in which the joint fails: a 25th, twice as fast at the end.
+    assert!(fine.most_wear < 1.1 * THRESHOLD, "{}", fine.most_wear);
+}
+
+#[test]
+fn estimated_error_covers_the_true_one() {
+    for exponent in [1.0 / 3.0, 0.5] {
+        let settings = settings(exponent, 1.0, 25.1, adaptive(1e-3));
+        let (life, state) = live(&settings, &mut Powers::one(exponent)).unwrap();
+        let estimate = state.joints[0].error;
+        // An estimate far above the tolerance, 0.025 cycle in all, would say nothing.
+        assert!((life - 25.1).abs() < estimate && estimate < 0.026, "{life} {estimate}");
+    }
+}
+
+#[test]
+fn wear_steps_are_of_third_order() {
+    // Steps of one cycle; the same life in 8, 16 and 32 cycles, wear after half of it.
+    let wear = |cycles: u32| {
+        let step = WearStep::Adaptive { tolerance: 0.9, shortest: 1.0, longest: 1 };
+        let settings = settings(0.5, 1.0, f64::from(cycles), step);
+        let (_, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
+        state.cycles[cycles as usize / 2 - 1].joints[0].wear
+    };
+    // x = (1 + g n/2)^2 at half the life with sqrt(x) from 1 to 3: x = 4.
+    let exact = 3.0 * C0;
+    let errors = [8, 16, 32].map(|cycles| (wear(cycles) - exact).abs());
+    for pair in errors.windows(2) {
+        // Order 3 is a factor 8; terms of order 4 are still seen.
+        assert!((6.5..9.5).contains(&(pair[0] / pair[1])), "{errors:?}");
+    }
+}
+
+#[test]
+fn the_recursion_of_the_paper_is_taken_literally() {
+    let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
+    let (life, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
+    let (mut clearance, mut wear, mut cycle) = (C0, 0.0, 0.0);
+    let last = loop {
+        let increment = settings.joints[0].revolutions_per_cycle * DEPTH * (clearance / C0).powf(0.5);
+        if wear + increment >= THRESHOLD {
+            break cycle + (THRESHOLD - wear) / increment;
+        }
+        (clearance, wear, cycle) = (clearance + increment, wear + increment, cycle + 1.0);
+        let record = &state.cycles[cycle as usize - 1];
+        // Same operations in another order, 25 times.
+        assert!((record.joints[0].wear / wear - 1.0).abs() < 1e-14);
+        assert_eq!(record.joints[0].increment, record.joints[0].mean_increment);
+    };
+    assert!((life / last - 1.0).abs() < 1e-14, "{life} {last}");
+    assert_eq!(state.failure.unwrap().whole_cycles, last.ceil() as u64);
+    // Feedback once per cycle lags by half a cycle: the life is longer than 25.1 by less than one.
+    assert!(life > 25.1 && life < 26.1);
+}
+
+#[test]
+fn records_are_those_of_whole_cycles_whatever_the_steps() {
+    let settings = settings(0.5, 1.0, 25.1, WearStep::FULL);
+    let (_, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
+    assert_eq!(state.cycles.len(), 26);
+    for (index, record) in state.cycles.iter().enumerate() {
+        let joint = record.joints[0];
+        assert_eq!(record.cycle, index as u64 + 1);
+        // sqrt(x) grows evenly from 1 to 3 over 25.1 cycles; steps may err by their tolerance.
+        let exact = C0 * ((1.0 + 2.0 * record.cycle as f64 / 25.1).powi(2) - 1.0);
+        assert!((joint.wear / exact - 1.0).abs() < 1e-4, "{}: {} {exact}", record.cycle, joint.wear);
+        assert_eq!(record.used, joint.wear / THRESHOLD);
+        let before = if index == 0 { 0.0 } else { state.cycles[index - 1].joints[0].wear };
+        assert_eq!(joint.increment, joint.wear - before);
+        // c = c0 + gamma W: a few roundings of 1e-4 m.
+        assert!((joint.clearance - C0 - before).abs() < 1e-19);
+    }
+    let joint = &state.joints[0];
+    assert!((joint.exposure / joint.wear - 1.0).abs() < 1e-14, "the mean path adds up to the wear");
+}
+
+#[test]
+fn without_feedback_wear_is_even_and_one_measurement_per_stage_is_enough() {
+    let fed_back = settings(0.5, 0.1, 25.1, WearStep::FULL);
+    let (short, _) = live(&fed_back, &mut Powers::one(0.5)).unwrap();
+    let settings = fed_back.without_feedback();
+    let (life, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
+    let exact = THRESHOLD / (settings.joints[0].revolutions_per_cycle * DEPTH);
+    // Some additions of equal increments.
+    assert!((life / exact - 1.0).abs() < 1e-13 && life > short);
+    assert!(state.joints[0].clearance == C0 && state.measurements < 40, "{}", state.measurements);
+}
+
+#[test]
+fn the_first_of_several_joints_ends_the_life() {
+    // Uncoupled joints of 30, 20 and 40 cycles.
+    let lives = [30.0, 20.0, 40.0];
+    let joints: Vec<_> =
+        lives.iter().map(|life| joint("R", exact_revolutions(0.5, 1.0) / life, 1.0)).collect();
+    let settings = LifeSettings { step: adaptive(1e-6), ..LifeSettings::new(joints) };
+    let mut fine = Powers::new(vec![(DEPTH, 0.5, 0.0); 3]);
+    let (life, state) = live(&settings, &mut fine).unwrap();
+    assert!((life - 20.0).abs() < 20.0 * 1e-6, "{life}");
+    assert_eq!(state.failure.unwrap().joint, 1);
+    // At cycle n, sqrt(x) is 1 + 2 n/life for each.
+    let end = &state.cycles[9];
+    for (joint, life) in end.joints.iter().zip(lives) {
+        let exact = C0 * ((1.0 + 20.0 / life).powi(2) - 1.0);
+        // Steps are kept to 1e-6 of the fastest joint.
+        assert!((joint.wear / exact - 1.0).abs() < 2e-6, "{} {exact}", joint.wear);
+    }
+}
+
+#[test]
+fn coupled_joints_follow_their_common_equation() {
+    // Each wears with the other's clearance: dx/dn = g y, dy/dn = g x from (1, 1) is x = y = exp(g n).
+    let revolutions = exact_revolutions(1.0, 1.0) / 25.1;
+    let joints = vec![joint("R1", revolutions, 1.0), joint("R2", revolutions, 1.0)];
+    let settings = LifeSettings { step: adaptive(1e-6), ..LifeSettings::new(joints) };
+    let (life, state) = live(&settings, &mut Powers::new(vec![(DEPTH, 0.0, 1.0); 2])).unwrap();
+    assert!((life / 25.1 - 1.0).abs() < 1e-6, "{life}");
+    assert_eq!(state.failure.unwrap().joint, 0);
+}
+
+/// Wear by angle: even wear of an arc; depth of the area's model twice the profile's mean.
+struct Arc {
+    /// Profiles that were handed in.
+    seen: Vec<Option<Profile>>,
+}
+
+impl FineScale for Arc {
+    type State = ();
+    type Error = Infallible;
+
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+        self.seen.push(joints[0].profile.clone());
+        // The more the profile is worn, the less it wears: conformity.
+        let worn = joints[0].profile.as_ref().map_or(0.0, |profile| profile.maximum());
+        let profile = arc(DEPTH / (1.0 + worn / THRESHOLD));
+        let depth = 2.0 * profile.mean();
+        Ok(vec![RevolutionWear { profile: Some(profile), ..revolution(depth, joints[0].clearance) }])
+    }
+}
+
+#[test]
+fn a_profile_fed_back_gains_what_the_revolutions_deposit() {
+    for measure in [Measure::Mean, Measure::Maximum] {
+        let joint = with_profile(joint("R1", 2e7, 0.0), WearOf::Profile(measure), Feedback::Profile);
+        let settings = LifeSettings { step: adaptive(1e-6), ..LifeSettings::new(vec![joint]) };
+        let mut fine = Arc { seen: Vec::new() };
+        let (_, state) = live(&settings, &mut fine).unwrap();
+        let end = &state.joints[0];
+        let worn = end.profile.as_ref().unwrap();
+        // W is read off the profile; the clearance of the unworn joint stays.
+        assert_eq!((end.wear, end.clearance), (measure.of(worn.depths()), C0));
+        assert!(fine.seen.iter().all(Option::is_some) && end.wear >= THRESHOLD);
+        // The shape is that of the arc, scaled: volume is conserved in every bin. Roundings of 100 steps.
+        let unit = arc(1.0);
+        let scale = worn.maximum() / unit.maximum();
+        for (depth, share) in worn.depths().iter().zip(unit.depths()) {
+            assert!((depth - scale * share).abs() <= 1e-13 * worn.maximum());
+        }
+        // y' = N d m/(1 + y/W_crit) for the maximum y: y + y^2/(2 W_crit) = N d m n, at every whole cycle.
+        let per_cycle = 2e7 * DEPTH * unit.maximum();
+        let (maximum, cycle) = (worn.maximum(), state.cycle as f64);
+        let exact = maximum + maximum * maximum / (2.0 * THRESHOLD);
+        assert!((exact / (per_cycle * cycle) - 1.0).abs() < 2e-6, "{measure:?}");
+    }
+}
+
+#[test]
+fn wear_by_profile_can_feed_back_as_one_number() {
+    let scalar = joint("R1", 2e7, 0.5).feedback;
+    let joint = with_profile(joint("R1", 2e7, 0.5), WearOf::Profile(Measure::Mean), scalar);
+    let settings = LifeSettings { step: adaptive(1e-6), ..LifeSettings::new(vec![joint]) };
+    let mut fine = Arc { seen: Vec::new() };
+    let (_, state) = live(&settings, &mut fine).unwrap();
+    let end = &state.joints[0];
+    // The fine scale sees the clearance alone; c0 + gamma W up to roundings of 1e-4 m.
+    assert!(fine.seen.iter().all(Option::is_none));
+    assert!((end.clearance - C0 - 0.5 * end.wear).abs() < 1e-18);
+    assert_eq!(end.wear, end.profile.as_ref().unwrap().mean());
+}
+
+/// Depends on what it did before, as unsettled dynamics do.
+#[derive(Default)]
+struct Remembering;
+
+impl FineScale for Remembering {
+    type State = f64;
+    type Error = Infallible;
+
+    fn measure(&mut self, joints: &[JointWear], memory: &mut f64) -> Result<Vec<RevolutionWear>, Infallible> {
+        *memory = 0.9 * *memory + 0.1 * (1e4 * joints[0].clearance).sin();
+        let depth = DEPTH * (1.0 + 0.05 * *memory) * (joints[0].clearance / C0).sqrt();
+        Ok(vec![revolution(depth, joints[0].clearance)])
+    }
+}
+
+/// Something between 0.5 and 1.5 times the mean, by cycle and trajectory.
+struct Scatter;
+
+impl IncrementDraw for Scatter {
+    fn draw(&self, joint: usize, trajectory: u64, cycle: u64, mean: f64) -> f64 {
+        mean * (0.5 + ((cycle * 7 + trajectory * 3 + joint as u64 * 5) % 11) as f64 / 10.0)
+    }
+}
+
+#[test]
+fn a_life_that_was_stopped_goes_on_with_the_same_bits() {
+    for step in [WearStep::Cycle, WearStep::FULL, adaptive(1e-7)] {
+        for draw in [&Mean as &dyn IncrementDraw, &Scatter] {
+            let settings = settings(0.5, 1.0, 25.1, step);
+            let mut whole = LifeState::new(&settings, 3).unwrap();
+            run_life(&settings, &mut Remembering, draw, &mut whole, &mut go_on).unwrap();
+            let mut pieces = LifeState::new(&settings, 3).unwrap();
+            let mut stops = 0;
+            while run_life(&settings, &mut Remembering, draw, &mut pieces, &mut |_| ControlFlow::Break(()))
+                .unwrap()
+                == Outcome::Cancelled
+            {
+                stops += 1;
+            }
+            assert!(stops >= 3, "{stops}");
+            assert_eq!(pieces, whole);
+        }
+    }
+}
+
+#[test]
+fn draws_feed_back_and_keep_the_mean_apart_from_the_wear() {
+    let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
+    let mut state = LifeState::new(&settings, 3).unwrap();
+    run_life(&settings, &mut Powers::one(0.5), &Scatter, &mut state, &mut go_on).unwrap();
+    let mut clearance = C0;
+    for (cycle, record) in state.cycles.iter().enumerate() {
+        let joint = record.joints[0];
+        let mean = settings.joints[0].revolutions_per_cycle * DEPTH * (clearance / C0).sqrt();
+        // Increments are differences of wears of 1e-4 m: roundings of 1e-20 m.
+        assert!((joint.mean_increment - mean).abs() < 1e-18, "{cycle}");
+        assert!((joint.increment - Scatter.draw(0, 3, cycle as u64, mean)).abs() < 1e-18, "{cycle}");
+        clearance += joint.increment;
+    }
+    let failure = state.failure.unwrap();
+    assert!(
+        failure.cycles > (failure.whole_cycles - 1) as f64 && failure.cycles <= failure.whole_cycles as f64
+    );
+    assert!((state.joints[0].exposure / state.joints[0].wear - 1.0).abs() > 1e-3, "Lambda is not W");
+}
+
+/// A draw that is the mean, but does not say so: cycle by cycle.
+struct Quiet;
+
+impl IncrementDraw for Quiet {
+    fn draw(&self, _: usize, _: u64, _: u64, mean: f64) -> f64 {
+        mean
+    }
+}
+
+#[test]
+fn a_draw_equal_to_the_mean_lives_as_long_as_the_mean_path() {
+    let settings = settings(0.5, 1.0, 25.1, adaptive(1e-6));
+    let mut state = LifeState::new(&settings, 0).unwrap();
+    run_life(&settings, &mut Powers::one(0.5), &Quiet, &mut state, &mut go_on).unwrap();
+    let (life, _) = live(&settings, &mut Powers::one(0.5)).unwrap();
+    // Both within their tolerance of 25.1.
+    assert!((state.failure.unwrap().cycles - life).abs() < 2.0 * 25.1 * 1e-6);
+}
+
+/// Wear with noise of 1 %, as a chattering mechanism has it.
+struct Noisy {
+    calls: usize,
+}
+
+impl FineScale for Noisy {
+    type State = u64;
+    type Error = Infallible;
+
+    fn measure(&mut self, joints: &[JointWear], count: &mut u64) -> Result<Vec<RevolutionWear>, Infallible> {
+        self.calls += 1;
+        *count += 1;
+        let noise = (*count as f64 * 0.618_034).fract() - 0.5;
+        Ok(vec![revolution(DEPTH * (1.0 + 0.02 * noise), joints[0].clearance)])
+    }
+}
+
+#[test]
+fn noise_does_not_drive_the_steps_to_nothing() {
+    let settings = settings(0.0, 1.0, 25.1, adaptive(1e-6));
+    let mut fine = Noisy { calls: 0 };
+    let (life, _) = live(&settings, &mut fine).unwrap();
+    // Noise of 1 % averages out over tens of measurements.
+    assert!((life - 25.1).abs() < 0.05, "{life}");
+    // The shortest step would be 1000 per cycle, 75,000 measurements.
+    assert!(fine.calls < 400, "{}", fine.calls);
+}
