@@ -68,10 +68,13 @@ impl ClosedPositions {
     }
 }
 
-/// Evaluates an entry with a fresh workspace.
+/// Evaluates an entry with a fresh workspace; contact wrenches, the last inputs, are zero where not given.
 pub fn evaluate(system: &dyn System<f64>, entry: Entry, input: &[f64], output: &mut [f64]) {
-    let mut workspace = vec![0.0; system.sizes().workspace];
-    system.evaluate(entry, input, output, &mut workspace);
+    let sizes = system.sizes();
+    let mut workspace = vec![0.0; sizes.workspace];
+    let mut all = input.to_vec();
+    all.resize(sizes.input(entry), 0.0);
+    system.evaluate(entry, &all, output, &mut workspace);
 }
 
 struct Walker<'a> {
