@@ -107,7 +107,8 @@ fn text(compiled: &Compiled) -> String {
     }
     for body in &mechanism.bodies {
         if let Some(flexible) = &body.flexible {
-            let _ = write!(text, "\nModes of {}\n{}", body.name, short_table(&["", "Hz"], mode_rows(flexible)));
+            let _ =
+                write!(text, "\nModes of {}\n{}", body.name, short_table(&["", "Hz"], mode_rows(flexible)));
         }
     }
     if !mechanism.joints.is_empty() {

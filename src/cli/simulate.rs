@@ -6,7 +6,10 @@ use std::time::Instant;
 
 use linkwear::mechanisms::{SHIPPED, Shipped};
 use linkwear_codegen::{Options, compile};
-use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, System, simulate, write_csv};
+use linkwear_runtime::clearance::ContactChannels;
+use linkwear_runtime::{
+    Description, Integrator, Run, RunError, Settings, Span, System, TurnMeasure, simulate, write_csv,
+};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -14,7 +17,7 @@ use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
 use super::input::{Loaded, load};
 use super::progress::{Progress, catch_interrupts, stop_requested};
-use super::table::{duration, number, plural};
+use super::table::{duration, number, plural, table};
 use super::{Backend, Format, IntegratorName, SimulateArguments, summary};
 
 /// Step of the fixed-step methods unless one is given [s].
@@ -201,8 +204,51 @@ fn machine(
         "energy_throughput_J": numbers.energy_throughput_J,
         "peaks": summary::peaks(description, run).iter().map(summary::Peak::machine).collect::<Vec<_>>(),
         "out": arguments.out.as_ref().map(|path| path.display().to_string()),
-        "warnings": loaded.warnings(),
+        "turns": run.turns.iter().map(|turn| turn_entry(description, turn)).collect::<Vec<_>>(),
+        "warnings": all_warnings(loaded, run),
     })
+}
+
+fn turn_entry(description: &Description, turn: &TurnMeasure) -> Value {
+    json!({
+        "turn": turn.turn,
+        "joint": description.contacts[turn.joint].joint,
+        "wear_integral_J": turn.wear_integral_J,
+        "depth_m": turn.depth_m,
+        "mean_normal_force_N": turn.mean_normal_force_N,
+        "peak_normal_force_N": turn.peak_normal_force_N,
+        "contact_losses": turn.contact_losses,
+        "touching_part": turn.touching_part,
+        "loss_J": turn.loss_J,
+    })
+}
+
+/// Those of the file, then those of the run.
+fn all_warnings(loaded: &Loaded, run: &Run) -> Vec<Value> {
+    let of_run = run.warnings.iter().map(|warning| json!({ "code": "run", "message": warning.to_string() }));
+    loaded.warnings().into_iter().chain(of_run).collect()
+}
+
+/// The last turns of every joint with clearance.
+fn turns_table(description: &Description, run: &Run) -> String {
+    const SHOWN: usize = 12;
+    let rows: Vec<Vec<String>> = run
+        .turns
+        .iter()
+        .skip(run.turns.len().saturating_sub(SHOWN))
+        .map(|turn| {
+            vec![
+                turn.turn.to_string(),
+                description.contacts[turn.joint].joint.to_string(),
+                format!("{:.7}", turn.wear_integral_J),
+                number(turn.mean_normal_force_N),
+                number(turn.peak_normal_force_N),
+                turn.contact_losses.to_string(),
+            ]
+        })
+        .collect();
+    let head = ["turn", "joint", "wear integral [J]", "mean force [N]", "peak force [N]", "contact losses"];
+    table(&head, &rows)
 }
 
 fn human(
@@ -230,11 +276,18 @@ fn human(
         }
     };
     let mut text = summary::text(description, run, &head, &method);
+    if !run.turns.is_empty() {
+        text.push('\n');
+        text.push_str(&turns_table(description, run));
+    }
+    for warning in &run.warnings {
+        text.push_str(&format!("\nwarning: {}\n", warning));
+    }
     if let Some(out) = &arguments.out {
         let rows = plural(run.rows.len() as u64, "row", "rows");
         text.push_str(&format!(
             "\n{rows} of {} columns in {}",
-            description.channels.len() + 1,
+            description.channels.len() + ContactChannels::new(description).channels().len() + 1,
             out.display()
         ));
     }

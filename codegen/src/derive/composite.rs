@@ -86,9 +86,8 @@ impl ModalColumns {
 
     /// Adds what hangs on a node, which the modes move along.
     fn carry(&mut self, g: &mut Graph, node: &NodePose, pose: &Pose, hanging: &Composite) {
-        let screws: Vec<[Vec3; 2]> = (0..self.wrenches.len())
-            .map(|k| node.screw(g, k).map(|v| node.to_section(g, v)))
-            .collect();
+        let screws: Vec<[Vec3; 2]> =
+            (0..self.wrenches.len()).map(|k| node.screw(g, k).map(|v| node.to_section(g, v))).collect();
         for (k, [turn, slide]) in screws.iter().enumerate() {
             let momentum = Wrench::momentum(g, hanging.parts(), *turn, *slide);
             for (l, [turn, slide]) in screws.iter().enumerate().take(k + 1) {
@@ -110,10 +109,8 @@ impl ModalColumns {
                 [g.neg3(turn), g.sub3(lever, slide)]
             })
             .collect();
-        let moved: Vec<Wrench> = screws
-            .iter()
-            .map(|[turn, slide]| Wrench::momentum(g, whole.parts(), *turn, *slide))
-            .collect();
+        let moved: Vec<Wrench> =
+            screws.iter().map(|[turn, slide]| Wrench::momentum(g, whole.parts(), *turn, *slide)).collect();
         for k in 0..screws.len() {
             for l in 0..=k {
                 let terms = [

@@ -42,7 +42,8 @@ pub fn contact_motion(g: &mut Graph, state: &JointStates<'_>, joint: JointId) ->
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
     if linkage.link_of_joint[joint.index()].is_some() {
         for (axis, coordinate) in offsets(&data.kind).iter().enumerate() {
-            let link = linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
+            let link =
+                linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
             offset[axis] = state.q[linkage.links[link].first_coordinate];
             rate[axis] = state.v[linkage.links[link].first_speed];
         }

@@ -91,9 +91,7 @@ pub fn deformed(g: &mut Graph, data: &ModalData, q: &[ExprId]) -> (MassPropertie
     let mut own = ModalMass {
         gamma: data.gamma.iter().map(|gamma| g.vector(*gamma)).collect(),
         moment: data.moment.iter().map(|moment| g.matrix(*moment)).collect(),
-        gyroscopic: (0..n)
-            .map(|l| (0..n).map(|k| axial_of_numbers(transposed(l, k))).collect())
-            .collect(),
+        gyroscopic: (0..n).map(|l| (0..n).map(|k| axial_of_numbers(transposed(l, k))).collect()).collect(),
         matrix: data.mass_matrix.clone(),
         gamma2,
         moment2,

@@ -69,8 +69,7 @@ pub fn bias_forces(
         let node = motion.poses.nodes[at].as_ref();
         let mut felt = total.generalised(g, link.freedom, node);
         if let Some(modal) = &masses[at].modal {
-            let own =
-                modal.modal_forces(g, &motion.twists[at], &motion.accelerations[at], &motion.modes[at]);
+            let own = modal.modal_forces(g, &motion.twists[at], &motion.accelerations[at], &motion.modes[at]);
             felt = felt.into_iter().zip(own).map(|(held, own)| g.add(own, held)).collect();
         }
         for (speed, force) in link.speeds().zip(felt) {

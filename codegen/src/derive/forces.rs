@@ -92,7 +92,9 @@ impl Loads {
 
     fn joint_force(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
         let kind = &state.geometry.mechanism.joint(joint).kind;
-        if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) = (kind, passive) {
+        if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) =
+            (kind, passive)
+        {
             let coefficient = state.lower(g, coefficient);
             return self.spherical_damping(g, state, joint, coefficient);
         }

@@ -40,7 +40,9 @@ pub fn joint_coordinates(
         duals: Vec::new(),
     };
     match kind {
-        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Journal { .. } => turn(g, &mut list, across, &axes, z),
+        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Journal { .. } => {
+            turn(g, &mut list, across, &axes, z)
+        }
         JointKind::Prismatic(_) => slide(g, &mut list, across, z),
         JointKind::Cylindrical(_) => {
             turn(g, &mut list, across, &axes, z);

@@ -5,8 +5,8 @@
 use linkwear_runtime::Channel;
 
 use crate::expr::{ExprId, Graph, Vec3};
-use crate::id::{JointId, PointId};
 use crate::flexible::ModalData;
+use crate::id::{JointId, PointId};
 use crate::model::{Flexible, JointKind};
 
 use super::closure::CutRows;

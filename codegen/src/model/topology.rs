@@ -82,7 +82,12 @@ fn classes(mechanism: &Mechanism) -> Vec<Class> {
     let mentioned = mentioned(mechanism);
     let class = |(position, joint): (usize, &Joint)| {
         let passive = !joint.passive.is_empty() || mentioned[position];
-        (joint.drives.is_empty() && joint.clearance.is_none(), !started[position], 6 - joint.kind.rows(), !passive)
+        (
+            joint.drives.is_empty() && joint.clearance.is_none(),
+            !started[position],
+            6 - joint.kind.rows(),
+            !passive,
+        )
     };
     mechanism.joints.iter().enumerate().map(class).collect()
 }

@@ -34,9 +34,8 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
         let links = case.linkage.links.iter().filter(|link| own(link, joint));
         links.flat_map(|link| link.first_speed..link.first_speed + link.freedom.speeds()).all(|v| !moves[v])
     };
-    let has_freedom = |joint: JointId| {
-        case.linkage.links.iter().any(|link| own(&link, joint) && link.freedom.speeds() > 0)
-    };
+    let has_freedom =
+        |joint: JointId| case.linkage.links.iter().any(|link| own(&link, joint) && link.freedom.speeds() > 0);
     let tree =
         case.topology.tree.iter().map(|step| step.joint).filter(|joint| has_freedom(*joint) && still(*joint));
     let mut rigid: Vec<JointId> = tree.collect();

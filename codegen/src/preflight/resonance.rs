@@ -54,7 +54,8 @@ fn turns_per_second(mechanism: &Mechanism, law: &crate::model::Formula) -> Optio
     // Three unequal steps: a law that is straight over all of them is a straight line.
     let values = [at(0.0)?, at(0.113)?, at(0.371)?, at(1.0)?];
     let speed = values[3] - values[0];
-    let straight = (values[1] - values[0] - 0.113 * speed).abs() + (values[2] - values[0] - 0.371 * speed).abs();
+    let straight =
+        (values[1] - values[0] - 0.113 * speed).abs() + (values[2] - values[0] - 0.371 * speed).abs();
     let turns = speed.abs() / std::f64::consts::TAU;
     // Rounding of a few turns.
     (straight < 1e-9 * speed.abs() && turns.is_finite() && turns > 0.0).then_some(turns)

@@ -6,8 +6,8 @@ use std::collections::HashMap;
 
 use super::file::{
     BodySpec, ByCoordinate, Centre, EachCoordinate, File, FlexibleSpec, ForceSpec, JointSpec, Places,
-    PointMassSpec, PointSpec, RepeatSpec, SectionSpec, SpringPart, SpringSpec, StartSpec, StartTable, StepSpec,
-    Widths,
+    PointMassSpec, PointSpec, RepeatSpec, SectionSpec, SpringPart, SpringSpec, StartSpec, StartTable,
+    StepSpec, Widths,
 };
 use super::syntax::{Form, Operator, parse_expression};
 use super::written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

@@ -73,13 +73,10 @@ impl Deriver<'_> {
                 angular: is_angle(&self.mechanism.joint(driver.joint).kind, driver.joint_coordinate),
             })
             .collect();
-        let turn_driver = self
-            .drivers
-            .iter()
-            .position(|driver| {
-                let kind = &self.mechanism.joint(driver.joint).kind;
-                matches!(kind, JointKind::Revolute(_) | JointKind::Journal { .. })
-            });
+        let turn_driver = self.drivers.iter().position(|driver| {
+            let kind = &self.mechanism.joint(driver.joint).kind;
+            matches!(kind, JointKind::Revolute(_) | JointKind::Journal { .. })
+        });
         Description {
             name: self.mechanism.name.clone().into(),
             parameters: parameters.into(),

@@ -242,7 +242,8 @@ impl Deriver<'_> {
 
     fn contact_input(&self) -> Block {
         let entries = self.contacts.iter().flat_map(|contact| [contact.force, contact.moment].concat());
-        let doc = "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
+        let doc =
+            "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
         Block::vector("contact", doc, "[CS (17)]", entries.collect())
     }
 

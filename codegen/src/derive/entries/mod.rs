@@ -111,11 +111,7 @@ fn modal_state(link: &Link, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> Mod
         return ModalState::default();
     }
     let (coordinates, speeds) = (link.coordinates(), link.speeds());
-    ModalState {
-        q: q[coordinates].to_vec(),
-        v: v[speeds.clone()].to_vec(),
-        v_dot: v_dot[speeds].to_vec(),
-    }
+    ModalState { q: q[coordinates].to_vec(), v: v[speeds.clone()].to_vec(), v_dot: v_dot[speeds].to_vec() }
 }
 
 impl<'a> Deriver<'a> {

@@ -77,7 +77,10 @@ impl Resolver<'_> {
         let (Inertia::Rod { ends, .. } | Inertia::Box { ends, .. }) = &body.inertia else {
             let message = format!("only a rod, tube or box bends by itself, not `{}`", name.value);
             let fault = Diagnostic::new(Code::ConflictingKeys, message).at(spec.span, "");
-            self.report(fault.help("name a file of modal data: `flexible = { data = \"body.toml\", origin = \"P\" }`"));
+            self.report(
+                fault
+                    .help("name a file of modal data: `flexible = { data = \"body.toml\", origin = \"P\" }`"),
+            );
             return None;
         };
         let [start, end] = ends.map(|point| self.fixed_position(name, point, carrier));
@@ -167,9 +170,7 @@ impl Resolver<'_> {
             return self.general_section(name, section);
         }
         match inertia {
-            Inertia::Rod { radius, inner_radius, .. } => {
-                round(self.value(radius), self.value(inner_radius))
-            }
+            Inertia::Rod { radius, inner_radius, .. } => round(self.value(radius), self.value(inner_radius)),
             Inertia::Box { width, .. } => {
                 let [y, z] = self.values_of(width);
                 Section::Rectangle { y, z }
@@ -238,7 +239,9 @@ impl Resolver<'_> {
             if end <= start || end > length * (1.0 + SAME_PLACE) || end.is_nan() {
                 let message = format!("a step of body `{}` ends at {end} m", name.value);
                 let fault = Diagnostic::new(Code::BadModes, message).at(step.span, "");
-                self.report(fault.help(format!("steps end in rising order, from {start} m up to {length} m")));
+                self.report(
+                    fault.help(format!("steps end in rising order, from {start} m up to {length} m")),
+                );
                 break;
             }
             let own_section = match (&own.radius, &own.width) {
@@ -327,7 +330,8 @@ impl Resolver<'_> {
             }
             HeldSpec::CraigBampton => {
                 let message = format!("`{}` is held at fewer than two places", name.value);
-                let fault = Diagnostic::new(Code::BadModes, message).at(held.map_or(name.span, |h| h.span), "");
+                let fault =
+                    Diagnostic::new(Code::BadModes, message).at(held.map_or(name.span, |h| h.span), "");
                 self.report(fault.help("take `held` away"));
                 None
             }

@@ -65,7 +65,9 @@ impl Resolver<'_> {
                     name.value, laws.journal_radius
                 );
                 let fault = Diagnostic::new(Code::BadClearance, message).at(radial.span, "");
-                self.report(fault.help("the clearance is the difference of the radii of bearing and journal"));
+                self.report(
+                    fault.help("the clearance is the difference of the radii of bearing and journal"),
+                );
             }
             joint.clearance = Some(Box::new(Clearance { radial, laws }));
         }
@@ -74,7 +76,9 @@ impl Resolver<'_> {
             if self.joint_named(name, "[wear]").is_some() && !known {
                 let message = format!("joint `{}` wears but has no clearance", name.value);
                 let fault = Diagnostic::new(Code::BadClearance, message).at(name.span, "");
-                self.report(fault.help(format!("add `[clearance.{}]`, the state that wear starts from", name.value)));
+                self.report(
+                    fault.help(format!("add `[clearance.{}]`, the state that wear starts from", name.value)),
+                );
             }
         }
     }
@@ -97,7 +101,14 @@ impl Resolver<'_> {
     }
 
     /// A positive number fixed at generation.
-    fn positive(&mut self, name: &Name, key: &str, written: Option<&Quantity>, dimension: Dimension, default: f64) -> f64 {
+    fn positive(
+        &mut self,
+        name: &Name,
+        key: &str,
+        written: Option<&Quantity>,
+        dimension: Dimension,
+        default: f64,
+    ) -> f64 {
         let Some(written) = written else { return default };
         let what = place(key, "joint", name);
         let formula = self.formula(written, Some(dimension), Allowed::CONSTANTS, &what);
@@ -106,7 +117,14 @@ impl Resolver<'_> {
     }
 
     /// A number from 0 on, fixed at generation.
-    fn not_negative(&mut self, name: &Name, key: &str, written: Option<&Quantity>, dimension: Dimension, default: f64) -> f64 {
+    fn not_negative(
+        &mut self,
+        name: &Name,
+        key: &str,
+        written: Option<&Quantity>,
+        dimension: Dimension,
+        default: f64,
+    ) -> f64 {
         let Some(written) = written else { return default };
         let what = place(key, "joint", name);
         let formula = self.formula(written, Some(dimension), Allowed::CONSTANTS, &what);
@@ -126,11 +144,15 @@ impl Resolver<'_> {
         if own.modulus.is_none() {
             self.lacks(name, written.span, "clearance", "modulus", "\"115 GPa\"");
         }
-        let journal_radius = self.positive(name, "journal_radius", own.journal_radius.as_ref(), Dimension::LENGTH, f64::NAN);
-        let length = self.positive(name, "length", own.length.as_ref(), Dimension::LENGTH, 2.0 * journal_radius);
+        let journal_radius =
+            self.positive(name, "journal_radius", own.journal_radius.as_ref(), Dimension::LENGTH, f64::NAN);
+        let length =
+            self.positive(name, "length", own.length.as_ref(), Dimension::LENGTH, 2.0 * journal_radius);
         let modulus = self.positive(name, "modulus", own.modulus.as_ref(), pressure, f64::NAN);
         let stiffness = match &own.stiffness {
-            Some(given) => Stiffness::Given(self.positive(name, "stiffness", Some(given), Dimension::NONE, f64::NAN)),
+            Some(given) => {
+                Stiffness::Given(self.positive(name, "stiffness", Some(given), Dimension::NONE, f64::NAN))
+            }
             None => Stiffness::Hertz { modulus },
         };
         let law = match own.law.as_ref().map_or(RestitutionSpec::default(), |law| law.value) {
@@ -142,7 +164,8 @@ impl Resolver<'_> {
         };
         let restitution = self.positive(name, "restitution", own.restitution.as_ref(), Dimension::NONE, 1.0);
         if let (Some(given), true) = (&own.restitution, restitution > 1.0) {
-            let message = format!("the coefficient of restitution of joint `{}` is {restitution}", name.value);
+            let message =
+                format!("the coefficient of restitution of joint `{}` is {restitution}", name.value);
             let fault = Diagnostic::new(Code::BadClearance, message).at(given.span, "");
             self.report(fault.help("it lies between 0 and 1"));
         }
@@ -174,9 +197,21 @@ impl Resolver<'_> {
         let coefficient = self.not_negative(name, "friction", own.friction.as_ref(), Dimension::NONE, 0.0);
         let strength = match &own.static_friction {
             Some(at_rest) => Strength::Stribeck {
-                static_coefficient: self.not_negative(name, "static_friction", Some(at_rest), Dimension::NONE, 0.0),
+                static_coefficient: self.not_negative(
+                    name,
+                    "static_friction",
+                    Some(at_rest),
+                    Dimension::NONE,
+                    0.0,
+                ),
                 kinetic_coefficient: coefficient,
-                stribeck_speed: self.positive(name, "stribeck_speed", own.stribeck_speed.as_ref(), speed, STRIBECK_SPEED),
+                stribeck_speed: self.positive(
+                    name,
+                    "stribeck_speed",
+                    own.stribeck_speed.as_ref(),
+                    speed,
+                    STRIBECK_SPEED,
+                ),
                 exponent: 2.0,
             },
             None => Strength::Coulomb { coefficient },
@@ -193,7 +228,8 @@ impl Resolver<'_> {
             [speed] => Onset::Smoothed { speed: *speed },
             [lower, upper, ..] => Onset::Ambrosio { lower: *lower, upper: *upper },
         };
-        let slope = self.fixed(name, "friction_slope", own.friction_slope.as_ref(), Dimension::of(-1, 0, 1), 0.0);
+        let slope =
+            self.fixed(name, "friction_slope", own.friction_slope.as_ref(), Dimension::of(-1, 0, 1), 0.0);
         Some((strength, onset, slope))
     }
 
@@ -217,7 +253,13 @@ impl Resolver<'_> {
             self.report(fault.help("72 are one every 5 degrees"));
         }
         WearInfo {
-            coefficient: self.positive(name, "coefficient", own.coefficient.as_ref(), Dimension::NONE, f64::NAN),
+            coefficient: self.positive(
+                name,
+                "coefficient",
+                own.coefficient.as_ref(),
+                Dimension::NONE,
+                f64::NAN,
+            ),
             hardness: self.positive(name, "hardness", own.hardness.as_ref(), pressure, f64::NAN),
             area: match own.area.as_ref().map_or(AreaSpec::default(), |area| area.value) {
                 AreaSpec::Projected => Area::Projected,
@@ -239,10 +281,9 @@ impl Resolver<'_> {
                 Dimension::NONE,
                 1.0,
             ),
-            pressure_speed: own
-                .pressure_speed
-                .as_ref()
-                .map(|limit| self.positive(name, "pressure_speed", Some(limit), Dimension::of(0, 1, -3), f64::NAN)),
+            pressure_speed: own.pressure_speed.as_ref().map(|limit| {
+                self.positive(name, "pressure_speed", Some(limit), Dimension::of(0, 1, -3), f64::NAN)
+            }),
         }
     }
 }

@@ -56,11 +56,12 @@ impl Resolver<'_> {
     /// Every point at which the body is held, pushed or looked at.
     fn uses_of(&self, carrier: Carrier, body: &Body, joints: &[Joint], forces: &[Force]) -> Vec<Use> {
         let mut uses: Vec<Use> = Vec::new();
-        let mut add = |point: PointId, held: bool, turns: bool| {
-            match uses.iter_mut().find(|known| known.point == point) {
-                Some(known) => (known.held, known.turns) = (known.held | held, known.turns | turns),
-                None => uses.push(Use { point, held, turns }),
-            }
+        let mut add = |point: PointId, held: bool, turns: bool| match uses
+            .iter_mut()
+            .find(|known| known.point == point)
+        {
+            Some(known) => (known.held, known.turns) = (known.held | held, known.turns | turns),
+            None => uses.push(Use { point, held, turns }),
         };
         for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
             add(joint.at, true, joint.kind.holds_orientation());
@@ -106,9 +107,8 @@ impl Resolver<'_> {
     /// Position of a point on a flexible body, which may not move with a tunable parameter.
     pub(super) fn fixed_position(&mut self, name: &Name, point: PointId, carrier: Carrier) -> [f64; 3] {
         let known = &self.points[point.index()];
-        let tunable = |formula: &crate::model::Formula| {
-            formula.depends_on(&|id| self.parameters[id.index()].tunable)
-        };
+        let tunable =
+            |formula: &crate::model::Formula| formula.depends_on(&|id| self.parameters[id.index()].tunable);
         if known.position_for(carrier).iter().any(tunable) {
             let message = format!(
                 "the point `{}` of the flexible body `{}` depends on a tunable parameter",
@@ -156,12 +156,15 @@ impl Resolver<'_> {
         self.check_beam_keys(name, &spec.value);
         let path = self.source.beside(&file.value);
         let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
-        let data = match text.and_then(|text| ModalData::from_toml(&text).map_err(|error| error.to_string())) {
+        let data = match text.and_then(|text| ModalData::from_toml(&text).map_err(|error| error.to_string()))
+        {
             Ok(data) => data,
             Err(reason) => {
                 let message = format!("the modal data `{}` cannot be used: {reason}", file.value);
                 let fault = Diagnostic::new(Code::BadModalData, message).at(file.span, "");
-                self.report(fault.help("docs/modal-data.md describes the file; its path is relative to this file"));
+                self.report(
+                    fault.help("docs/modal-data.md describes the file; its path is relative to this file"),
+                );
                 return None;
             }
         };
@@ -204,7 +207,8 @@ impl Resolver<'_> {
         ];
         for (key, span) in keys {
             if let Some(span) = span {
-                let message = format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
+                let message =
+                    format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
                 self.report(
                     Diagnostic::new(Code::ConflictingKeys, message).at(span, "").help("take it away"),
                 );
@@ -221,7 +225,8 @@ impl Resolver<'_> {
         uses: &[Use],
     ) -> Vec<(PointId, usize)> {
         let start = self.fixed_position(name, origin, carrier);
-        let size = data.nodes.iter().map(|node| inertia::dot(node.position, node.position)).fold(0.0, f64::max);
+        let size =
+            data.nodes.iter().map(|node| inertia::dot(node.position, node.position)).fold(0.0, f64::max);
         let mut nodes = Vec::new();
         for own in uses {
             let place = inertia::between(start, self.fixed_position(name, own.point, carrier));

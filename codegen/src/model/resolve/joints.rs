@@ -83,7 +83,9 @@ impl Resolver<'_> {
         let mut passive = Vec::new();
         for (key, written) in [("damping", &spec.damping), ("friction", &spec.friction)] {
             let what = place(key, "joint", name);
-            if let (JointKind::Spherical | JointKind::Socket, Some(ByCoordinate::One(quantity))) = (kind, written) {
+            if let (JointKind::Spherical | JointKind::Socket, Some(ByCoordinate::One(quantity))) =
+                (kind, written)
+            {
                 // The one law that a joint without scalar coordinates can have: against the relative angular velocity.
                 passive.push(self.damping(0, Coordinate::Angle, quantity, &what));
                 continue;
