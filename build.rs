@@ -7,6 +7,8 @@ fn main() {
         .mechanism("mechanisms/four_bar.toml")
         .mechanism("mechanisms/slider_crank.toml")
         .mechanism("mechanisms/rssr_rigid.toml")
+        .mechanism("mechanisms/rssr_flexible.toml")
+        .mechanism("mechanisms/rssr.toml")
         .mechanism("mechanisms/andrews.toml")
         .mechanism("mechanisms/n_four_bar_2.toml")
         .mechanism("mechanisms/n_four_bar_40.toml")

@@ -45,6 +45,10 @@ shipped! {
     slider_crank = "slider_crank",
     /// The case study's spatial four-bar, rigid, with ideal joints.
     rssr_rigid = "rssr_rigid",
+    /// The case study's spatial four-bar with a flexible coupler and ideal joints.
+    rssr_flexible = "rssr_flexible",
+    /// The case study: flexible coupler, and a wearing bearing with clearance at the crank.
+    rssr = "rssr",
     /// Andrews' squeezing mechanism: seven bodies, three loops, a spring and a motor.
     andrews = "andrews",
     /// Two parallelogram cells; passes positions where it could go on in several ways.

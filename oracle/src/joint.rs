@@ -39,6 +39,9 @@ pub(crate) struct JointGeometry {
     pub triads: [Matrix3<f64>; 2],
 }
 
+/// Clearance and contact are outside this model.
+pub const IDEAL_ONLY: &str = "the oracle knows ideal joints only";
+
 impl JointGeometry {
     pub fn new(joint: &Joint, points: [Vector3<f64>; 2]) -> Self {
         let triads = match &joint.kind {
@@ -55,6 +58,7 @@ impl JointGeometry {
                 triad(&Vector3::from(first.child), &Vector3::from(normal.child)),
             ],
             JointKind::Spherical | JointKind::Fixed | JointKind::Free => [Matrix3::identity(); 2],
+            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
         };
         Self { parent: joint.parent, child: joint.child, kind: joint.kind.clone(), points, triads }
     }
@@ -74,6 +78,7 @@ impl JointGeometry {
             JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
             JointKind::Planar { .. } => 3,
             JointKind::Spherical | JointKind::Fixed | JointKind::Free => 0,
+            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
         }
     }
 
@@ -108,6 +113,7 @@ impl JointGeometry {
                 rows
             }
             JointKind::Spherical => together(),
+            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
             JointKind::Planar { .. } => [slides(&[2]), upright()].concat(),
             JointKind::Fixed => [together(), locked()].concat(),
             JointKind::Free => Vec::new(),

@@ -58,6 +58,7 @@ impl JointGeometry {
                 (rotation_about(&axis, q[2]) * align, shift)
             }
             JointKind::Fixed => (align, none),
+            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{}", super::joint::IDEAL_ONLY),
             JointKind::Spherical | JointKind::Free => {
                 let q4 = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
                 let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
@@ -85,6 +86,7 @@ impl JointGeometry {
                 (v[2] * axis, slip)
             }
             JointKind::Fixed => (none, none),
+            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{}", super::joint::IDEAL_ONLY),
             JointKind::Spherical | JointKind::Free => {
                 let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);
                 (Vector3::from_column_slice(&v[..3]), slip)

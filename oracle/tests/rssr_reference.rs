@@ -29,7 +29,7 @@ fn rssr(turns_per_second: f64) -> Oracle {
         let density = Amount::Density(number(7850.0));
         let inertia =
             Inertia::Rod { ends, radius: number(0.006), inner_radius: number(0.0), amount: density };
-        s.0.bodies.push(Body { name: name.to_owned(), inertia, span: Span::default() });
+        s.0.bodies.push(Body { name: name.to_owned(), inertia, flexible: None, span: Span::default() });
     }
     let mut joint = |kind, parent, child, at: PointId| {
         let id = s.joint(kind, parent, child, [0.0; 3]);

@@ -148,9 +148,10 @@ fn mass_properties(g: &mut Graph, data: &ModalData, own: &ModalMass, q: &[ExprId
         }
     }
     // One triangle, mirrored, so that P is symmetric to the bit.
-    for i in 0..3 {
-        for j in 0..i {
-            second[i][j] = second[j][i];
+    let upper = second;
+    for (i, row) in second.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate().take(i) {
+            *entry = upper[j][i];
         }
     }
     MassProperties { mass: g.constant(data.mass), first, second }

@@ -345,7 +345,10 @@ enum Side {
 
 /// Slopes of the sections on which a ball joint sits: floating frame, first modal speed, and the rotation
 /// vector per unit of each mode, for bodies that are flexible.
-struct Sections([Option<(usize, usize, Vec<[f64; 3]>)>; 2]);
+struct Sections([Option<Section>; 2]);
+
+/// Floating frame, first modal speed, slopes.
+type Section = (usize, usize, Vec<[f64; 3]>);
 
 impl Sections {
     fn new(state: &JointStates<'_>, joint: JointId) -> Self {
@@ -362,7 +365,7 @@ impl Sections {
         if linkage.reversed[joint.index()] { Self([child, parent]) } else { Self([parent, child]) }
     }
 
-    fn of(&self, side: Side) -> Option<&(usize, usize, Vec<[f64; 3]>)> {
+    fn of(&self, side: Side) -> Option<&Section> {
         self.0[usize::from(side == Side::Outboard)].as_ref()
     }
 

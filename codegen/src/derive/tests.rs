@@ -24,7 +24,7 @@ fn rod(name: &str, a: usize, b: usize) -> Body {
         inner_radius: f(0.0),
         amount: Amount::Density(f(7850.0)),
     };
-    Body { name: name.into(), inertia, span: Span::default() }
+    Body { name: name.into(), inertia, flexible: None, span: Span::default() }
 }
 
 fn joint(name: &str, kind: JointKind, parent: Carrier, child: usize, at: usize) -> Joint {
@@ -37,6 +37,7 @@ fn joint(name: &str, kind: JointKind, parent: Carrier, child: usize, at: usize) 
         cut: false,
         drives: Vec::new(),
         passive: Vec::new(),
+        clearance: None,
         span: Span::default(),
     }
 }
@@ -82,6 +83,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
         forces: Vec::new(),
         closure,
         starts: vec![start],
+        attached: Vec::new(),
     };
     let tree = |joint: usize, inboard, outboard| TreeJoint {
         joint: JointId::new(joint),
@@ -212,6 +214,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         forces: Vec::new(),
         closure: Closure::Joint,
         starts: Vec::new(),
+        attached: Vec::new(),
     };
     (mechanism, Topology { tree, cuts })
 }

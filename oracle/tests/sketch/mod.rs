@@ -48,6 +48,7 @@ impl Sketch {
             forces: Vec::new(),
             closure: Closure::Joint,
             starts: Vec::new(),
+            attached: Vec::new(),
         })
     }
 
@@ -76,6 +77,7 @@ impl Sketch {
                 inertia: [xx, yy, zz, 0.0, 0.0, 0.0].map(number),
                 axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             },
+            flexible: None,
             span: Span::default(),
         });
         Carrier::Body(id)
@@ -93,6 +95,7 @@ impl Sketch {
             cut: false,
             drives: Vec::new(),
             passive: Vec::new(),
+            clearance: None,
             span: Span::default(),
         });
         id

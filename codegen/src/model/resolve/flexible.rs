@@ -45,7 +45,7 @@ impl Resolver<'_> {
             let carrier = Carrier::Body(BodyId::new(index));
             let uses = self.uses_of(carrier, &bodies[index], joints, forces);
             let flexible = match &spec.value.data {
-                Some(data) => self.from_modal_data(carrier, name, spec, data, &uses),
+                Some(data) => self.read_modal_data(carrier, name, spec, data, &uses),
                 None => self.beam(carrier, (name, body, spec), &bodies[index], joints, &uses),
             };
             bodies[index].flexible = flexible.map(Box::new);
@@ -145,7 +145,7 @@ impl Resolver<'_> {
     }
 
     /// Constants from a file beside this one.
-    fn from_modal_data(
+    fn read_modal_data(
         &mut self,
         carrier: Carrier,
         name: &Name,

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{BodyId, JointId};
 use crate::model::{Coordinate, Joint, JointKind, Start};
 use crate::source::Span;
-use crate::spec::{At, Dimension, File, Literal, Name, Quantity, StartSpec};
+use crate::spec::{At, Dimension, File, Literal, Name, Quantity, StartSpec, StartTable};
 
 /// A start value as written.
 struct Written<'a> {
@@ -117,7 +117,7 @@ impl Resolver<'_> {
     fn by_name<'a>(
         &mut self,
         name: &Name,
-        table: &'a crate::spec::At<crate::spec::StartTable>,
+        table: &'a At<StartTable>,
         kind: &JointKind,
         key: &str,
     ) -> Vec<Written<'a>> {
