@@ -58,6 +58,7 @@ fn nobody() -> Description {
         drivers: vec![].into(),
         channels: vec![].into(),
         turn_driver: None,
+        contacts: Vec::new().into(),
     }
 }
 

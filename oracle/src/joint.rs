@@ -244,6 +244,7 @@ mod tests {
             cut: false,
             drives: Vec::new(),
             passive: Vec::new(),
+            clearance: None,
             span: Span::default(),
         };
         JointGeometry::new(&joint, [Vector3::new(0.2, 0.1, -0.3), Vector3::new(0.25, 0.0, -0.1)])

@@ -244,8 +244,10 @@ mod tests {
         }
     }
 
+    type Snapshot = ([[f64; 3]; 3], [f64; 3], [[f64; 3]; 4]);
+
     /// Rotation, place and their rates for q(t) = a + b t + c t²/2.
-    fn at(time: f64) -> ([[f64; 3]; 3], [f64; 3], [[f64; 3]; 4]) {
+    fn at(time: f64) -> Snapshot {
         let (a, b, c) = ([0.4, -0.3], [0.9, 1.3], [-0.5, 0.8]);
         let mut g = Graph::new();
         let pick = |f: &dyn Fn(usize) -> f64| [f(0), f(1)];
@@ -268,9 +270,7 @@ mod tests {
         let (back, now, next) = (at(-h), at(0.0), at(h));
         for i in 0..3 {
             // Central differences of smooth functions: h² and rounding over h, both below 1e-9.
-            let slope = |f: &dyn Fn(&([[f64; 3]; 3], [f64; 3], [[f64; 3]; 4])) -> f64| {
-                (f(&next) - f(&back)) / (2.0 * h)
-            };
+            let slope = |f: &dyn Fn(&Snapshot) -> f64| (f(&next) - f(&back)) / (2.0 * h);
             assert!((slope(&|s| s.1[i]) - now.2[0][i]).abs() < 1e-8);
             assert!((slope(&|s| s.2[0][i]) - now.2[2][i]).abs() < 1e-8);
             assert!((slope(&|s| s.2[1][i]) - now.2[3][i]).abs() < 1e-8);

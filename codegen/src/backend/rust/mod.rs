@@ -181,6 +181,7 @@ mod tests {
             drivers: Vec::new().into(),
             channels: Vec::new().into(),
             turn_driver: None,
+            contacts: Vec::new().into(),
         }
     }
 
