@@ -17,7 +17,7 @@ fn every_file_in_the_reference_resolves_without_warnings() {
     let text = reference();
     let files: Vec<_> =
         text.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert_eq!(files.len(), 3);
+    assert_eq!(files.len(), 5);
     for file in files {
         let source = SourceFile { name: "spec-reference.md".into(), text: file.into() };
         let spec = spec::parse(&source).unwrap_or_else(|errors| panic!("{errors}"));
