@@ -49,7 +49,8 @@ fn compare(reference: &str, rigid: &str, speed: &str, settle: f64, [forces, chan
         [("R1", "R1_F", 1.0), ("S2", "S2_F", 1.0), ("S3", "S3_F", -1.0), ("R4", "R4_F", 1.0)]
     {
         let theirs = ["x", "y", "z"].map(|axis| table.column(&format!("{name}{axis}")));
-        let peak = (0..201).map(|i| (0..3).map(|k| theirs[k][i].powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max);
+        let peak =
+            (0..201).map(|i| (0..3).map(|k| theirs[k][i].powi(2)).sum::<f64>().sqrt()).fold(0.0, f64::max);
         for (ours, theirs) in force(&ours, joint).iter().zip(&theirs) {
             let ours: Vec<f64> = ours.iter().map(|x| sign * x).collect();
             let error = largest_difference(&ours, theirs) / peak;
@@ -139,7 +140,10 @@ fn no_modes_give_the_rigid_linkage_operation_for_operation() {
     let frozen = compile_source(&shipped("rssr_flexible"), &[("modes", "0")], None);
     let body = |text: String| {
         let text = text.replace("rssr_flexible", "rssr_rigid");
-        text.lines().filter(|line| !line.contains("sha256") && !line.contains("SHA256")).collect::<Vec<_>>().join("\n")
+        text.lines()
+            .filter(|line| !line.contains("sha256") && !line.contains("SHA256"))
+            .collect::<Vec<_>>()
+            .join("\n")
     };
     assert_eq!(body(frozen.rust_source()), body(rigid.rust_source()));
 }

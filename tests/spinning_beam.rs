@@ -23,7 +23,7 @@ O = ["0 m", "0 m", "0 m"]
 T = ["1 m", "0 m", "0 m"]
 
 [bodies]
-beam = {{ rod = ["O", "T"], radius = "4 mm", density = "7850 kg/m^3", flexible = {{ modes = 12, young = "210 GPa", theory = "euler_bernoulli", held = "clamped", order = {order} }} }}
+beam = {{ rod = ["O", "T"], radius = "4 mm", density = "7850 kg/m^3", flexible = {{ modes = 24, young = "210 GPa", theory = "euler_bernoulli", held = "clamped", order = {order} }} }}
 
 [joints]
 hub = {{ revolute = ["ground", "beam"], at = "O", axis = [0, 0, 1], drive = "Omega*t" }}
@@ -101,7 +101,7 @@ const FLAPPING: [(f64, f64); 8] = [
 fn second_order_terms_stiffen_a_spinning_beam_as_published() {
     for (speed, expected) in FLAPPING {
         let [chordwise, flapping] = squares(2, speed);
-        // Half a unit of the printed digits, and a little for six modes.
+        // Half a unit of the printed digits, and a little for twelve modes.
         assert!((flapping.sqrt() - expected).abs() < 2e-4, "at {speed}: {} not {expected}", flapping.sqrt());
         // In the plane of rotation the frame takes the square of its speed away.
         let known = expected * expected - speed * speed;

@@ -167,7 +167,7 @@ impl Resolver<'_> {
             let message =
                 format!("the coefficient of restitution of joint `{}` is {restitution}", name.value);
             let fault = Diagnostic::new(Code::BadClearance, message).at(given.span, "");
-            self.report(fault.help("it lies between 0 and 1"));
+            self.report(fault.help("it lies above 0, and at most at 1"));
         }
         ContactInfo {
             joint: name.value.clone().into(),
@@ -250,7 +250,7 @@ impl Resolver<'_> {
         if let (Some(bins), false) = (&own.bins, (8..=10_000).contains(&bins)) {
             let message = format!("the profile of joint `{}` has {} bearing angles", name.value, bins.value);
             let fault = Diagnostic::new(Code::BadClearance, message).at(bins.span, "");
-            self.report(fault.help("72 are one every 5 degrees"));
+            self.report(fault.help("72 are one every 5 degrees; 8 to 10000 are possible"));
         }
         WearInfo {
             coefficient: self.positive(

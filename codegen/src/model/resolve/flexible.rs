@@ -122,9 +122,14 @@ impl Resolver<'_> {
 
     /// The share of modes that `[initial]` gives values for.
     fn take_modal_starts(&mut self, bodies: &mut [Body]) {
+        // A body whose modes failed has none for another reason.
+        let faulty = self.has_errors();
         for start in std::mem::take(&mut self.modal_starts) {
             let body = &mut bodies[start.body.index()];
             let Some(flexible) = &mut body.flexible else {
+                if faulty {
+                    continue;
+                }
                 let message = format!("the body `{}` has no modes to start from", body.name);
                 self.report(Diagnostic::new(Code::BadStart, message).at(start.span, "").help("take it away"));
                 continue;

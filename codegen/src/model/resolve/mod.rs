@@ -215,8 +215,11 @@ impl Resolver<'_> {
     fn check_positive(&mut self, formula: &Formula, zero_allowed: bool, what: &str) {
         let value = self.value(formula);
         if value < 0.0 || (value == 0.0 && !zero_allowed) {
-            let unit = formula.dimension.si_unit();
-            let message = format!("{what} is {value} {unit}");
+            let unit = match formula.dimension {
+                Dimension::NONE => String::new(),
+                dimension => format!(" {}", dimension.si_unit()),
+            };
+            let message = format!("{what} is {value}{unit}");
             let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
             self.report(Diagnostic::new(Code::NotPositive, message).at(formula.span, need));
         }
