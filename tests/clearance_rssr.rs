@@ -1,10 +1,13 @@
 //! The RSSR with a clearance of 10 µm at its crank bearing against an independent multibody code
 //! (tests/reference/README.md), and what follows from the energy.
 
+#[path = "support/bearing.rs"]
+mod bearing;
 mod support;
 
 use std::ops::ControlFlow;
 
+use bearing::{assert_near, wear_by_angle};
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{IdealJoint, Integrator, SINGULAR_PIVOT, Settings, Span, TurnMeasure, TurnRunner};
@@ -43,11 +46,6 @@ fn last_turn(run: &Recorded) -> &TurnMeasure {
     run.run.turns.last().expect("a full turn")
 }
 
-fn assert_near(value: f64, expected: f64, relative: f64, what: &str) {
-    let error = (value / expected - 1.0).abs();
-    assert!(error < relative, "{what}: {value} instead of {expected}, off by {error:e}");
-}
-
 /// Value at `t` of evenly spaced samples, by the cubic through the four nearest.
 fn interpolate(times: &[f64], values: &[f64], t: f64) -> f64 {
     let spacing = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
@@ -67,21 +65,6 @@ fn relative_rms(values: &[f64], expected: &[f64]) -> f64 {
     let square = |pairs: &mut dyn Iterator<Item = f64>| pairs.map(|x| x * x).sum::<f64>();
     let error = square(&mut values.iter().zip(expected).map(|(a, b)| a - b));
     (error / square(&mut expected.iter().copied())).sqrt()
-}
-
-/// Wear integral by bearing angle from evenly spaced samples: bin i covers [i, i + 1) of a turn's 72nd parts.
-fn wear_by_angle(run: &Recorded) -> Vec<f64> {
-    let (force, speed) = (run.column("R1.Fn"), run.column("R1.vt"));
-    let angle = run.column("R1.contact_angle");
-    let times = &run.run.times;
-    let spacing = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    let mut bins = vec![0.0; 72];
-    // A whole turn that repeats itself: every sample but the last weighs the same.
-    for index in 0..times.len() - 1 {
-        let place = angle[index].rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU * 72.0;
-        bins[place as usize % 72] += spacing * force[index] * speed[index].abs();
-    }
-    bins
 }
 
 #[test]
