@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
+use linkwear_runtime::clearance::ContactChannels;
 use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
 
 /// Text of a shipped mechanism.
@@ -56,12 +57,14 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// All samples of a column.
+    /// All samples of a column, those of contacts included.
     pub fn column(&self, name: &str) -> Vec<f64> {
+        let contacts = ContactChannels::new(&self.description);
         let index = self
             .description
             .channels
             .iter()
+            .chain(contacts.channels())
             .position(|channel| channel.name == name)
             .unwrap_or_else(|| panic!("no column {name}"));
         self.run.rows.iter().map(|row| row[index]).collect()
