@@ -8,6 +8,7 @@ mod failure;
 mod file;
 mod generate;
 mod input;
+mod life;
 mod new;
 mod packaging;
 mod plot;
@@ -60,6 +61,9 @@ enum Command {
         after_help = "Example:\n  linkwear simulate mechanisms/rssr_rigid.toml --turns 2 --out rssr.csv"
     )]
     Simulate(SimulateArguments),
+    /// Wear the joints with clearance, cycle by cycle, until the first has failed.
+    #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml")]
+    Life(LifeArguments),
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
@@ -166,6 +170,36 @@ struct SimulateArguments {
     rigid: bool,
 }
 
+#[derive(Debug, Args)]
+struct LifeArguments {
+    #[command(flatten)]
+    input: Input,
+    /// Wear per revolution from a table made once, or from the dynamics at every wear step.
+    #[arg(long, value_enum, default_value_t = Coupling::Table)]
+    coupling: Coupling,
+    /// Take flexible bodies as rigid.
+    #[arg(long)]
+    rigid: bool,
+    /// Wear does not open the clearance.
+    #[arg(long)]
+    no_feedback: bool,
+    /// Step of the fourth-order Runge-Kutta method [s].
+    #[arg(long, value_name = "S", value_parser = input::positive, default_value = "2e-5")]
+    step: f64,
+    /// Revolutions after each change of a clearance before one is measured.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    settle: u32,
+    /// What runs the equations.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    backend: Backend,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Coupling {
+    Table,
+    Full,
+}
+
 /// How long to run: at most one of the two.
 #[derive(Debug, Args)]
 #[group(multiple = false)]
@@ -221,6 +255,7 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         Command::Equations(arguments) => equations::run(&arguments, format),
         Command::Generate(arguments) => generate::run(&arguments, format),
         Command::Simulate(arguments) => simulate::run(&arguments, format),
+        Command::Life(arguments) => life::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),
         Command::Schema => schema::run(),
         Command::Completions { shell } => packaging::completions(shell, format),

@@ -250,9 +250,8 @@ proptest! {
             prop_assert!(left[k][k] > 0.0);
             for i in k + 1..n {
                 let factor = left[i][k] / left[k][k];
-                for j in k + 1..n {
-                    left[i][j] -= factor * left[k][j];
-                }
+                let pivot = left[k].clone();
+                left[i].iter_mut().zip(&pivot).for_each(|(entry, above)| *entry -= factor * above);
             }
         }
     }

@@ -61,18 +61,17 @@ fn compare(reference: &str, rigid: &str, speed: &str, settle: f64, [forces, chan
     assert!(error < forces, "drive at {speed}: {error:e}");
     // What bending changes of the bearing force.
     let rigid = Table::reference(rigid);
-    let mine = force(&ours, "R1");
-    let (mut peak, mut worst) = (0.0_f64, 0.0_f64);
-    for i in 0..201 {
-        let (mut size, mut off) = (0.0, 0.0);
-        for (k, axis) in ["x", "y", "z"].iter().enumerate() {
-            let stiff = rigid.column(&format!("R1_F{axis}"))[i];
-            let theirs = table.column(&format!("R1_F{axis}"))[i] - stiff;
-            size += theirs * theirs;
-            off += (mine[k][i] - stiff - theirs).powi(2);
+    let (mut sizes, mut offs) = (vec![0.0; 201], vec![0.0; 201]);
+    for (mine, axis) in force(&ours, "R1").iter().zip(["x", "y", "z"]) {
+        let stiff = rigid.column(&format!("R1_F{axis}"));
+        let theirs = table.column(&format!("R1_F{axis}"));
+        for (at, ((mine, stiff), theirs)) in mine.iter().zip(&stiff).zip(&theirs).enumerate() {
+            let expected: f64 = theirs - stiff;
+            sizes[at] += expected * expected;
+            offs[at] += (mine - theirs).powi(2);
         }
-        (peak, worst) = (peak.max(size.sqrt()), worst.max(off.sqrt()));
     }
+    let (peak, worst) = (largest(&sizes).sqrt(), largest(&offs).sqrt());
     assert!(worst < change * peak, "change of R1 at {speed}: {} of its peak", worst / peak);
 }
 

@@ -21,6 +21,8 @@ pub struct Options {
     pub closure: Option<Closure>,
     /// Parameter values by name, with units in the text.
     pub overrides: Vec<(String, String)>,
+    /// Takes flexible bodies as rigid.
+    pub rigid: bool,
 }
 
 /// A mechanism, understood: equations, tapes and all that is known about it.
@@ -67,6 +69,9 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
     if let Some(closure) = options.closure {
         mechanism.closure = closure;
+    }
+    if options.rigid {
+        mechanism.freeze();
     }
     let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
     let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;

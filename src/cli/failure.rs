@@ -58,6 +58,15 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
+    /// A life could not be lived to its end.
+    Life {
+        /// The mechanism.
+        file: PathBuf,
+        /// Why.
+        message: String,
+        /// Whole cycles before.
+        cycles: usize,
+    },
     /// The simulation failed, or was stopped.
     Run {
         /// The mechanism.
@@ -155,6 +164,13 @@ impl Failure {
                 ("C0006", None, format!("there is no output or function `{name}`"), suggestion(name, known))
             }
             Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
+            Self::Life { file, message, cycles } => {
+                let help = match cycles {
+                    0 => "no cycle was completed".to_owned(),
+                    cycles => format!("{cycles} cycles were completed before"),
+                };
+                ("C0010", Some(file), message.clone(), help)
+            }
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))

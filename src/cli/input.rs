@@ -19,13 +19,18 @@ pub struct Loaded {
 
 /// Reads and compiles; prints warnings.
 pub fn load(input: &Input) -> Result<Loaded, Failure> {
+    load_as(input, false)
+}
+
+/// As [`load`]; `rigid` takes flexible bodies as rigid.
+pub fn load_as(input: &Input, rigid: bool) -> Result<Loaded, Failure> {
     let text = fs::read_to_string(&input.file).map_err(|error| Failure::Read(input.file.clone(), error))?;
     let source = SourceFile { name: input.file.display().to_string(), text };
     let closure = input.closure.map(|name| match name {
         ClosureName::Joint => Closure::Joint,
         ClosureName::Log => Closure::Log,
     });
-    let options = Options { closure, overrides: input.overrides.clone() };
+    let options = Options { closure, overrides: input.overrides.clone(), rigid };
     let compiled = compile(&source, &options).map_err(Failure::Mechanism)?;
     let warnings = Diagnostics::from_list(compiled.warnings.clone()).located(&source);
     if !warnings.is_empty() {

@@ -15,10 +15,10 @@ use sha2::{Digest, Sha256};
 
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
-use super::input::{Loaded, load};
+use super::input::{Loaded, load_as};
 use super::progress::{Progress, catch_interrupts, stop_requested};
 use super::table::{duration, number, plural, table};
-use super::{Backend, Format, IntegratorName, SimulateArguments, summary};
+use super::{Backend, Format, Input, IntegratorName, SimulateArguments, summary};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
@@ -33,11 +33,11 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
     if let Some(out) = &arguments.out {
         refuse_same(&arguments.input.file, out)?;
     }
-    let loaded = load(&arguments.input)?;
+    let loaded = load_as(&arguments.input, arguments.rigid)?;
     let description = loaded.compiled.description();
     let span = span(arguments, description)?;
     let settings = Settings::new(integrator, span, arguments.samples as usize);
-    let (backend, system) = choose_backend(arguments, &loaded)?;
+    let (backend, system) = choose_backend(&arguments.input, arguments.backend, arguments.rigid, &loaded)?;
     let parameters = loaded.compiled.parameters();
 
     catch_interrupts();
@@ -100,15 +100,17 @@ fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span
 }
 
 /// The back end's name and the equations on it.
-fn choose_backend(
-    arguments: &SimulateArguments,
+pub fn choose_backend(
+    input: &Input,
+    backend: Backend,
+    rigid: bool,
     loaded: &Loaded,
 ) -> Result<(&'static str, Box<dyn System<f64>>), Failure> {
     let refuse = |message: &str, help: &str| {
         Err(Failure::Backend { message: message.to_owned(), help: help.to_owned() })
     };
     let interpreter = || ("interpreter", Box::new(loaded.compiled.interpreter()) as Box<dyn System<f64>>);
-    match (arguments.backend, compiled_in(arguments, loaded)) {
+    match (backend, compiled_in(input, rigid, loaded)) {
         (Backend::Interpreter, _) | (Backend::Auto, Err(_)) => Ok(interpreter()),
         (Backend::Auto | Backend::Compiled, Ok(shipped)) => Ok(("compiled", (shipped.system)())),
         (Backend::Compiled, Err(reason)) => refuse(
@@ -122,17 +124,20 @@ fn choose_backend(
 }
 
 /// The shipped mechanism that is exactly what was asked for, or why there is none.
-fn compiled_in(arguments: &SimulateArguments, loaded: &Loaded) -> Result<&'static Shipped, String> {
+fn compiled_in(input: &Input, rigid: bool, loaded: &Loaded) -> Result<&'static Shipped, String> {
+    if rigid && loaded.compiled.mechanism.bodies.iter().any(|body| body.flexible.is_some()) {
+        return Err("it is compiled with its flexible bodies".to_owned());
+    }
     let hash = sha256(loaded.source.text.as_bytes());
     let shipped = SHIPPED
         .iter()
         .find(|shipped| shipped.source_sha256 == hash)
         .ok_or("the file is not a shipped mechanism, byte for byte")?;
-    let folded = loaded.folded_overrides(&arguments.input);
+    let folded = loaded.folded_overrides(input);
     if !folded.is_empty() {
         return Err(format!("{} is folded into the compiled code", folded.join(", ")));
     }
-    if arguments.input.closure.is_some() {
+    if input.closure.is_some() {
         // The compiled code has the closure of the file, which only a second reading without the option tells.
         let own = compile(&loaded.source, &Options::default()).map_err(Failure::Mechanism);
         if !own.is_ok_and(|own| own.mechanism.closure == loaded.compiled.mechanism.closure) {

@@ -141,6 +141,33 @@ impl Strain {
 }
 
 impl ModalData {
+    /// The same body without modes.
+    #[must_use]
+    pub fn frozen(&self) -> Self {
+        let still = |node: &Node| Node {
+            name: node.name.clone(),
+            position: node.position,
+            displacement: Vec::new(),
+            rotation: Vec::new(),
+            displacement2: None,
+            strain: None,
+        };
+        Self {
+            mass: self.mass,
+            first_moment: self.first_moment,
+            second_moment: self.second_moment,
+            modes: Vec::new(),
+            gamma: Vec::new(),
+            moment: Vec::new(),
+            coupling: Vec::new(),
+            mass_matrix: Vec::new(),
+            stiffness: Vec::new(),
+            damping: Vec::new(),
+            second_order: None,
+            nodes: self.nodes.iter().map(still).collect(),
+        }
+    }
+
     /// Unit of the modal coordinates, as far as it is known.
     #[must_use]
     pub fn modal_unit(&self) -> &'static str {

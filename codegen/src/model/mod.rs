@@ -474,6 +474,16 @@ impl Mechanism {
     pub fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.value).collect()
     }
+    /// Takes the modes of all flexible bodies away: same mass, no deformation.
+    pub fn freeze(&mut self) {
+        for flexible in self.bodies.iter_mut().filter_map(|body| body.flexible.as_mut()) {
+            flexible.data = flexible.data.frozen();
+            flexible.start.clear();
+            flexible.left_out.clear();
+            flexible.stations.clear();
+        }
+    }
+
     /// Name of a body, or `ground`.
     #[must_use]
     pub fn carrier_name(&self, carrier: Carrier) -> &str {
