@@ -49,6 +49,12 @@ shipped! {
     rssr_flexible = "rssr_flexible",
     /// The case study: flexible coupler, and a wearing bearing with clearance at the crank.
     rssr = "rssr",
+    /// The case study's four-bar with a wearing ball between crank and coupler.
+    rssr_ball_wear = "rssr_ball_wear",
+    /// The planar four-bar with two wearing bearings.
+    four_bar_wear = "four_bar_wear",
+    /// Slider-crank with a loose pin at its slider, by Flores and Ambrosio.
+    slider_crank_clearance = "slider_crank_clearance",
     /// Andrews' squeezing mechanism: seven bodies, three loops, a spring and a motor.
     andrews = "andrews",
     /// Two parallelogram cells; passes positions where it could go on in several ways.
