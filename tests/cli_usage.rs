@@ -7,7 +7,8 @@ use serde_json::Value;
 
 #[test]
 fn help_of_every_subcommand_has_an_example() {
-    for name in ["check", "equations", "generate", "simulate", "new", "schema", "completions", "man"] {
+    for name in ["check", "equations", "generate", "simulate", "life", "new", "schema", "completions", "man"]
+    {
         let answer = linkwear(&[name, "--help"]);
         assert_eq!(answer.code, 0);
         assert!(answer.out.contains(&format!("linkwear {name}")), "{}", answer.out);
@@ -17,7 +18,7 @@ fn help_of_every_subcommand_has_an_example() {
 #[test]
 fn help_lists_only_what_there_is() {
     let help = linkwear(&["--help"]).out;
-    for absent in ["life", "merge", "fmu", "jit"] {
+    for absent in ["merge", "fmu", "jit", "report"] {
         assert!(!help.lines().any(|line| line.trim_start().starts_with(absent)), "{absent}");
     }
 }
