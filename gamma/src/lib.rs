@@ -1,0 +1,7 @@
+//! The Gamma process of wear, [CS (21)-(26)]: from measured or computed wear to the distribution of remaining useful
+//! life. In: increments of wear and of exposure Lambda, in the units the caller counts in. Out: estimates, draws,
+//! laws of life. Never knows mechanisms, dynamics, files or terminals.
+
+#![warn(missing_docs)]
+
+pub mod special;
