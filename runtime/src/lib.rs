@@ -45,6 +45,8 @@ mod project;
 #[cfg(feature = "std")]
 mod record;
 #[cfg(feature = "std")]
+mod revolutions;
+#[cfg(feature = "std")]
 mod simulate;
 #[cfg(feature = "std")]
 mod singular;
@@ -76,6 +78,8 @@ pub use layout::{Group, Layout};
 pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
 #[cfg(feature = "std")]
 pub use record::write_csv;
+#[cfg(feature = "std")]
+pub use revolutions::{RevolutionSettings, Revolutions};
 #[cfg(feature = "std")]
 pub use simulate::{
     BRANCH_PART, IdealJoint, IdealMeasure, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span,
