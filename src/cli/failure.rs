@@ -67,6 +67,9 @@ pub enum Failure {
         /// Whole cycles before.
         cycles: usize,
     },
+    /// The case study could not be finished.
+    #[cfg(feature = "case-study")]
+    Study(linkwear::case_study::StudyError),
     /// The simulation failed, or was stopped.
     Run {
         /// The mechanism.
@@ -171,6 +174,8 @@ impl Failure {
                 };
                 ("C0010", Some(file), message.clone(), help)
             }
+            #[cfg(feature = "case-study")]
+            Self::Study(error) => ("C0011", None, error.to_string(), "nothing was written".to_owned()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))

@@ -1,0 +1,194 @@
+//! Fig. 5: wear around the bearing at three cycles, the wear fed back as a depth by bearing angle. In: models.
+//! Out: [`Around`]. Never knows how it is drawn.
+//!
+//! A cycle stands for as many revolutions as make the proposed model's largest depth reach the threshold after the
+//! life of the paper's ground truth; the same number serves all models. They go on beyond the threshold.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use linkwear_runtime::life::{FineScale as _, JointWear, LifeSettings, LifeState, Mean, Outcome, WearStep, run_life};
+use linkwear_runtime::wear::{Area, Profile};
+use linkwear_runtime::{Integrator, RevolutionSettings, TurnState};
+use serde::Serialize;
+
+use super::error::StudyError;
+use super::model::Model;
+use super::options::Effort;
+use super::watch::{Job, Watch, run_all};
+
+/// Life of the paper's ground truth [cycles].
+pub const TRUE_LIFE: f64 = 25.1;
+/// Cycles of the paper's Fig. 5.
+pub const CYCLES: [u64; 3] = [10, 20, 30];
+/// Local maxima below this part of the largest depth are no peaks.
+const LOWEST_PEAK: f64 = 0.1;
+/// Peaks of two models further apart than this are not the same [deg].
+const SAME_PEAK: f64 = 30.0;
+/// Beyond any depth that 30 cycles wear [m]: nothing fails.
+const NO_THRESHOLD: f64 = 1e-3;
+
+/// Fig. 5.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Around {
+    /// Revolutions that a cycle stands for.
+    pub revolutions_per_cycle: f64,
+    /// Rigid coupler, no feedback.
+    pub deterministic: WornBearing,
+    /// Flexible coupler, feedback by profile.
+    pub proposed: WornBearing,
+    /// The same with half the time step, shorter wear steps and twice the angles.
+    pub finest: WornBearing,
+}
+
+/// Wear of one model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WornBearing {
+    /// Bearing angles of the depths [deg].
+    pub angles: Vec<f64>,
+    /// At every one of [`CYCLES`].
+    pub snapshots: Vec<Snapshot>,
+}
+
+/// Wear after some cycles.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Snapshot {
+    /// The cycle.
+    pub cycle: u64,
+    /// Depth by bearing angle [m].
+    pub depths: Vec<f64>,
+    /// Largest depth [m].
+    pub maximum: f64,
+    /// Mean depth [m].
+    pub mean: f64,
+    /// Local maxima, the deepest first.
+    pub peaks: Vec<Peak>,
+}
+
+/// A local maximum of the depth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Peak {
+    /// Bearing angle [deg], -180 to 180.
+    pub angle: f64,
+    /// Depth [m].
+    pub depth: f64,
+}
+
+impl Snapshot {
+    /// The peak nearest to an angle [deg], unless it is far off.
+    pub fn peak_near(&self, angle: f64) -> Option<Peak> {
+        let distance = |peak: &Peak| turned(peak.angle - angle).abs();
+        let nearest = self.peaks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        (distance(nearest) <= SAME_PEAK).then_some(*nearest)
+    }
+}
+
+/// An angle [deg] brought to -180 to 180.
+pub fn turned(angle: f64) -> f64 {
+    (angle + 180.0).rem_euclid(360.0) - 180.0
+}
+
+/// Lives through the wear of the three models.
+pub(super) fn around(tables: &Tables, effort: &Effort) -> Result<Around, StudyError> {
+    let (proposed, finest) = (&tables.flexible, &tables.finest);
+    let life = proposed.life(Definition::DEEPEST, effort.wear_step)?;
+    let per_cycle = life.joints[0].revolutions_per_cycle;
+    let factor = calibrate(&life, &mut lent(proposed), TRUE_LIFE, CALIBRATED)?.factor;
+    let deterministic = tables.rigid.table.at(0, 0.0).profile;
+    let no_profile = || StudyError::Missing { kind: "profile of joint", name: super::model::JOINT.into() };
+    let revolutions_per_cycle = factor * per_cycle;
+    Ok(Around {
+        revolutions_per_cycle,
+        deterministic: multiplied(&deterministic.ok_or_else(no_profile)?, revolutions_per_cycle),
+        proposed: worn(proposed, effort.wear_step, factor)?,
+        finest: worn(finest, effort.finest_wear_step, factor)?,
+    })
+}
+
+/// A table to measure with.
+fn lent(measured: &Measured) -> impl FineScale<State = (), Error = Infallible> + '_ {
+    Lent(&measured.table)
+}
+
+/// Depths at [`CYCLES`] of a life in which the clearance opens by the largest depth.
+fn worn(measured: &Measured, step: WearStep, factor: f64) -> Result<WornBearing, StudyError> {
+    let mut settings = measured.life(Definition::DEEPEST, step)?.with_longer_cycles(factor);
+    settings.keep_cycles = false;
+    for joint in &mut settings.joints {
+        joint.threshold *= BEYOND;
+    }
+    let mut state = LifeState::new(&settings, 0)?;
+    let mut snapshots = Vec::new();
+    for cycle in CYCLES {
+        settings.most_cycles = cycle;
+        run_life(&settings, &mut lent(measured), &Mean, &mut state, &mut |_| ControlFlow::Continue(()))?;
+        let profile = state.joints.first().and_then(|joint| joint.profile.clone());
+        snapshots.extend(profile.map(|profile| snapshot(cycle, &profile, 1.0)));
+    }
+    let angles = snapshots.first().map_or_else(Vec::new, |first| angles(first.depths.len()));
+    Ok(WornBearing { angles, snapshots })
+}
+
+fn multiplied(profile: &Profile, revolutions_per_cycle: f64) -> WornBearing {
+    let at = |cycle: u64| snapshot(cycle, profile, cycle as f64 * revolutions_per_cycle);
+    WornBearing { angles: angles(profile.depths().len()), snapshots: CYCLES.map(at).to_vec() }
+}
+
+fn angles(bins: usize) -> Vec<f64> {
+    (0..bins).map(|bin| (bin as f64 + 0.5) * 360.0 / bins as f64 - 180.0).collect()
+}
+
+fn snapshot(cycle: u64, profile: &Profile, factor: f64) -> Snapshot {
+    let depths: Vec<f64> = profile.depths().iter().map(|depth| factor * depth).collect();
+    Snapshot {
+        cycle,
+        maximum: factor * profile.maximum(),
+        mean: factor * profile.mean(),
+        peaks: peaks(&depths),
+        depths,
+    }
+}
+
+/// Local maxima around the circle, each by the parabola through its bin and the two beside it; the deepest first.
+fn peaks(depths: &[f64]) -> Vec<Peak> {
+    let count = depths.len();
+    let at = |bin: usize| depths[bin % count];
+    let largest = depths.iter().fold(0.0, |a: f64, b| a.max(*b));
+    let mut found = Vec::new();
+    for bin in 0..count {
+        let (before, here, after) = (at(bin + count - 1), at(bin), at(bin + 1));
+        // A plateau counts once, at its left end.
+        if here > before && here >= after && here > LOWEST_PEAK * largest {
+            let shift = 0.5 * (before - after) / (before - 2.0 * here + after);
+            let angle = (bin as f64 + 0.5 + shift) * 2.0 * PI / count as f64 - PI;
+            found.push(Peak { angle: turned(angle.to_degrees()), depth: here - 0.25 * (before - after) * shift });
+        }
+    }
+    found.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn peaks_are_found_between_bins_and_across_the_seam() {
+        let hill = |angle: f64, centre: f64| (1.0 - (turned(angle - centre) / 40.0).powi(2)).max(0.0);
+        let depths: Vec<f64> =
+            angles(72).iter().map(|angle| 2.0 * hill(*angle, 178.5) + hill(*angle, -33.3)).collect();
+        let found = peaks(&depths);
+        assert_eq!(found.len(), 2);
+        // Parabolas are met exactly, but for rounding.
+        assert!((found[0].angle - 178.5).abs() < 1e-9 && (found[0].depth - 2.0).abs() < 1e-12, "{found:?}");
+        assert!((found[1].angle + 33.3).abs() < 1e-9 && (found[1].depth - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_nearest_peak_counts_around_the_circle_and_a_far_one_does_not() {
+        let peaks = vec![Peak { angle: 179.0, depth: 2.0 }, Peak { angle: 0.0, depth: 1.0 }];
+        let snapshot = Snapshot { cycle: 10, depths: Vec::new(), maximum: 2.0, mean: 1.0, peaks };
+        assert_eq!(snapshot.peak_near(-178.0).map(|peak| peak.angle), Some(179.0));
+        assert_eq!(snapshot.peak_near(90.0), None);
+    }
+}

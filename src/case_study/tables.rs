@@ -1,0 +1,164 @@
+//! What a revolution wears, measured once along the clearance: rigid, flexible, and flexible by the finest means.
+//! In: mechanisms. Out: [`Tables`], fine scales that cost nothing. Never knows cycles or what they are used for.
+//!
+//! A table holds the depth by the area of contact and the depth by bearing angle, so that one serves every
+//! definition of wear W; the feedback factor gamma says up to which clearance it reaches.
+
+use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, Table, WearOf, WearStep};
+use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
+use linkwear_runtime::{Integrator, RevolutionSettings, SetupError};
+use serde::Serialize;
+
+use super::error::StudyError;
+use super::model::Model;
+use super::options::Effort;
+use super::watch::{Job, Watch, run_all};
+
+/// What counts as wear and what it does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Definition {
+    /// What W is.
+    pub wear: WearOf,
+    /// Growth of the clearance per W.
+    pub gamma: f64,
+}
+
+impl Definition {
+    /// W is the largest depth around the bearing, and the clearance opens by it.
+    pub const DEEPEST: Self = Self { wear: WearOf::Profile(Measure::Maximum), gamma: 1.0 };
+}
+
+/// One model, measured.
+pub(super) struct Measured {
+    /// Wear per revolution; a fine scale.
+    pub table: Table,
+    joints: Vec<JointLife>,
+}
+
+/// All models for one gamma.
+pub(super) struct Tables {
+    pub rigid: Measured,
+    pub flexible: Measured,
+    /// Half the time step, more points, twice the bearing angles.
+    pub finest: Measured,
+}
+
+/// How good a table is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TableQuality {
+    /// Which model.
+    pub model: &'static str,
+    /// Growth of the clearance per wear.
+    pub gamma: f64,
+    /// Points from the clearance at the begin to that at the end.
+    pub points: usize,
+    /// Turns that every point is the mean of.
+    pub turns: u32,
+    /// Largest relative error of a table with every second point, at the points left out.
+    pub left_out: f64,
+    /// Wear integral of a turn of the unworn joint [J].
+    pub wear_integral_first: f64,
+    /// The same at the last point [J].
+    pub wear_integral_last: f64,
+    /// Depth of a turn of the unworn joint by the area of contact [m].
+    pub depth_first: f64,
+    /// The same at the last point [m].
+    pub depth_last: f64,
+    /// Largest force at the last point [N].
+    pub peak_force_last: f64,
+}
+
+impl Measured {
+    /// A life with this definition of wear.
+    pub fn life(&self, definition: Definition, step: WearStep) -> Result<LifeSettings, StudyError> {
+        let joints = self.joints.iter().map(|joint| {
+            let feedback = scalar(definition.gamma)?;
+            Ok(JointLife { wear: definition.wear, feedback, ..joint.clone() })
+        });
+        let joints: Result<Vec<_>, StudyError> = joints.collect();
+        Ok(LifeSettings { step, ..LifeSettings::new(joints?) })
+    }
+
+    fn quality(&self, model: &'static str, gamma: f64, turns: u32) -> TableQuality {
+        let report = self.table.report();
+        let (first, last) = (self.table.at(0, 0.0), self.table.at(0, self.joints[0].threshold));
+        TableQuality {
+            model,
+            gamma,
+            points: report.points,
+            turns,
+            left_out: report.left_out.iter().copied().fold(0.0, f64::max),
+            wear_integral_first: first.wear_integral,
+            wear_integral_last: last.wear_integral,
+            depth_first: first.depth,
+            depth_last: last.depth,
+            peak_force_last: last.peak_force,
+        }
+    }
+}
+
+fn scalar(gamma: f64) -> Result<Feedback, StudyError> {
+    let wrong = |error: linkwear_runtime::contact::OutOfRange| {
+        StudyError::Setup(SetupError::Setting { name: error.name, value: error.value, need: error.need })
+    };
+    Ok(Feedback::Scalar(ScalarFeedback::new(gamma).map_err(wrong)?))
+}
+
+impl Tables {
+    /// Measures all models from the unworn clearance to that at `reach` times the threshold.
+    pub fn measure(
+        threads: usize,
+        (gamma, reach): (f64, f64),
+        effort: &Effort,
+        watch: &Watch<'_>,
+    ) -> Result<Self, StudyError> {
+        let half = Integrator::Rk4 { step: 0.5 * effort.step };
+        let fine = RevolutionSettings { integrator: half, ..effort.flexible };
+        let measure = |model: Model, settings, points| {
+            measured(&model.wearing(Area::Hertz, effort.bins), (settings, points), (gamma, reach), watch)
+        };
+        let finest = || {
+            let model = Model::flexible().wearing(Area::Hertz, 2 * effort.bins);
+            measured(&model, (fine, effort.finest_points), (gamma, reach), watch)
+        };
+        // The longest first.
+        let jobs: Vec<Job<'_, Result<Measured, StudyError>>> = vec![
+            Box::new(|| measure(Model::rigid()?, effort.rigid, effort.rigid_points)),
+            Box::new(finest),
+            Box::new(|| measure(Model::flexible(), effort.flexible, effort.points)),
+        ];
+        let mut found = run_all(threads, jobs).into_iter();
+        let mut next = || found.next().expect("as many tables as jobs");
+        Ok(Self { rigid: next()?, finest: next()?, flexible: next()? })
+    }
+
+    /// How good they are.
+    pub fn quality(&self, gamma: f64, effort: &Effort) -> Vec<TableQuality> {
+        vec![
+            self.rigid.quality("rigid", gamma, effort.rigid.average),
+            self.flexible.quality("flexible", gamma, effort.flexible.average),
+            self.finest.quality("finest", gamma, effort.flexible.average),
+        ]
+    }
+}
+
+fn measured(
+    model: &Model,
+    (settings, points): (RevolutionSettings, usize),
+    (gamma, reach): (f64, f64),
+    watch: &Watch<'_>,
+) -> Result<Measured, StudyError> {
+    model.measuring(settings, watch, |revolutions| {
+        let joints = revolutions.inner.joints()?;
+        let feedback = scalar(gamma)?;
+        let further = |joint: &JointLife| JointLife {
+            wear: WearOf::Depth,
+            feedback,
+            threshold: reach * joint.threshold,
+            ..joint.clone()
+        };
+        let surveyed = LifeSettings::new(joints.iter().map(further).collect());
+        let table = Table::measure(&surveyed, revolutions, points, &mut |_| {})?;
+        Ok(Measured { table, joints })
+    })
+}
