@@ -5,4 +5,6 @@
 #![warn(missing_docs)]
 
 pub mod life;
+pub mod metrics;
 pub mod special;
+pub mod system;

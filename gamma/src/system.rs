@@ -9,10 +9,7 @@
 //! S(t) = E_Z [ product over joints of P(T_j > t | exposure Z Lambda_j) ].
 //! ```
 
-use crate::life::{
-    LifeError, Lifetime, Passage, integrate, positive, standard_normal_density,
-};
-use crate::special::ln_gamma;
+use crate::life::{LifeError, Lifetime, Passage, integrate, positive};
 
 /// Law of the factor all joints share; mean 1, coefficient of variation `cov` > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +74,7 @@ pub struct System {
     members: Vec<Passage>,
     /// Values of the shared factor with their weights; one value 1 without it.
     factors: Vec<(f64, f64)>,
+    shared: Option<SharedFactor>,
 }
 
 impl System {
@@ -88,7 +86,7 @@ impl System {
         if members.is_empty() {
             return Err(LifeError::NoMember);
         }
-        Ok(Self { members, factors: vec![(1.0, 1.0)] })
+        Ok(Self { members, factors: vec![(1.0, 1.0)], shared: None })
     }
 
     /// Joints whose exposure runs faster or slower by a factor they share.
@@ -96,13 +94,13 @@ impl System {
     /// # Errors
     /// [`LifeError::NoMember`], [`LifeError::NotPositive`] for its coefficient of variation.
     pub fn sharing(members: Vec<Passage>, factor: SharedFactor) -> Result<Self, LifeError> {
-        Ok(Self { factors: factor.nodes()?, ..Self::independent(members)? })
+        Ok(Self { factors: factor.nodes()?, shared: Some(factor), ..Self::independent(members)? })
     }
 
     /// Probability of each joint to be the one that ends the life, in the order given; sums to 1 within 1e-8.
     ///
     /// # Errors
-    /// [`LifeError::Probability`] never for a proper law.
+    /// Those of [`Lifetime::quantile`], by which the range of integration is found.
     pub fn first_to_fail(&self) -> Result<Vec<f64>, LifeError> {
         let end = self.quantile(1.0 - 1e-12)?;
         let mut limits = vec![0.0];
@@ -112,7 +110,8 @@ impl System {
         limits.dedup();
         let part = |j: usize| {
             let density = |t: f64| {
-                let at = |(z, weight): &(f64, f64)| weight * self.members[j].hazard_at(t, *z) * self.alive(t, *z);
+                let at =
+                    |(z, weight): &(f64, f64)| weight * self.members[j].hazard_at(t, *z) * self.alive(t, *z);
                 [self.factors.iter().map(at).sum::<f64>()]
             };
             integrate(&density, &limits, [1e-10]).0[0]
@@ -160,19 +159,97 @@ impl Lifetime for System {
         density / alive
     }
 
-    /// A factor near 0 lets joints live long: E T^k is finite if E Z^-k is, for Gamma factors only with cov² < 1/k.
+    /// A factor near 0 lets joints live long: T grows as Z^(-1/g) where exposure grows as t^g, and E Z^-k of a Gamma
+    /// law is finite only if 1/cov² > k.
     fn finite_moments(&self) -> Result<(), LifeError> {
-        Ok(())
+        let Some(SharedFactor::Gamma { cov }) = self.shared else { return Ok(()) };
+        let growth = self.members.iter().map(|member| member.clock().growth()).fold(0.0, f64::max);
+        let below = (0.5 * growth).sqrt();
+        if cov < below { Ok(()) } else { Err(LifeError::HeavyFactor { cov, below }) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, GammaLaw};
+    use crate::life::{Clock, GammaLaw, Normals};
 
     fn member(alpha: f64, threshold: f64) -> Passage {
         let law = GammaLaw::new(alpha, 10.0).expect("valid");
         Passage::new(law, Clock::linear(1.0).expect("valid"), threshold).expect("valid")
+    }
+
+    #[test]
+    fn a_system_of_one_is_its_joint() {
+        let (one, joint) = (System::independent(vec![member(8.0, 4.0)]).expect("one"), member(8.0, 4.0));
+        for t in [0.5, 4.0, 7.0] {
+            assert_eq!(one.reliability(t), joint.reliability(t));
+            // The hazard is divided by a probability and multiplied by it again.
+            assert!((one.hazard(t) / joint.hazard(t) - 1.0).abs() < 1e-12);
+        }
+        // Accuracy of the integral.
+        assert!((one.first_to_fail().expect("one")[0] - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn alike_joints_end_the_life_alike_and_sooner() {
+        let system = System::independent(vec![member(8.0, 4.0); 3]).expect("three");
+        let t = 4.5;
+        assert!((system.reliability(t) - member(8.0, 4.0).reliability(t).powi(3)).abs() < 1e-15);
+        for share in system.first_to_fail().expect("three") {
+            assert!((share - 1.0 / 3.0).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn the_shared_factor_has_mean_one_and_the_spread_asked_for() {
+        for cov in [0.05, 0.3, 0.9] {
+            for factor in [SharedFactor::Gamma { cov }, SharedFactor::Lognormal { cov }] {
+                let nodes = factor.nodes().expect("valid");
+                let moment = |k: i32| nodes.iter().map(|(z, weight)| weight * z.powi(k)).sum::<f64>();
+                // Trapezoid rule of analytic functions: exponential convergence.
+                assert!((moment(1) - 1.0).abs() < 1e-9, "{factor:?} {}", moment(1));
+                assert!((moment(2) - 1.0 - cov * cov).abs() < 1e-8, "{factor:?} {}", moment(2));
+            }
+        }
+    }
+
+    #[test]
+    fn a_shared_factor_agrees_with_drawing_it() {
+        let members = vec![member(8.0, 4.0), member(5.0, 3.0)];
+        let system = System::sharing(members.clone(), SharedFactor::Lognormal { cov: 0.4 }).expect("valid");
+        let sigma = (0.16_f64).ln_1p().sqrt();
+        let mut normals = Normals::new(11);
+        let (mut sum, mut squares, t, count) = (0.0, 0.0, 4.5, 20_000);
+        for _ in 0..count {
+            let z = (sigma * normals.normal() - 0.5 * sigma * sigma).exp();
+            let alive: f64 = members.iter().map(|member| member.reliability_at(t, z)).product();
+            sum += alive;
+            squares += alive * alive;
+        }
+        let mean = sum / f64::from(count);
+        let error = ((squares / f64::from(count) - mean * mean) / f64::from(count)).sqrt();
+        // Four standard errors of a fixed seed.
+        assert!((mean - system.reliability(t)).abs() < 4.0 * error, "{mean} {}", system.reliability(t));
+        // What the joints share makes them fail together: more systems live to a late time than without it.
+        let alone: f64 = members
+            .iter()
+            .map(|member| {
+                let one = System::sharing(vec![member.clone()], SharedFactor::Lognormal { cov: 0.4 });
+                one.expect("valid").reliability(t)
+            })
+            .product();
+        assert!(system.reliability(t) > alone);
+        let shares: f64 = system.first_to_fail().expect("two").iter().sum();
+        assert!((shares - 1.0).abs() < 1e-8, "{shares}");
+    }
+
+    #[test]
+    fn moments_that_are_not_finite_are_refused() {
+        let wide = System::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: 0.8 }).expect("valid");
+        assert!(matches!(wide.moments(), Err(LifeError::HeavyFactor { .. })));
+        assert!(wide.quantile(0.5).is_ok());
+        assert!(System::independent(Vec::new()).is_err());
+        assert!(System::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: -0.1 }).is_err());
     }
 }

@@ -92,6 +92,15 @@ impl Clock {
         }
     }
 
+    /// Power of time that Lambda grows with in the long run.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        match self {
+            Self::Power { exponent, .. } => *exponent,
+            Self::Table(_) => 1.0,
+        }
+    }
+
     /// Times where the rate jumps, between which Lambda is smooth.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {

@@ -81,6 +81,16 @@ pub enum LifeError {
         /// Increments a finite variance needs.
         needed: usize,
     },
+    /// A shared factor that is near zero too often for a mean.
+    #[error(
+        "a Gamma factor of coefficient of variation {cov} is near zero so often that mean or standard deviation are not finite: below {below:.3} they are; use quantiles, or a lognormal factor"
+    )]
+    HeavyFactor {
+        /// Its coefficient of variation.
+        cov: f64,
+        /// Where a finite variance begins.
+        below: f64,
+    },
     /// Statistics of too few lives.
     #[error("{lives} lives: at least two are needed for a standard deviation")]
     FewLives {

@@ -67,6 +67,19 @@ impl Passage {
         if shape > 0.0 { gamma_p(shape, self.law.beta() * self.left) } else { 1.0 }
     }
 
+    /// Probability of failure until `t` if exposure runs `factor` times as fast.
+    #[must_use]
+    pub fn failed_at(&self, t: f64, factor: f64) -> f64 {
+        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
+        if shape > 0.0 { gamma_q(shape, self.law.beta() * self.left) } else { 0.0 }
+    }
+
+    /// The clock it wears by.
+    #[must_use]
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
     /// Hazard if exposure runs `factor` times as fast.
     #[must_use]
     pub fn hazard_at(&self, t: f64, factor: f64) -> f64 {
@@ -88,8 +101,7 @@ impl Lifetime for Passage {
     }
 
     fn failed(&self, t: f64) -> f64 {
-        let shape = self.law.alpha() * self.exposure(t.max(0.0));
-        if shape > 0.0 { gamma_q(shape, self.law.beta() * self.left) } else { 0.0 }
+        self.failed_at(t, 1.0)
     }
 
     /// When the mean wear reaches the threshold.
