@@ -4,6 +4,7 @@
 
 #![warn(missing_docs)]
 
+pub mod inspection;
 pub mod life;
 pub mod metrics;
 pub mod special;

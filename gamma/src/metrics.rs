@@ -146,7 +146,7 @@ pub fn alpha_lambda(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, GammaLaw, Normals, Passage};
+    use crate::life::{Clock, Draws, GammaLaw, Passage};
 
     /// Gamma law as a life: what `crps_gamma` is compared with.
     struct GammaLife(f64, f64);
@@ -165,8 +165,8 @@ mod tests {
 
     #[test]
     fn closed_forms_agree_with_the_integral_and_with_samples() {
-        let mut normals = Normals::new(5);
-        let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * normals.normal()).collect();
+        let mut draws = Draws::new(5);
+        let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * draws.normal()).collect();
         for truth in [7.0, 10.0, 13.5] {
             for (shape, rate) in [(0.7, 0.1), (3.0, 0.5), (25.0, 2.0)] {
                 let integral = crps_life(&GammaLife(shape, rate), truth).expect("proper");

@@ -5,10 +5,10 @@
 //! probabilities, the logarithm for times; half-width z times its standard error there, carried back. Draws: parameters
 //! from the normal law of their logarithms, quantiles of the values they give.
 
+use super::draws::{Draws, standard_normal_quantile};
 use super::error::LifeError;
-use super::estimate::{Estimate, Situation};
+use super::estimate::{Estimate, Situation, moved};
 use super::lifetime::Lifetime;
-use super::normal::{Normals, standard_normal_quantile};
 use super::passage::Passage;
 
 /// Step of the differences in the logarithms of the parameters: error 1e-8 by curvature, 1e-12 by rounding.
@@ -100,10 +100,10 @@ impl<'a> Bands<'a> {
         let drawn = match method {
             Method::Delta => Vec::new(),
             Method::Draws { count, seed } => {
-                let mut normals = Normals::new(seed);
+                let mut draws = Draws::new(seed);
                 let mut lives = Vec::with_capacity(count);
                 for _ in 0..count {
-                    let z: Vec<f64> = estimate.logs().iter().map(|_| normals.normal()).collect();
+                    let z: Vec<f64> = estimate.logs().iter().map(|_| draws.normal()).collect();
                     lives.push(situation.life_at(&moved(estimate.logs(), &estimate.factor().times(&z)))?);
                 }
                 lives
@@ -168,11 +168,6 @@ impl<'a> Bands<'a> {
         }
         Ok(Band { value, lower: scale.back(centre - half), upper: scale.back(centre + half) })
     }
-}
-
-fn moved(logs: &[f64], by: &[f64]) -> Vec<f64> {
-    let by = by.iter().copied().chain(std::iter::repeat(0.0));
-    logs.iter().zip(by).map(|(log, step)| log + step).collect()
 }
 
 #[cfg(test)]

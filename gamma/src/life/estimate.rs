@@ -150,6 +150,12 @@ impl Factor {
     }
 }
 
+/// Logarithms moved by a step; a step without entries moves nothing.
+pub(crate) fn moved(logs: &[f64], by: &[f64]) -> Vec<f64> {
+    let by = by.iter().copied().chain(std::iter::repeat(0.0));
+    logs.iter().zip(by).map(|(log, step)| log + step).collect()
+}
+
 /// What is worn how far, and how fast exposure runs from here.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Situation {
@@ -200,6 +206,12 @@ impl Situation {
     #[must_use]
     pub fn current(&self) -> f64 {
         self.current
+    }
+
+    /// Units of exposure per unit of time.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.rate
     }
 
     /// Law of the remaining life if the parameters are those estimated.

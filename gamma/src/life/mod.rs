@@ -8,11 +8,11 @@
 mod band;
 mod budget;
 mod clock;
+mod draws;
 mod error;
 mod estimate;
 mod law;
 mod lifetime;
-mod normal;
 mod passage;
 mod quadrature;
 mod slope;
@@ -28,7 +28,10 @@ pub use lifetime::{Lifetime, Moments};
 pub use passage::Passage;
 pub use statistics::{LifeStatistics, Measured};
 
-pub(crate) use error::{non_negative, positive};
-pub(crate) use estimate::Factor;
-pub(crate) use normal::{Normals, standard_normal_cdf, standard_normal_density, standard_normal_quantile};
+pub(crate) use draws::{Draws, standard_normal_cdf, standard_normal_density};
+pub(crate) use error::positive;
+pub(crate) use estimate::moved;
 pub(crate) use quadrature::integrate;
+
+#[cfg(test)]
+mod tests;

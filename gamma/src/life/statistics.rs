@@ -123,7 +123,7 @@ pub(super) fn sorted_quantile(sorted: &[f64], p: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::normal::Normals;
+    use super::super::draws::Draws;
     use super::*;
 
     #[test]
@@ -138,11 +138,11 @@ mod tests {
     #[test]
     fn standard_errors_are_the_scatter_of_repetitions() {
         // 400 repetitions of 200 lives, lognormal: skewed, so the third moment counts.
-        let mut normals = Normals::new(3);
+        let mut draws = Draws::new(3);
         let mut found: Vec<[f64; 4]> = Vec::new();
         let mut told = [0.0; 4];
         for _ in 0..400 {
-            let lives: Vec<f64> = (0..200).map(|_| (3.0 + 0.2 * normals.normal()).exp()).collect();
+            let lives: Vec<f64> = (0..200).map(|_| (3.0 + 0.2 * draws.normal()).exp()).collect();
             let lives = LifeStatistics::of(&lives).expect("valid");
             let all = [lives.mean(), lives.std(), lives.cov(), lives.quantile(0.1).expect("valid")];
             found.push(all.map(|one| one.value));
