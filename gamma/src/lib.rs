@@ -5,6 +5,10 @@
 #![warn(missing_docs)]
 
 pub mod coupled;
+pub mod inspection;
+pub mod life;
+pub mod metrics;
 pub mod sample;
 pub mod special;
 pub mod stream;
+pub mod system;

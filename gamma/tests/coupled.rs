@@ -59,8 +59,13 @@ fn settings(gamma: f64, step: WearStep) -> LifeSettings {
 fn lives(settings: &LifeSettings, exponent: f64, seed: u64, count: u64, threads: usize) -> Lives<Infallible> {
     let draw = GammaDraw::new(seed, &[RATES]);
     let threads = NonZero::new(threads).expect("a thread");
-    MonteCarlo { settings, draw: &draw, trajectories: 0..count, threads }
-        .run(&|| Power(exponent), &|_| ControlFlow::Continue(()))
+    MonteCarlo { settings, draw: &draw, trajectories: 0..count, threads }.run(
+        &|lend| {
+            lend(&mut Power(exponent));
+            Ok(())
+        },
+        &|_| ControlFlow::Continue(()),
+    )
 }
 
 /// Mean and standard deviation.
@@ -116,7 +121,10 @@ fn a_run_that_is_stopped_keeps_the_lives_it_had() {
     let draw = GammaDraw::new(1, &[RATES]);
     let threads = NonZero::new(1).expect("a thread");
     let run = MonteCarlo { settings: &settings, draw: &draw, trajectories: 0..100, threads }.run(
-        &|| Power(0.5),
+        &|lend| {
+            lend(&mut Power(0.5));
+            Ok(())
+        },
         &|done| {
             if done < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },

@@ -5,4 +5,4 @@ mod draw;
 mod monte_carlo;
 
 pub use draw::GammaDraw;
-pub use monte_carlo::{Ended, Lives, MonteCarlo};
+pub use monte_carlo::{Ended, Lives, MonteCarlo, Scale};

@@ -3,8 +3,8 @@
 
 use std::num::NonZero;
 use std::ops::{ControlFlow, Range};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use linkwear_runtime::life::{
     Failure, FineScale, IncrementDraw, LifeSettings, LifeState, Outcome, Stop, run_life,
@@ -52,42 +52,50 @@ pub struct Lives<E> {
     pub ended: Ended<E>,
 }
 
+/// Makes a fine scale and lends it to what it is called with; an error is that of the making. Lending lets a fine
+/// scale borrow from what is made with it, as revolutions borrow a system.
+pub type Scale<'a, S, E> = &'a (
+        dyn Fn(&mut dyn FnMut(&mut dyn FineScale<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
+    );
+
 /// How one trajectory ended.
 type Result<E> = std::result::Result<Failure, Ended<E>>;
 
 impl MonteCarlo<'_> {
-    /// Lives all trajectories. Every thread makes a fine scale of its own with `make`; `observe` hears how many are
-    /// done, from whichever thread, and may end the run.
-    pub fn run<F: FineScale>(
+    /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `observe` hears how many lives
+    /// are done, from whichever thread, and may end the run.
+    pub fn run<S: Clone + Default, E: Send>(
         &self,
-        make: &(dyn Fn() -> F + Sync),
+        scale: Scale<'_, S, E>,
         observe: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Lives<F::Error>
-    where
-        F::Error: Send,
-    {
+    ) -> Lives<E> {
         let next = AtomicU64::new(self.trajectories.start);
         let done = AtomicU64::new(0);
         let halt = AtomicBool::new(false);
-        let results: Mutex<Vec<(u64, Result<F::Error>)>> = Mutex::new(Vec::new());
+        let results: Mutex<Vec<(u64, Result<E>)>> = Mutex::new(Vec::new());
+        let keep = |trajectory, result: Result<E>| {
+            halt.fetch_or(result.is_err(), Ordering::Relaxed);
+            done.fetch_add(1, Ordering::Relaxed);
+            results.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, result));
+        };
+        let go_on = || {
+            let stop = observe(done.load(Ordering::Relaxed)).is_break() || halt.load(Ordering::Relaxed);
+            if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
         let work = || {
-            let mut fine = make();
-            while !halt.load(Ordering::Relaxed) {
-                let trajectory = next.fetch_add(1, Ordering::Relaxed);
-                if trajectory >= self.trajectories.end {
-                    break;
-                }
-                let result = self.live(&mut fine, trajectory, &|| {
-                    let stop = observe(done.load(Ordering::Relaxed)).is_break();
-                    if stop || halt.load(Ordering::Relaxed) {
-                        ControlFlow::Break(())
-                    } else {
-                        ControlFlow::Continue(())
+            let made = scale(&mut |mut fine| {
+                while !halt.load(Ordering::Relaxed) {
+                    let trajectory = next.fetch_add(1, Ordering::Relaxed);
+                    if trajectory >= self.trajectories.end {
+                        break;
                     }
-                });
-                halt.fetch_or(result.is_err(), Ordering::Relaxed);
-                done.fetch_add(1, Ordering::Relaxed);
-                results.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((trajectory, result));
+                    keep(trajectory, self.live(&mut fine, trajectory, &go_on));
+                }
+            });
+            if let Err(error) = made {
+                let trajectory = self.trajectories.start;
+                let stop = Stop::Fine { cycle: 1, error };
+                keep(trajectory, Err(Ended::Stopped { trajectory, stop }));
             }
         };
         std::thread::scope(|scope| {
@@ -96,7 +104,7 @@ impl MonteCarlo<'_> {
             }
             work();
         });
-        collect(results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner))
+        collect(results.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
     fn live<F: FineScale>(
