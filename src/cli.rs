@@ -19,6 +19,7 @@ mod summary;
 mod table;
 
 use std::ffi::OsString;
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -62,7 +63,9 @@ enum Command {
     )]
     Simulate(SimulateArguments),
     /// Wear the joints with clearance, cycle by cycle, until the first has failed.
-    #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml")]
+    #[command(
+        after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
+    )]
     Life(LifeArguments),
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
@@ -174,9 +177,19 @@ struct SimulateArguments {
 struct LifeArguments {
     #[command(flatten)]
     input: Input,
-    /// Wear per revolution from a table made once, or from the dynamics at every wear step.
-    #[arg(long, value_enum, default_value_t = Coupling::Table)]
-    coupling: Coupling,
+    /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
+    trajectories: Option<u64>,
+    /// Picks the random numbers; the same seed gives the same bits on any number of threads.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Only the mean path: every increment of wear is its mean.
+    #[arg(long)]
+    mean: bool,
+    /// Wear per revolution from a table made once, or from the dynamics at every wear step [default: table, or full
+    /// where a profile is fed back].
+    #[arg(long, value_enum)]
+    coupling: Option<Coupling>,
     /// Take flexible bodies as rigid.
     #[arg(long)]
     rigid: bool,
@@ -189,6 +202,15 @@ struct LifeArguments {
     /// Revolutions after each change of a clearance before one is measured.
     #[arg(long, value_name = "N", default_value_t = 4)]
     settle: u32,
+    /// Revolutions whose mean is taken; a motion that chatters needs 20 or more.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    average: u32,
+    /// Folder for life.json, cycles.csv and lives.csv; one with something in it is refused.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads that share the random lives [default: one per core].
+    #[arg(long, value_name = "T")]
+    threads: Option<NonZero<usize>>,
     /// What runs the equations.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     backend: Backend,

@@ -64,8 +64,10 @@ pub enum Failure {
         file: PathBuf,
         /// Why.
         message: String,
-        /// Whole cycles before.
-        cycles: usize,
+        /// What to do, or where the cycles before are.
+        help: String,
+        /// The cycles before, if they are in no file.
+        cycles: Vec<Value>,
     },
     /// The simulation failed, or was stopped.
     Run {
@@ -102,9 +104,13 @@ impl Failure {
         let code = if matches!(self, Self::Usage { .. }) { USAGE } else { FAILED };
         match format {
             Format::Text => eprintln!("{}", self.text()),
-            Format::Json => print_errors(&self.entries()),
+            Format::Json => print_errors(&self.entries(), self.cycles()),
         }
         ExitCode::from(code)
+    }
+
+    fn cycles(&self) -> &[Value] {
+        if let Self::Life { cycles, .. } = self { cycles } else { &[] }
     }
 
     fn text(&self) -> String {
@@ -164,13 +170,7 @@ impl Failure {
                 ("C0006", None, format!("there is no output or function `{name}`"), suggestion(name, known))
             }
             Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
-            Self::Life { file, message, cycles } => {
-                let help = match cycles {
-                    0 => "no cycle was completed".to_owned(),
-                    cycles => format!("{cycles} cycles were completed before"),
-                };
-                ("C0010", Some(file), message.clone(), help)
-            }
+            Self::Life { file, message, help, .. } => ("C0010", Some(file), message.clone(), help.clone()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))
@@ -206,9 +206,14 @@ pub fn entries(diagnostics: &Diagnostics) -> Vec<Value> {
     diagnostics.entries().into_iter().map(value).collect()
 }
 
-fn print_errors(errors: &[Value]) {
+/// `cycles` are what a life had before it stopped, kept beside the errors.
+fn print_errors(errors: &[Value], cycles: &[Value]) {
+    let mut answer = json!({ "errors": errors });
+    if !cycles.is_empty() {
+        answer["cycles"] = json!(cycles);
+    }
     // A reader who has gone away cannot be told; the exit code still says it.
-    let _ = print(&json!({ "errors": errors }));
+    let _ = print(&answer);
 }
 
 /// Reports what clap says about arguments it could not read; help and version are not errors.
@@ -219,10 +224,13 @@ pub fn wrong_arguments(error: &clap::Error, as_json: bool) -> ExitCode {
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
             _ => first_paragraph(&text),
         };
-        print_errors(&[json!({
-            "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
-            "message": message, "help": text.trim_end(),
-        })]);
+        print_errors(
+            &[json!({
+                "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
+                "message": message, "help": text.trim_end(),
+            })],
+            &[],
+        );
     } else {
         let _ = error.print();
     }
