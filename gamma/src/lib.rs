@@ -4,4 +4,7 @@
 
 #![warn(missing_docs)]
 
+pub mod fit;
+pub mod sample;
 pub mod special;
+pub mod stream;
