@@ -105,8 +105,8 @@ fn relative(found: f64, expected: f64) -> f64 {
 fn both_tails_are_right_to_their_last_digits() {
     for &(shape, x, ln_p, ln_q) in INCOMPLETE {
         // Below 0.5 the logarithm is compared, in ulp of itself; above, it tells the other tail, and that tail is good
-        // to its own logarithm's ulp. Sums of 1e4 terms at shape 1e5 give twice the rounding.
-        let tolerance = if shape > 1e4 { 8e-15 } else { 4e-15 };
+        // to its own logarithm's ulp. Sums of 1e4 terms at shape 1e5 give three times the rounding.
+        let tolerance = if shape > 1e4 { 1.2e-14 } else { 4e-15 };
         let tail = ln_p.min(ln_q).abs().max(1.0);
         for (found, expected) in [(ln_gamma_p(shape, x), ln_p), (ln_gamma_q(shape, x), ln_q)] {
             let scale = if expected < -0.7 { expected.abs().max(1.0) } else { expected.abs() * tail };
