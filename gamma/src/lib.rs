@@ -4,8 +4,11 @@
 
 #![warn(missing_docs)]
 
+pub mod fit;
 pub mod inspection;
 pub mod life;
 pub mod metrics;
+pub mod sample;
 pub mod special;
+pub mod stream;
 pub mod system;

@@ -3,8 +3,10 @@
 use statrs::function::beta::beta_reg;
 
 use super::*;
-use crate::life::{Clock, Draws, Estimate, GammaLaw, LifeError, Lifetime, Passage, Situation};
+use crate::life::{Clock, Estimate, GammaLaw, LifeError, Lifetime, Passage, Situation};
+use crate::sample::ln_gamma_variate;
 use crate::special::ln_gamma;
+use crate::stream::Stream;
 
 const READINGS: [(f64, f64); 6] = [(0.0, 0.0), (1.0, 0.7), (2.0, 1.9), (3.5, 2.8), (4.0, 3.6), (5.0, 4.3)];
 
@@ -137,14 +139,14 @@ fn an_exponent_is_learned_too() {
 }
 
 /// A unit drawn from the prior: its readings at 0, 1, .. 6 until the threshold, and its true remaining life.
-fn unit(draws: &mut Draws, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> {
+fn unit(draws: &mut Stream, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> {
     let z = [draws.normal(), draws.normal()];
     let logs = crate::life::moved(prior.logs(), &prior.factor().times(&z));
     let (alpha, beta) = (logs[0].exp(), logs[1].exp());
     let mut rows = vec![(0.0, 0.0)];
     let mut wear = 0.0;
     for n in 1..=4 {
-        wear += draws.ln_gamma(alpha).exp() / beta;
+        wear += ln_gamma_variate(alpha, draws).exp() / beta;
         rows.push((f64::from(n), wear));
     }
     if wear >= 10.0 {
@@ -158,10 +160,11 @@ fn unit(draws: &mut Draws, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> {
 
 #[test]
 fn intervals_hold_the_life_of_500_units_as_often_as_they_say() {
-    let (prior, mut draws) = (fit(), Draws::new(2024));
+    let (prior, mut unit_at) = (fit(), 0);
     let (mut held, mut held_half, mut count) = (0, 0, 0);
     while count < 500 {
-        let Some((rows, truth)) = unit(&mut draws, &prior) else { continue };
+        unit_at += 1;
+        let Some((rows, truth)) = unit(&mut Stream::new(2024, unit_at, 0), &prior) else { continue };
         let posterior =
             Posterior::update(&history(&rows), &Prior::Fit(prior.clone()), &situation()).expect("proper");
         // Between the quantiles p and 1 - p exactly if the distribution at the truth is.

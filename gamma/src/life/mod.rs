@@ -8,7 +8,6 @@
 mod band;
 mod budget;
 mod clock;
-mod draws;
 mod error;
 mod estimate;
 mod law;
@@ -28,7 +27,6 @@ pub use lifetime::{Lifetime, Moments};
 pub use passage::Passage;
 pub use statistics::{LifeStatistics, Measured};
 
-pub(crate) use draws::{Draws, standard_normal_cdf, standard_normal_density};
 pub(crate) use error::positive;
 pub(crate) use estimate::moved;
 pub(crate) use quadrature::integrate;
