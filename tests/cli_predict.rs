@@ -95,9 +95,13 @@ fn inspections_move_the_prediction() {
     assert!(median(&flat) < 1700.0, "{}", median(&flat));
     assert!(median(&flat) < median(&learned) && median(&learned) < median(&blind));
     assert_eq!(learned["current"], 4.0);
-    let gauge = linkwear(&[&common[..], &inspections[..], &["--gauge", "0.3"]].concat()).json();
-    // A gauge error of 0.3 in 6: the median stays near.
-    assert!((median(&gauge) / median(&learned) - 1.0).abs() < 0.1, "{}", median(&gauge));
+    // With so poor a gauge a unit that wears as the fit says, a reading that falls among them.
+    let log = folder.write("noisy.csv", "hours,percent\n250,0.6\n500,0.5\n750,1.9\n1000,2.2\n");
+    let noisy =
+        ["--inspections", &log, "--time", "hours", "--wear", "percent", "--rate", "0.001", "--gauge", "0.5"];
+    let gauge = linkwear(&[&common[..], &noisy[..]].concat()).json();
+    // About 2.1 of 10 percent worn in 1000 h: some 3900 h are left; readings may move that by a fifth.
+    assert!((3100.0..4700.0).contains(&median(&gauge)), "{}", median(&gauge));
     assert_eq!(gauge["budget"]["monte_carlo"]["kind"], "random");
 }
 

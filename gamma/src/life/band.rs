@@ -168,7 +168,9 @@ impl<'a> Bands<'a> {
         if !half.is_finite() {
             return Ok(Band { value, lower: value, upper: value });
         }
-        Ok(Band { value, lower: scale.back(centre - half), upper: scale.back(centre + half) })
+        // There and back costs a digit: the value stays inside its band.
+        let (lower, upper) = (scale.back(centre - half), scale.back(centre + half));
+        Ok(Band { value, lower: lower.min(value), upper: upper.max(value) })
     }
 }
 
