@@ -196,6 +196,10 @@ fn distinct(particles: &[Particle]) -> usize {
 }
 
 impl Lifetime for Particles {
+    fn accuracy(&self) -> f64 {
+        1e-7
+    }
+
     fn reliability(&self, t: f64) -> f64 {
         self.lives.iter().map(|life| life.reliability(t)).sum::<f64>() / self.lives.len() as f64
     }
