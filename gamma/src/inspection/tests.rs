@@ -136,6 +136,7 @@ fn an_exponent_is_learned_too() {
     // Wear 6 is reached at 216 in the mean: 116 from now.
     let median = posterior.quantile(0.5).expect("p");
     assert!((80.0..170.0).contains(&median), "{median}");
+    assert_eq!(posterior.moments(), Err(LifeError::HeavyExponent));
 }
 
 /// A unit drawn from the prior: its readings at 0, 1, .. 6 until the threshold, and its true remaining life.
