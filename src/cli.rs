@@ -6,13 +6,17 @@ mod check;
 mod equations;
 mod failure;
 mod file;
+mod fit_file;
 mod generate;
 mod input;
 mod life;
 mod new;
 mod packaging;
 mod plot;
+mod predict;
+mod prediction;
 mod progress;
+mod readings;
 mod schema;
 mod simulate;
 mod summary;
@@ -67,6 +71,10 @@ enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
+    /// Tell the remaining life from a fit, and from inspections of the joint.
+    #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
+                      linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
+    Predict(PredictArguments),
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
@@ -216,6 +224,56 @@ struct LifeArguments {
     backend: Backend,
 }
 
+#[derive(Debug, Args)]
+struct PredictArguments {
+    /// Result of `linkwear fit .. --format json`.
+    fit: PathBuf,
+    /// Wear at failure, in the unit of the fit's data.
+    #[arg(long, value_name = "W", value_parser = input::positive)]
+    threshold: f64,
+    /// Wear now [default: 0].
+    #[arg(long, value_name = "W0", allow_negative_numbers = true)]
+    current: Option<f64>,
+    /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
+    #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
+    at: Option<f64>,
+    /// Exposure per unit of time from now on; lives are told in that time [default: 1].
+    #[arg(long, value_name = "R", value_parser = input::positive)]
+    rate: Option<f64>,
+    /// Readings of this joint (CSV), time since it was new; the last one is the present.
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["current", "at"], requires_all = ["time", "wear"])]
+    inspections: Option<PathBuf>,
+    /// Column of the time of a reading.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    time: Option<String>,
+    /// Column of the wear.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    wear: Option<String>,
+    /// Standard error of the gauge, in the unit of wear: readings may fall.
+    #[arg(long, value_name = "S", value_parser = input::positive, requires = "inspections")]
+    gauge: Option<f64>,
+    /// Take nothing from the fit but its form: the readings alone decide.
+    #[arg(long, requires = "inspections", conflicts_with = "gauge")]
+    flat_prior: bool,
+    /// Particles that follow readings with gauge error.
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    particles: u32,
+    /// Bands by this many drawn parameters [default: by the delta method].
+    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = draw_count)]
+    draws: Option<usize>,
+    /// Decides all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+}
+
+/// Enough draws for the ends of a 95 % band.
+fn draw_count(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (100..=1_000_000).contains(&count) => Ok(count),
+        _ => Err("a number from 100 to 1000000 is needed".to_owned()),
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Coupling {
     Table,
@@ -278,6 +336,7 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         Command::Generate(arguments) => generate::run(&arguments, format),
         Command::Simulate(arguments) => simulate::run(&arguments, format),
         Command::Life(arguments) => life::run(&arguments, format),
+        Command::Predict(arguments) => predict::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),
         Command::Schema => schema::run(),
         Command::Completions { shell } => packaging::completions(shell, format),

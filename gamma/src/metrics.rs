@@ -5,8 +5,8 @@
 //! the Gamma law: Scheuerer & Möller, Ann. Appl. Stat. 9 (2015) 1328-1349. Prognostic horizon and alpha-lambda accuracy:
 //! Saxena, Celaya, Saha, Saha & Goebel, Int. J. Prognostics and Health Management 1 (2010).
 
-use crate::life::{LifeError, Lifetime, integrate, standard_normal_cdf, standard_normal_density};
-use crate::special::{gamma_p, ln_gamma};
+use crate::life::{LifeError, Lifetime, integrate};
+use crate::special::{gamma_p, ln_gamma, normal_cdf, normal_density};
 
 /// CRPS of a sample: mean |X - y| - half the mean |X - X'|, over the empirical law. Same unit as the life; 0 is best.
 /// None for an empty sample.
@@ -29,7 +29,7 @@ pub fn crps_sample(sample: &[f64], truth: f64) -> Option<f64> {
 pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
     let z = (truth - mean) / std;
     let pi = std::f64::consts::PI;
-    std * (z * (2.0 * standard_normal_cdf(z) - 1.0) + 2.0 * standard_normal_density(z) - 1.0 / pi.sqrt())
+    std * (z * (2.0 * normal_cdf(z) - 1.0) + 2.0 * normal_density(z) - 1.0 / pi.sqrt())
 }
 
 /// CRPS of a Gamma law of given shape and rate, for wear increments: `truth` in the unit of 1 / `rate`.
@@ -146,7 +146,8 @@ pub fn alpha_lambda(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, Draws, GammaLaw, Passage};
+    use crate::life::{Clock, GammaLaw, Passage};
+    use crate::stream::Stream;
 
     /// Gamma law as a life: what `crps_gamma` is compared with.
     struct GammaLife(f64, f64);
@@ -165,7 +166,7 @@ mod tests {
 
     #[test]
     fn closed_forms_agree_with_the_integral_and_with_samples() {
-        let mut draws = Draws::new(5);
+        let mut draws = Stream::new(5, 0, 0);
         let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * draws.normal()).collect();
         for truth in [7.0, 10.0, 13.5] {
             for (shape, rate) in [(0.7, 0.1), (3.0, 0.5), (25.0, 2.0)] {

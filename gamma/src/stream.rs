@@ -1,62 +1,58 @@
-//! Random numbers picked by what they are for. In: seed, trajectory, joint, cycle. Out: uniform and normal deviates,
-//! the same on every machine, for any order of work. Never knows what is drawn.
+//! Random numbers that depend on where they are used and on nothing else. In: seed, trajectory, joint, cycle. Out:
+//! uniform and normal numbers. Never knows what they are drawn for, nor which thread draws them.
 //!
-//! `ChaCha` with 8 rounds is a counter run through a permutation: any place of any stream is reached at once. The key holds
-//! seed and joint, the stream number is the trajectory, and every cycle has a block of its own. So a trajectory draws
-//! the same increments whichever thread or shard it runs on, and after a pause.
+//! The generator is ChaCha8 (`rand_chacha`), a function of key, stream number and block counter. The key is, in
+//! little-endian bytes, seed (8), trajectory (8), joint (8) and the letters `linkwear`; the stream number is the
+//! cycle; the counter begins at 0 in every cycle. So a draw depends on (seed, trajectory, joint, cycle) and its place
+//! within the cycle alone: any number of threads or shards gives the same bits.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-/// Words of 32 bits kept for one cycle. A draw takes some 10; rejection makes more than a few hundred impossible in
-/// practice, and then it only runs into the next cycle's block.
-const WORDS_PER_CYCLE: u128 = 4096;
-/// Sets these streams apart from other uses of the same seed.
-const PURPOSE: &[u8; 16] = b"linkwear.gamma.1";
-
 /// The random numbers of one joint in one trajectory.
 #[derive(Clone, Debug)]
-pub struct Stream(ChaCha8Rng);
+pub struct Stream {
+    generator: ChaCha8Rng,
+}
 
 impl Stream {
-    /// At the begin of the first cycle.
-    #[must_use]
+    /// The stream of a joint in a trajectory, at the start of cycle 0.
     pub fn new(seed: u64, trajectory: u64, joint: u64) -> Self {
-        let mut key = [0_u8; 32];
+        let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
-        key[8..16].copy_from_slice(&joint.to_le_bytes());
-        key[16..].copy_from_slice(PURPOSE);
-        let mut generator = ChaCha8Rng::from_seed(key);
-        generator.set_stream(trajectory);
-        Self(generator)
+        key[8..16].copy_from_slice(&trajectory.to_le_bytes());
+        key[16..24].copy_from_slice(&joint.to_le_bytes());
+        key[24..].copy_from_slice(b"linkwear");
+        Self { generator: ChaCha8Rng::from_seed(key) }
     }
 
-    /// At the begin of a cycle, counted from 0, below 2^55.
-    #[must_use]
-    pub fn at(mut self, cycle: u64) -> Self {
-        self.0.set_word_pos(u128::from(cycle) * WORDS_PER_CYCLE);
+    /// Goes to the start of a cycle, whatever was drawn before.
+    pub fn at(&mut self, cycle: u64) -> &mut Self {
+        self.generator.set_stream(cycle);
+        self.generator.set_word_pos(0);
         self
     }
 
     /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.0.next_u64()
+        self.generator.next_u64()
     }
 
-    /// Uniform in (0, 1), never an end: the middle of one of 2^52 cells.
+    /// Uniform in the open interval (0, 1): the middles of 2^52 equal parts, so neither end can come.
     pub fn uniform(&mut self) -> f64 {
-        ((self.bits() >> 12) as f64 + 0.5) * (1.0 / (1_u64 << 52) as f64)
+        const PART: f64 = 1.0 / (1_u64 << 52) as f64;
+        ((self.bits() >> 12) as f64 + 0.5) * PART
     }
 
-    /// Standard normal, by Marsaglia's polar method (one of its pair, so that a draw has no memory).
+    /// Standard normal, by Box and Muller, from two uniform numbers.
     pub fn normal(&mut self) -> f64 {
-        loop {
-            let (x, y) = (2.0 * self.uniform() - 1.0, 2.0 * self.uniform() - 1.0);
-            let square = x * x + y * y;
-            if square > 0.0 && square < 1.0 {
-                return x * libm::sqrt(-2.0 * libm::log(square) / square);
-            }
-        }
+        let radius = libm::sqrt(-2.0 * libm::log(self.uniform()));
+        radius * libm::cos(2.0 * core::f64::consts::PI * self.uniform())
+    }
+
+    /// A whole number in 0..count, for resampling. `count` > 0; the bias, count / 2^64, is beyond measure.
+    pub fn below(&mut self, count: usize) -> usize {
+        ((u128::from(self.bits()) * count as u128) >> 64) as usize
     }
 }
 
@@ -65,41 +61,40 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_of_a_stream_has_known_bits_whatever_came_before() {
-        // Pinned: other bits would change the results of every seed.
-        let bits = |trajectory, joint, cycle| Stream::new(7, trajectory, joint).at(cycle).bits();
-        assert_eq!([bits(0, 0, 0), bits(1, 0, 0), bits(0, 1, 0), bits(0, 0, 1)], KNOWN);
-        let mut stream = Stream::new(7, 0, 0);
-        for _ in 0..100 {
-            stream.normal();
+    fn a_draw_depends_on_its_four_numbers_alone() {
+        let first = Stream::new(7, 3, 1).at(12).bits();
+        let mut used = Stream::new(7, 3, 1);
+        for _ in 0..1000 {
+            used.at(5).bits();
+            used.bits();
         }
-        assert_eq!(stream.at(1).bits(), KNOWN[3]);
+        assert_eq!(used.at(12).bits(), first);
+        let others = [(8, 3, 1, 12), (7, 4, 1, 12), (7, 3, 2, 12), (7, 3, 1, 13)];
+        for (seed, trajectory, joint, cycle) in others {
+            assert_ne!(Stream::new(seed, trajectory, joint).at(cycle).bits(), first);
+        }
     }
 
-    const KNOWN: [u64; 4] = [
-        13_077_527_142_614_884_970,
-        2_349_712_983_982_220_937,
-        5_512_707_190_370_733_920,
-        7_347_546_441_153_215_298,
-    ];
+    #[test]
+    fn uniform_numbers_fill_the_open_interval_evenly() {
+        let mut stream = Stream::new(1, 0, 0);
+        let draws: Vec<f64> = (0..100_000).map(|_| stream.uniform()).collect();
+        assert!(draws.iter().all(|u| *u > 0.0 && *u < 1.0));
+        let mean = draws.iter().sum::<f64>() / draws.len() as f64;
+        // Four standard errors of the mean, 1 / sqrt(12 n).
+        assert!((mean - 0.5).abs() < 4.0 / (12e5_f64).sqrt(), "{mean}");
+    }
 
     #[test]
-    fn deviates_have_the_moments_of_their_laws() {
-        let mut stream = Stream::new(3, 5, 1);
-        let count = 100_000;
-        let (mut uniform, mut square, mut fourth) = (0.0, 0.0, 0.0);
-        for _ in 0..count {
-            let u = stream.uniform();
-            assert!(u > 0.0 && u < 1.0);
-            uniform += u;
-            let z = stream.normal();
-            square += z * z;
-            fourth += z * z * z * z;
-        }
-        let n = f64::from(count);
-        // Four standard errors: of u sqrt(1/12/n), of z^2 sqrt(2/n), of z^4 sqrt(96/n).
-        assert!((uniform / n - 0.5).abs() < 4.0 * (1.0 / 12.0 / n).sqrt());
-        assert!((square / n - 1.0).abs() < 4.0 * (2.0 / n).sqrt());
-        assert!((fourth / n - 3.0).abs() < 4.0 * (96.0 / n).sqrt());
+    fn normal_numbers_have_mean_variance_and_kurtosis_of_the_normal_law() {
+        let mut stream = Stream::new(2, 0, 0);
+        let n = 100_000;
+        let draws: Vec<f64> = (0..n).map(|_| stream.normal()).collect();
+        let moment = |k: i32| draws.iter().map(|z| z.powi(k)).sum::<f64>() / f64::from(n);
+        // Four standard errors: variances of z, z^2, z^4 are 1, 2, 96.
+        let error = |variance: f64| 4.0 * (variance / f64::from(n)).sqrt();
+        assert!(moment(1).abs() < error(1.0));
+        assert!((moment(2) - 1.0).abs() < error(2.0));
+        assert!((moment(4) - 3.0).abs() < error(96.0));
     }
 }

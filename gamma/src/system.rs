@@ -172,7 +172,8 @@ impl Lifetime for System {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, Draws, GammaLaw};
+    use crate::life::{Clock, GammaLaw};
+    use crate::stream::Stream;
 
     fn member(alpha: f64, threshold: f64) -> Passage {
         let law = GammaLaw::new(alpha, 10.0).expect("valid");
@@ -219,7 +220,7 @@ mod tests {
         let members = vec![member(8.0, 4.0), member(5.0, 3.0)];
         let system = System::sharing(members.clone(), SharedFactor::Lognormal { cov: 0.4 }).expect("valid");
         let sigma = (0.16_f64).ln_1p().sqrt();
-        let mut draws = Draws::new(11);
+        let mut draws = Stream::new(11, 0, 0);
         let (mut sum, mut squares, t, count) = (0.0, 0.0, 4.5, 20_000);
         for _ in 0..count {
             let z = (sigma * draws.normal() - 0.5 * sigma * sigma).exp();

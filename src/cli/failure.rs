@@ -58,6 +58,17 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
+    /// A file with data or results is wrong.
+    Data {
+        /// The file.
+        file: PathBuf,
+        /// Where, from 1, if it has a place.
+        line: Option<usize>,
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// A life could not be lived to its end.
     Life {
         /// The mechanism.
@@ -119,6 +130,11 @@ impl Failure {
         }
         let plain = self.plain();
         let mut text = format!("error[{}]: {}", plain.code, plain.message);
+        // Other messages name their file.
+        if let Self::Data { file, line, .. } = self {
+            let place = line.map_or_else(String::new, |line| format!(":{line}"));
+            let _ = write!(text, "\n  --> {}{place}", file.display());
+        }
         if !plain.help.is_empty() {
             let _ = write!(text, "\n  = help: {}", plain.help);
         }
@@ -171,13 +187,18 @@ impl Failure {
             }
             Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
             Self::Life { file, message, help, .. } => ("C0010", Some(file), message.clone(), help.clone()),
+            Self::Data { file, message, help, .. } => ("C0011", Some(file), message.clone(), help.clone()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))
             }
             Self::Mechanism(_) => unreachable!("rendered by the front end"),
         };
-        let line = if let Self::Stale { line, .. } = self { Some(*line) } else { None };
+        let line = match self {
+            Self::Stale { line, .. } => Some(*line),
+            Self::Data { line, .. } => *line,
+            _ => None,
+        };
         Plain { code, file: file.cloned(), line, message, help }
     }
 }

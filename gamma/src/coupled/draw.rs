@@ -34,7 +34,8 @@ impl IncrementDraw for GammaDraw {
         if shape <= 0.0 {
             return 0.0;
         }
-        let mut stream = Stream::new(self.seed, trajectory, joint as u64).at(cycle);
+        let mut stream = Stream::new(self.seed, trajectory, joint as u64);
+        stream.at(cycle);
         // Wear too small for a number is no wear: only here, where it is added to micrometres.
         libm::exp(ln_gamma_variate(shape, &mut stream) - ln_beta) * MICRO
     }

@@ -10,7 +10,9 @@
 use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
-use crate::life::{Draws, Estimate, Lifetime, Passage, Situation, moved};
+use crate::life::{Estimate, Lifetime, Passage, Situation, moved};
+use crate::sample::ln_gamma_variate;
+use crate::stream::Stream;
 
 /// Different particles below which an answer is refused: three-digit probabilities need that many.
 const FEWEST: usize = 200;
@@ -55,22 +57,25 @@ impl Particles {
         if !(gauge.is_finite() && gauge > 0.0) {
             return Err(InspectionError::Gauge { value: gauge });
         }
-        let mut draws = Draws::new(effort.seed);
+        let stream = |particle: usize| Stream::new(effort.seed, particle as u64, 0);
+        // Beyond the particles: what resampling needs.
+        let mut common = stream(effort.count);
         let mut particles: Vec<Particle> =
-            (0..effort.count).map(|origin| Particle::new(origin, prior, &mut draws)).collect();
+            (0..effort.count).map(|origin| Particle::new(origin, prior, &mut stream(origin))).collect();
         let mut ln_weights = vec![0.0; particles.len()];
         let mut fewest = (usize::MAX, 1);
         let mut before = 0.0;
         for (at, reading) in history.readings().iter().enumerate() {
             let now = situation.rate() * reading.time;
-            for (particle, ln) in particles.iter_mut().zip(&mut ln_weights) {
-                particle.wear_on(before, now, &mut draws);
+            for (k, (particle, ln)) in particles.iter_mut().zip(&mut ln_weights).enumerate() {
+                // Cycle 0 of a stream drew the parameters; reading n draws from cycle n.
+                particle.wear_on(before, now, stream(k).at(at as u64 + 1));
                 *ln -= 0.5 * ((reading.wear - particle.wear) / gauge).powi(2);
             }
             before = now;
             let last = at + 1 == history.readings().len();
             if last || effective(&ln_weights) < 0.5 * particles.len() as f64 {
-                particles = resampled(&particles, &ln_weights, draws.uniform());
+                particles = resampled(&particles, &ln_weights, common.uniform());
                 ln_weights.fill(0.0);
                 let distinct = distinct(&particles);
                 if distinct < fewest.0 {
@@ -139,17 +144,17 @@ impl Particles {
 }
 
 impl Particle {
-    fn new(origin: usize, prior: &Estimate, draws: &mut Draws) -> Self {
+    fn new(origin: usize, prior: &Estimate, draws: &mut Stream) -> Self {
         let z: Vec<f64> = prior.logs().iter().map(|_| draws.normal()).collect();
         Self { origin, logs: moved(prior.logs(), &prior.factor().times(&z)), wear: 0.0 }
     }
 
     /// Draws the wear between two exposures.
-    fn wear_on(&mut self, before: f64, now: f64, draws: &mut Draws) {
+    fn wear_on(&mut self, before: f64, now: f64, draws: &mut Stream) {
         let exponent = self.logs.get(2).map_or(1.0, |log| log.exp());
         let shape = self.logs[0].exp() * (now.powf(exponent) - before.powf(exponent));
         if shape > 0.0 {
-            self.wear += (draws.ln_gamma(shape) - self.logs[1]).exp();
+            self.wear += (ln_gamma_variate(shape, draws) - self.logs[1]).exp();
         }
     }
 }
@@ -191,6 +196,10 @@ fn distinct(particles: &[Particle]) -> usize {
 }
 
 impl Lifetime for Particles {
+    fn accuracy(&self) -> f64 {
+        1e-7
+    }
+
     fn reliability(&self, t: f64) -> f64 {
         self.lives.iter().map(|life| life.reliability(t)).sum::<f64>() / self.lives.len() as f64
     }

@@ -13,8 +13,8 @@ use super::likelihood::{Likelihood, Slice};
 use super::ruler::Hump;
 use crate::life::{Estimate, LifeError, Lifetime, Passage, Situation};
 
-/// Nodes of less weight are left out.
-const NEGLIGIBLE: f64 = 1e-11;
+/// Weight of all the lightest nodes together that are left out.
+const NEGLIGIBLE: f64 = 1e-8;
 /// A flat prior gives a finite variance from this many increments on: S(t) falls as t^-(increments - 1).
 const FINITE_VARIANCE: usize = 4;
 /// How far from the start a hump is looked for, in logarithms.
@@ -125,6 +125,10 @@ impl Posterior {
 }
 
 impl Lifetime for Posterior {
+    fn accuracy(&self) -> f64 {
+        1e-7
+    }
+
     fn reliability(&self, t: f64) -> f64 {
         self.nodes.iter().map(|node| node.weight * node.life.reliability(t)).sum()
     }
@@ -150,6 +154,10 @@ impl Lifetime for Posterior {
     }
 
     fn finite_moments(&self) -> Result<(), LifeError> {
+        // T grows as e^(1/c) for small exponents c, whose probability falls only as a power.
+        if self.flat.is_some() && self.nodes[0].logs.len() == 3 {
+            return Err(LifeError::HeavyExponent);
+        }
         match self.flat {
             Some(increments) if increments < FINITE_VARIANCE => {
                 Err(LifeError::HeavyTail { increments, needed: FINITE_VARIANCE })
@@ -224,8 +232,16 @@ impl Lines<'_> {
 /// Weights that sum to 1, lives of the nodes that count.
 fn weighed(points: Vec<Point>, now: &Situation) -> Result<Vec<Node>, InspectionError> {
     let top = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
-    let kept: Vec<Point> = points.into_iter().filter(|point| (point.1 - top).exp() > NEGLIGIBLE).collect();
-    let total: f64 = kept.iter().map(|point| (point.1 - top).exp()).sum();
+    let mut kept: Vec<Point> = points.into_iter().filter(|point| point.1 > f64::NEG_INFINITY).collect();
+    // Heaviest first, until the rest does not count. The sort is stable: the same nodes in every run.
+    kept.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let all: f64 = kept.iter().map(|point| (point.1 - top).exp()).sum();
+    let mut total = 0.0;
+    let enough = kept.iter().position(|point| {
+        total += (point.1 - top).exp();
+        total > (1.0 - NEGLIGIBLE) * all
+    });
+    kept.truncate(enough.map_or(kept.len(), |last| last + 1));
     let node = |(logs, ln): Point| {
         // Under a flat prior a tail of weight 1e-8 reaches rates below the smallest number; there the first jump fails.
         let within: Vec<f64> = logs.iter().map(|log| log.clamp(-LARGEST, LARGEST)).collect();

@@ -5,11 +5,12 @@
 //! probabilities, the logarithm for times; half-width z times its standard error there, carried back. Draws: parameters
 //! from the normal law of their logarithms, quantiles of the values they give.
 
-use super::draws::{Draws, standard_normal_quantile};
 use super::error::LifeError;
 use super::estimate::{Estimate, Situation, moved};
 use super::lifetime::Lifetime;
 use super::passage::Passage;
+use crate::special::normal_quantile;
+use crate::stream::Stream;
 
 /// Step of the differences in the logarithms of the parameters: error 1e-8 by curvature, 1e-12 by rounding.
 const STEP: f64 = 1e-4;
@@ -96,13 +97,14 @@ impl<'a> Bands<'a> {
             return Err(LifeError::Probability { value: level });
         }
         let life = situation.life(estimate)?;
-        let z = standard_normal_quantile(0.5 + 0.5 * level);
+        let z = normal_quantile(0.5 + 0.5 * level);
         let drawn = match method {
             Method::Delta => Vec::new(),
             Method::Draws { count, seed } => {
-                let mut draws = Draws::new(seed);
+                // One stream for each draw, the joint 0: more draws leave the first ones as they are.
                 let mut lives = Vec::with_capacity(count);
-                for _ in 0..count {
+                for at in 0..count {
+                    let mut draws = Stream::new(seed, at as u64, 0);
                     let z: Vec<f64> = estimate.logs().iter().map(|_| draws.normal()).collect();
                     lives.push(situation.life_at(&moved(estimate.logs(), &estimate.factor().times(&z)))?);
                 }
@@ -166,7 +168,9 @@ impl<'a> Bands<'a> {
         if !half.is_finite() {
             return Ok(Band { value, lower: value, upper: value });
         }
-        Ok(Band { value, lower: scale.back(centre - half), upper: scale.back(centre + half) })
+        // There and back costs a digit: the value stays inside its band.
+        let (lower, upper) = (scale.back(centre - half), scale.back(centre + half));
+        Ok(Band { value, lower: lower.min(value), upper: upper.max(value) })
     }
 }
 

@@ -81,6 +81,11 @@ pub enum LifeError {
         /// Increments a finite variance needs.
         needed: usize,
     },
+    /// An unknown exponent may be so small that lives have no mean.
+    #[error(
+        "with an unknown exponent and a flat prior the mean and standard deviation are not finite: use quantiles, or a fit as prior"
+    )]
+    HeavyExponent,
     /// A shared factor that is near zero too often for a mean.
     #[error(
         "a Gamma factor of coefficient of variation {cov} is near zero so often that mean or standard deviation are not finite: below {below:.3} they are; use quantiles, or a lognormal factor"

@@ -4,10 +4,8 @@
 use super::error::LifeError;
 use super::quadrature::integrate;
 
-/// Survivors that are no longer counted.
-const GONE: f64 = 1e-16;
-/// Relative accuracy asked of integrals.
-const ACCURACY: f64 = 1e-11;
+/// Survivors that are no longer counted, as a part of the accuracy asked for.
+const GONE: f64 = 1e-5;
 /// Whole cycles that are summed one by one; longer lives take the sum as an integral.
 const SUMMED: f64 = 2000.0;
 
@@ -41,6 +39,12 @@ pub trait Lifetime {
     /// Probability of failure until `t`. Overridden where it can be had without the loss of digits in 1 - S.
     fn failed(&self, t: f64) -> f64 {
         1.0 - self.reliability(t)
+    }
+
+    /// Relative accuracy asked of integrals. Mixtures of many laws ask for less: each value costs them more, and they are
+    /// no more accurate themselves.
+    fn accuracy(&self) -> f64 {
+        1e-11
     }
 
     /// Times where the reliability has kinks.
@@ -90,14 +94,15 @@ pub trait Lifetime {
         Ok(root(&miss, low, high))
     }
 
-    /// Mean and standard deviation, time as it runs, by integrals of failed part and survivors; relative accuracy 1e-10.
+    /// Mean and standard deviation, time as it runs, by integrals of failed part and survivors; relative accuracy ten times
+    /// [`Self::accuracy`].
     ///
     /// # Errors
     /// [`LifeError::HeavyTail`].
     fn moments(&self) -> Result<Moments, LifeError> {
         self.finite_moments()?;
         let scale = self.typical();
-        let end = end(&|t| self.reliability(t), scale);
+        let end = end(&|t| self.reliability(t), scale, GONE * self.accuracy());
         let mut limits = vec![0.0];
         limits.extend(self.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
         limits.extend([scale, end]);
@@ -110,7 +115,7 @@ pub trait Lifetime {
             let part = if t < centre { -self.failed(t) } else { self.reliability(t) };
             [part, 2.0 * (t - centre) * part]
         };
-        let tolerance = [ACCURACY * centre, ACCURACY * centre * centre];
+        let tolerance = [self.accuracy() * centre, self.accuracy() * centre * centre];
         let (sums, errors) = integrate(&integrand, &limits, tolerance);
         let variance = (sums[1] - sums[0] * sums[0]).max(0.0);
         Ok(Moments { mean: centre + sums[0], std: variance.sqrt(), error: errors[0] })
@@ -124,7 +129,8 @@ pub trait Lifetime {
     /// [`LifeError::HeavyTail`].
     fn whole_cycles(&self) -> Result<Moments, LifeError> {
         self.finite_moments()?;
-        if end(&|t| self.reliability(t), self.typical()) > SUMMED {
+        let gone = GONE * self.accuracy();
+        if end(&|t| self.reliability(t), self.typical(), gone) > SUMMED {
             let moments = self.moments()?;
             let std = (moments.std * moments.std + 1.0 / 12.0).sqrt();
             return Ok(Moments { mean: moments.mean + 0.5, std, error: moments.error + 1e-3 });
@@ -135,18 +141,18 @@ pub trait Lifetime {
             mean += alive;
             square += (2.0 * n + 1.0) * alive;
             n += 1.0;
-            if alive * n < GONE {
+            if alive * n < gone {
                 break;
             }
         }
-        Ok(Moments { mean, std: (square - mean * mean).max(0.0).sqrt(), error: GONE })
+        Ok(Moments { mean, std: (square - mean * mean).max(0.0).sqrt(), error: gone })
     }
 }
 
 /// A time after which nothing counts, neither for the mean nor for the variance.
-fn end(reliability: &dyn Fn(f64) -> f64, scale: f64) -> f64 {
+fn end(reliability: &dyn Fn(f64) -> f64, scale: f64, gone: f64) -> f64 {
     let mut end = scale;
-    while reliability(end) * (end / scale).powi(2) > GONE && end < 1e12 * scale {
+    while reliability(end) * (end / scale).powi(2) > gone && end < 1e12 * scale {
         end *= 1.5;
     }
     end

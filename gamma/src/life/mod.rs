@@ -1,4 +1,4 @@
-//! Laws of life: when wear reaches its threshold, [CS (24), (26)].
+//! Laws of life: when wear that grows by [CS (21)] reaches its threshold.
 //! In: a Gamma law of wear, a clock that says how exposure Lambda runs with time, the present state. Out: reliability,
 //! density, hazard, quantiles, moments, bands from the uncertainty of the parameters, an error budget, statistics of
 //! simulated lives. Never knows how the parameters were estimated, mechanisms, files.
@@ -8,7 +8,6 @@
 mod band;
 mod budget;
 mod clock;
-mod draws;
 mod error;
 mod estimate;
 mod law;
@@ -28,7 +27,6 @@ pub use lifetime::{Lifetime, Moments};
 pub use passage::Passage;
 pub use statistics::{LifeStatistics, Measured};
 
-pub(crate) use draws::{Draws, standard_normal_cdf, standard_normal_density};
 pub(crate) use error::positive;
 pub(crate) use estimate::moved;
 pub(crate) use quadrature::integrate;

@@ -123,8 +123,8 @@ pub(super) fn sorted_quantile(sorted: &[f64], p: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::draws::Draws;
     use super::*;
+    use crate::stream::Stream;
 
     #[test]
     fn small_lists_give_what_a_hand_calculation_gives() {
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn standard_errors_are_the_scatter_of_repetitions() {
         // 400 repetitions of 200 lives, lognormal: skewed, so the third moment counts.
-        let mut draws = Draws::new(3);
+        let mut draws = Stream::new(3, 0, 0);
         let mut found: Vec<[f64; 4]> = Vec::new();
         let mut told = [0.0; 4];
         for _ in 0..400 {

@@ -1,6 +1,8 @@
 //! Closed forms against drawn paths.
 
 use super::*;
+use crate::sample::ln_gamma_variate;
+use crate::stream::Stream;
 
 /// Wear on a bearing like that of the case study: threshold 80 um, some 3.2 um of mean wear a cycle, alpha = beta, and
 /// beta W = 1092, to which the scatter of the paper's lives leads back.
@@ -20,17 +22,17 @@ fn rows() -> Vec<(f64, f64)> {
 
 /// One path: the cycle that passes the threshold, and the time within it. Within the cycle exposure runs evenly, and a
 /// half of a Gamma increment is its whole times a symmetric beta variate: halving finds the passage to 2^-12 cycle.
-fn path(rows: &[(f64, f64)], draws: &mut Draws) -> (f64, f64) {
+fn path(rows: &[(f64, f64)], draws: &mut Stream) -> (f64, f64) {
     let mut wear = 0.0;
-    for pair in rows.windows(2) {
+    for (n, pair) in rows.windows(2).enumerate() {
         let mut shape = RATE * (pair[1].1 - pair[0].1);
-        let mut increment = draws.ln_gamma(shape).exp() / RATE;
+        let mut increment = ln_gamma_variate(shape, draws.at(n as u64)).exp() / RATE;
         if wear + increment >= THRESHOLD {
             let (mut t, mut length) = (pair[0].0, 1.0);
             for _ in 0..12 {
                 shape *= 0.5;
                 length *= 0.5;
-                let (a, b) = (draws.ln_gamma(shape), draws.ln_gamma(shape));
+                let (a, b) = (ln_gamma_variate(shape, draws), ln_gamma_variate(shape, draws));
                 let first = increment / (1.0 + (b - a).exp());
                 if wear + first >= THRESHOLD {
                     increment = first;
@@ -52,11 +54,11 @@ fn hundred_thousand_paths_agree_with_the_closed_form() {
     let rows = rows();
     let law = GammaLaw::new(RATE, RATE).expect("valid");
     let life = Passage::new(law, Clock::table(rows.clone()).expect("rising"), THRESHOLD).expect("valid");
-    let mut draws = Draws::new(31);
-    let (whole, running): (Vec<f64>, Vec<f64>) = (0..100_000).map(|_| path(&rows, &mut draws)).unzip();
+    let (whole, running): (Vec<f64>, Vec<f64>) =
+        (0..100_000).map(|trajectory| path(&rows, &mut Stream::new(1, trajectory, 0))).unzip();
     for (lives, exact) in [(whole, life.whole_cycles()), (running, life.moments())] {
         let (lives, exact) = (LifeStatistics::of(&lives).expect("lives"), exact.expect("finite"));
-        // Three standard errors of a fixed seed.
+        // Three standard errors of a fixed seed; seeds 0 to 11 lie between -1.5 and 2.3 of them in the mean.
         let (mean, cov) = (lives.mean(), lives.cov());
         assert!((mean.value - exact.mean).abs() < 3.0 * mean.error, "{mean:?} {exact:?}");
         assert!((cov.value - exact.cov()).abs() < 3.0 * cov.error, "{cov:?} {}", exact.cov());
