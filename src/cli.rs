@@ -8,19 +8,24 @@ mod check;
 mod equations;
 mod failure;
 mod file;
+mod fit_file;
 mod generate;
 mod input;
 mod life;
 mod new;
 mod packaging;
 mod plot;
+mod predict;
+mod prediction;
 mod progress;
+mod readings;
 mod schema;
 mod simulate;
 mod summary;
 mod table;
 
 use std::ffi::OsString;
+use std::num::NonZero;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -64,12 +69,18 @@ enum Command {
     )]
     Simulate(SimulateArguments),
     /// Wear the joints with clearance, cycle by cycle, until the first has failed.
-    #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml")]
+    #[command(
+        after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
+    )]
     Life(LifeArguments),
     /// Recompute the figures and tables of the paper's case study, beside the paper's own numbers.
     #[cfg(feature = "case-study")]
     #[command(after_help = "Example:\n  linkwear case-study --out study")]
     CaseStudy(CaseStudyArguments),
+    /// Tell the remaining life from a fit, and from inspections of the joint.
+    #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
+                      linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
+    Predict(PredictArguments),
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
@@ -180,9 +191,19 @@ struct SimulateArguments {
 struct LifeArguments {
     #[command(flatten)]
     input: Input,
-    /// Wear per revolution from a table made once, or from the dynamics at every wear step.
-    #[arg(long, value_enum, default_value_t = Coupling::Table)]
-    coupling: Coupling,
+    /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
+    trajectories: Option<u64>,
+    /// Picks the random numbers; the same seed gives the same bits on any number of threads.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Only the mean path: every increment of wear is its mean.
+    #[arg(long)]
+    mean: bool,
+    /// Wear per revolution from a table made once, or from the dynamics at every wear step [default: table, or full
+    /// where a profile is fed back].
+    #[arg(long, value_enum)]
+    coupling: Option<Coupling>,
     /// Take flexible bodies as rigid.
     #[arg(long)]
     rigid: bool,
@@ -195,6 +216,15 @@ struct LifeArguments {
     /// Revolutions after each change of a clearance before one is measured.
     #[arg(long, value_name = "N", default_value_t = 4)]
     settle: u32,
+    /// Revolutions whose mean is taken; a motion that chatters needs 20 or more.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    average: u32,
+    /// Folder for life.json, cycles.csv and lives.csv; one with something in it is refused.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads that share the random lives [default: one per core].
+    #[arg(long, value_name = "T")]
+    threads: Option<NonZero<usize>>,
     /// What runs the equations.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     backend: Backend,
@@ -215,6 +245,56 @@ struct CaseStudyArguments {
     /// Threads [default: all processors]. Their number changes no result.
     #[arg(long, value_name = "T")]
     threads: Option<std::num::NonZeroU16>,
+}
+
+#[derive(Debug, Args)]
+struct PredictArguments {
+    /// Result of `linkwear fit .. --format json`.
+    fit: PathBuf,
+    /// Wear at failure, in the unit of the fit's data.
+    #[arg(long, value_name = "W", value_parser = input::positive)]
+    threshold: f64,
+    /// Wear now [default: 0].
+    #[arg(long, value_name = "W0", allow_negative_numbers = true)]
+    current: Option<f64>,
+    /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
+    #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
+    at: Option<f64>,
+    /// Exposure per unit of time from now on; lives are told in that time [default: 1].
+    #[arg(long, value_name = "R", value_parser = input::positive)]
+    rate: Option<f64>,
+    /// Readings of this joint (CSV), time since it was new; the last one is the present.
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["current", "at"], requires_all = ["time", "wear"])]
+    inspections: Option<PathBuf>,
+    /// Column of the time of a reading.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    time: Option<String>,
+    /// Column of the wear.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    wear: Option<String>,
+    /// Standard error of the gauge, in the unit of wear: readings may fall.
+    #[arg(long, value_name = "S", value_parser = input::positive, requires = "inspections")]
+    gauge: Option<f64>,
+    /// Take nothing from the fit but its form: the readings alone decide.
+    #[arg(long, requires = "inspections", conflicts_with = "gauge")]
+    flat_prior: bool,
+    /// Particles that follow readings with gauge error.
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    particles: u32,
+    /// Bands by this many drawn parameters [default: by the delta method].
+    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = draw_count)]
+    draws: Option<usize>,
+    /// Decides all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+}
+
+/// Enough draws for the ends of a 95 % band.
+fn draw_count(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (100..=1_000_000).contains(&count) => Ok(count),
+        _ => Err("a number from 100 to 1000000 is needed".to_owned()),
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -281,6 +361,7 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         Command::Life(arguments) => life::run(&arguments, format),
         #[cfg(feature = "case-study")]
         Command::CaseStudy(arguments) => case_study::run(&arguments, format),
+        Command::Predict(arguments) => predict::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),
         Command::Schema => schema::run(),
         Command::Completions { shell } => packaging::completions(shell, format),

@@ -155,8 +155,13 @@ fn the_runtime_has_only_the_allowed_arrows() {
 }
 
 #[test]
+fn the_gamma_process_has_only_the_allowed_arrows() {
+    assert_clean("gamma/src", "Allowed arrows: gamma");
+}
+
+#[test]
 fn allowed_arrows_form_no_circle() {
-    for heading in ["Allowed arrows: codegen", "Allowed arrows: runtime"] {
+    for heading in ["Allowed arrows: codegen", "Allowed arrows: runtime", "Allowed arrows: gamma"] {
         let mut left = table(heading);
         while !left.is_empty() {
             let free: Vec<String> = left
@@ -173,9 +178,11 @@ fn allowed_arrows_form_no_circle() {
 }
 
 #[test]
-fn the_runtime_does_not_know_that_a_generator_exists() {
-    for file in rust_files(Path::new("runtime/src")) {
-        assert!(!code(&file).contains("linkwear_codegen"), "{}", file.display());
+fn runtime_and_gamma_do_not_know_that_a_generator_exists() {
+    for root in ["runtime/src", "gamma/src"] {
+        for file in rust_files(Path::new(root)) {
+            assert!(!code(&file).contains("linkwear_codegen"), "{}", file.display());
+        }
     }
 }
 

@@ -4,4 +4,12 @@
 
 #![warn(missing_docs)]
 
+pub mod coupled;
+pub mod fit;
+pub mod inspection;
+pub mod life;
+pub mod metrics;
+pub mod sample;
 pub mod special;
+pub mod stream;
+pub mod system;

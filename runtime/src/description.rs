@@ -149,8 +149,9 @@ pub struct WearInfo {
     pub hardness: f64,
     /// Model of the contact area.
     pub area: Area,
-    /// What of the profile counts as wear W.
-    pub measure: Measure,
+    /// What of the depth by bearing angle counts as wear W; if nothing, W is the depth by the model of the area (with
+    /// `profile`, the mean).
+    pub measure: Option<Measure>,
     /// Growth of the clearance per wear, gamma of `c + gamma dW`.
     pub feedback: f64,
     /// Feeds the worn profile back to the local gap, instead of the scalar clearance.
@@ -163,6 +164,25 @@ pub struct WearInfo {
     pub revolutions_per_cycle: f64,
     /// Limit of mean pressure times sliding speed [Pa m/s], if one is known.
     pub pressure_speed: Option<f64>,
+    /// Scatter of the wear increments; if nothing, only the mean is known.
+    pub scatter: Option<GammaRates>,
+}
+
+impl WearInfo {
+    /// Whether wear is kept by bearing angle.
+    #[must_use]
+    pub fn keeps_profile(&self) -> bool {
+        self.profile || self.measure.is_some()
+    }
+}
+
+/// The Gamma process of wear, [CS (21)]: dW ~ Gamma(shape alpha dLambda, rate beta). W and Lambda in metres here.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GammaRates {
+    /// Shape per mean wear [1/m].
+    pub alpha: f64,
+    /// Rate [1/m].
+    pub beta: f64,
 }
 
 /// What generated code says about itself, as plain tables: names, units and flags in the order of the fields of

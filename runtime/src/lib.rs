@@ -63,8 +63,8 @@ pub use assemble::{
 };
 #[cfg(feature = "std")]
 pub use description::{
-    Channel, ContactInfo, Description, DriverInfo, List, Motion, ParameterInfo, RowInfo, Tables, Text,
-    VariableInfo, WearInfo,
+    Channel, ContactInfo, Description, DriverInfo, GammaRates, List, Motion, ParameterInfo, RowInfo, Tables,
+    Text, VariableInfo, WearInfo,
 };
 #[cfg(feature = "std")]
 pub use dynamics::{Dynamics, SINGULAR_PIVOT};

@@ -1,7 +1,9 @@
 //! Why a study could not be finished, as data. In: nothing. Out: [`StudyError`].
 
+use std::convert::Infallible;
+
 use linkwear_codegen::Diagnostics;
-use linkwear_runtime::life::{SettingsError, Stop};
+use linkwear_runtime::life::{CalibrationError, SettingsError, Stop};
 use linkwear_runtime::{RunError, SetupError};
 use thiserror::Error;
 
@@ -37,12 +39,12 @@ pub enum StudyError {
     /// A life has settings that make no sense.
     #[error(transparent)]
     Settings(#[from] SettingsError),
-    /// A life did not end where the study needs its end.
-    #[error("no joint has failed after {cycles} cycles")]
-    NoFailure {
-        /// Cycles lived.
-        cycles: u64,
-    },
+    /// A life by a table could not be lived.
+    #[error(transparent)]
+    TableLife(#[from] Stop<Infallible>),
+    /// No length of cycle gives the life of the paper.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError<Infallible>),
     /// A curve of reference data cannot be read.
     #[error("line {line} of the reference data is no row of numbers")]
     Reference {

@@ -11,6 +11,7 @@ mod model;
 mod options;
 mod parameters;
 mod report;
+mod tables;
 mod watch;
 
 pub use around::{Around, CYCLES, Peak, Snapshot, TRUE_LIFE, WornBearing};
@@ -20,12 +21,21 @@ pub use figures::{Picture, pictures};
 pub use force::{ForceCurve, Forces, Shape};
 pub use options::Options;
 pub use parameters::ParameterRow;
+pub use tables::TableQuality;
 pub use report::{html, markdown, summary};
 
 use serde::Serialize;
 
 use options::Effort;
+use tables::Tables;
 use watch::Watch;
+
+/// Turns before that of Fig. 4.
+const SETTLE: u32 = 5;
+/// Work of Figs 3 and 4, in turns of the compiled mechanism.
+const FORCE_WORK: f64 = 60.0;
+/// Tables for Fig. 5 reach this part beyond the threshold: its last cycle lies there.
+const REACH: f64 = 1.4;
 
 /// All results, without timings: the same options give the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,6 +48,8 @@ pub struct Study {
     pub configuration: Configuration,
     /// Fig. 4.
     pub forces: Forces,
+    /// How good the tables of wear per revolution are.
+    pub tables: Vec<TableQuality>,
     /// Fig. 5.
     pub around: Around,
 }
@@ -54,13 +66,16 @@ pub fn run(
     stop: &(dyn Fn() -> bool + Sync),
 ) -> Result<Study, StudyError> {
     let effort = Effort::of(options);
-    let watch = Watch::new(progress, stop, 40.0 + effort.turns_around);
+    let watch = Watch::new(progress, stop, FORCE_WORK + effort.work_of_tables());
     let compiled = model::compiled()?;
+    let forces = force::forces(threads, SETTLE, &watch)?;
+    let deepest = Tables::measure(threads, (1.0, REACH), &effort, &watch)?;
     Ok(Study {
         options,
         parameters: parameters::parameters(&compiled)?,
         configuration: configuration::configuration(&compiled, &watch)?,
-        forces: force::forces(threads, 5, &watch)?,
-        around: around::around(threads, &effort, &watch)?,
+        forces,
+        tables: deepest.quality(1.0, &effort),
+        around: around::around(&deepest, &effort)?,
     })
 }

@@ -12,6 +12,7 @@ use linkwear_runtime::{
 };
 
 use super::error::StudyError;
+use super::options::INTERPRETED;
 use super::watch::Watch;
 use crate::mechanisms;
 
@@ -102,7 +103,7 @@ impl Model {
     pub fn cost(&self) -> f64 {
         match &self.equations {
             Equations::Shipped(_) => 1.0,
-            Equations::Compiled(_) => 4.0,
+            Equations::Compiled(_) => INTERPRETED,
         }
     }
 

@@ -5,6 +5,12 @@ use linkwear_runtime::life::WearStep;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde::Serialize;
 
+/// Wear steps that leave no error beside that of a table.
+const FINEST: WearStep = WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1 };
+
+/// Cost of a turn of an interpreted mechanism, roughly, in turns of a compiled one.
+pub(super) const INTERPRETED: f64 = 4.0;
+
 /// What a study is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Options {
@@ -25,16 +31,23 @@ pub(super) struct Effort {
     pub rigid: RevolutionSettings,
     /// Bearing angles of a profile.
     pub bins: usize,
+    /// Points of the tables: rigid, proposed, finest.
+    pub rigid_points: usize,
+    pub points: usize,
+    pub finest_points: usize,
     /// Wear steps of the proposed model, and of the finest.
     pub wear_step: WearStep,
     pub finest_wear_step: WearStep,
-    /// Wear steps of a life that only has to be long enough.
-    pub calibration_step: WearStep,
-    /// Estimate of the work of Fig. 5, in turns of the compiled mechanism.
-    pub turns_around: f64,
 }
 
 impl Effort {
+    /// Estimate of the work of one gamma's tables, in turns of the compiled mechanism.
+    pub fn work_of_tables(&self) -> f64 {
+        let turns = |settings: RevolutionSettings| f64::from(settings.settle + settings.average);
+        turns(self.flexible) * (self.points + 2 * self.finest_points) as f64
+            + INTERPRETED * turns(self.rigid) * self.rigid_points as f64
+    }
+
     pub fn of(options: Options) -> Self {
         if options.quick { Self::quick() } else { Self::full() }
     }
@@ -47,25 +60,27 @@ impl Effort {
             flexible: settings,
             rigid: RevolutionSettings { average: 32, ..settings },
             bins: 72,
-            wear_step: WearStep::Adaptive { tolerance: 1e-3, shortest: 0.5, longest: 1 },
-            finest_wear_step: WearStep::Adaptive { tolerance: 2e-4, shortest: 0.25, longest: 1 },
-            calibration_step: WearStep::FULL,
-            turns_around: 2500.0,
+            rigid_points: 17,
+            points: 17,
+            finest_points: 33,
+            wear_step: WearStep::TABLE,
+            finest_wear_step: FINEST,
         }
     }
 
     fn quick() -> Self {
         let step = 2e-5;
-        let settings = RevolutionSettings { integrator: Integrator::Rk4 { step }, settle: 1, average: 1 };
+        let settings = RevolutionSettings { integrator: Integrator::Rk4 { step }, settle: 2, average: 1 };
         Self {
             step,
             flexible: settings,
-            rigid: RevolutionSettings { settle: 2, average: 6, ..settings },
+            rigid: RevolutionSettings { average: 4, ..settings },
             bins: 72,
-            wear_step: WearStep::Cycle,
-            finest_wear_step: WearStep::Cycle,
-            calibration_step: WearStep::Adaptive { tolerance: 1e-2, shortest: 1.0, longest: 16 },
-            turns_around: 400.0,
+            rigid_points: 4,
+            points: 7,
+            finest_points: 9,
+            wear_step: WearStep::TABLE,
+            finest_wear_step: FINEST,
         }
     }
 }

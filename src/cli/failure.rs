@@ -58,14 +58,27 @@ pub enum Failure {
         /// What to do.
         help: String,
     },
+    /// A file with data or results is wrong.
+    Data {
+        /// The file.
+        file: PathBuf,
+        /// Where, from 1, if it has a place.
+        line: Option<usize>,
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// A life could not be lived to its end.
     Life {
         /// The mechanism.
         file: PathBuf,
         /// Why.
         message: String,
-        /// Whole cycles before.
-        cycles: usize,
+        /// What to do, or where the cycles before are.
+        help: String,
+        /// The cycles before, if they are in no file.
+        cycles: Vec<Value>,
     },
     /// The case study could not be finished.
     #[cfg(feature = "case-study")]
@@ -105,9 +118,13 @@ impl Failure {
         let code = if matches!(self, Self::Usage { .. }) { USAGE } else { FAILED };
         match format {
             Format::Text => eprintln!("{}", self.text()),
-            Format::Json => print_errors(&self.entries()),
+            Format::Json => print_errors(&self.entries(), self.cycles()),
         }
         ExitCode::from(code)
+    }
+
+    fn cycles(&self) -> &[Value] {
+        if let Self::Life { cycles, .. } = self { cycles } else { &[] }
     }
 
     fn text(&self) -> String {
@@ -116,6 +133,11 @@ impl Failure {
         }
         let plain = self.plain();
         let mut text = format!("error[{}]: {}", plain.code, plain.message);
+        // Other messages name their file.
+        if let Self::Data { file, line, .. } = self {
+            let place = line.map_or_else(String::new, |line| format!(":{line}"));
+            let _ = write!(text, "\n  --> {}{place}", file.display());
+        }
         if !plain.help.is_empty() {
             let _ = write!(text, "\n  = help: {}", plain.help);
         }
@@ -167,22 +189,21 @@ impl Failure {
                 ("C0006", None, format!("there is no output or function `{name}`"), suggestion(name, known))
             }
             Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
-            Self::Life { file, message, cycles } => {
-                let help = match cycles {
-                    0 => "no cycle was completed".to_owned(),
-                    cycles => format!("{cycles} cycles were completed before"),
-                };
-                ("C0010", Some(file), message.clone(), help)
-            }
             #[cfg(feature = "case-study")]
-            Self::Study(error) => ("C0011", None, error.to_string(), "nothing was written".to_owned()),
+            Self::Study(error) => ("C0012", None, error.to_string(), "nothing was written".to_owned()),
+            Self::Life { file, message, help, .. } => ("C0010", Some(file), message.clone(), help.clone()),
+            Self::Data { file, message, help, .. } => ("C0011", Some(file), message.clone(), help.clone()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))
             }
             Self::Mechanism(_) => unreachable!("rendered by the front end"),
         };
-        let line = if let Self::Stale { line, .. } = self { Some(*line) } else { None };
+        let line = match self {
+            Self::Stale { line, .. } => Some(*line),
+            Self::Data { line, .. } => *line,
+            _ => None,
+        };
         Plain { code, file: file.cloned(), line, message, help }
     }
 }
@@ -211,9 +232,14 @@ pub fn entries(diagnostics: &Diagnostics) -> Vec<Value> {
     diagnostics.entries().into_iter().map(value).collect()
 }
 
-fn print_errors(errors: &[Value]) {
+/// `cycles` are what a life had before it stopped, kept beside the errors.
+fn print_errors(errors: &[Value], cycles: &[Value]) {
+    let mut answer = json!({ "errors": errors });
+    if !cycles.is_empty() {
+        answer["cycles"] = json!(cycles);
+    }
     // A reader who has gone away cannot be told; the exit code still says it.
-    let _ = print(&json!({ "errors": errors }));
+    let _ = print(&answer);
 }
 
 /// Reports what clap says about arguments it could not read; help and version are not errors.
@@ -224,10 +250,13 @@ pub fn wrong_arguments(error: &clap::Error, as_json: bool) -> ExitCode {
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
             _ => first_paragraph(&text),
         };
-        print_errors(&[json!({
-            "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
-            "message": message, "help": text.trim_end(),
-        })]);
+        print_errors(
+            &[json!({
+                "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
+                "message": message, "help": text.trim_end(),
+            })],
+            &[],
+        );
     } else {
         let _ = error.print();
     }

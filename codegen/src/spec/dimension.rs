@@ -17,6 +17,7 @@ const KNOWN: &[(Dimension, &str, &str, &str)] = &[
     (Dimension::LENGTH, "m", "a length", "120 mm"),
     (Dimension::MASS, "kg", "a mass", "0.5 kg"),
     (Dimension::TIME, "s", "a time", "0.2 s"),
+    (Dimension::of(-1, 0, 0), "1/m", "an inverse length", "13.65 1/um"),
     (Dimension::of(2, 0, 0), "m^2", "an area", "40 mm^2"),
     (Dimension::of(3, 0, 0), "m^3", "a volume", "500 mm^3"),
     (Dimension::of(0, 0, -1), "1/s", "a frequency or angular speed", "10 rad/s"),

@@ -116,12 +116,16 @@ pub struct WearSpec {
     pub profile: Option<bool>,
     /// Bearing angles of the profile; 72 by default.
     pub bins: Option<At<i64>>,
-    /// What of the profile counts: "mean" (default) or "maximum".
+    /// What of the depth by bearing angle counts as wear: "mean" or "maximum"; by default the depth by the area.
     pub measure: Option<At<MeasureSpec>>,
     /// Revolutions that one cycle stands for; 1 by default.
     pub revolutions_per_cycle: Option<Quantity>,
     /// Limit of mean pressure times sliding speed.
     pub pressure_speed: Option<Quantity>,
+    /// Gamma process: shape per mean wear; by default `beta`. Without both the life is its mean.
+    pub alpha: Option<Quantity>,
+    /// Gamma process: rate; by default `alpha`.
+    pub beta: Option<Quantity>,
     /// Our own assumption.
     pub assumed: bool,
 }
@@ -140,11 +144,10 @@ pub enum AreaSpec {
 }
 
 /// What of a worn profile counts as wear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MeasureSpec {
     /// Mean depth.
-    #[default]
     Mean,
     /// Greatest depth.
     Maximum,

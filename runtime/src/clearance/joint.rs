@@ -83,7 +83,7 @@ impl Clearance {
         let wear = match info.wear {
             Some(wear) => {
                 ScalarFeedback::new(wear.feedback)?;
-                if info.ball && wear.profile {
+                if info.ball && wear.keeps_profile() {
                     let need = "left out: a ball has no bearing angle";
                     return Err(OutOfRange { name: "wear profile of a ball", value: wear.bins as f64, need });
                 }

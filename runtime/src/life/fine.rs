@@ -23,6 +23,19 @@ pub trait FineScale {
     ) -> Result<Vec<RevolutionWear>, Self::Error>;
 }
 
+impl<F: FineScale + ?Sized> FineScale for &mut F {
+    type State = F::State;
+    type Error = F::Error;
+
+    fn measure(
+        &mut self,
+        joints: &[JointWear],
+        state: &mut F::State,
+    ) -> Result<Vec<RevolutionWear>, F::Error> {
+        (**self).measure(joints, state)
+    }
+}
+
 /// How worn a joint is, as the fine scale has to know it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointWear {

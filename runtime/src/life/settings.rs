@@ -194,8 +194,9 @@ impl LifeSettings {
 }
 
 impl JointLife {
-    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear. W is that of the
-    /// profile if the profile feeds back, else the depth by the model of the area.
+    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear. W is the
+    /// mean or maximum of the profile if the description says so or the profile feeds back (then the mean), else the
+    /// depth by the model of the area.
     ///
     /// # Errors
     /// If a number of the joint is out of range.
@@ -219,9 +220,13 @@ impl JointLife {
             clearance,
             threshold: wear.threshold,
             revolutions_per_cycle: wear.revolutions_per_cycle,
-            wear: if wear.profile { WearOf::Profile(wear.measure) } else { WearOf::Depth },
+            wear: match wear.measure {
+                Some(measure) => WearOf::Profile(measure),
+                None if wear.profile => WearOf::Profile(Measure::Mean),
+                None => WearOf::Depth,
+            },
             feedback,
-            bins: wear.profile.then_some(wear.bins),
+            bins: wear.keeps_profile().then_some(wear.bins),
             limits: Limits { hardness: wear.hardness, pressure_speed: wear.pressure_speed },
         };
         lives.check()?;
@@ -321,13 +326,14 @@ mod tests {
         coefficient: 1e-8,
         hardness: 3.5e9,
         area: Area::Hertz,
-        measure: Measure::Maximum,
+        measure: None,
         feedback: 0.1,
         profile: false,
         bins: 72,
         threshold: 80e-6,
         revolutions_per_cycle: 1e7,
         pressure_speed: Some(2e6),
+        scatter: None,
     };
 
     #[test]
@@ -339,8 +345,12 @@ mod tests {
         assert_eq!((scalar.clearance, scalar.threshold, scalar.revolutions_per_cycle), (1e-5, 80e-6, 1e7));
         assert_eq!(scalar.limits, Limits { hardness: 3.5e9, pressure_speed: Some(2e6) });
         let profile = of(Some(WearInfo { profile: true, ..WEAR })).unwrap().unwrap();
-        assert_eq!((profile.wear, profile.bins), (WearOf::Profile(Measure::Maximum), Some(72)));
+        assert_eq!((profile.wear, profile.bins), (WearOf::Profile(Measure::Mean), Some(72)));
         assert_eq!(profile.feedback, Feedback::Profile);
+        // The deepest place decides, the clearance follows it all round.
+        let deepest = of(Some(WearInfo { measure: Some(Measure::Maximum), ..WEAR })).unwrap().unwrap();
+        assert_eq!((deepest.wear, deepest.bins), (WearOf::Profile(Measure::Maximum), Some(72)));
+        assert_eq!(deepest.gamma(), 0.1);
         for wrong in [WearInfo { feedback: -1.0, ..WEAR }, WearInfo { threshold: 0.0, ..WEAR }] {
             assert!(matches!(of(Some(wrong)), Err(SettingsError::Joint { .. })));
         }
@@ -351,6 +361,6 @@ mod tests {
         let profile = JointLife::of_contact(&contact(Some(WearInfo { profile: true, ..WEAR })), 1e-5);
         let settings = LifeSettings::new(vec![profile.unwrap().unwrap()]).without_feedback();
         assert_eq!(settings.joints[0].feedback, Feedback::Scalar(ScalarFeedback::NONE));
-        assert_eq!(settings.joints[0].wear, WearOf::Profile(Measure::Maximum));
+        assert_eq!(settings.joints[0].wear, WearOf::Profile(Measure::Mean));
     }
 }

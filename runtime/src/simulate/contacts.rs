@@ -261,7 +261,7 @@ impl Track {
 /// Profile that takes in the depth of one turn, if the joint keeps one.
 fn empty_deposit(joint: &Clearance) -> Option<Profile> {
     let (_, wear) = joint.wear()?;
-    if wear.profile { Profile::unworn(wear.bins).ok() } else { None }
+    if wear.keeps_profile() { Profile::unworn(wear.bins).ok() } else { None }
 }
 
 /// Spreads the wear integral of a step [J] over the bearing angles the contact passed in it.

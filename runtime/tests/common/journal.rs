@@ -2,7 +2,7 @@
 //! of the journal, gravity in -y, a load by time. Parameters: gravity [m/s²], clearance [m].
 
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
-use linkwear_runtime::wear::{Area, Measure};
+use linkwear_runtime::wear::Area;
 use linkwear_runtime::{
     CONTACT_MOTION, CONTACT_WRENCH, Channel, ContactInfo, Description, DriverInfo, Entry, Motion,
     ParameterInfo, Sizes, System, VariableInfo, WearInfo,
@@ -57,13 +57,14 @@ pub fn wear(area: Area, profile: bool) -> Option<WearInfo> {
         coefficient: 1e-8,
         hardness: 3.5e9,
         area,
-        measure: Measure::Mean,
+        measure: None,
         feedback: 1.0,
         profile,
         bins: 72,
         threshold: 80e-6,
         revolutions_per_cycle: 1e6,
         pressure_speed: None,
+        scatter: None,
     })
 }
 

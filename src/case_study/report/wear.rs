@@ -17,9 +17,9 @@ pub(super) fn blocks(around: &Around) -> Vec<Block> {
         },
         Block::Text(format!(
             "A cycle stands for {:.4e} revolutions: with them the largest depth of the proposed model reaches 80 µm \
-             after {TRUE_LIFE} cycles, the life of the paper's ground truth. Here the worn profile is fed back to \
-             the local gap; the deterministic model has a rigid coupler and no feedback, so that its profile only \
-             grows in proportion.",
+             after {TRUE_LIFE} cycles, the life of the paper's ground truth. The clearance opens by the largest depth; \
+             the deterministic model has a rigid coupler and no feedback, so that its profile only grows in \
+             proportion.",
             around.revolutions_per_cycle
         )),
         Block::table(

@@ -2,7 +2,7 @@
 
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
 use linkwear_runtime::wear::{Area, Measure};
-use linkwear_runtime::{ContactInfo, WearInfo};
+use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -87,8 +87,16 @@ fn wear(own: &WearInfo, runtime: &TokenStream) -> TokenStream {
         Area::Conformal => quote!(Conformal),
     };
     let measure = match own.measure {
-        Measure::Mean => quote!(Mean),
-        Measure::Maximum => quote!(Maximum),
+        Some(Measure::Mean) => quote!(Some(#runtime::wear::Measure::Mean)),
+        Some(Measure::Maximum) => quote!(Some(#runtime::wear::Measure::Maximum)),
+        None => quote!(None),
+    };
+    let scatter = match own.scatter {
+        Some(GammaRates { alpha, beta }) => {
+            let [alpha, beta] = [alpha, beta].map(number);
+            quote!(Some(#runtime::GammaRates { alpha: #alpha, beta: #beta }))
+        }
+        None => quote!(None),
     };
     let (profile, bins) = (own.profile, Literal::usize_unsuffixed(own.bins));
     let limit = match own.pressure_speed {
@@ -101,8 +109,9 @@ fn wear(own: &WearInfo, runtime: &TokenStream) -> TokenStream {
     quote! {
         Some(#runtime::WearInfo {
             coefficient: #k, hardness: #hardness, area: #runtime::wear::Area::#area,
-            measure: #runtime::wear::Measure::#measure, feedback: #feedback, profile: #profile, bins: #bins,
+            measure: #measure, feedback: #feedback, profile: #profile, bins: #bins,
             threshold: #threshold, revolutions_per_cycle: #revolutions, pressure_speed: #limit,
+            scatter: #scatter,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use linkwear_runtime::contact::{IMPACT_SPEED_FLOOR, Onset, Restitution, Stiffness, Strength};
 use linkwear_runtime::wear::{Area, DEFAULT_BINS, Measure};
-use linkwear_runtime::{ContactInfo, WearInfo};
+use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 
 use super::quantity::Allowed;
 use super::{Resolver, inertia, place};
@@ -192,7 +192,10 @@ impl Resolver<'_> {
     }
 
     fn friction(&mut self, name: &Name, own: &ClearanceSpec) -> Option<(Strength, Onset, f64)> {
-        own.friction.as_ref()?;
+        if own.friction.is_none() {
+            self.only_with_friction(name, own);
+            return None;
+        }
         let speed = Dimension::of(1, 0, -1);
         let coefficient = self.not_negative(name, "friction", own.friction.as_ref(), Dimension::NONE, 0.0);
         let strength = match &own.static_friction {
@@ -228,9 +231,57 @@ impl Resolver<'_> {
             [speed] => Onset::Smoothed { speed: *speed },
             [lower, upper, ..] => Onset::Ambrosio { lower: *lower, upper: *upper },
         };
+        self.check_onset(name, own, &speeds);
         let slope =
             self.fixed(name, "friction_slope", own.friction_slope.as_ref(), Dimension::of(-1, 0, 1), 0.0);
         Some((strength, onset, slope))
+    }
+
+    /// Keys that friction would need, without friction.
+    fn only_with_friction(&mut self, name: &Name, own: &ClearanceSpec) {
+        let speeds = own.friction_speed.as_ref().map(|list| list.span);
+        let keys = [
+            ("static_friction", own.static_friction.as_ref().map(|key| key.span)),
+            ("stribeck_speed", own.stribeck_speed.as_ref().map(|key| key.span)),
+            ("friction_slope", own.friction_slope.as_ref().map(|key| key.span)),
+            ("friction_speed", speeds),
+        ];
+        for (key, span) in keys {
+            let Some(span) = span else { continue };
+            let message = format!("`{key}` of joint `{}` has no effect without `friction`", name.value);
+            let fault = Diagnostic::new(Code::BadClearance, message).at(span, "");
+            self.report(
+                fault.help("add `friction = 0.05`, the coefficient at high speed, or leave this out"),
+            );
+        }
+    }
+
+    /// Speeds below which friction is smoothed: one above 0, or two that rise.
+    fn check_onset(&mut self, name: &Name, own: &ClearanceSpec, speeds: &[f64]) {
+        let Some(list) = &own.friction_speed else { return };
+        let fits = match speeds {
+            [speed] => *speed > 0.0,
+            [lower, upper] => *lower >= 0.0 && upper > lower,
+            _ => false,
+        };
+        // What is no number has been reported already.
+        if !fits && speeds.iter().all(|speed| speed.is_finite()) {
+            let message = format!("the friction speeds of joint `{}` are {speeds:?} m/s", name.value);
+            let fault = Diagnostic::new(Code::BadClearance, message).at(list.span, "");
+            self.report(fault.help(
+                "give one above 0, `[\"1 mm/s\"]`, or two that rise, `[\"0.1 mm/s\", \"1 mm/s\"]` (Ambrosio)",
+            ));
+        }
+    }
+
+    /// The Gamma process; with one of its rates, wear has the mean that physics gives.
+    fn scatter(&mut self, name: &Name, own: &WearSpec) -> Option<GammaRates> {
+        let per_length = Dimension::of(-1, 0, 0);
+        let [alpha, beta] = [("alpha", &own.alpha), ("beta", &own.beta)].map(|(key, written)| {
+            let written = written.as_ref()?;
+            Some(self.positive(name, key, Some(written), per_length, f64::NAN))
+        });
+        Some(GammaRates { alpha: alpha.or(beta)?, beta: beta.or(alpha)? })
     }
 
     fn wear(&mut self, name: &Name, written: &At<WearSpec>) -> WearInfo {
@@ -266,10 +317,10 @@ impl Resolver<'_> {
                 AreaSpec::Hertz => Area::Hertz,
                 AreaSpec::Conformal => Area::Conformal,
             },
-            measure: match own.measure.as_ref().map_or(MeasureSpec::default(), |measure| measure.value) {
+            measure: own.measure.as_ref().map(|measure| match measure.value {
                 MeasureSpec::Mean => Measure::Mean,
                 MeasureSpec::Maximum => Measure::Maximum,
-            },
+            }),
             feedback: self.not_negative(name, "feedback", own.feedback.as_ref(), Dimension::NONE, 1.0),
             profile: own.profile.unwrap_or(false),
             bins,
@@ -284,6 +335,7 @@ impl Resolver<'_> {
             pressure_speed: own.pressure_speed.as_ref().map(|limit| {
                 self.positive(name, "pressure_speed", Some(limit), Dimension::of(0, 1, -3), f64::NAN)
             }),
+            scatter: self.scatter(name, own),
         }
     }
 }

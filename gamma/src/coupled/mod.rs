@@ -1,0 +1,8 @@
+//! Lives whose drawn wear changes what wears next, by Monte Carlo. In: a fine scale, settings of the coarse scale,
+//! rates of the Gamma process. Out: lives of trajectories. Never knows equations, files or terminals.
+
+mod draw;
+mod monte_carlo;
+
+pub use draw::GammaDraw;
+pub use monte_carlo::{Ended, Lives, MonteCarlo, Scale};

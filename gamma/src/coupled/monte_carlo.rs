@@ -1,0 +1,140 @@
+//! Many trajectories of one mechanism. In: settings, a way to make fine scales, a draw. Out: lives in the order of
+//! their trajectories, the same bits for any number of threads. Never knows how a revolution is computed.
+
+use std::num::NonZero;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use linkwear_runtime::life::{
+    Failure, FineScale, IncrementDraw, LifeSettings, LifeState, Outcome, Stop, run_life,
+};
+
+/// What to run.
+pub struct MonteCarlo<'a> {
+    /// The lives.
+    pub settings: &'a LifeSettings,
+    /// Their randomness.
+    pub draw: &'a (dyn IncrementDraw + Sync),
+    /// Numbers of the trajectories.
+    pub trajectories: Range<u64>,
+    /// Threads that share the work.
+    pub threads: NonZero<usize>,
+}
+
+/// Why there are no more lives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended<E> {
+    /// All were lived.
+    Complete,
+    /// The observer said so.
+    Cancelled,
+    /// A trajectory could not go on.
+    Stopped {
+        /// Its number; the lowest if several could not.
+        trajectory: u64,
+        /// Why.
+        stop: Stop<E>,
+    },
+    /// A trajectory did not fail within the cycles that the settings allow.
+    Survived {
+        /// Its number; the lowest if several did.
+        trajectory: u64,
+    },
+}
+
+/// Lives of trajectories.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lives<E> {
+    /// Trajectory and life, by rising number. All of the range if complete, else those that were finished.
+    pub failures: Vec<(u64, Failure)>,
+    /// How it ended.
+    pub ended: Ended<E>,
+}
+
+/// Makes a fine scale and lends it to what it is called with; an error is that of the making. Lending lets a fine
+/// scale borrow from what is made with it, as revolutions borrow a system.
+pub type Scale<'a, S, E> = &'a (
+        dyn Fn(&mut dyn FnMut(&mut dyn FineScale<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
+    );
+
+/// How one trajectory ended.
+type Result<E> = std::result::Result<Failure, Ended<E>>;
+
+impl MonteCarlo<'_> {
+    /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `observe` hears how many lives
+    /// are done, from whichever thread, and may end the run.
+    pub fn run<S: Clone + Default, E: Send>(
+        &self,
+        scale: Scale<'_, S, E>,
+        observe: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Lives<E> {
+        let next = AtomicU64::new(self.trajectories.start);
+        let done = AtomicU64::new(0);
+        let halt = AtomicBool::new(false);
+        let results: Mutex<Vec<(u64, Result<E>)>> = Mutex::new(Vec::new());
+        let keep = |trajectory, result: Result<E>| {
+            halt.fetch_or(result.is_err(), Ordering::Relaxed);
+            done.fetch_add(1, Ordering::Relaxed);
+            results.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, result));
+        };
+        let go_on = || {
+            let stop = observe(done.load(Ordering::Relaxed)).is_break() || halt.load(Ordering::Relaxed);
+            if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let work = || {
+            let made = scale(&mut |mut fine| {
+                while !halt.load(Ordering::Relaxed) {
+                    let trajectory = next.fetch_add(1, Ordering::Relaxed);
+                    if trajectory >= self.trajectories.end {
+                        break;
+                    }
+                    keep(trajectory, self.live(&mut fine, trajectory, &go_on));
+                }
+            });
+            if let Err(error) = made {
+                let trajectory = self.trajectories.start;
+                let stop = Stop::Fine { cycle: 1, error };
+                keep(trajectory, Err(Ended::Stopped { trajectory, stop }));
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..self.threads.get() {
+                scope.spawn(work);
+            }
+            work();
+        });
+        collect(results.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn live<F: FineScale>(
+        &self,
+        fine: &mut F,
+        trajectory: u64,
+        go_on: &dyn Fn() -> ControlFlow<()>,
+    ) -> Result<F::Error> {
+        let stopped = |stop| Ended::Stopped { trajectory, stop };
+        let mut state =
+            LifeState::new(self.settings, trajectory).map_err(|error| stopped(Stop::Settings(error)))?;
+        match run_life(self.settings, fine, self.draw, &mut state, &mut |_| go_on()) {
+            Ok(Outcome::Failed(failure)) => Ok(failure),
+            Ok(Outcome::Cancelled) => Err(Ended::Cancelled),
+            Ok(Outcome::CycleLimit) => Err(Ended::Survived { trajectory }),
+            Err(stop) => Err(stopped(stop)),
+        }
+    }
+}
+
+/// In the order of the trajectories; the first that stopped for a reason of its own says why.
+fn collect<E>(mut results: Vec<(u64, Result<E>)>) -> Lives<E> {
+    results.sort_by_key(|(trajectory, _)| *trajectory);
+    let (mut failures, mut ended) = (Vec::with_capacity(results.len()), Ended::Complete);
+    for (trajectory, result) in results {
+        match (result, &ended) {
+            (Ok(failure), _) => failures.push((trajectory, failure)),
+            (Err(why), Ended::Complete | Ended::Cancelled) => ended = why,
+            (Err(_), _) => {}
+        }
+    }
+    Lives { failures, ended }
+}

@@ -1,0 +1,56 @@
+//! What the parameters leave open after readings: weighted intervals over nodes or particles.
+//! In: values with weights. Out: an interval. Never knows what is asked.
+
+use crate::life::{Band, LifeError, Lifetime, Passage};
+
+/// A law of life mixed from those of possible parameters.
+pub trait Mixture: Lifetime {
+    /// Each possible law with its weight; weights sum to 1.
+    fn parts(&self) -> Vec<(f64, &Passage)>;
+
+    /// Equal-tailed interval of probability `level` of what `of` gives for the possible parameters, around `value`, the
+    /// answer of the mixture.
+    ///
+    /// # Errors
+    /// [`LifeError::Probability`] for the level; those of `of`.
+    fn credible(
+        &self,
+        value: f64,
+        level: f64,
+        of: &dyn Fn(&Passage) -> Result<f64, LifeError>,
+    ) -> Result<Band, LifeError> {
+        if !(level > 0.0 && level < 1.0) {
+            return Err(LifeError::Probability { value: level });
+        }
+        let mut values = Vec::new();
+        for (weight, life) in self.parts() {
+            values.push((of(life)?, weight));
+        }
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let tail = 0.5 - 0.5 * level;
+        Ok(Band { value, lower: weighted(&values, tail), upper: weighted(&values, 1.0 - tail) })
+    }
+}
+
+/// First value at which the weights reach `p`.
+fn weighted(sorted: &[(f64, f64)], p: f64) -> f64 {
+    let mut sum = 0.0;
+    for (value, weight) in sorted {
+        sum += weight;
+        if sum >= p {
+            return *value;
+        }
+    }
+    sorted.last().map_or(f64::NAN, |last| last.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_decide_where_an_interval_ends() {
+        let values = [(1.0, 0.1), (2.0, 0.8), (3.0, 0.1)];
+        assert_eq!([0.05, 0.2, 0.95].map(|p| weighted(&values, p)), [1.0, 2.0, 3.0]);
+    }
+}

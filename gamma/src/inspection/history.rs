@@ -1,0 +1,107 @@
+//! Readings of one joint, checked. In: (time, wear). Out: a history no later code has to check. Never knows parameters.
+
+use super::error::InspectionError;
+
+/// One inspection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// When \[unit of time\], since the joint was new.
+    pub time: f64,
+    /// Wear measured \[unit of wear\].
+    pub wear: f64,
+}
+
+/// Readings in the order of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    readings: Vec<Reading>,
+}
+
+impl History {
+    /// Readings without gauge error: wear rises from each to the next.
+    ///
+    /// # Errors
+    /// [`InspectionError`] with the first reading that cannot be.
+    pub fn exact(readings: Vec<Reading>) -> Result<Self, InspectionError> {
+        let history = Self::any(readings, 2, "to see wear rise")?;
+        for (at, pair) in history.readings.windows(2).enumerate() {
+            let (row, wear, before) = (at + 2, pair[1].wear, pair[0].wear);
+            if wear < before {
+                return Err(InspectionError::Falls { row, wear, before });
+            }
+            if wear == before {
+                return Err(InspectionError::StandsStill { row, wear });
+            }
+        }
+        Ok(history)
+    }
+
+    /// Readings with gauge error: they may fall.
+    ///
+    /// # Errors
+    /// [`InspectionError`] with the first reading that cannot be.
+    pub fn noisy(readings: Vec<Reading>) -> Result<Self, InspectionError> {
+        Self::any(readings, 1, "to learn anything")
+    }
+
+    fn any(readings: Vec<Reading>, needed: usize, why: &'static str) -> Result<Self, InspectionError> {
+        if readings.len() < needed {
+            return Err(InspectionError::TooFew { readings: readings.len(), needed, why });
+        }
+        for (at, reading) in readings.iter().enumerate() {
+            let row = at + 1;
+            for (what, value) in [("time", reading.time), ("wear", reading.wear)] {
+                if !(value.is_finite() && value >= 0.0) {
+                    return Err(InspectionError::NoNumber { row, what, value });
+                }
+            }
+            let before = at.checked_sub(1).map(|before| readings[before].time);
+            if let Some(before) = before.filter(|before| reading.time <= *before) {
+                return Err(InspectionError::Order { row, time: reading.time, before });
+            }
+        }
+        Ok(Self { readings })
+    }
+
+    /// The readings.
+    #[must_use]
+    pub fn readings(&self) -> &[Reading] {
+        &self.readings
+    }
+
+    /// The last reading.
+    #[must_use]
+    pub fn last(&self) -> Reading {
+        self.readings[self.readings.len() - 1]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exact(rows: &[(f64, f64)]) -> Result<History, InspectionError> {
+        History::exact(rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect())
+    }
+
+    #[test]
+    fn readings_that_cannot_be_are_named_by_row() {
+        let cases: [(&[(f64, f64)], &str); 8] = [
+            (&[(0.0, 0.0), (2.0, 1.0), (1.0, 2.0)], "reading 3: its time 1 is not after the 2"),
+            (&[(0.0, 0.0), (1.0, 1.0), (1.0, 2.0)], "reading 3: its time 1 is not after the 1"),
+            (&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5)], "reading 3: wear falls from 2 to 1.5"),
+            (&[(0.0, 0.0), (1.0, 2.0), (2.0, 2.0)], "reading 3: wear stays at 2"),
+            (&[(0.0, 0.0), (1.0, f64::NAN)], "reading 2: the wear is NaN"),
+            (&[(-1.0, 0.0), (1.0, 1.0)], "reading 1: the time is -1"),
+            (&[(0.0, 0.0)], "1 reading(s): at least 2 are needed"),
+            (&[], "0 reading(s)"),
+        ];
+        for (rows, expected) in cases {
+            let error = exact(rows).expect_err("cannot be").to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
+        assert!(exact(&[(0.0, 0.0), (1.0, 0.5)]).is_ok());
+        let fall = vec![Reading { time: 1.0, wear: 1.0 }, Reading { time: 2.0, wear: 0.9 }];
+        assert!(History::noisy(fall).is_ok());
+    }
+}

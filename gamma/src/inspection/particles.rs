@@ -1,0 +1,231 @@
+//! Readings with a known gauge error: a bootstrap particle filter over parameters and wear.
+//! In: readings, an estimate as prior, the gauge's standard error. Out: a [`Lifetime`] mixed over particles. Never knows
+//! files.
+//!
+//! Each particle carries parameters drawn from the estimate and a wear path drawn with them from the new joint (time 0, no
+//! wear); a reading weighs it by the normal density of its error (Gordon, Salmond & Smith 1993), systematic resampling
+//! follows when weights are uneven. Parameters do not move afterwards, so a reading the prior hardly explains leaves few
+//! different particles: that is refused, not smoothed over.
+
+use super::credible::Mixture;
+use super::error::InspectionError;
+use super::history::History;
+use crate::life::{Estimate, Lifetime, Passage, Situation, moved};
+use crate::sample::ln_gamma_variate;
+use crate::stream::Stream;
+
+/// Different particles below which an answer is refused: three-digit probabilities need that many.
+const FEWEST: usize = 200;
+
+/// Particles after the last reading, all of the same weight, none of them failed.
+#[derive(Debug)]
+pub struct Particles {
+    lives: Vec<Passage>,
+    wear: Vec<f64>,
+    failed_already: f64,
+    distinct: usize,
+}
+
+/// How many particles, and what decides them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Particles.
+    pub count: usize,
+    /// Seed.
+    pub seed: u64,
+}
+
+struct Particle {
+    /// Which draw of the prior it descends from.
+    origin: usize,
+    logs: Vec<f64>,
+    wear: f64,
+}
+
+impl Particles {
+    /// After the readings of `history`, each off by a normal error of standard deviation `gauge` \[unit of wear\].
+    ///
+    /// # Errors
+    /// [`InspectionError::Gauge`], [`InspectionError::Degenerate`], those of [`Situation`].
+    pub fn follow(
+        history: &History,
+        prior: &Estimate,
+        situation: &Situation,
+        gauge: f64,
+        effort: Effort,
+    ) -> Result<Self, InspectionError> {
+        if !(gauge.is_finite() && gauge > 0.0) {
+            return Err(InspectionError::Gauge { value: gauge });
+        }
+        let stream = |particle: usize| Stream::new(effort.seed, particle as u64, 0);
+        // Beyond the particles: what resampling needs.
+        let mut common = stream(effort.count);
+        let mut particles: Vec<Particle> =
+            (0..effort.count).map(|origin| Particle::new(origin, prior, &mut stream(origin))).collect();
+        let mut ln_weights = vec![0.0; particles.len()];
+        let mut fewest = (usize::MAX, 1);
+        let mut before = 0.0;
+        for (at, reading) in history.readings().iter().enumerate() {
+            let now = situation.rate() * reading.time;
+            for (k, (particle, ln)) in particles.iter_mut().zip(&mut ln_weights).enumerate() {
+                // Cycle 0 of a stream drew the parameters; reading n draws from cycle n.
+                particle.wear_on(before, now, stream(k).at(at as u64 + 1));
+                *ln -= 0.5 * ((reading.wear - particle.wear) / gauge).powi(2);
+            }
+            before = now;
+            let last = at + 1 == history.readings().len();
+            if last || effective(&ln_weights) < 0.5 * particles.len() as f64 {
+                particles = resampled(&particles, &ln_weights, common.uniform());
+                ln_weights.fill(0.0);
+                let distinct = distinct(&particles);
+                if distinct < fewest.0 {
+                    fewest = (distinct, at + 1);
+                }
+            }
+        }
+        let (distinct, row) = fewest;
+        if distinct < FEWEST {
+            return Err(InspectionError::Degenerate { distinct, particles: effort.count, row });
+        }
+        Self::alive(particles, situation, before, distinct)
+    }
+
+    fn alive(
+        particles: Vec<Particle>,
+        situation: &Situation,
+        exposure: f64,
+        distinct: usize,
+    ) -> Result<Self, InspectionError> {
+        let all = particles.len() as f64;
+        let (mut lives, mut wear) = (Vec::new(), Vec::new());
+        for particle in particles.iter().filter(|particle| particle.wear < situation.threshold()) {
+            lives.push(situation.clone().worn(particle.wear, exposure)?.life_at(&particle.logs)?);
+            wear.push(particle.wear);
+        }
+        if lives.is_empty() {
+            let (threshold, current) = (situation.threshold(), particles[0].wear);
+            return Err(crate::life::LifeError::Failed { threshold, current }.into());
+        }
+        let failed_already = 1.0 - lives.len() as f64 / all;
+        Ok(Self { lives, wear, failed_already, distinct })
+    }
+
+    /// Mean and standard deviation of the wear at the last reading, given that the joint has not failed.
+    #[must_use]
+    pub fn wear(&self) -> (f64, f64) {
+        let count = self.wear.len() as f64;
+        let mean = self.wear.iter().sum::<f64>() / count;
+        (mean, (self.wear.iter().map(|wear| (wear - mean).powi(2)).sum::<f64>() / count).sqrt())
+    }
+
+    /// Probability that wear had passed the threshold at the last reading already. The law of life is that of joints
+    /// that had not.
+    #[must_use]
+    pub fn failed_already(&self) -> f64 {
+        self.failed_already
+    }
+
+    /// Standard error of the mean life from the finite number of particles: the scatter of their mean wear paths over
+    /// the different draws that are left.
+    #[must_use]
+    pub fn mean_error(&self) -> f64 {
+        let typical: Vec<f64> = self.lives.iter().map(Lifetime::typical).collect();
+        let count = typical.len() as f64;
+        let mean = typical.iter().sum::<f64>() / count;
+        let square = typical.iter().map(|t| (t - mean).powi(2)).sum::<f64>() / count;
+        (square / self.distinct as f64).sqrt()
+    }
+
+    /// Different draws of the prior that are left.
+    #[must_use]
+    pub fn distinct(&self) -> usize {
+        self.distinct
+    }
+}
+
+impl Particle {
+    fn new(origin: usize, prior: &Estimate, draws: &mut Stream) -> Self {
+        let z: Vec<f64> = prior.logs().iter().map(|_| draws.normal()).collect();
+        Self { origin, logs: moved(prior.logs(), &prior.factor().times(&z)), wear: 0.0 }
+    }
+
+    /// Draws the wear between two exposures.
+    fn wear_on(&mut self, before: f64, now: f64, draws: &mut Stream) {
+        let exponent = self.logs.get(2).map_or(1.0, |log| log.exp());
+        let shape = self.logs[0].exp() * (now.powf(exponent) - before.powf(exponent));
+        if shape > 0.0 {
+            self.wear += (ln_gamma_variate(shape, draws) - self.logs[1]).exp();
+        }
+    }
+}
+
+/// Kish's effective number: (sum w)² / sum w².
+fn effective(ln_weights: &[f64]) -> f64 {
+    let top = ln_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (mut sum, mut squares) = (0.0, 0.0);
+    for ln in ln_weights {
+        let weight = (ln - top).exp();
+        sum += weight;
+        squares += weight * weight;
+    }
+    sum * sum / squares
+}
+
+/// Systematic resampling: one uniform number places a comb over the cumulated weights.
+fn resampled(particles: &[Particle], ln_weights: &[f64], uniform: f64) -> Vec<Particle> {
+    let top = ln_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let weights: Vec<f64> = ln_weights.iter().map(|ln| (ln - top).exp()).collect();
+    let step = weights.iter().sum::<f64>() / particles.len() as f64;
+    let (mut at, mut reached) = (0, weights[0]);
+    let mut next = Vec::with_capacity(particles.len());
+    for k in 0..particles.len() {
+        let tooth = (k as f64 + uniform) * step;
+        while reached < tooth && at + 1 < particles.len() {
+            at += 1;
+            reached += weights[at];
+        }
+        let Particle { origin, logs, wear } = &particles[at];
+        next.push(Particle { origin: *origin, logs: logs.clone(), wear: *wear });
+    }
+    next
+}
+
+/// Different origins; resampling keeps them in order.
+fn distinct(particles: &[Particle]) -> usize {
+    1 + particles.windows(2).filter(|pair| pair[0].origin != pair[1].origin).count()
+}
+
+impl Lifetime for Particles {
+    fn accuracy(&self) -> f64 {
+        1e-7
+    }
+
+    fn reliability(&self, t: f64) -> f64 {
+        self.lives.iter().map(|life| life.reliability(t)).sum::<f64>() / self.lives.len() as f64
+    }
+
+    fn failed(&self, t: f64) -> f64 {
+        self.lives.iter().map(|life| life.failed(t)).sum::<f64>() / self.lives.len() as f64
+    }
+
+    fn typical(&self) -> f64 {
+        self.lives.iter().map(Lifetime::typical).sum::<f64>() / self.lives.len() as f64
+    }
+
+    fn hazard(&self, t: f64) -> f64 {
+        let (mut density, mut alive) = (0.0, 0.0);
+        for life in &self.lives {
+            let here = life.reliability(t);
+            density += here * life.hazard(t);
+            alive += here;
+        }
+        density / alive
+    }
+}
+
+impl Mixture for Particles {
+    fn parts(&self) -> Vec<(f64, &Passage)> {
+        let weight = 1.0 / self.lives.len() as f64;
+        self.lives.iter().map(|life| (weight, life)).collect()
+    }
+}

@@ -1,0 +1,121 @@
+//! Error budget: how far a printed number may be off, and why. In: half-widths. Out: a table of them and their sum.
+//! Never knows what the number is.
+
+use std::fmt;
+
+use super::band::Band;
+use super::statistics::Measured;
+
+/// Half-widths that a 95 % interval of a normal law has, in standard errors.
+const Z95: f64 = 1.959_963_984_540_054;
+
+/// One source of error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part {
+    /// Random: the half-width of its 95 % interval.
+    Random(f64),
+    /// A bound of unknown sign.
+    Bound(f64),
+    /// Does not arise: exact formula, no table, known parameters. Says which.
+    None(&'static str),
+}
+
+impl Part {
+    /// Half-width, 0 if the source does not arise.
+    #[must_use]
+    pub fn half_width(self) -> f64 {
+        match self {
+            Self::Random(half) | Self::Bound(half) => half,
+            Self::None(_) => 0.0,
+        }
+    }
+}
+
+/// Half-widths at 95 % of one number, in its own unit.
+///
+/// Independent random parts add as squares, bounds add as they are: total = sqrt(sum of random²) + sum of bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorBudget {
+    /// From the finite number of trajectories.
+    pub monte_carlo: Part,
+    /// From the table of wear per revolution, or of a quadrature.
+    pub table: Part,
+    /// From the uncertainty of estimated parameters.
+    pub parameters: Part,
+}
+
+impl ErrorBudget {
+    /// Monte-Carlo part of a statistic of lives.
+    #[must_use]
+    pub fn monte_carlo(statistic: Measured) -> Part {
+        Part::Random(Z95 * statistic.error)
+    }
+
+    /// Parameter part from a 95 % band.
+    #[must_use]
+    pub fn parameters(band: Band) -> Part {
+        Part::Random(band.half_width())
+    }
+
+    /// The parts with their names.
+    #[must_use]
+    pub fn parts(&self) -> [(&'static str, Part); 3] {
+        [("monte_carlo", self.monte_carlo), ("table", self.table), ("parameters", self.parameters)]
+    }
+
+    /// Half-width of all together.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        let (mut squares, mut bounds) = (0.0, 0.0);
+        for (_, part) in self.parts() {
+            match part {
+                Part::Random(half) => squares += half * half,
+                Part::Bound(half) => bounds += half,
+                Part::None(_) => {}
+            }
+        }
+        squares.sqrt() + bounds
+    }
+}
+
+impl fmt::Display for ErrorBudget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = ["Monte Carlo", "table", "parameters"];
+        for (name, (_, part)) in names.iter().zip(self.parts()) {
+            match part {
+                Part::Random(half) => writeln!(f, "  {name:<12}+- {half:.3e}")?,
+                Part::Bound(half) => writeln!(f, "  {name:<12}+- {half:.3e} (bound)")?,
+                Part::None(reason) => writeln!(f, "  {name:<12}none: {reason}")?,
+            }
+        }
+        write!(f, "  {:<12}+- {:.3e}", "total", self.total())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn random_parts_add_as_squares_and_bounds_as_they_are() {
+        let budget = ErrorBudget {
+            monte_carlo: Part::Random(3.0),
+            table: Part::Bound(0.5),
+            parameters: Part::Random(4.0),
+        };
+        assert_eq!(budget.total(), 5.5);
+        let text = budget.to_string();
+        assert!(
+            text.contains("table       +- 5.000e-1 (bound)") && text.contains("total       +- 5.500e0"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn a_source_that_does_not_arise_says_why() {
+        let none = Part::None("closed form");
+        let budget = ErrorBudget { monte_carlo: none, table: none, parameters: Part::Random(1.0) };
+        assert!(budget.to_string().contains("Monte Carlo none: closed form"), "{budget}");
+        assert_eq!(budget.total(), 1.0);
+    }
+}

@@ -1,0 +1,160 @@
+//! How exposure Lambda runs with time, [CS (22)]. In: a time. Out: Lambda and its rate. Never knows wear.
+
+use super::error::{LifeError, positive};
+
+/// Exposure as a function of time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Clock {
+    /// Lambda = (rate t)^exponent; exponent 1 is a steady load.
+    Power {
+        /// Exposure per unit of time.
+        rate: f64,
+        /// Exponent.
+        exponent: f64,
+    },
+    /// Straight lines between rows of (time, Lambda); the first and last line go on beyond the table.
+    Table(Vec<(f64, f64)>),
+}
+
+impl Clock {
+    /// Lambda = rate t.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`].
+    pub fn linear(rate: f64) -> Result<Self, LifeError> {
+        Self::power(rate, 1.0)
+    }
+
+    /// Lambda = (rate t)^exponent.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`].
+    pub fn power(rate: f64, exponent: f64) -> Result<Self, LifeError> {
+        Ok(Self::Power { rate: positive("rate", rate)?, exponent: positive("exponent", exponent)? })
+    }
+
+    /// Rows of (time, Lambda), both strictly rising, as the cycles of a computed life.
+    ///
+    /// # Errors
+    /// [`LifeError::ShortTable`], [`LifeError::TableOrder`].
+    pub fn table(rows: Vec<(f64, f64)>) -> Result<Self, LifeError> {
+        if rows.len() < 2 {
+            return Err(LifeError::ShortTable { rows: rows.len() });
+        }
+        for (at, pair) in rows.windows(2).enumerate() {
+            for (what, before, value) in [("time", pair[0].0, pair[1].0), ("exposure", pair[0].1, pair[1].1)]
+            {
+                // Written so that NaN is refused too.
+                let rises = value > before && value.is_finite() && before.is_finite();
+                if !rises {
+                    return Err(LifeError::TableOrder { row: at + 2, what, value, before });
+                }
+            }
+        }
+        Ok(Self::Table(rows))
+    }
+
+    /// Lambda at time `t`.
+    #[must_use]
+    pub fn exposure(&self, t: f64) -> f64 {
+        match self {
+            Self::Power { rate, exponent } if *exponent == 1.0 => rate * t,
+            Self::Power { rate, exponent } => (rate * t).powf(*exponent),
+            Self::Table(rows) => {
+                let (a, b) = interval(rows, t);
+                a.1 + (b.1 - a.1) * ((t - a.0) / (b.0 - a.0))
+            }
+        }
+    }
+
+    /// dLambda/dt at time `t`; of a table, the slope on the right of `t`.
+    #[must_use]
+    pub fn rate(&self, t: f64) -> f64 {
+        match self {
+            Self::Power { rate, exponent } => rate * exponent * (rate * t).powf(exponent - 1.0),
+            Self::Table(rows) => {
+                let (a, b) = interval(rows, t);
+                (b.1 - a.1) / (b.0 - a.0)
+            }
+        }
+    }
+
+    /// Time at which Lambda is `exposure`.
+    #[must_use]
+    pub fn time(&self, exposure: f64) -> f64 {
+        match self {
+            Self::Power { rate, exponent } => exposure.powf(1.0 / exponent) / rate,
+            Self::Table(rows) => {
+                let at = rows.partition_point(|row| row.1 <= exposure).clamp(1, rows.len() - 1);
+                let (a, b) = (rows[at - 1], rows[at]);
+                a.0 + (b.0 - a.0) * ((exposure - a.1) / (b.1 - a.1))
+            }
+        }
+    }
+
+    /// Power of time that Lambda grows with in the long run.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        match self {
+            Self::Power { exponent, .. } => *exponent,
+            Self::Table(_) => 1.0,
+        }
+    }
+
+    /// Times where the rate jumps, between which Lambda is smooth.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        match self {
+            Self::Power { .. } => Vec::new(),
+            Self::Table(rows) => rows.iter().map(|row| row.0).collect(),
+        }
+    }
+
+    /// Last time of a table: beyond it Lambda is extrapolated.
+    #[must_use]
+    pub fn end(&self) -> Option<f64> {
+        match self {
+            Self::Power { .. } => None,
+            Self::Table(rows) => rows.last().map(|row| row.0),
+        }
+    }
+}
+
+/// The two rows whose line holds at `t`.
+fn interval(rows: &[(f64, f64)], t: f64) -> ((f64, f64), (f64, f64)) {
+    let at = rows.partition_point(|row| row.0 <= t).clamp(1, rows.len() - 1);
+    (rows[at - 1], rows[at])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn time_and_exposure_are_inverse() {
+        let table = Clock::table(vec![(0.0, 0.0), (1.0, 2.0), (4.0, 3.0)]).expect("rising");
+        for clock in [Clock::linear(0.3).expect("valid"), Clock::power(2.0, 0.2).expect("valid"), table] {
+            for t in [0.1, 0.9, 1.0, 3.7, 9.0] {
+                // Powers by 1/0.2 lose a digit or two.
+                assert!((clock.time(clock.exposure(t)) - t).abs() < 1e-13 * (1.0 + t), "{clock:?} {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn rate_is_the_derivative() {
+        let clock = Clock::power(2.0, 0.6).expect("valid");
+        let slope = (clock.exposure(1.5 + 1e-6) - clock.exposure(1.5 - 1e-6)) / 2e-6;
+        // Central difference: rounding 1e-16 / 1e-6.
+        assert!((slope - clock.rate(1.5)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_table_that_falls_names_its_row() {
+        let error = Clock::table(vec![(0.0, 0.0), (1.0, 2.0), (2.0, 1.5)]).expect_err("falls");
+        assert_eq!(error, LifeError::TableOrder { row: 3, what: "exposure", value: 1.5, before: 2.0 });
+        let error = Clock::table(vec![(0.0, 0.0), (f64::NAN, 2.0)]).expect_err("no number");
+        assert!(error.to_string().contains("row 2"), "{error}");
+        assert_eq!(Clock::table(vec![(0.0, 0.0)]), Err(LifeError::ShortTable { rows: 1 }));
+    }
+}

@@ -1,0 +1,128 @@
+//! What can be wrong with a question about life. In: a value and what it stands for. Never knows files.
+
+/// Why a life cannot be told. Every message names the value and the cure.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LifeError {
+    /// A number that must be positive and finite is not.
+    #[error("{what} is {value}: a positive, finite number is needed")]
+    NotPositive {
+        /// What the number stands for.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A number that must be finite and not negative is not.
+    #[error("{what} is {value}: a finite number of zero or more is needed")]
+    Negative {
+        /// What the number stands for.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// There is nothing left to wear.
+    #[error(
+        "the present wear {current} has reached the threshold {threshold}: the joint has failed, or the threshold is \
+         in another unit than the wear"
+    )]
+    Failed {
+        /// Wear at failure.
+        threshold: f64,
+        /// Wear now.
+        current: f64,
+    },
+    /// A probability is not between 0 and 1.
+    #[error("{value} is no probability: give a number between 0 and 1, both excluded")]
+    Probability {
+        /// The number.
+        value: f64,
+    },
+    /// A table of exposure over time is too short.
+    #[error("the table of exposure has {rows} rows: at least two are needed")]
+    ShortTable {
+        /// Rows it has.
+        rows: usize,
+    },
+    /// A table of exposure over time does not rise.
+    #[error(
+        "row {row} of the table of exposure: {what} {value} does not exceed the {before} of the row before; sort the rows by time"
+    )]
+    TableOrder {
+        /// Row, from 1.
+        row: usize,
+        /// `time` or `exposure`.
+        what: &'static str,
+        /// Value of the row.
+        value: f64,
+        /// Value of the row before.
+        before: f64,
+    },
+    /// The covariance is no covariance.
+    #[error(
+        "the covariance of the parameters is not usable ({reason}): give a symmetric, positive semi-definite matrix of {size} rows"
+    )]
+    Covariance {
+        /// What is wrong with it.
+        reason: &'static str,
+        /// Rows it needs: one for each parameter.
+        size: usize,
+    },
+    /// Present wear needs the present exposure when Lambda is curved.
+    #[error(
+        "with an exponent other than 1 the wear to come depends on the exposure so far: give the present exposure too"
+    )]
+    ExposureMissing,
+    /// Too little is known for a mean: the tail of the predictive law is too heavy.
+    #[error(
+        "with {increments} increments and a flat prior the mean and standard deviation are not finite: use quantiles, a fit as prior, or {needed} increments"
+    )]
+    HeavyTail {
+        /// Increments known.
+        increments: usize,
+        /// Increments a finite variance needs.
+        needed: usize,
+    },
+    /// An unknown exponent may be so small that lives have no mean.
+    #[error(
+        "with an unknown exponent and a flat prior the mean and standard deviation are not finite: use quantiles, or a fit as prior"
+    )]
+    HeavyExponent,
+    /// A shared factor that is near zero too often for a mean.
+    #[error(
+        "a Gamma factor of coefficient of variation {cov} is near zero so often that mean or standard deviation are not finite: below {below:.3} they are; use quantiles, or a lognormal factor"
+    )]
+    HeavyFactor {
+        /// Its coefficient of variation.
+        cov: f64,
+        /// Where a finite variance begins.
+        below: f64,
+    },
+    /// Statistics of too few lives.
+    #[error("{lives} lives: at least two are needed for a standard deviation")]
+    FewLives {
+        /// Lives given.
+        lives: usize,
+    },
+    /// A life among the lives is no number.
+    #[error(
+        "life {row} is {value}: lives are positive, finite numbers; leave out trajectories that did not fail only with a censored estimate"
+    )]
+    Life {
+        /// Place in the list, from 1.
+        row: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A system without members.
+    #[error("a system needs at least one wearing joint")]
+    NoMember,
+}
+
+/// Refuses what is not positive and finite.
+pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, LifeError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(LifeError::NotPositive { what, value }) }
+}
+
+/// Refuses what is negative or not finite.
+pub(crate) fn non_negative(what: &'static str, value: f64) -> Result<f64, LifeError> {
+    if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(LifeError::Negative { what, value }) }
+}

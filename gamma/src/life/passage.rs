@@ -1,0 +1,204 @@
+//! First passage of the Gamma process [CS (21)] in closed form, where exposure is a known function of time.
+//! In: law, clock, present time, wear that is left. Out: a [`Lifetime`]. Never knows uncertainty of parameters.
+//!
+//! Wear does not fall, so T <= t means W(t) >= threshold:
+//!
+//! ```text
+//! P(T <= t) = Q(alpha [Lambda(now + t) - Lambda(now)], beta [threshold - current])
+//! ```
+
+use super::clock::Clock;
+use super::error::{LifeError, non_negative};
+use super::law::GammaLaw;
+use super::lifetime::Lifetime;
+use super::slope::hazard_in_shape;
+use crate::special::{gamma_p, gamma_q};
+
+/// Remaining life of one joint; time runs from the present, in the clock's unit.
+#[derive(Clone, Debug)]
+pub struct Passage {
+    law: GammaLaw,
+    clock: Clock,
+    now: f64,
+    exposure_now: f64,
+    left: f64,
+}
+
+impl Passage {
+    /// A new joint: clock at 0, no wear.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`] for the threshold.
+    pub fn new(law: GammaLaw, clock: Clock, threshold: f64) -> Result<Self, LifeError> {
+        Self::from(law, clock, threshold, 0.0, 0.0)
+    }
+
+    /// A joint that has worn to `current` at time `now` of its clock.
+    ///
+    /// # Errors
+    /// [`LifeError::Failed`] if nothing is left to wear, [`LifeError::Negative`], [`LifeError::NotPositive`].
+    pub fn from(
+        law: GammaLaw,
+        clock: Clock,
+        threshold: f64,
+        current: f64,
+        now: f64,
+    ) -> Result<Self, LifeError> {
+        super::error::positive("the threshold", threshold)?;
+        non_negative("the present wear", current)?;
+        non_negative("the present time", now)?;
+        if current >= threshold {
+            return Err(LifeError::Failed { threshold, current });
+        }
+        let exposure_now = clock.exposure(now);
+        Ok(Self { law, clock, now, exposure_now, left: threshold - current })
+    }
+
+    /// Exposure gained until `t` from now.
+    #[must_use]
+    pub fn exposure(&self, t: f64) -> f64 {
+        (self.clock.exposure(self.now + t) - self.exposure_now).max(0.0)
+    }
+
+    /// Reliability if exposure runs `factor` times as fast.
+    #[must_use]
+    pub fn reliability_at(&self, t: f64, factor: f64) -> f64 {
+        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
+        if shape > 0.0 { gamma_p(shape, self.law.beta() * self.left) } else { 1.0 }
+    }
+
+    /// Probability of failure until `t` if exposure runs `factor` times as fast.
+    #[must_use]
+    pub fn failed_at(&self, t: f64, factor: f64) -> f64 {
+        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
+        if shape > 0.0 { gamma_q(shape, self.law.beta() * self.left) } else { 0.0 }
+    }
+
+    /// The clock it wears by.
+    #[must_use]
+    pub fn clock(&self) -> &Clock {
+        &self.clock
+    }
+
+    /// Hazard if exposure runs `factor` times as fast.
+    #[must_use]
+    pub fn hazard_at(&self, t: f64, factor: f64) -> f64 {
+        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
+        let rate = factor * self.law.alpha() * self.clock.rate(self.now + t.max(0.0));
+        rate * hazard_in_shape(shape, self.law.beta() * self.left)
+    }
+
+    /// Probability of outliving the clock's table, beyond which exposure is extrapolated; 0 without a table.
+    #[must_use]
+    pub fn beyond_table(&self) -> f64 {
+        self.clock.end().map_or(0.0, |end| self.reliability((end - self.now).max(0.0)))
+    }
+}
+
+impl Lifetime for Passage {
+    fn reliability(&self, t: f64) -> f64 {
+        self.reliability_at(t, 1.0)
+    }
+
+    fn failed(&self, t: f64) -> f64 {
+        self.failed_at(t, 1.0)
+    }
+
+    /// When the mean wear reaches the threshold.
+    fn typical(&self) -> f64 {
+        // Half a unit of shape more: the mean exposure at passage but for e^-(beta left).
+        let shape = self.law.beta() * self.left + 0.5;
+        self.clock.time(self.exposure_now + shape / self.law.alpha()) - self.now
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.clock.breaks().into_iter().map(|t| t - self.now).collect()
+    }
+
+    fn hazard(&self, t: f64) -> f64 {
+        self.hazard_at(t, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// GaAs lasers (Meeker & Escobar, 1998, table C.17), fit of the R package `gammaprocesses`; exposure = hours/1000.
+    fn lasers() -> GammaLaw {
+        GammaLaw::new(28.75350606, 14.11445933).expect("valid")
+    }
+
+    fn clock() -> Clock {
+        Clock::linear(1.0).expect("valid")
+    }
+
+    #[test]
+    fn lasers_fail_when_published() {
+        let life = Passage::new(lasers(), clock(), 10.0).expect("valid");
+        for (p, expected) in [(0.1, 4.40056787), (0.5, 4.92036645), (0.9, 5.45921661)] {
+            let quantile = life.quantile(p).expect("valid");
+            // Eight published decimals.
+            assert!((quantile - expected).abs() < 1e-8, "{p}: {quantile}");
+        }
+        // Five published decimals.
+        assert!((life.reliability(5.0) - 0.42377).abs() < 5e-6);
+    }
+
+    #[test]
+    fn a_half_worn_laser_has_the_published_rest() {
+        let life = Passage::from(lasers(), clock(), 10.0, 5.0, 2.5).expect("valid");
+        for (p, expected) in [(0.025, 1.91631198), (0.5, 2.46597232), (0.975, 3.06025256)] {
+            let quantile = life.quantile(p).expect("valid");
+            assert!((quantile - expected).abs() < 1e-8, "{p}: {quantile}");
+        }
+    }
+
+    #[test]
+    fn density_integrates_to_the_failed_part() {
+        let life =
+            Passage::from(lasers(), Clock::power(1.3, 0.7).expect("valid"), 10.0, 4.0, 1.0).expect("valid");
+        let end = life.quantile(0.8).expect("valid");
+        let (sum, _) = crate::life::integrate(&|t| [life.density(t)], &[0.0, end], [1e-12]);
+        // Cancellation in the hazard where everything is alive: 1e-13.
+        assert!((sum[0] - 0.8).abs() < 1e-10, "{}", sum[0]);
+    }
+
+    #[test]
+    fn a_table_of_a_straight_line_is_a_straight_line() {
+        let rows = (0..40).map(|n| (f64::from(n), 0.5 * f64::from(n))).collect();
+        let table = Passage::new(lasers(), Clock::table(rows).expect("rising"), 10.0).expect("valid");
+        let line = Passage::new(lasers(), Clock::linear(0.5).expect("valid"), 10.0).expect("valid");
+        let (a, b) = (table.moments().expect("finite"), line.moments().expect("finite"));
+        // The accuracy of the integrals.
+        assert!((a.mean - b.mean).abs() < 1e-9 && (a.std - b.std).abs() < 1e-8, "{a:?} {b:?}");
+        let whole = line.whole_cycles().expect("finite");
+        // Lives of about 10 cycles, spread over more than one: half a cycle more.
+        assert!((whole.mean - b.mean - 0.5).abs() < 0.01, "{} {}", whole.mean, b.mean);
+        assert!(table.beyond_table() < 1e-12);
+    }
+
+    #[test]
+    fn mean_exposure_at_passage_is_half_a_unit_of_shape_beyond_the_threshold() {
+        // The integral of P(a, x) over a is x + 1/2 but for e^-x terms: its derivative in x is Ramanujan's integral of
+        // x^(a-1) / Gamma(a), times e^-x; the constant follows from sum over n >= 1 of P(n, x) = x.
+        let life = Passage::new(lasers(), clock(), 10.0).expect("valid");
+        let expected = (14.11445933 * 10.0 + 0.5) / 28.75350606;
+        // The accuracy asked of the integral.
+        assert!((life.moments().expect("finite").mean - expected).abs() < 1e-9);
+    }
+
+    #[test]
+    fn no_wear_left_is_refused_with_both_numbers() {
+        let error = Passage::from(lasers(), clock(), 5.0, 5.5, 0.0).expect_err("failed already");
+        assert!(error.to_string().contains("5.5") && error.to_string().contains("threshold 5"), "{error}");
+        for current in [f64::NAN, -1.0] {
+            assert!(matches!(
+                Passage::from(lasers(), clock(), 5.0, current, 0.0),
+                Err(LifeError::Negative { .. })
+            ));
+        }
+        assert!(matches!(Passage::from(lasers(), clock(), 5.0, 1.0, -2.0), Err(LifeError::Negative { .. })));
+        assert!(matches!(Passage::new(lasers(), clock(), f64::NAN), Err(LifeError::NotPositive { .. })));
+    }
+}

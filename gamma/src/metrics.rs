@@ -1,0 +1,216 @@
+//! How good predictions of remaining life were, once the truth is known. In: predictive laws or samples, true lives.
+//! Out: scores. Never knows how predictions were made.
+//!
+//! Sources: continuous ranked probability score: Gneiting & Raftery, J. Am. Stat. Assoc. 102 (2007) 359-378; its form for
+//! the Gamma law: Scheuerer & Möller, Ann. Appl. Stat. 9 (2015) 1328-1349. Prognostic horizon and alpha-lambda accuracy:
+//! Saxena, Celaya, Saha, Saha & Goebel, Int. J. Prognostics and Health Management 1 (2010).
+
+use crate::life::{LifeError, Lifetime, integrate};
+use crate::special::{gamma_p, ln_gamma, normal_cdf, normal_density};
+
+/// CRPS of a sample: mean |X - y| - half the mean |X - X'|, over the empirical law. Same unit as the life; 0 is best.
+/// None for an empty sample.
+#[must_use]
+pub fn crps_sample(sample: &[f64], truth: f64) -> Option<f64> {
+    if sample.is_empty() {
+        return None;
+    }
+    let mut sorted = sample.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len() as f64;
+    let distance = sorted.iter().map(|x| (x - truth).abs()).sum::<f64>() / count;
+    // Sum over pairs of |X_i - X_j| from ranks: each value counts once for every rank it exceeds.
+    let ranked = sorted.iter().enumerate().map(|(at, x)| (2.0 * at as f64 + 1.0 - count) * x).sum::<f64>();
+    Some(distance - ranked / (count * count))
+}
+
+/// CRPS of a normal law.
+#[must_use]
+pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
+    let z = (truth - mean) / std;
+    let pi = std::f64::consts::PI;
+    std * (z * (2.0 * normal_cdf(z) - 1.0) + 2.0 * normal_density(z) - 1.0 / pi.sqrt())
+}
+
+/// CRPS of a Gamma law of given shape and rate, for wear increments: `truth` in the unit of 1 / `rate`.
+#[must_use]
+pub fn crps_gamma(shape: f64, rate: f64, truth: f64) -> f64 {
+    let x = rate * truth;
+    // 1 / B(1/2, shape).
+    let beta = (ln_gamma(shape + 0.5) - ln_gamma(shape)).exp() / std::f64::consts::PI.sqrt();
+    (x * (2.0 * gamma_p(shape, x) - 1.0) - shape * (2.0 * gamma_p(shape + 1.0, x) - 1.0) - beta) / rate
+}
+
+/// CRPS of a law of life: integral of (F(t) - \[t >= truth\])² over time, relative accuracy 1e-9.
+///
+/// # Errors
+/// Those of [`Lifetime::quantile`].
+pub fn crps_life(life: &dyn Lifetime, truth: f64) -> Result<f64, LifeError> {
+    let end = life.quantile(1.0 - 1e-12)?.max(truth);
+    let median = life.quantile(0.5)?;
+    let mut limits = vec![0.0, median, truth, end];
+    limits.extend(life.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
+    limits.sort_by(f64::total_cmp);
+    limits.dedup();
+    let square = |t: f64| [if t < truth { life.failed(t) } else { life.reliability(t) }.powi(2)];
+    Ok(integrate(&square, &limits, [1e-11 * median]).0[0])
+}
+
+/// How often intervals held the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coverage {
+    /// Intervals that held it.
+    pub held: usize,
+    /// Intervals.
+    pub count: usize,
+    /// Part that held it.
+    pub part: f64,
+    /// Ends of its 95 % interval by Wilson's score (Wilson 1927).
+    pub interval: (f64, f64),
+}
+
+/// Coverage of (lower, upper, truth); an end counts as inside. None without intervals.
+#[must_use]
+pub fn coverage(intervals: &[(f64, f64, f64)]) -> Option<Coverage> {
+    const Z: f64 = 1.959_963_984_540_054;
+    let held = intervals.iter().filter(|(lower, upper, truth)| lower <= truth && truth <= upper).count();
+    if intervals.is_empty() {
+        return None;
+    }
+    let count = intervals.len() as f64;
+    let part = held as f64 / count;
+    let scale = 1.0 + Z * Z / count;
+    let centre = (part + Z * Z / (2.0 * count)) / scale;
+    let half = Z / scale * (part * (1.0 - part) / count + (Z / (2.0 * count)).powi(2)).sqrt();
+    Some(Coverage { held, count: intervals.len(), part, interval: (centre - half, centre + half) })
+}
+
+/// Predictive law of remaining life made at a time. Times and remaining lives in one unit.
+pub struct Prediction<'a> {
+    /// When it was made, since the start of life.
+    pub time: f64,
+    /// Remaining life as predicted then.
+    pub life: &'a dyn Lifetime,
+}
+
+impl Prediction<'_> {
+    /// Probability that the remaining life lies between two values.
+    fn mass(&self, lower: f64, upper: f64) -> f64 {
+        let below = if lower > 0.0 { self.life.failed(lower) } else { 0.0 };
+        (self.life.failed(upper.max(0.0)) - below).max(0.0)
+    }
+}
+
+/// Width of the cone and the probability asked inside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Half-width, as a part: of the whole life for the horizon, of the remaining life for the accuracy (Saxena's alpha).
+    pub width: f64,
+    /// Least probability of the prediction inside (Saxena's beta).
+    pub probability: f64,
+}
+
+/// Prognostic horizon: end of life minus the time of the first prediction that has at least `cone.probability` within
+/// `cone.width` times the whole life of the true remaining life. `predictions` in the order of time. None if none has.
+#[must_use]
+pub fn prognostic_horizon(predictions: &[Prediction<'_>], end_of_life: f64, cone: Cone) -> Option<f64> {
+    let half = cone.width * end_of_life;
+    let good = |prediction: &&Prediction<'_>| {
+        let rest = end_of_life - prediction.time;
+        prediction.mass(rest - half, rest + half) >= cone.probability
+    };
+    predictions.iter().find(good).map(|prediction| end_of_life - prediction.time)
+}
+
+/// Alpha-lambda accuracy: whether the prediction in force at `lambda` of the way from the first prediction to the end of
+/// life has at least `cone.probability` between (1 - width) and (1 + width) times the true remaining life. The
+/// prediction in force is the last one made until then. None without predictions or for a `lambda` outside 0..1.
+#[must_use]
+pub fn alpha_lambda(
+    predictions: &[Prediction<'_>],
+    end_of_life: f64,
+    lambda: f64,
+    cone: Cone,
+) -> Option<bool> {
+    if !(0.0..1.0).contains(&lambda) {
+        return None;
+    }
+    let first = predictions.first()?.time;
+    let when = first + lambda * (end_of_life - first);
+    let prediction = predictions.iter().rev().find(|prediction| prediction.time <= when)?;
+    let rest = end_of_life - prediction.time;
+    let mass = prediction.mass((1.0 - cone.width) * rest, (1.0 + cone.width) * rest);
+    Some(mass >= cone.probability)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::life::{Clock, GammaLaw, Passage};
+    use crate::stream::Stream;
+
+    /// Gamma law as a life: what `crps_gamma` is compared with.
+    struct GammaLife(f64, f64);
+
+    impl Lifetime for GammaLife {
+        fn reliability(&self, t: f64) -> f64 {
+            crate::special::gamma_q(self.0, self.1 * t)
+        }
+        fn failed(&self, t: f64) -> f64 {
+            gamma_p(self.0, self.1 * t)
+        }
+        fn typical(&self) -> f64 {
+            self.0 / self.1
+        }
+    }
+
+    #[test]
+    fn closed_forms_agree_with_the_integral_and_with_samples() {
+        let mut draws = Stream::new(5, 0, 0);
+        let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * draws.normal()).collect();
+        for truth in [7.0, 10.0, 13.5] {
+            for (shape, rate) in [(0.7, 0.1), (3.0, 0.5), (25.0, 2.0)] {
+                let integral = crps_life(&GammaLife(shape, rate), truth).expect("proper");
+                // Accuracy asked of the integral.
+                assert!((crps_gamma(shape, rate, truth) - integral).abs() < 1e-8, "{shape} {truth}");
+            }
+            let (score, closed) = (crps_sample(&sample, truth).expect("some"), crps_normal(10.0, 2.0, truth));
+            // 20,000 draws: standard error about 2/sqrt(20,000) = 0.014; three of them.
+            assert!((score - closed).abs() < 0.042, "{score} {closed}");
+        }
+    }
+
+    #[test]
+    fn a_sample_of_one_scores_its_distance() {
+        assert_eq!(crps_sample(&[3.0], 5.0), Some(2.0));
+        // Two points 0 and 2, truth 1: mean distance 1, half the mean difference 0.5 (pairs 0, 2, 2, 0).
+        assert_eq!(crps_sample(&[2.0, 0.0], 1.0), Some(0.5));
+        assert_eq!(crps_sample(&[], 1.0), None);
+    }
+
+    #[test]
+    fn coverage_of_a_known_count() {
+        let all: Vec<_> = (0..100).map(|k| if k < 95 { (0.0, 1.0, 0.5) } else { (0.0, 1.0, 2.0) }).collect();
+        let coverage = coverage(&all).expect("some");
+        // Wilson interval of 95 of 100, from Newcombe (1998): 0.8882 to 0.9785.
+        assert_eq!(coverage.held, 95);
+        assert!((coverage.interval.0 - 0.8882).abs() < 1e-4 && (coverage.interval.1 - 0.9785).abs() < 1e-4);
+    }
+
+    #[test]
+    fn horizon_and_accuracy_of_predictions_that_become_good() {
+        let law = GammaLaw::new(100.0, 100.0).expect("valid");
+        let life = |left: f64| Passage::new(law, Clock::linear(1.0).expect("valid"), left).expect("valid");
+        // True end of life 10. Predicted rests: 14 at time 0 (wrong), 8 at 2, 4 at 6: right.
+        let lives = [life(14.0), life(8.0), life(4.0)];
+        let predictions: Vec<Prediction<'_>> =
+            [0.0, 2.0, 6.0].into_iter().zip(&lives).map(|(time, life)| Prediction { time, life }).collect();
+        let cone = Cone { width: 0.2, probability: 0.5 };
+        assert_eq!(prognostic_horizon(&predictions, 10.0, cone), Some(8.0));
+        assert_eq!(alpha_lambda(&predictions, 10.0, 0.1, cone), Some(false));
+        assert_eq!(alpha_lambda(&predictions, 10.0, 0.5, cone), Some(true));
+        assert_eq!(alpha_lambda(&predictions, 10.0, 1.5, cone), None);
+        let hopeless = Cone { width: 1e-6, probability: 0.5 };
+        assert_eq!(prognostic_horizon(&predictions, 10.0, hopeless), None);
+    }
+}

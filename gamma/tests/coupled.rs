@@ -1,0 +1,133 @@
+//! Lives by Monte Carlo: against the closed form where there is one, and the same bits for any number of threads.
+
+use std::convert::Infallible;
+use std::num::NonZero;
+use std::ops::ControlFlow;
+
+use linkwear_gamma::coupled::{Ended, GammaDraw, Lives, MonteCarlo};
+use linkwear_gamma::special::gamma_p;
+use linkwear_runtime::GammaRates;
+use linkwear_runtime::life::{
+    Feedback, FineScale, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearStep,
+};
+use linkwear_runtime::wear::{Limits, Observed, ScalarFeedback};
+
+/// beta `W_crit` = 1092 and a mean life of about 25 cycles, as in the case study.
+const RATES: GammaRates = GammaRates { alpha: 13.65e6, beta: 13.65e6 };
+const THRESHOLD: f64 = 80e-6;
+const C0: f64 = 10e-6;
+const PER_CYCLE: f64 = 3.2e-6;
+
+/// A revolution wears with a power of the clearance.
+#[derive(Clone)]
+struct Power(f64);
+
+impl FineScale for Power {
+    type State = ();
+    type Error = Infallible;
+
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+        let wear = |joint: &JointWear| RevolutionWear {
+            wear_integral: 2.0,
+            depth: PER_CYCLE * (joint.clearance / C0).powf(self.0),
+            profile: None,
+            mean_force: 30.0,
+            peak_force: 50.0,
+            contact_losses: 0.0,
+            separated: 0.0,
+            observed: Observed::nothing(joint.clearance, 0.01),
+        };
+        Ok(joints.iter().map(wear).collect())
+    }
+}
+
+fn settings(gamma: f64, step: WearStep) -> LifeSettings {
+    let joint = JointLife {
+        joint: "R1".to_owned(),
+        journal_radius: 0.01,
+        clearance: C0,
+        threshold: THRESHOLD,
+        revolutions_per_cycle: 1.0,
+        wear: WearOf::Depth,
+        feedback: Feedback::Scalar(ScalarFeedback::new(gamma).expect("a factor")),
+        bins: None,
+        limits: Limits { hardness: 3.5e9, pressure_speed: None },
+    };
+    LifeSettings { step, keep_cycles: false, ..LifeSettings::new(vec![joint]) }
+}
+
+fn lives(settings: &LifeSettings, exponent: f64, seed: u64, count: u64, threads: usize) -> Lives<Infallible> {
+    let draw = GammaDraw::new(seed, &[RATES]);
+    let threads = NonZero::new(threads).expect("a thread");
+    MonteCarlo { settings, draw: &draw, trajectories: 0..count, threads }.run(
+        &|lend| {
+            lend(&mut Power(exponent));
+            Ok(())
+        },
+        &|_| ControlFlow::Continue(()),
+    )
+}
+
+/// Mean and standard deviation.
+fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    (mean, (values.map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt())
+}
+
+#[test]
+fn without_feedback_lives_follow_the_law_of_first_passage() {
+    let count = 100_000;
+    let run = lives(&settings(0.0, WearStep::Cycle), 0.5, 4, count, 2);
+    assert_eq!(run.ended, Ended::Complete);
+    let whole = run.failures.iter().map(|(_, failure)| failure.whole_cycles as f64);
+    let (mean, std) = moments(whole);
+    // P(N > n) = P(W_n < W_crit), summed: E N, and E N^2 with weights 2 n + 1.
+    let survives = |n: u32| gamma_p(RATES.alpha * PER_CYCLE * f64::from(n), RATES.beta * THRESHOLD);
+    let (mut first, mut second) = (1.0, 1.0);
+    for n in 1..100 {
+        first += survives(n);
+        second += f64::from(2 * n + 1) * survives(n);
+    }
+    let exact_std = (second - first * first).sqrt();
+    let n = count as f64;
+    // Three standard errors; lives are nearly normal, so that of the standard deviation is std / sqrt(2 n).
+    assert!((mean - first).abs() < 3.0 * exact_std / n.sqrt(), "{mean} {first}");
+    let (cov, exact) = (std / mean, exact_std / first);
+    assert!((cov - exact).abs() < 3.0 * exact / (2.0 * n).sqrt(), "{cov} {exact}");
+    // Interpolated within the cycle, a life is half a cycle shorter; the excess of half a gamma step is left.
+    let (continuous, _) = moments(run.failures.iter().map(|(_, failure)| failure.cycles));
+    assert!((mean - continuous - 0.5).abs() < 0.02, "{mean} {continuous}");
+}
+
+#[test]
+fn threads_and_order_change_no_bit() {
+    let settings = settings(1.0, WearStep::TABLE);
+    let bits = |lives: Lives<Infallible>| -> Vec<(u64, u64)> {
+        lives.failures.iter().map(|(trajectory, failure)| (*trajectory, failure.cycles.to_bits())).collect()
+    };
+    let one = bits(lives(&settings, 0.5, 9, 200, 1));
+    assert_eq!(one, bits(lives(&settings, 0.5, 9, 200, 2)));
+    assert_eq!(one, bits(lives(&settings, 0.5, 9, 200, 7)));
+    assert_eq!(one[..50], bits(lives(&settings, 0.5, 9, 50, 2)));
+    assert_ne!(one, bits(lives(&settings, 0.5, 10, 200, 2)));
+    // Pinned: debug and release, now and later, give these bits.
+    assert_eq!(one[0].1, 4_622_955_796_842_587_250, "first life");
+}
+
+#[test]
+fn a_run_that_is_stopped_keeps_the_lives_it_had() {
+    let settings = settings(1.0, WearStep::TABLE);
+    let draw = GammaDraw::new(1, &[RATES]);
+    let threads = NonZero::new(1).expect("a thread");
+    let run = MonteCarlo { settings: &settings, draw: &draw, trajectories: 0..100, threads }.run(
+        &|lend| {
+            lend(&mut Power(0.5));
+            Ok(())
+        },
+        &|done| {
+            if done < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        },
+    );
+    assert_eq!((run.ended, run.failures.len()), (Ended::Cancelled, 5));
+}

@@ -1,0 +1,88 @@
+//! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use linkwear_runtime::life::{CycleRecord, Failure as End};
+
+use super::super::failure::Failure;
+use super::super::file::write_whole;
+use super::super::input::Loaded;
+use super::lived::Lived;
+
+/// A folder that was empty.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    /// Makes it; one with something in it is refused, so that no result is mixed with another.
+    pub fn claim(path: &Path) -> Result<Self, Failure> {
+        let failed = |error| Failure::Write(path.to_path_buf(), error);
+        match fs::read_dir(path) {
+            Ok(mut entries) => {
+                if entries.next().is_some() {
+                    return Err(Failure::Exists(path.to_path_buf()));
+                }
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                fs::create_dir_all(path).map_err(failed)?
+            }
+            Err(error) => return Err(failed(error)),
+        }
+        Ok(Self(path.to_path_buf()))
+    }
+
+    /// Everything.
+    pub fn write(&self, lived: &Lived<'_>, loaded: &Loaded, backend: &str) -> Result<(), Failure> {
+        let names = lived.plan.names();
+        self.write_cycles(&names, &lived.cycles)?;
+        if !lived.lives.is_empty() {
+            write_whole(&self.0.join("lives.csv"), |file| write_lives(file, &names, &lived.lives))?;
+        }
+        let answer = lived.machine(loaded, backend);
+        write_whole(&self.0.join("life.json"), |file| writeln!(file, "{answer:#}"))
+    }
+
+    /// The cycles of the mean path.
+    pub fn write_cycles(&self, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, Failure> {
+        let path = self.0.join("cycles.csv");
+        write_whole(&path, |file| {
+            write!(file, "cycle,used [1]")?;
+            for joint in joints {
+                for column in [
+                    "clearance [m]",
+                    "dLambda [m]",
+                    "W [m]",
+                    "S [J]",
+                    "Fn_mean [N]",
+                    "Fn_peak [N]",
+                    "losses [1]",
+                ] {
+                    write!(file, ",{joint}.{column}")?;
+                }
+            }
+            writeln!(file)?;
+            for cycle in cycles {
+                write!(file, "{},{}", cycle.cycle, cycle.used)?;
+                for joint in &cycle.joints {
+                    let own = [joint.clearance, joint.mean_increment, joint.wear, joint.wear_integral];
+                    let loads = [joint.mean_force, joint.peak_force, joint.contact_losses];
+                    for value in own.iter().chain(&loads) {
+                        write!(file, ",{value}")?;
+                    }
+                }
+                writeln!(file)?;
+            }
+            Ok(())
+        })?;
+        Ok(path)
+    }
+}
+
+fn write_lives(file: &mut impl Write, joints: &[String], lives: &[End]) -> io::Result<()> {
+    writeln!(file, "trajectory,life [cycles],whole cycles,failed joint")?;
+    for (trajectory, end) in lives.iter().enumerate() {
+        writeln!(file, "{trajectory},{},{},{}", end.cycles, end.whole_cycles, joints[end.joint])?;
+    }
+    Ok(())
+}

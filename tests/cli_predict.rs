@@ -1,0 +1,171 @@
+//! `predict`: remaining life from a fit file and from inspections, by the command line.
+
+mod command;
+
+use command::{Folder, linkwear};
+use serde_json::Value;
+
+/// GaAs lasers (Meeker & Escobar 1998, table C.17), fit published with the R package `gammaprocesses`; exposure is
+/// hours/1000. The covariance is the inverse of the information, which needs alpha, beta and the 240 steps of 0.25 alone.
+const LASERS: &str = r#"{
+  "alpha": 28.75350606,
+  "beta": 14.11445933,
+  "exponent": null,
+  "se_alpha": 2.566,
+  "se_beta": 1.305,
+  "covariance": [[6.585490176522216, 3.232671280875349], [3.232671280875349, 1.7023213304378222]]
+}"#;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn lasers(folder: &Folder) -> String {
+    folder.write("fit.json", LASERS)
+}
+
+/// Message and line of the only error.
+fn refusal(arguments: &[&str]) -> (String, Option<u64>) {
+    let answer = linkwear(arguments);
+    assert_eq!(answer.code, 1, "{}{}", answer.out, answer.err);
+    let error = answer.errors()[0].clone();
+    assert!(error["file"].is_string(), "{error}");
+    (error["message"].as_str().expect("a text").to_owned(), error["line"].as_u64())
+}
+
+#[test]
+fn lasers_have_the_published_quantiles_and_band() {
+    let folder = Folder::new("predict-lasers");
+    let fit = lasers(&folder);
+    let life = linkwear(&["predict", &fit, "--threshold", "10", "--format", "json"]).json();
+    for (key, expected) in [("p10", 4.40056787), ("p50", 4.92036645), ("p90", 5.45921661)] {
+        // Published to eight decimals.
+        assert!((number(&life["quantiles"][key]) - expected).abs() < 1e-8, "{key}");
+        let band = &life["bands"]["quantiles"][key];
+        assert!(number(&band["lower"]) < expected && expected < number(&band["upper"]));
+    }
+    let course = life["reliability"].as_array().expect("a list");
+    let first = &course[0];
+    assert_eq!((number(&first["time"]), number(&first["reliability"])), (0.0, 1.0));
+    for pair in course.windows(2) {
+        assert!(number(&pair[0]["reliability"]) >= number(&pair[1]["reliability"]));
+        assert!(number(&pair[1]["lower"]) <= number(&pair[1]["reliability"]));
+        assert!(number(&pair[1]["upper"]) >= number(&pair[1]["reliability"]));
+    }
+    for key in ["mean", "std", "mean_whole_cycles"] {
+        assert!(life[key].is_number(), "{key}");
+    }
+    let parameters = number(&life["budget"]["parameters"]["half_width"]);
+    assert_eq!(number(&life["budget"]["total"]), parameters);
+    assert!(parameters > 0.0);
+}
+
+#[test]
+fn a_worn_unit_counts_from_now_and_in_the_time_asked_for() {
+    let folder = Folder::new("predict-worn");
+    let fit = lasers(&folder);
+    let common = ["predict", &fit, "--threshold", "10", "--current", "5", "--format", "json"];
+    let life = linkwear(&common).json();
+    // Published to eight decimals: SurPyval 0.25, `predict_rul`.
+    assert!((number(&life["quantiles"]["p50"]) - 2.46597232).abs() < 1e-8);
+    assert!((number(&life["interval95"]["lower"]) - 1.91631198).abs() < 1e-8);
+    assert!((number(&life["interval95"]["upper"]) - 3.06025256).abs() < 1e-8);
+    let hours = linkwear(&[&common[..], &["--rate", "0.001"]].concat()).json();
+    assert!((number(&hours["quantiles"]["p50"]) - 2465.97232).abs() < 1e-5);
+    let drawn = linkwear(&[&common[..], &["--draws", "500", "--seed", "3"]].concat());
+    let again = linkwear(&[&common[..], &["--draws", "500", "--seed", "3"]].concat());
+    assert_eq!(drawn.out, again.out);
+}
+
+#[test]
+fn inspections_move_the_prediction() {
+    let folder = Folder::new("predict-inspections");
+    let fit = lasers(&folder);
+    // A unit that wears twice as fast as the fit: some 4 percent in 1000 hours.
+    let log = "# unit 7\nhours,percent\n0,0\n250,1.1\n500,2.0\n750,3.1\n1000,4.0\n";
+    let log = folder.write("log.csv", log);
+    let inspections = ["--inspections", &log, "--time", "hours", "--wear", "percent", "--rate", "0.001"];
+    let common = ["predict", &fit, "--threshold", "10", "--format", "json"];
+    let learned = linkwear(&[&common[..], &inspections[..]].concat()).json();
+    let flat = linkwear(&[&common[..], &inspections[..], &["--flat-prior"]].concat()).json();
+    let blind = ["--current", "4", "--at", "1", "--rate", "0.001"];
+    let blind = linkwear(&[&common[..], &blind[..]].concat()).json();
+    let median = |life: &Value| number(&life["quantiles"]["p50"]);
+    // 6 percent are left: 1500 h at the unit's own pace, 2950 h at the fit's.
+    assert!(median(&flat) < 1700.0, "{}", median(&flat));
+    assert!(median(&flat) < median(&learned) && median(&learned) < median(&blind));
+    assert_eq!(learned["current"], 4.0);
+    // With so poor a gauge a unit that wears as the fit says, a reading that falls among them.
+    let log = folder.write("noisy.csv", "hours,percent\n250,0.6\n500,0.5\n750,1.9\n1000,2.2\n");
+    let noisy =
+        ["--inspections", &log, "--time", "hours", "--wear", "percent", "--rate", "0.001", "--gauge", "0.5"];
+    let gauge = linkwear(&[&common[..], &noisy[..]].concat()).json();
+    // About 2.1 of 10 percent worn in 1000 h: some 3900 h are left; readings may move that by a fifth.
+    assert!((3100.0..4700.0).contains(&median(&gauge)), "{}", median(&gauge));
+    assert_eq!(gauge["budget"]["monte_carlo"]["kind"], "random");
+}
+
+#[test]
+fn a_wrong_fit_file_is_named_with_place_and_cure() {
+    let folder = Folder::new("predict-fit");
+    let case = |text: &str| {
+        let file = folder.write("wrong.json", text);
+        refusal(&["predict", &file, "--threshold", "10", "--format", "json"])
+    };
+    let (message, line) = case("{\n \"alpha\": 2,\n oops");
+    assert!(message.starts_with("not JSON") && line == Some(3), "{message} {line:?}");
+    assert_eq!(case("{\"beta\": 2}"), ("`alpha` is missing".to_owned(), None));
+    let (message, line) = case("{\n \"alpha\": 2,\n \"beta\": -1 }");
+    assert!(message.contains("`beta` is -1") && line == Some(3), "{message}");
+    let (message, _) = case(r#"{"alpha": 2, "beta": 1, "covariance": [[1, 2], [2, 1]]}"#);
+    assert!(message.contains("negative in some direction"), "{message}");
+    let (message, _) = case(r#"{"alpha": 2, "beta": 1, "se_alpha": 3, "covariance": [[1, 0], [0, 1]]}"#);
+    assert!(message.contains("`se_alpha` is 3"), "{message}");
+    let known = folder.write("known.json", r#"{"alpha": 2, "beta": 1}"#);
+    let life = linkwear(&["predict", &known, "--threshold", "10", "--format", "json"]).json();
+    assert!(life["warnings"][0].as_str().expect("a text").contains("covariance"));
+    let text = linkwear(&["predict", &folder.path("none.json"), "--threshold", "10"]);
+    assert!(text.code == 1 && text.err.contains("none.json"), "{}", text.err);
+}
+
+#[test]
+fn questions_without_an_answer_are_refused() {
+    let folder = Folder::new("predict-questions");
+    let fit = lasers(&folder);
+    let power = folder.write("power.json", r#"{"alpha": 27.5, "beta": 2.6, "exponent": 0.2}"#);
+    let ask = |more: &[&str]| refusal(&[&["predict", "--format", "json"], more].concat()).0;
+    let message = ask(&[&fit, "--threshold", "4", "--current", "5"]);
+    assert!(message.contains("present wear 5 has reached the threshold 4"), "{message}");
+    let message = ask(&[&power, "--threshold", "40", "--current", "5"]);
+    assert!(message.contains("give the present exposure"), "{message}");
+    let message = ask(&[&fit, "--threshold", "10", "--current", "5", "--at", "-1"]);
+    assert!(message.contains("present exposure is -1"), "{message}");
+    let wrong = linkwear(&["predict", &fit]);
+    assert!(wrong.code == 2 && wrong.err.contains("--threshold"), "{}", wrong.err);
+    let life = linkwear(&["predict", &power, "--threshold", "40", "--current", "25", "--at", "300"]);
+    assert!(life.code == 0 && life.out.contains("B50") && life.out.contains("error budget"), "{}", life.out);
+}
+
+#[test]
+fn wrong_inspections_are_named_by_line() {
+    let folder = Folder::new("predict-readings");
+    let fit = lasers(&folder);
+    let case = |text: &str, wear: &str| {
+        let log = folder.write("log.csv", text);
+        let more = ["--inspections", &log, "--time", "hours", "--wear", wear, "--format", "json"];
+        refusal(&[&["predict", &fit, "--threshold", "10"], &more[..]].concat())
+    };
+    let (message, line) = case("hours,um\n0,0\n\n1,2\n2,1.5\n", "um");
+    assert!(message.contains("wear falls from 2 to 1.5") && line == Some(5), "{message} {line:?}");
+    let (message, line) = case("hours,um\n0,0\n2,1\n1,2\n", "um");
+    assert!(message.contains("sort the readings") && line == Some(4), "{message} {line:?}");
+    let (message, line) = case("hours,um\n0,0\n1,two\n", "um");
+    assert!(message.contains("column `um` has `two`") && line == Some(3), "{message} {line:?}");
+    let (message, line) = case("hours,um\n0,0\n1,NaN\n", "um");
+    assert!(message.contains("the wear is NaN") && line == Some(3), "{message} {line:?}");
+    let (message, _) = case("hours,um\n0,0\n", "um");
+    assert!(message.contains("at least 2 are needed"), "{message}");
+    let (message, line) = case("hours,um\n0,0\n", "mu");
+    assert!(message.contains("no column `mu`") && line == Some(1), "{message}");
+    assert_eq!(case("", "um").0, "the file is empty");
+}
