@@ -7,8 +7,18 @@ use serde_json::Value;
 
 #[test]
 fn help_of_every_subcommand_has_an_example() {
-    for name in ["check", "equations", "generate", "simulate", "life", "new", "schema", "completions", "man"]
-    {
+    for name in [
+        "check",
+        "equations",
+        "generate",
+        "simulate",
+        "life",
+        "case-study",
+        "new",
+        "schema",
+        "completions",
+        "man",
+    ] {
         let answer = linkwear(&[name, "--help"]);
         assert_eq!(answer.code, 0);
         assert!(answer.out.contains(&format!("linkwear {name}")), "{}", answer.out);

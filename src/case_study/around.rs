@@ -21,7 +21,7 @@ pub const TRUE_LIFE: f64 = 25.1;
 pub const CYCLES: [u64; 3] = [10, 20, 30];
 /// Local maxima below this part of the largest depth are no peaks.
 const LOWEST_PEAK: f64 = 0.1;
-/// Peaks of two models further apart than this are not the same [deg].
+/// Wear of two models further apart than this does not belong to one peak [deg].
 const SAME_PEAK: f64 = 30.0;
 /// So many times the threshold is not reached in 30 cycles: nothing fails.
 const BEYOND: f64 = 10.0;
@@ -75,11 +75,21 @@ pub struct Peak {
 }
 
 impl Snapshot {
-    /// The peak nearest to an angle [deg], unless it is far off.
+    /// The deepest peak within 30 deg of an angle [deg].
     pub fn peak_near(&self, angle: f64) -> Option<Peak> {
-        let distance = |peak: &Peak| turned(peak.angle - angle).abs();
-        let nearest = self.peaks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        (distance(nearest) <= SAME_PEAK).then_some(*nearest)
+        self.peaks.iter().find(|peak| turned(peak.angle - angle).abs() <= SAME_PEAK).copied()
+    }
+
+    /// Where the worn volume within 30 deg of an angle has its centre [deg]: unlike a peak, it does not jump between
+    /// the bins of a flat top.
+    pub fn centre_near(&self, angle: f64) -> f64 {
+        let count = self.depths.len();
+        let offset = |bin: usize| turned((bin as f64 + 0.5) * 360.0 / count as f64 - 180.0 - angle);
+        let near =
+            (0..count).map(|bin| (offset(bin), self.depths[bin])).filter(|(x, _)| x.abs() <= SAME_PEAK);
+        let (moment, sum) =
+            near.fold((0.0, 0.0), |(moment, sum), (x, depth)| (moment + x * depth, sum + depth));
+        if sum > 0.0 { turned(angle + moment / sum) } else { angle }
     }
 }
 
@@ -116,7 +126,9 @@ fn worn(measured: &Measured, step: WearStep, factor: f64) -> Result<WornBearing,
     let mut snapshots = Vec::new();
     for cycle in CYCLES {
         settings.most_cycles = cycle;
-        run_life(&settings, &mut measured.table.clone(), &Mean, &mut state, &mut |_| ControlFlow::Continue(()))?;
+        run_life(&settings, &mut measured.table.clone(), &Mean, &mut state, &mut |_| {
+            ControlFlow::Continue(())
+        })?;
         let profile = state.joints.first().and_then(|joint| joint.profile.clone());
         snapshots.extend(profile.map(|profile| snapshot(cycle, &profile, 1.0)));
     }
@@ -156,7 +168,10 @@ fn peaks(depths: &[f64]) -> Vec<Peak> {
         if here > before && here >= after && here > LOWEST_PEAK * largest {
             let shift = 0.5 * (before - after) / (before - 2.0 * here + after);
             let angle = (bin as f64 + 0.5 + shift) * 2.0 * PI / count as f64 - PI;
-            found.push(Peak { angle: turned(angle.to_degrees()), depth: here - 0.25 * (before - after) * shift });
+            found.push(Peak {
+                angle: turned(angle.to_degrees()),
+                depth: here - 0.25 * (before - after) * shift,
+            });
         }
     }
     found.sort_by(|a, b| b.depth.total_cmp(&a.depth));
@@ -180,10 +195,16 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_peak_counts_around_the_circle_and_a_far_one_does_not() {
+    fn peaks_and_centres_are_found_around_the_circle_and_far_ones_are_not() {
         let peaks = vec![Peak { angle: 179.0, depth: 2.0 }, Peak { angle: 0.0, depth: 1.0 }];
         let snapshot = Snapshot { cycle: 10, depths: Vec::new(), maximum: 2.0, mean: 1.0, peaks };
         assert_eq!(snapshot.peak_near(-178.0).map(|peak| peak.angle), Some(179.0));
         assert_eq!(snapshot.peak_near(90.0), None);
+        // Bins of 10 deg at 165, 175 and -175 deg with depths 1, 2, 3: (1 x 165 + 2 x 175 + 3 x 185)/6.
+        let mut depths = vec![0.0; 36];
+        (depths[34], depths[35], depths[0]) = (1.0, 2.0, 3.0);
+        let snapshot = Snapshot { depths, ..snapshot };
+        // One division and a few roundings of angles.
+        assert!((snapshot.centre_near(175.0) - (1070.0 / 6.0)).abs() < 1e-12);
     }
 }

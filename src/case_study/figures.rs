@@ -1,12 +1,13 @@
 //! The figures of the study as pictures. In: [`Study`]. Out: [`Picture`]s, SVG and PNG. Never computes results.
 
+use super::Study;
 use super::around::{Around, Snapshot, WornBearing};
 use super::configuration::Configuration;
 use super::error::StudyError;
 use super::force::Forces;
-use super::Study;
 use crate::plot::{
-    BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Marker, Note, ORANGE, Panel, RED, Shape, axis, png, svg,
+    BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Marker, Note, ORANGE, Panel, RED, SKY, Shape, axis, png,
+    svg,
 };
 
 /// Pixels per unit of a picture: 192 to the inch.
@@ -84,7 +85,7 @@ fn mechanism(configuration: &Configuration) -> Chart {
         ("projection on the lowest plane", SHADOW),
     ];
     Chart {
-        size: (800, 430),
+        size: (800, 370),
         columns: 2,
         panels: vec![
             panel("seen from the side and above", &View::from(-62.0, 24.0)),
@@ -109,33 +110,65 @@ fn drawn_from(configuration: &Configuration, view: &View) -> Panel {
         let look = if link.flexible { BENDING } else { LINK };
         curves.push(Curve { points: link.through.iter().map(place).collect(), look });
     }
-    let mut notes = Vec::new();
     for joint in &configuration.joints {
         let look = if joint.on_ground { BEARING } else { BALL };
         curves.push(Curve { points: vec![place(&joint.at)], look });
-        notes.push(Note { at: place(&joint.at), shift: (9, -11), text: joint.name.clone() });
     }
-    for link in &configuration.links {
-        let count = link.through.len() as f64;
-        let middle = std::array::from_fn(|i| link.through.iter().map(|at| at[i]).sum::<f64>() / count);
-        notes.push(Note { at: place(&middle), shift: (8, 13), text: link.name.clone() });
-    }
+    let mut notes = names(configuration, view);
     axes(view, lowest, &mut curves, &mut notes);
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let range = |of: fn(&(f64, f64)) -> f64| {
         let (low, high) =
             points().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         // Room for the names.
-        (low - 0.04 * (high - low), high + 0.1 * (high - low))
+        (low - 0.06 * (high - low), high + 0.1 * (high - low))
     };
     let (x, y) = (range(|point| point.0), range(|point| point.1));
     let side = |range| crate::plot::Axis { range, ..crate::plot::Axis::default() };
     Panel { x: side(x), y: side(y), is_sketch: true, curves, notes, ..Panel::default() }
 }
 
+/// Names of joints, away from the links that end there, and of links, beside their middle.
+fn names(configuration: &Configuration, view: &View) -> Vec<Note> {
+    let unit = |(x, y): (f64, f64)| {
+        let length = x.hypot(y);
+        // Links that are seen end-on have no direction.
+        if length > 1e-6 { (x / length, y / length) } else { (0.0, 0.0) }
+    };
+    #[allow(clippy::cast_possible_truncation, reason = "a name stays beside what it names")]
+    let shifted = |at, (x, y): (f64, f64), by: f64, text: &str| Note {
+        at,
+        shift: ((by * x) as i32, -(by * y) as i32),
+        text: text.to_owned(),
+    };
+    let mut notes = Vec::new();
+    for joint in &configuration.joints {
+        let here = view.place(joint.at);
+        let mut away = (0.0, 0.0);
+        for link in configuration.links.iter().filter(|link| link.through.contains(&joint.at)) {
+            for other in link.through.iter().filter(|at| **at != joint.at) {
+                let there = view.place(*other);
+                let (x, y) = unit((there.0 - here.0, there.1 - here.1));
+                away = (away.0 - x, away.1 - y);
+            }
+        }
+        notes.push(shifted(here, unit(away), 21.0, &joint.name));
+    }
+    for link in &configuration.links {
+        let (Some(first), Some(last)) = (link.through.first(), link.through.last()) else { continue };
+        let (from, to) = (view.place(*first), view.place(*last));
+        let (x, y) = unit((to.0 - from.0, to.1 - from.1));
+        // Below, with more room the steeper the link is.
+        let side = if x >= 0.0 { (y, -x) } else { (-y, x) };
+        let by = 17.0 + 24.0 * y.abs();
+        notes.push(shifted((0.5 * (from.0 + to.0), 0.5 * (from.1 + to.1)), side, by, &link.name));
+    }
+    notes
+}
+
 /// The directions of the ground frame, 100 mm long, on the lowest plane.
 fn axes(view: &View, lowest: f64, curves: &mut Vec<Curve>, notes: &mut Vec<Note>) {
-    let origin = [-0.16, -0.1, lowest];
+    let origin = [-0.2, -0.1, lowest];
     for (index, name) in ["x", "y", "z"].into_iter().enumerate() {
         let mut tip = origin;
         tip[index] += 0.1;
@@ -143,10 +176,10 @@ fn axes(view: &View, lowest: f64, curves: &mut Vec<Curve>, notes: &mut Vec<Note>
         // An axis that points at the eye has no direction.
         if (to.0 - from.0).hypot(to.1 - from.1) > 5.0 {
             curves.push(Curve { points: vec![from, to], look: Look::line(BLACK, 2) });
-            notes.push(Note { at: to, shift: (4, -7), text: name.to_owned() });
+            notes.push(Note { at: to, shift: (9, -9), text: name.to_owned() });
         }
     }
-    notes.push(Note { at: view.place(origin), shift: (0, 12), text: "axes: 100 mm".to_owned() });
+    notes.push(Note { at: view.place(origin), shift: (44, 34), text: "axes: 100 mm".to_owned() });
 }
 
 fn force(forces: &Forces) -> Chart {
@@ -155,8 +188,8 @@ fn force(forces: &Forces) -> Chart {
     };
     let ring = Marker { shape: Shape::Ring, every: 14, first: 3 };
     let looks = [
-        ("clearance, rigid coupler (one chaotic turn)", &forces.rigid, Look::line(ORANGE, 2)),
-        ("ideal joint (reaction)", &forces.ideal, Look::line(BLUE, 6).dashed(&[2, 6])),
+        ("clearance, rigid coupler (one chaotic turn)", &forces.rigid, Look::line(ORANGE, 1)),
+        ("ideal joint (reaction)", &forces.ideal, Look::line(SKY, 14)),
         ("clearance, flexible coupler", &forces.flexible, Look::line(BLACK, 3)),
         ("Exudyn, clearance, flexible coupler", &forces.reference, Look::line(RED, 0).marked(ring)),
     ];
@@ -179,16 +212,17 @@ fn force(forces: &Forces) -> Chart {
 }
 
 fn wear(around: &Around) -> Chart {
-    let ring = Marker { shape: Shape::Ring, every: 2, first: 0 };
+    let ring = Marker { shape: Shape::Ring, every: 6, first: 2 };
     let models: [(&str, &WornBearing, Look); 3] = [
-        ("deterministic: rigid, no feedback", &around.deterministic, Look::line(ORANGE, 3)),
+        ("deterministic: rigid, no feedback", &around.deterministic, Look::line(ORANGE, 4)),
         ("proposed: flexible, feedback", &around.proposed, Look::line(BLACK, 3).dashed(&[9, 4])),
-        ("finest own model", &around.finest, Look::line(GREEN, 0).marked(ring)),
+        ("finest own model", &around.finest, Look::line(GREEN, 2).marked(ring)),
     ];
     let count = around.proposed.snapshots.len();
     let depth = |snapshot: &Snapshot| -> Vec<f64> { snapshot.depths.iter().map(|x| 1e6 * x).collect() };
     let panel = |index: usize| {
-        let shown = || models.iter().filter_map(|(_, worn, look)| Some((worn, worn.snapshots.get(index)?, look)));
+        let shown =
+            || models.iter().filter_map(|(_, worn, look)| Some((worn, worn.snapshots.get(index)?, look)));
         let values = shown().flat_map(|(_, snapshot, _)| depth(snapshot));
         let curve = |(worn, snapshot, look): (&&WornBearing, &Snapshot, &Look)| Curve {
             points: worn.angles.iter().copied().zip(depth(snapshot)).collect(),
@@ -197,7 +231,11 @@ fn wear(around: &Around) -> Chart {
         let is_last = index + 1 == count;
         let label = if is_last { "bearing angle [deg], 0 along the ground's x axis" } else { "" };
         Panel {
-            title: around.proposed.snapshots.get(index).map_or_else(String::new, |s| format!("cycle {}", s.cycle)),
+            title: around
+                .proposed
+                .snapshots
+                .get(index)
+                .map_or_else(String::new, |s| format!("cycle {}", s.cycle)),
             x: crate::plot::Axis { label: label.to_owned(), range: (-180.0, 180.0), step: 30.0 },
             y: axis("wear depth [µm]", values, 4),
             curves: shown().map(curve).collect(),

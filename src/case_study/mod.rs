@@ -21,8 +21,8 @@ pub use figures::{Picture, pictures};
 pub use force::{ForceCurve, Forces, Shape};
 pub use options::Options;
 pub use parameters::ParameterRow;
-pub use tables::TableQuality;
 pub use report::{html, markdown, summary};
+pub use tables::TableQuality;
 
 use serde::Serialize;
 

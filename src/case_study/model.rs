@@ -68,14 +68,19 @@ impl Model {
             frequencies.iter().flat_map(|f| [format!("\"{f} Hz\""), format!("\"{f} Hz\"")]).collect();
         let given = format!("damping = \"zeta\", frequencies = [{}] }}", listed.join(", "));
         let text = TEXT.replace(expected, &given);
-        if text == TEXT { Err(StudyError::Text { expected }) } else { Ok(Self::of(compile_text(text, false)?)) }
+        if text == TEXT {
+            Err(StudyError::Text { expected })
+        } else {
+            Ok(Self::of(compile_text(text, false)?))
+        }
     }
 
     /// With wear over another contact area, and depth kept at so many bearing angles.
     pub fn wearing(mut self, area: Area, bins: usize) -> Self {
         for contact in self.description.contacts.to_mut() {
             if let Some(wear) = &mut contact.wear {
-                (wear.area, wear.profile, wear.bins, wear.measure) = (area, true, bins, Measure::Maximum);
+                (wear.area, wear.profile, wear.bins, wear.measure) =
+                    (area, true, bins, Some(Measure::Maximum));
             }
         }
         self

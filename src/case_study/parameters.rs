@@ -59,8 +59,7 @@ const PAPER: [Printed; 14] = [
 ];
 
 /// The drive is in the paper's text, not in its table.
-const DRIVE: Printed =
-    printed(("Crank frequency (section 5)", "f"), (2.0, "Hz"), Some(("speed", 1.0)));
+const DRIVE: Printed = printed(("Crank frequency (section 5)", "f"), (2.0, "Hz"), Some(("speed", 1.0)));
 
 /// Rows of the paper first, then what the file marks as assumed.
 pub(super) fn parameters(compiled: &Compiled) -> Result<Vec<ParameterRow>, StudyError> {
@@ -131,7 +130,10 @@ fn clearance_rows(spec: &ClearanceSpec) -> Vec<(&'static str, Option<String>)> {
         ("Restitution", quantity(&spec.restitution)),
         ("Least impact speed", quantity(&spec.impact_speed_floor)),
         ("Friction", quantity(&spec.friction)),
-        ("Friction smoothed below", speeds.map(|list| list.value.iter().map(text).collect::<Vec<_>>().join(", "))),
+        (
+            "Friction smoothed below",
+            speeds.map(|list| list.value.iter().map(text).collect::<Vec<_>>().join(", ")),
+        ),
     ]
 }
 
@@ -158,6 +160,7 @@ fn assumption(name: &str, symbol: &str, value: String) -> ParameterRow {
 fn meaning(name: &str) -> &str {
     match name {
         "zeta" => "Damping ratio of every mode",
+        "wear_rate" => "Gamma process: shape α per wear = rate β",
         "c_rocker" => "Damper at R4",
         "c_ball" => "Viscous friction of the spherical joints",
         other => other,

@@ -57,10 +57,12 @@ pub(super) fn run_all<T: Send>(threads: usize, jobs: Vec<Job<'_, T>>) -> Vec<T> 
         }
         work();
     });
-    let taken = results.into_iter().map(|result| {
-        result.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
-    });
-    taken.map(|result| result.expect("every job was run: a panic in one has come through the scope")).collect()
+    let taken = results
+        .into_iter()
+        .map(|result| result.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner()));
+    taken
+        .map(|result| result.expect("every job was run: a panic in one has come through the scope"))
+        .collect()
 }
 
 #[cfg(test)]

@@ -31,9 +31,8 @@ pub fn run(arguments: &CaseStudyArguments, format: Format) -> Result<(), Failure
     }
     let study = studied.map_err(failed)?;
     let pictures = case_study::pictures(&study).map_err(failed)?;
-    let results = serde_json::to_value(&study).map_err(|error| {
-        Failure::Write(arguments.out.join("results.json"), io::Error::other(error))
-    })?;
+    let results = serde_json::to_value(&study)
+        .map_err(|error| Failure::Write(arguments.out.join("results.json"), io::Error::other(error)))?;
     let files = write(&arguments.out, &study, &pictures, &results)?;
     match format {
         Format::Json => print(&results),

@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::register_font;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Axis, Chart, Curve, Look, Panel, PlotError, Shape};
 
@@ -144,7 +144,11 @@ impl ValueFormatter<f64> for Marked {
 /// A panel with axes.
 fn plane(panel: &Panel, root: &Area<'_>, area: &Area<'_>) -> Drawn {
     let mut builder = ChartBuilder::on(area);
-    builder.margin(8 * FINE).margin_right(20 * FINE).x_label_area_size(46 * FINE).y_label_area_size(60 * FINE);
+    builder
+        .margin(8 * FINE)
+        .margin_right(20 * FINE)
+        .x_label_area_size(46 * FINE)
+        .y_label_area_size(60 * FINE);
     if !panel.title.is_empty() {
         builder.caption(&panel.title, text_style(TEXT));
     }
@@ -171,7 +175,11 @@ fn sketch(panel: &Panel, root: &Area<'_>, area: &Area<'_>) -> Drawn {
     let title = 30 * FINE as i32;
     if !panel.title.is_empty() {
         let style = text_style(TEXT).pos(Pos::new(HPos::Center, VPos::Center));
-        root.draw(&Text::new(panel.title.clone(), ((columns.start + columns.end) / 2, rows.start + title / 2), style))?;
+        root.draw(&Text::new(
+            panel.title.clone(),
+            ((columns.start + columns.end) / 2, rows.start + title / 2),
+            style,
+        ))?;
     }
     let (x, y) = (panel.x.range, panel.y.range);
     let (width, height) = (f64::from(columns.end - columns.start), f64::from(rows.end - rows.start - title));
@@ -200,7 +208,7 @@ fn contents(panel: &Panel, root: &Area<'_>, place: &dyn Fn((f64, f64)) -> (i32, 
     for note in &panel.notes {
         let (x, y) = place(note.at);
         let shifted = (x + note.shift.0 * FINE as i32, y + note.shift.1 * FINE as i32);
-        let style = text_style(TEXT).pos(Pos::new(HPos::Left, VPos::Center));
+        let style = text_style(TEXT).pos(Pos::new(HPos::Center, VPos::Center));
         root.draw(&Text::new(note.text.clone(), shifted, style))?;
     }
     Ok(())
@@ -263,7 +271,9 @@ fn mark(root: &Area<'_>, at: (i32, i32), look: &Look, shape: Shape) -> Drawn {
     let size = 7 * FINE as i32 / 2;
     match shape {
         Shape::Dot => root.draw(&Circle::new(at, size, colour.filled()))?,
-        Shape::Ring => root.draw(&Circle::new(at, size, ShapeStyle::from(&colour).stroke_width(FINE * 5 / 4)))?,
+        Shape::Ring => {
+            root.draw(&Circle::new(at, size, ShapeStyle::from(&colour).stroke_width(FINE * 5 / 4)))?
+        }
         Shape::Square => {
             let corners = [(at.0 - size, at.1 - size), (at.0 + size, at.1 + size)];
             root.draw(&Rectangle::new(corners, colour.filled()))?;
@@ -308,10 +318,8 @@ mod tests {
     fn dashes_run_on_around_corners() {
         let unit = FINE as i32;
         let pieces = dashes(&[(0, 0), (6 * unit, 0), (6 * unit, 10 * unit)], &[4, 4]);
-        let expected: Vec<Vec<(i32, i32)>> = vec![
-            vec![(0, 0), (4 * unit, 0)],
-            vec![(6 * unit, 2 * unit), (6 * unit, 6 * unit)],
-        ];
+        let expected: Vec<Vec<(i32, i32)>> =
+            vec![vec![(0, 0), (4 * unit, 0)], vec![(6 * unit, 2 * unit), (6 * unit, 6 * unit)]];
         assert_eq!(pieces, expected);
     }
 
@@ -330,7 +338,9 @@ mod tests {
         };
         let text = svg(&chart).expect("a picture");
         assert_eq!(text, svg(&chart).expect("a picture"));
-        for part in ["time [s]", "force [N] &lt;&amp;&gt;", "a curve", "#090807", "width=\"300\" height=\"200\""] {
+        for part in
+            ["time [s]", "force [N] &lt;&amp;&gt;", "a curve", "#090807", "width=\"300\" height=\"200\""]
+        {
             assert!(text.contains(part), "{part}");
         }
     }

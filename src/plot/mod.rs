@@ -83,7 +83,7 @@ pub struct Curve {
 pub struct Note {
     /// Where, in the coordinates of the panel.
     pub at: (f64, f64),
-    /// Shift to the right and down from there, in units of the chart's size.
+    /// Shift of its middle to the right and down from there, in units of the chart's size.
     pub shift: (i32, i32),
     /// What.
     pub text: String,
@@ -141,10 +141,16 @@ impl Look {
         Self { marker: Some(marker), ..self }
     }
 
-    /// Luminance of the colour, 0 (black) to 1 (white), as greyscale shows it.
-    pub fn luminance(&self) -> f64 {
-        let (r, g, b) = self.colour;
-        (0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b)) / 255.0
+    /// Whether greyscale keeps two looks apart: by a tenth of the brightness at least, or by dashes or markers.
+    #[cfg(test)]
+    pub fn differs_in_grey(&self, other: &Self) -> bool {
+        let bright = |look: &Self| {
+            let (r, g, b) = look.colour;
+            (0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b)) / 255.0
+        };
+        (bright(self) - bright(other)).abs() > 0.1
+            || self.dashes != other.dashes
+            || self.marker.map(|marker| marker.shape) != other.marker.map(|marker| marker.shape)
     }
 }
 
@@ -156,8 +162,10 @@ pub const BLUE: (u8, u8, u8) = (0, 114, 178);
 pub const RED: (u8, u8, u8) = (213, 94, 0);
 /// Its bluish green, dark.
 pub const GREEN: (u8, u8, u8) = (0, 90, 65);
-/// Light orange.
+/// Orange of the same palette, light.
 pub const ORANGE: (u8, u8, u8) = (230, 159, 0);
+/// Its sky blue, light.
+pub const SKY: (u8, u8, u8) = (150, 205, 240);
 /// Grey.
 pub const GREY: (u8, u8, u8) = (150, 150, 150);
 

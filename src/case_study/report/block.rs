@@ -108,7 +108,8 @@ pub fn html<'s>(title: &str, blocks: &[Block], svg_of: &dyn Fn(&str) -> Option<&
             Block::Heading(level, title) => writeln!(text, "<h{level}>{}</h{level}>", safe(title)),
             Block::Text(words) => writeln!(text, "<p>{}</p>", safe(words)),
             Block::List(points) => {
-                let points: String = points.iter().map(|point| format!("<li>{}</li>\n", safe(point))).collect();
+                let points: String =
+                    points.iter().map(|point| format!("<li>{}</li>\n", safe(point))).collect();
                 writeln!(text, "<ul>\n{points}</ul>")
             }
             Block::Table { caption, head, rows } => {

@@ -70,8 +70,8 @@ fn against_the_paper(forces: &Forces) -> String {
          end configuration\" and prints no numbers with it. Here the force is {:.1} N at the begin, rises to {:.1} N \
          in the first tenth of the turn, has a mean of {:.1} N between the first tenth and the last fifth, reaches \
          {:.1} N in the last fifth and ends with {:.1} N. {verdict} The paper does not say with which position of \
-         the crank its cycle begins, nor where its fixed joints are; our peaks are at crank angles of {:.0} deg. A \
-         cycle that is counted from just after that peak would begin with a decay and end with a rise.",
+         the crank its cycle begins, nor where its fixed joints are; our largest force acts at a crank angle of {:.0} deg. A \
+         cycle that is counted from just after it would begin with a decay and end with a rise.",
         shape.first,
         shape.early_peak,
         shape.middle,

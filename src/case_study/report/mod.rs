@@ -18,7 +18,8 @@ pub fn markdown(study: &Study) -> String {
 
 /// The study as one HTML page with its figures in it.
 pub fn html(study: &Study, pictures: &[Picture]) -> String {
-    let svg_of = |name: &str| pictures.iter().find(|known| known.name == name).map(|known| known.svg.as_str());
+    let svg_of =
+        |name: &str| pictures.iter().find(|known| known.name == name).map(|known| known.svg.as_str());
     block::html(TITLE, &document(study), &svg_of)
 }
 
@@ -55,7 +56,8 @@ fn document(study: &Study) -> Vec<Block> {
     ];
     if study.options.quick {
         blocks.push(Block::Text(
-            "This is a quick study: few turns and coarse wear steps, good to test the tool, not to quote.".to_owned(),
+            "This is a quick study: few turns and coarse wear steps, good to test the tool, not to quote."
+                .to_owned(),
         ));
     }
     blocks.extend(mechanism(study));
