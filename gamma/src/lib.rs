@@ -4,6 +4,7 @@
 
 #![warn(missing_docs)]
 
+pub mod data;
 pub mod fit;
 pub mod sample;
 pub mod special;
