@@ -67,6 +67,17 @@ pub enum Failure {
         /// Whole cycles before.
         cycles: usize,
     },
+    /// Data cannot be fitted.
+    Data {
+        /// The data file.
+        file: PathBuf,
+        /// The line to look at first, from 1.
+        line: Option<usize>,
+        /// Why.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// The simulation failed, or was stopped.
     Run {
         /// The mechanism.
@@ -113,6 +124,10 @@ impl Failure {
         }
         let plain = self.plain();
         let mut text = format!("error[{}]: {}", plain.code, plain.message);
+        if let Self::Data { file, line, .. } = self {
+            let line = line.map_or_else(String::new, |line| format!(":{line}"));
+            let _ = write!(text, "\n  --> {}{line}", file.display());
+        }
         if !plain.help.is_empty() {
             let _ = write!(text, "\n  = help: {}", plain.help);
         }
@@ -171,13 +186,18 @@ impl Failure {
                 };
                 ("C0010", Some(file), message.clone(), help)
             }
+            Self::Data { file, message, help, .. } => ("C0011", Some(file), message.clone(), help.clone()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
             Self::Interrupted { file, time, kept } => {
                 ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))
             }
             Self::Mechanism(_) => unreachable!("rendered by the front end"),
         };
-        let line = if let Self::Stale { line, .. } = self { Some(*line) } else { None };
+        let line = match self {
+            Self::Stale { line, .. } => Some(*line),
+            Self::Data { line, .. } => *line,
+            _ => None,
+        };
         Plain { code, file: file.cloned(), line, message, help }
     }
 }

@@ -46,14 +46,10 @@ pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
         unit[at] = 1.0;
         solve(matrix, &unit)
     };
-    let mut columns = (0..size).map(column).collect::<Option<Vec<_>>>()?;
+    let columns = (0..size).map(column).collect::<Option<Vec<_>>>()?;
     // Symmetric to the last bit, as its reader may expect.
-    for i in 0..size {
-        for j in 0..i {
-            columns[i][j] = columns[j][i];
-        }
-    }
-    Some(columns)
+    let entry = |i: usize, j: usize| columns[i.min(j)][i.max(j)];
+    Some((0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect())
 }
 
 #[cfg(test)]

@@ -139,9 +139,10 @@ fn the_bootstrap_agrees_with_the_profile_and_repeats_its_bits() {
     let deviation = (values.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / 399.0).sqrt();
     // The standard deviation of 400 draws is uncertain by 1 / sqrt(800), four times that; and by the bias, 1 %.
     close(deviation, found.covariance()[0][0].sqrt(), 4.0 / 800.0_f64.sqrt() + 0.01);
+    // The lasers do not pass Anderson and Darling's test: units differ from each other, which one alpha cannot say.
     let seen = goodness(&found, &data.increments, 1);
     let p = Bootstrap::p_value(&drawn.anderson_darling, seen.anderson_darling);
-    assert!(p > 0.01, "A^2 {} p {p}", seen.anderson_darling);
+    assert!(p < 0.05, "A^2 {} p {p}", seen.anderson_darling);
     assert!(drawn.interval(0, 0.95).unwrap().contains(found.alpha()));
 }
 
@@ -202,6 +203,19 @@ fn simulated_study(replicates: u64) {
 #[test]
 fn intervals_cover_and_bias_is_as_theory_says() {
     simulated_study(1000);
+}
+
+#[test]
+fn data_of_the_fitted_process_pass_the_test_of_fit() {
+    let (truth, like) = known();
+    let increments = bootstrap::draw(&truth, &like.increments, 3, 0);
+    let data = Observations { increments, ..like };
+    let found = estimate(&data, &Model::default()).unwrap();
+    let drawn = bootstrap(&found, &data, 200, 4);
+    let seen = goodness(&found, &data.increments, 1);
+    // Fixed seeds; a p-value below 5 % would come up in one seed of twenty.
+    assert!(Bootstrap::p_value(&drawn.anderson_darling, seen.anderson_darling) > 0.05);
+    assert!(Bootstrap::p_value(&drawn.kolmogorov_smirnov, seen.kolmogorov_smirnov) > 0.05);
 }
 
 #[test]
