@@ -186,7 +186,7 @@ impl DataError {
             Self::TooFew { .. } => "add readings or units, or estimate fewer parameters",
             Self::Constant { .. } => "nothing can be learnt from it: wear has to grow",
             Self::NotIncreasing(_) => {
-                "wear cannot shrink: correct the rows, state the gauge's resolution (zeros only), or model its noise"
+                "wear cannot shrink: correct the rows or leave them out; if all are zero, state the gauge's resolution"
             }
             Self::ConstantCovariate { .. } => "leave the covariate out",
         }
