@@ -8,6 +8,7 @@ mod check;
 mod equations;
 mod failure;
 mod file;
+mod fit;
 mod fit_file;
 mod generate;
 mod input;
@@ -81,6 +82,12 @@ enum Command {
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
                       linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
     Predict(PredictArguments),
+    /// Fit a Gamma process of wear to measured data by maximum likelihood.
+    #[command(
+        after_help = "Example:\n  linkwear fit examples/data/sliding_wear_100g.csv \\\n    --unit unit \
+                      --wear wear_um --exposure cycles --from-zero --power-law"
+    )]
+    Fit(FitArguments),
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
@@ -297,6 +304,53 @@ fn draw_count(text: &str) -> Result<usize, String> {
     }
 }
 
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("clock").required(true).multiple(true).args(["exposure", "lambda"]))]
+struct FitArguments {
+    /// Readings (CSV with a header; lines that begin with # are skipped).
+    file: PathBuf,
+    /// Column that names the unit (specimen) of a reading.
+    #[arg(long, value_name = "COL")]
+    unit: String,
+    /// Column of wear.
+    #[arg(long, value_name = "COL")]
+    wear: String,
+    /// Column of exposure: time, cycles, distance.
+    #[arg(long, value_name = "COL")]
+    exposure: Option<String>,
+    /// Column of Lambda; or, with --exposure in cycles, a file that has Lambda by exposure: the JSON of `life`, or a
+    /// CSV of two columns.
+    #[arg(long, value_name = "COL|FILE")]
+    lambda: Option<String>,
+    /// Estimate the exponent c of Lambda = exposure^c.
+    #[arg(long, conflicts_with = "lambda")]
+    power_law: bool,
+    /// Column of groups: each is fitted alone, then all together.
+    #[arg(long, value_name = "COL")]
+    groups: Option<String>,
+    /// Begin each unit at (0, 0).
+    #[arg(long)]
+    from_zero: bool,
+    /// Step of the gauge: an increment of zero then means "less than this".
+    #[arg(long, value_name = "R", value_parser = input::positive)]
+    resolution: Option<f64>,
+    /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
+    #[arg(long, value_name = "COL")]
+    covariate: Vec<String>,
+    /// Compare with Wiener and inverse-Gaussian processes.
+    #[arg(long)]
+    compare: bool,
+    /// Replicates of the parametric bootstrap: intervals, p-values of the goodness of fit.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    bootstrap: usize,
+    /// Seed of the bootstrap.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Write the fit (JSON) for `predict`.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Coupling {
     Table,
@@ -362,6 +416,7 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         #[cfg(feature = "case-study")]
         Command::CaseStudy(arguments) => case_study::run(&arguments, format),
         Command::Predict(arguments) => predict::run(&arguments, format),
+        Command::Fit(arguments) => fit::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),
         Command::Schema => schema::run(),
         Command::Completions { shell } => packaging::completions(shell, format),

@@ -5,6 +5,7 @@
 #![warn(missing_docs)]
 
 pub mod coupled;
+pub mod data;
 pub mod fit;
 pub mod inspection;
 pub mod life;

@@ -1,0 +1,89 @@
+//! Goodness of fit. In: an estimate and its data. Out: distances of the probability integral transform from uniform,
+//! and pairs for a quantile plot. Never knows p-values: these need the bootstrap.
+
+use super::estimate::Estimate;
+use crate::data::Increment;
+use crate::special::{gamma_p, gamma_quantile};
+use crate::stream::Stream;
+
+/// How far the data are from the fitted law.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goodness {
+    /// Kolmogorov and Smirnov: the largest distance of the two distribution functions.
+    pub kolmogorov_smirnov: f64,
+    /// Anderson and Darling's A^2.
+    pub anderson_darling: f64,
+    /// Probability integral transforms P(a, beta dW), sorted.
+    pub transforms: Vec<f64>,
+    /// Pairs (expected, seen) of wear increments: expected is the quantile of the increment's own law at the plotting
+    /// position (rank - 1/2) / n.
+    pub quantiles: Vec<(f64, f64)>,
+}
+
+/// Transforms each increment by its own law. An increment below the gauge's step is spread evenly over what it may
+/// be, with the seed's numbers.
+pub fn goodness(estimate: &Estimate, increments: &[Increment], seed: u64) -> Goodness {
+    let beta = estimate.beta();
+    let mut stream = Stream::new(seed, u64::MAX, 0);
+    let mut seen: Vec<(f64, f64, f64)> = increments
+        .iter()
+        .map(|increment| {
+            let shape = estimate.shape(increment);
+            let u = match estimate.model.resolution {
+                Some(step) if increment.wear == 0.0 => stream.uniform() * gamma_p(shape, beta * step),
+                _ => gamma_p(shape, beta * increment.wear),
+            };
+            (u, shape, increment.wear)
+        })
+        .collect();
+    seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let transforms: Vec<f64> = seen.iter().map(|(u, ..)| *u).collect();
+    let n = transforms.len() as f64;
+    let position = |at: usize| (at as f64 + 0.5) / n;
+    let quantiles = seen.iter().enumerate();
+    Goodness {
+        kolmogorov_smirnov: kolmogorov_smirnov(&transforms),
+        anderson_darling: anderson_darling(&transforms),
+        quantiles: quantiles
+            .map(|(at, (_, shape, wear))| (gamma_quantile(*shape, position(at)) / beta, *wear))
+            .collect(),
+        transforms,
+    }
+}
+
+fn kolmogorov_smirnov(sorted: &[f64]) -> f64 {
+    let n = sorted.len() as f64;
+    let distance = |(at, u): (usize, &f64)| (u - at as f64 / n).abs().max((u - (at + 1) as f64 / n).abs());
+    sorted.iter().enumerate().map(distance).fold(0.0, f64::max)
+}
+
+fn anderson_darling(sorted: &[f64]) -> f64 {
+    let n = sorted.len();
+    // Away from 0 and 1, where one rounded transform would decide alone.
+    let ln = |u: f64| libm::log(u.max(1e-300));
+    let sum: f64 = (0..n)
+        .map(|at| (2 * at + 1) as f64 * (ln(sorted[at]) + ln((1.0 - sorted[n - 1 - at]).max(1e-17))))
+        .sum();
+    -(n as f64) - sum / n as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn evenly_spaced_transforms_are_closest_to_uniform() {
+        let even: Vec<f64> = (0..10).map(|at| (f64::from(at) + 0.5) / 10.0).collect();
+        assert!((kolmogorov_smirnov(&even) - 0.05).abs() < 1e-15);
+        let squared: Vec<f64> = even.iter().map(|u| u * u).collect();
+        assert!(anderson_darling(&even) < 0.2 && anderson_darling(&squared) > 1.0);
+    }
+
+    #[test]
+    fn one_transform_gives_the_distance_by_hand() {
+        // n = 1, u = 0.25: D = 0.75; A^2 = -1 - ln 0.25 - ln 0.75.
+        assert_eq!(kolmogorov_smirnov(&[0.25]), 0.75);
+        let expected = -1.0 - 0.25_f64.ln() - 0.75_f64.ln();
+        assert!((anderson_darling(&[0.25]) - expected).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,183 @@
+//! Finding the maximum of the likelihood. In: increments, model. Out: the parameters there. Never knows what is done
+//! with them.
+
+use super::FitError;
+use super::likelihood::{Model, Point};
+use super::linear::solve;
+use crate::data::Increment;
+use crate::special::{digamma, trigamma};
+
+/// Steps of Newton's method; 5 to 15 are usual.
+const MOST_STEPS: usize = 200;
+
+/// ln alpha that solves the profile equation
+/// sum dLambda [ln beta + ln dW - psi(alpha dLambda)] = 0, beta = alpha sum dLambda / sum dW, [CS (25)].
+///
+/// Newton in ln alpha: the left side falls monotonically, because x psi'(x) > 1, and a bracket catches a first step
+/// that is too long. None if the increments have no scatter, or are not positive.
+pub fn profile_ln_alpha(lambdas: &[f64], wears: &[f64]) -> Option<f64> {
+    let (lambda, wear): (f64, f64) = (lambdas.iter().sum(), wears.iter().sum());
+    let rate = wear / lambda;
+    // Alpha = mean^2 / variance, per unit of Lambda.
+    let scatter: f64 = lambdas.iter().zip(wears).map(|(l, w)| (w - rate * l) * (w - rate * l) / l).sum();
+    let mut s = libm::log(rate * rate * lambdas.len() as f64 / scatter);
+    if !s.is_finite() || wears.iter().any(|w| *w <= 0.0) {
+        return None;
+    }
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for _ in 0..MOST_STEPS {
+        let alpha = libm::exp(s);
+        let ln_beta = s - libm::log(rate);
+        let (mut value, mut slope) = (0.0, 0.0);
+        for (l, w) in lambdas.iter().zip(wears) {
+            let a = alpha * l;
+            value += l * (ln_beta + libm::log(*w) - digamma(a));
+            slope += l * (1.0 - a * trigamma(a));
+        }
+        if value > 0.0 {
+            low = s
+        } else {
+            high = s
+        }
+        let mut next = s - value / slope;
+        if !(next > low && next < high) {
+            next = match (low.is_finite(), high.is_finite()) {
+                (true, true) => 0.5 * (low + high),
+                (true, false) => s + 1.0,
+                _ => s - 1.0,
+            };
+        }
+        if (next - s).abs() <= 1e-15 * s.abs().max(1.0) {
+            return Some(next);
+        }
+        s = next;
+    }
+    // Rounding keeps the last digit going: the bracket is as narrow as it gets.
+    (high - low < 1e-10).then_some(s)
+}
+
+/// A start for [`maximise`]: alpha, beta from the profile equation, c by a coarse search, no effect of covariates.
+pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitError> {
+    // Increments below the gauge's step enter the start alone as half of it.
+    let wears: Vec<f64> = increments
+        .iter()
+        .map(
+            |increment| {
+                if increment.wear > 0.0 { increment.wear } else { model.resolution.unwrap_or(0.0) / 2.0 }
+            },
+        )
+        .collect();
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    let exponents: Vec<f64> =
+        if model.power_law { (-7..=5).map(|at| libm::exp(f64::from(at) * 0.4)).collect() } else { vec![1.0] };
+    for exponent in exponents {
+        let mut phi = vec![0.0; model.parameters()];
+        if model.power_law {
+            phi[2] = exponent;
+        }
+        let lambdas: Vec<f64> = increments.iter().map(|increment| model.lambda(&phi, increment)).collect();
+        let Some(ln_alpha) = profile_ln_alpha(&lambdas, &wears) else { continue };
+        phi[0] = ln_alpha;
+        phi[1] = ln_alpha + libm::log(lambdas.iter().sum::<f64>() / wears.iter().sum::<f64>());
+        let value = model.value(&phi, increments);
+        if value.is_finite() && best.as_ref().is_none_or(|(known, _)| value > *known) {
+            best = Some((value, phi));
+        }
+    }
+    best.map(|(_, phi)| phi).ok_or(FitError::NoScatter)
+}
+
+/// Newton's method from a start, each step shortened until the likelihood grows; a parameter may be held.
+pub fn maximise(
+    model: &Model,
+    increments: &[Increment],
+    start: &[f64],
+    held: Option<usize>,
+) -> Result<(Vec<f64>, Point), FitError> {
+    let mut phi = start.to_vec();
+    let mut here = model.point(&phi, increments);
+    let free: Vec<usize> = (0..phi.len()).filter(|at| Some(*at) != held).collect();
+    for _ in 0..MOST_STEPS {
+        let gradient: Vec<f64> = free.iter().map(|at| here.gradient[*at]).collect();
+        let Some(step) = ascent(&here, &free, &gradient) else { return Err(FitError::NotConverged) };
+        let gain: f64 = step.iter().zip(&gradient).map(|(s, g)| s * g).sum();
+        // Half the gain is what is left to climb: relative to 1 in the log-likelihood, far below a standard error.
+        let done = gain < 1e-13;
+        // No two e-folds at once: far from the top the quadratic model means nothing.
+        let mut length = 2.0 / step.iter().fold(2.0_f64, |most, s| most.max(s.abs()));
+        loop {
+            let mut next = phi.clone();
+            for (at, step) in free.iter().zip(&step) {
+                next[*at] += length * step;
+            }
+            let usable = !model.power_law || next[2] > 0.0;
+            let there = usable.then(|| model.point(&next, increments));
+            let slack = 1e-12 * here.value.abs().max(1.0);
+            if let Some(there) = there.filter(|there| there.value >= here.value - slack) {
+                (phi, here) = (next, there);
+                break;
+            }
+            length *= 0.5;
+            if length < 1e-9 {
+                return if gain < 1e-7 { Ok((phi, here)) } else { Err(FitError::NotConverged) };
+            }
+        }
+        if done {
+            return Ok((phi, here));
+        }
+    }
+    Err(FitError::NotConverged)
+}
+
+/// Newton's step among the free parameters; where the likelihood is not concave, the information is raised until it is.
+fn ascent(here: &Point, free: &[usize], gradient: &[f64]) -> Option<Vec<f64>> {
+    let scale = free.iter().map(|at| here.information[*at][*at].abs()).fold(1e-12, f64::max);
+    let mut raised = 0.0;
+    for _ in 0..40 {
+        let matrix: Vec<Vec<f64>> = free
+            .iter()
+            .map(|i| {
+                let entry = |j: &usize| here.information[*i][*j] + if i == j { raised } else { 0.0 };
+                free.iter().map(entry).collect()
+            })
+            .collect();
+        if let Some(step) = solve(&matrix, gradient) {
+            return Some(step);
+        }
+        raised = if raised == 0.0 { 1e-6 * scale } else { 4.0 * raised };
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_profile_equation_has_the_root_of_the_full_likelihood() {
+        let wears = [1.2, 0.7, 2.4, 0.9, 1.6];
+        let spans = [1.0, 0.5, 2.0, 1.0, 1.5];
+        let increments: Vec<Increment> = wears
+            .iter()
+            .zip(spans)
+            .map(|(wear, to)| Increment {
+                unit: 0,
+                from: 0.0,
+                to,
+                wear: *wear,
+                ln_covariates: vec![],
+                row: 0,
+            })
+            .collect();
+        let model = Model::default();
+        let ln_alpha = profile_ln_alpha(&spans, &wears).unwrap();
+        let (phi, _) = maximise(&model, &increments, &[0.0, 0.0], None).unwrap();
+        // Newton ends at a gain of 1e-13, squared once more by its last step.
+        assert!((phi[0] - ln_alpha).abs() < 1e-11, "{} {ln_alpha}", phi[0]);
+    }
+
+    #[test]
+    fn increments_without_scatter_have_no_alpha() {
+        assert_eq!(profile_ln_alpha(&[1.0, 2.0, 1.0], &[1.0, 2.0, 1.0]), None);
+    }
+}
