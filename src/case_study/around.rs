@@ -26,7 +26,7 @@ const SAME_PEAK: f64 = 30.0;
 /// So many times the threshold is not reached in 30 cycles: nothing fails.
 const BEYOND: f64 = 10.0;
 /// Accuracy of the calibration [cycles].
-const CALIBRATED: f64 = 1e-6;
+pub(super) const CALIBRATED: f64 = 1e-6;
 
 /// Fig. 5.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use linkwear_codegen::Diagnostics;
+use linkwear_gamma::fit::FitError;
 use linkwear_runtime::life::{CalibrationError, SettingsError, Stop};
 use linkwear_runtime::{RunError, SetupError};
 use thiserror::Error;
@@ -45,6 +46,9 @@ pub enum StudyError {
     /// No length of cycle gives the life of the paper.
     #[error(transparent)]
     Calibration(#[from] CalibrationError<Infallible>),
+    /// A model could not be fitted to histories.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// A curve of reference data cannot be read.
     #[error("line {line} of the reference data is no row of numbers")]
     Reference {

@@ -35,6 +35,14 @@ pub(super) struct Effort {
     pub rigid_points: usize,
     pub points: usize,
     pub finest_points: usize,
+    /// Data sets of histories.
+    pub data_sets: u64,
+    /// Random lives of the truth, and of a density.
+    pub trajectories: u64,
+    /// Random lives that a prediction from one data set is made of.
+    pub trajectories_per_set: u64,
+    /// Work of one data set, in turns of the compiled mechanism.
+    pub work_of_data_set: f64,
     /// Wear steps of the proposed model, and of the finest.
     pub wear_step: WearStep,
     pub finest_wear_step: WearStep,
@@ -63,6 +71,10 @@ impl Effort {
             rigid_points: 17,
             points: 17,
             finest_points: 33,
+            data_sets: 240,
+            trajectories: 20_000,
+            trajectories_per_set: 2_000,
+            work_of_data_set: 5.0,
             wear_step: WearStep::TABLE,
             finest_wear_step: FINEST,
         }
@@ -77,8 +89,12 @@ impl Effort {
             rigid: RevolutionSettings { average: 4, ..settings },
             bins: 72,
             rigid_points: 4,
-            points: 7,
-            finest_points: 9,
+            points: 5,
+            finest_points: 7,
+            data_sets: 10,
+            trajectories: 2_000,
+            trajectories_per_set: 300,
+            work_of_data_set: 1.0,
             wear_step: WearStep::TABLE,
             finest_wear_step: FINEST,
         }

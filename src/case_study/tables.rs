@@ -6,7 +6,7 @@
 
 use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, Table, WearOf, WearStep};
 use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
-use linkwear_runtime::{Integrator, RevolutionSettings, SetupError};
+use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError};
 use serde::Serialize;
 
 use super::error::StudyError;
@@ -32,6 +32,7 @@ impl Definition {
 pub(super) struct Measured {
     /// Wear per revolution; a fine scale.
     pub table: Table,
+    rates: Option<GammaRates>,
     joints: Vec<JointLife>,
 }
 
@@ -132,6 +133,16 @@ impl Tables {
         Ok(Self { rigid: next()?, finest: next()?, flexible: next()? })
     }
 
+    /// Parameters of the Gamma process that the file gives the joint.
+    pub fn rates(&self) -> Option<GammaRates> {
+        self.finest.rates
+    }
+
+    /// Clearance of the unworn joint [m].
+    pub fn clearance(&self) -> f64 {
+        self.finest.joints[0].clearance
+    }
+
     /// How good they are.
     pub fn quality(&self, gamma: f64, effort: &Effort) -> Vec<TableQuality> {
         vec![
@@ -157,8 +168,10 @@ fn measured(
             threshold: reach * joint.threshold,
             ..joint.clone()
         };
+        let wears = model.description.contacts.iter().find_map(|contact| contact.wear);
+        let rates = wears.and_then(|wear| wear.scatter);
         let surveyed = LifeSettings::new(joints.iter().map(further).collect());
         let table = Table::measure(&surveyed, revolutions, points, &mut |_| {})?;
-        Ok(Measured { table, joints })
+        Ok(Measured { table, rates, joints })
     })
 }
