@@ -2,34 +2,112 @@
 
 mod command;
 
-use command::linkwear;
+use command::{Folder, linkwear};
+use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr.toml";
 
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
 #[test]
-fn the_case_study_lives_about_twenty_five_cycles() {
-    let life = linkwear(&["life", RSSR, "--format", "json"]).json();
-    let mean = life["mean"].as_f64().expect("a number");
-    // The file's revolutions per cycle make it 25.1, by a hand calculation good to a tenth of a cycle.
-    assert!((mean - 25.1).abs() < 0.1, "{mean}");
-    assert_eq!(life["mean_whole_cycles"], 26.0);
-    assert_eq!(life["trajectories"], 1);
-    for key in ["std", "cov", "seed"] {
-        assert!(life[key].is_number(), "{key}");
-    }
-    assert!(life["quantiles"]["p50"].is_number());
+fn the_case_study_lives_about_twenty_five_cycles_with_the_scatter_of_its_process() {
+    let folder = Folder::new("life");
+    let out = folder.path("lives");
+    let life = linkwear(&["life", RSSR, "--seed", "7", "--out", &out, "--format", "json"]).json();
+    // The file's revolutions per cycle make the mean path 25.1, by a hand calculation good to a tenth of a cycle.
+    let path = &life["mean_path"];
+    assert!((number(&path["cycles"]) - 25.1).abs() < 0.1 && path["whole_cycles"] == 26, "{path}");
     let cycles = life["cycles"].as_array().expect("a list");
     assert_eq!(cycles.len(), 26);
-    let clearance = |at: usize| cycles[at]["joints"][0]["clearance_m"].as_f64().expect("a number");
+    let clearance = |at: usize| number(&cycles[at]["joints"][0]["clearance_m"]);
     assert!(clearance(25) > clearance(0));
     // Half of the table against all of it, which the resonances of the coupler bound.
-    assert!(life["table_error"].as_f64().expect("a number") < 5e-3);
+    assert!(number(&life["table_error"]) < 5e-3);
+
+    // 1000 lives: beta W_crit = 1092 gives 1/sqrt(1092) = 3.03 %, known to 2.2 % of itself; four standard errors.
+    assert_eq!((&life["trajectories"], &life["seed"]), (&Value::from(1000), &Value::from(7)));
+    assert!((number(&life["cov"]) / 0.0303 - 1.0).abs() < 4.0 * 0.022, "{}", life["cov"]);
+    assert!((number(&life["mean"]) - 25.1).abs() < 0.2);
+    // Whole cycles add the half of one.
+    assert!((number(&life["mean_whole_cycles"]) - number(&life["mean"]) - 0.5).abs() < 0.05);
+    let reliability = life["reliability"].as_array().expect("a list");
+    let part = |point: &Value| number(&point["reliability"]);
+    assert!(part(&reliability[0]) == 1.0 && part(reliability.last().expect("a point")) == 0.0);
+    assert!(reliability.windows(2).all(|pair| part(&pair[1]) <= part(&pair[0])));
+    assert!(
+        number(&life["error_budget"]["total"])
+            > number(&life["error_budget"]["half_widths_95"]["monte_carlo"])
+    );
+
+    // The folder holds the same, and is not written to again.
+    let text = |name: &str| std::fs::read_to_string(folder.path(&format!("lives/{name}"))).expect("a file");
+    let kept: Value = serde_json::from_str(&text("life.json")).expect("JSON");
+    assert_eq!(kept, life);
+    assert_eq!((text("cycles.csv").lines().count(), text("lives.csv").lines().count()), (27, 1001));
+    let again = linkwear(&["life", RSSR, "--out", &out, "--format", "json"]);
+    assert_eq!((again.code, &again.errors()[0]["code"]), (1, &Value::from("C0004")));
+}
+
+#[test]
+fn threads_change_no_bit_and_the_mean_path_has_no_scatter() {
+    // Coarse steps: only bits are compared.
+    let with = |more: &[&str]| {
+        let mut arguments = vec!["life", RSSR, "--step", "5e-5", "--settle", "1", "--format", "json"];
+        arguments.extend(more);
+        linkwear(&arguments).json()
+    };
+    let lives = |threads| with(&["--trajectories", "40", "--threads", threads]);
+    assert_eq!(lives("1"), lives("2"));
+    let mean = with(&["--mean"]);
+    assert_eq!(
+        (&mean["trajectories"], &mean["std"], &mean["random"]),
+        (&Value::from(1), &Value::from(0.0), &Value::from(false))
+    );
+    assert_eq!(mean["mean"], mean["mean_path"]["cycles"]);
 }
 
 #[test]
 fn a_mechanism_that_cannot_wear_says_what_is_missing() {
     let answer = linkwear(&["life", "mechanisms/rssr_rigid.toml", "--format", "json"]);
     assert_eq!(answer.code, 1);
+    let help = answer.errors()[0]["help"].as_str().expect("a text").to_owned();
+    assert!(help.contains("[wear.R1]"), "{help}");
+}
+
+/// A life of the rigid case study, in a hurry, that cannot be lived: its first error and all it says.
+fn refused(file: &str, parameter: &str) -> (String, Value) {
+    let hurry = ["--rigid", "--coupling", "full", "--step", "5e-5", "--settle", "1", "--format", "json"];
+    let mut arguments = vec!["life", file, "--set", parameter];
+    arguments.extend(hurry);
+    let answer = linkwear(&arguments);
+    assert_eq!(answer.code, 1, "{}", answer.out);
     let message = answer.errors()[0]["message"].as_str().expect("a text").to_owned();
-    assert!(message.contains("[wear.R1]"), "{message}");
+    (message, serde_json::from_str(&answer.out).expect("one JSON object"))
+}
+
+#[test]
+fn bad_input_and_bad_physics_have_their_own_words() {
+    let (message, answer) = refused(RSSR, "c0=11 mm");
+    assert!(message.contains("not less than its journal's radius"), "{message}");
+    assert!(answer["errors"][0]["line"].is_number(), "{answer}");
+    let (message, _) = refused(RSSR, "W_crit=0.5 um");
+    assert!(message.contains("the first cycle wears") && message.contains("threshold"), "{message}");
+}
+
+#[test]
+fn a_life_that_stops_early_keeps_the_cycles_it_had() {
+    let folder = Folder::new("life-early");
+    let text = std::fs::read_to_string(RSSR).expect("the case study");
+    let fast = text.replace("revolutions_per_cycle = 4.9e6", "revolutions_per_cycle = 1e9");
+    assert_ne!(fast, text);
+    std::fs::write(folder.path("fast.toml"), fast).expect("a file");
+    // The clearance grows by fractions of a millimetre a cycle, until the journal flies through it.
+    let (message, answer) = refused(&folder.path("fast.toml"), "W_crit=15 mm");
+    assert!(message.contains("without contact") || message.contains("journal radius"), "{message}");
+    let cycles = answer["cycles"].as_array().expect("a list");
+    assert!(!cycles.is_empty() && number(&cycles[0]["joints"][0]["wear_m"]) > 1e-4, "{answer}");
+    let help = answer["errors"][0]["help"].as_str().expect("a text");
+    assert!(help.contains(&format!("{} cycles were completed", cycles.len())), "{help}");
 }
