@@ -1,13 +1,13 @@
 //! Fig. 5: wear around the bearing at three cycles; the clearance opens by the largest depth. In: tables of what a
 //! revolution wears. Out: [`Around`]. Never knows how it is drawn.
 //!
-//! A cycle stands for as many revolutions as make the proposed model's largest depth reach the threshold after the
+//! A cycle stands for as many revolutions as make the finest model's largest depth reach the threshold after the
 //! life of the paper's ground truth; the same number serves all models. They go on beyond the threshold.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use linkwear_runtime::life::{LifeState, Mean, WearStep, calibrate, run_life};
+use linkwear_runtime::life::{LifeState, Mean, WearStep, run_life};
 use linkwear_runtime::wear::Profile;
 use serde::Serialize;
 
@@ -15,8 +15,6 @@ use super::error::StudyError;
 use super::options::Effort;
 use super::tables::{Definition, Measured, Tables};
 
-/// Life of the paper's ground truth [cycles].
-pub const TRUE_LIFE: f64 = 25.1;
 /// Cycles of the paper's Fig. 5.
 pub const CYCLES: [u64; 3] = [10, 20, 30];
 /// Local maxima below this part of the largest depth are no peaks.
@@ -25,8 +23,6 @@ const LOWEST_PEAK: f64 = 0.1;
 const SAME_PEAK: f64 = 30.0;
 /// So many times the threshold is not reached in 30 cycles: nothing fails.
 const BEYOND: f64 = 10.0;
-/// Accuracy of the calibration [cycles].
-pub(super) const CALIBRATED: f64 = 1e-6;
 
 /// Fig. 5.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -101,25 +97,23 @@ pub fn turned(angle: f64) -> f64 {
 /// Lives through the wear of the three models.
 pub(super) fn around(tables: &Tables, effort: &Effort) -> Result<Around, StudyError> {
     let (proposed, finest) = (&tables.flexible, &tables.finest);
-    let life = proposed.life(Definition::DEEPEST, effort.wear_step)?;
-    let per_cycle = life.joints[0].revolutions_per_cycle;
-    let factor = calibrate(&life, &mut proposed.table.clone(), TRUE_LIFE, CALIBRATED)?.factor;
+    let revolutions_per_cycle = tables.revolutions_per_cycle(Definition::DEEPEST, effort)?;
     let deterministic = tables.rigid.table.at(0, 0.0).profile;
     let no_profile = || StudyError::Missing { kind: "profile of joint", name: super::model::JOINT.into() };
-    let revolutions_per_cycle = factor * per_cycle;
     Ok(Around {
         revolutions_per_cycle,
         deterministic: multiplied(&deterministic.ok_or_else(no_profile)?, revolutions_per_cycle),
-        proposed: worn(proposed, effort.wear_step, factor)?,
-        finest: worn(finest, effort.finest_wear_step, factor)?,
+        proposed: worn(proposed, effort.wear_step, revolutions_per_cycle)?,
+        finest: worn(finest, effort.finest_wear_step, revolutions_per_cycle)?,
     })
 }
 
 /// Depths at [`CYCLES`] of a life in which the clearance opens by the largest depth.
-fn worn(measured: &Measured, step: WearStep, factor: f64) -> Result<WornBearing, StudyError> {
-    let mut settings = measured.life(Definition::DEEPEST, step)?.with_longer_cycles(factor);
+fn worn(measured: &Measured, step: WearStep, revolutions: f64) -> Result<WornBearing, StudyError> {
+    let mut settings = measured.life(Definition::DEEPEST, step)?;
     settings.keep_cycles = false;
     for joint in &mut settings.joints {
+        joint.revolutions_per_cycle = revolutions;
         joint.threshold *= BEYOND;
     }
     let mut state = LifeState::new(&settings, 0)?;

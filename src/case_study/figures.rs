@@ -1,13 +1,15 @@
 //! The figures of the study as pictures. In: [`Study`]. Out: [`Picture`]s, SVG and PNG. Never computes results.
 
+mod lives;
+
 use super::Study;
 use super::around::{Around, Snapshot, WornBearing};
 use super::configuration::Configuration;
 use super::error::StudyError;
 use super::force::Forces;
 use crate::plot::{
-    BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Marker, Note, ORANGE, Panel, RED, SKY, Shape, axis, png,
-    svg,
+    Axis, BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Marker, Note, ORANGE, Panel, RED, SKY, Shape, axis,
+    png, svg,
 };
 
 /// Pixels per unit of a picture: 192 to the inch.
@@ -33,6 +35,8 @@ pub fn pictures(study: &Study) -> Result<Vec<Picture>, StudyError> {
         ("fig3-mechanism", mechanism(&study.configuration)),
         ("fig4-force", force(&study.forces)),
         ("fig5-wear", wear(&study.around)),
+        ("fig6-life", lives::densities(&study.lives)),
+        ("table2-errors", lives::errors(&study.lives)),
     ];
     let draw = |(name, chart): (&'static str, Chart)| {
         let svg = svg(&chart)?;
@@ -124,7 +128,7 @@ fn drawn_from(configuration: &Configuration, view: &View) -> Panel {
         (low - 0.06 * (high - low), high + 0.1 * (high - low))
     };
     let (x, y) = (range(|point| point.0), range(|point| point.1));
-    let side = |range| crate::plot::Axis { range, ..crate::plot::Axis::default() };
+    let side = |range| Axis { range, ..Axis::default() };
     Panel { x: side(x), y: side(y), is_sketch: true, curves, notes, ..Panel::default() }
 }
 
@@ -236,7 +240,7 @@ fn wear(around: &Around) -> Chart {
                 .snapshots
                 .get(index)
                 .map_or_else(String::new, |s| format!("cycle {}", s.cycle)),
-            x: crate::plot::Axis { label: label.to_owned(), range: (-180.0, 180.0), step: 30.0 },
+            x: Axis { label: label.to_owned(), range: (-180.0, 180.0), step: 30.0, ..Axis::default() },
             y: axis("wear depth [µm]", values, 4),
             curves: shown().map(curve).collect(),
             ..Panel::default()

@@ -5,6 +5,8 @@ use linkwear_runtime::life::WearStep;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde::Serialize;
 
+use super::areas;
+
 /// Wear steps that leave no error beside that of a table.
 const FINEST: WearStep = WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1 };
 
@@ -49,11 +51,14 @@ pub(super) struct Effort {
 }
 
 impl Effort {
-    /// Estimate of the work of one gamma's tables, in turns of the compiled mechanism.
-    pub fn work_of_tables(&self) -> f64 {
+    /// Estimate of the work of all tables and lives for so many gammas, in turns of the compiled mechanism.
+    pub fn work(&self, gammas: usize) -> f64 {
         let turns = |settings: RevolutionSettings| f64::from(settings.settle + settings.average);
-        turns(self.flexible) * (self.points + 2 * self.finest_points) as f64
-            + INTERPRETED * turns(self.rigid) * self.rigid_points as f64
+        let tables = turns(self.flexible) * (self.points + 2 * self.finest_points) as f64
+            + INTERPRETED * turns(self.rigid) * self.rigid_points as f64;
+        let areas = 3.0 * areas::POINTS as f64 * (turns(self.flexible) + INTERPRETED * turns(self.rigid));
+        let lives = 2.0 * self.data_sets as f64 * self.work_of_data_set;
+        areas + gammas as f64 * (tables + lives)
     }
 
     pub fn of(options: Options) -> Self {

@@ -101,6 +101,12 @@ pub(super) struct Cycle {
 }
 
 impl Cycle {
+    /// The same mean increment [m] whatever the wear, up to `reach` [m].
+    #[cfg(test)]
+    pub fn constant(increment: f64, reach: f64) -> Self {
+        Self { spacing: reach, values: vec![increment; 2] }
+    }
+
     /// dLambda [m] of a cycle that begins with W [m].
     pub fn mean_increment(&self, wear: f64) -> f64 {
         line(&self.values, wear / self.spacing)

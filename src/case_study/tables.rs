@@ -4,7 +4,7 @@
 //! A table holds the depth by the area of contact and the depth by bearing angle, so that one serves every
 //! definition of wear W; the feedback factor gamma says up to which clearance it reaches.
 
-use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, Table, WearOf, WearStep};
+use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, Table, WearOf, WearStep, calibrate};
 use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
 use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError};
 use serde::Serialize;
@@ -27,6 +27,11 @@ impl Definition {
     /// W is the largest depth around the bearing, and the clearance opens by it.
     pub const DEEPEST: Self = Self { wear: WearOf::Profile(Measure::Maximum), gamma: 1.0 };
 }
+
+/// Life of the paper's ground truth [cycles].
+pub const TRUE_LIFE: f64 = 25.1;
+/// Accuracy of the calibration [cycles].
+const CALIBRATED: f64 = 1e-6;
 
 /// One model, measured.
 pub(super) struct Measured {
@@ -80,6 +85,16 @@ impl Measured {
         Ok(LifeSettings { step, ..LifeSettings::new(joints?) })
     }
 
+    /// Wear at failure [m].
+    pub fn threshold(&self) -> f64 {
+        self.joints[0].threshold
+    }
+
+    /// Clearance of the unworn joint [m].
+    pub fn clearance(&self) -> f64 {
+        self.joints[0].clearance
+    }
+
     fn quality(&self, model: &'static str, gamma: f64, turns: u32) -> TableQuality {
         let report = self.table.report();
         let (first, last) = (self.table.at(0, 0.0), self.table.at(0, self.joints[0].threshold));
@@ -106,31 +121,55 @@ fn scalar(gamma: f64) -> Result<Feedback, StudyError> {
 }
 
 impl Tables {
-    /// Measures all models from the unworn clearance to that at `reach` times the threshold.
+    /// Measures all models, for every gamma from the unworn clearance to that at `reach` times the threshold.
     pub fn measure(
         threads: usize,
-        (gamma, reach): (f64, f64),
+        (gammas, reach): (&[f64], f64),
         effort: &Effort,
         watch: &Watch<'_>,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Vec<Self>, StudyError> {
         let half = Integrator::Rk4 { step: 0.5 * effort.step };
         let fine = RevolutionSettings { integrator: half, ..effort.flexible };
-        let measure = |model: Model, settings, points| {
-            measured(&model.wearing(Area::Hertz, effort.bins), (settings, points), (gamma, reach), watch)
+        let rigid = |gamma| -> Job<'_, Result<Measured, StudyError>> {
+            Box::new(move || {
+                let model = Model::rigid()?.wearing(Area::Hertz, effort.bins);
+                measured(&model, (effort.rigid, effort.rigid_points), (gamma, reach), watch)
+            })
         };
-        let finest = || {
-            let model = Model::flexible().wearing(Area::Hertz, 2 * effort.bins);
-            measured(&model, (fine, effort.finest_points), (gamma, reach), watch)
+        let finest = |gamma| -> Job<'_, Result<Measured, StudyError>> {
+            Box::new(move || {
+                let model = Model::flexible().wearing(Area::Hertz, 2 * effort.bins);
+                measured(&model, (fine, effort.finest_points), (gamma, reach), watch)
+            })
         };
+        let flexible = |gamma| -> Job<'_, Result<Measured, StudyError>> {
+            Box::new(move || {
+                let model = Model::flexible().wearing(Area::Hertz, effort.bins);
+                measured(&model, (effort.flexible, effort.points), (gamma, reach), watch)
+            })
+        };
+        let gammas = || gammas.iter().copied();
         // The longest first.
-        let jobs: Vec<Job<'_, Result<Measured, StudyError>>> = vec![
-            Box::new(|| measure(Model::rigid()?, effort.rigid, effort.rigid_points)),
-            Box::new(finest),
-            Box::new(|| measure(Model::flexible(), effort.flexible, effort.points)),
-        ];
-        let mut found = run_all(threads, jobs).into_iter();
-        let mut next = || found.next().expect("as many tables as jobs");
-        Ok(Self { rigid: next()?, finest: next()?, flexible: next()? })
+        let jobs = gammas().map(rigid).chain(gammas().map(finest)).chain(gammas().map(flexible)).collect();
+        let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs).into_iter().collect();
+        let mut found = found?;
+        let flexible = found.split_off(2 * gammas().count());
+        let finest = found.split_off(gammas().count());
+        let tables = found.into_iter().zip(finest).zip(flexible);
+        Ok(tables.map(|((rigid, finest), flexible)| Self { rigid, flexible, finest }).collect())
+    }
+
+    /// Revolutions that a cycle stands for: with them the deterministic life of the finest model is that of the paper's
+    /// ground truth. One calibration serves all models.
+    pub fn revolutions_per_cycle(&self, definition: Definition, effort: &Effort) -> Result<f64, StudyError> {
+        let life = self.finest.life(definition, effort.finest_wear_step)?;
+        let factor = calibrate(&life, &mut self.finest.table.clone(), TRUE_LIFE, CALIBRATED)?.factor;
+        Ok(factor * life.joints[0].revolutions_per_cycle)
+    }
+
+    /// Wear at failure [m].
+    pub fn threshold(&self) -> f64 {
+        self.finest.threshold()
     }
 
     /// Parameters of the Gamma process that the file gives the joint.
@@ -140,7 +179,7 @@ impl Tables {
 
     /// Clearance of the unworn joint [m].
     pub fn clearance(&self) -> f64 {
-        self.finest.joints[0].clearance
+        self.finest.clearance()
     }
 
     /// How good they are.
@@ -153,7 +192,8 @@ impl Tables {
     }
 }
 
-fn measured(
+/// Measures one model from the unworn clearance to that at `reach` times the threshold.
+pub(super) fn measured(
     model: &Model,
     (settings, points): (RevolutionSettings, usize),
     (gamma, reach): (f64, f64),

@@ -127,7 +127,13 @@ impl Ranged for Marked {
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
         // Marks have whole lines; there are none between.
-        if hint.weight().allow_light_points() { Vec::new() } else { marks(&self.0) }
+        if hint.weight().allow_light_points() {
+            Vec::new()
+        } else if self.0.words.is_empty() {
+            marks(&self.0)
+        } else {
+            self.0.words.iter().map(|word| word.0).collect()
+        }
     }
 
     fn range(&self) -> Range<f64> {
@@ -137,7 +143,8 @@ impl Ranged for Marked {
 
 impl ValueFormatter<f64> for Marked {
     fn format_ext(&self, value: &f64) -> String {
-        mark_text(*value, self.0.step)
+        let word = self.0.words.iter().find(|word| word.0 == *value);
+        word.map_or_else(|| mark_text(*value, self.0.step), |word| word.1.clone())
     }
 }
 
@@ -308,7 +315,7 @@ mod tests {
 
     #[test]
     fn marks_have_the_digits_of_their_step() {
-        let axis = Axis { label: String::new(), range: (-0.5, 0.5), step: 0.25 };
+        let axis = Axis { label: String::new(), range: (-0.5, 0.5), step: 0.25, ..Axis::default() };
         let texts: Vec<String> = marks(&axis).iter().map(|x| mark_text(*x, axis.step)).collect();
         assert_eq!(texts, ["-0.50", "-0.25", "0.00", "0.25", "0.50"]);
         assert_eq!(mark_text(-1e-17, 20.0), "0");
@@ -329,8 +336,8 @@ mod tests {
             size: (300, 200),
             columns: 1,
             panels: vec![Panel {
-                x: Axis { label: "time [s]".into(), range: (0.0, 1.0), step: 0.5 },
-                y: Axis { label: "force [N] <&>".into(), range: (0.0, 2.0), step: 1.0 },
+                x: Axis { label: "time [s]".into(), range: (0.0, 1.0), step: 0.5, ..Axis::default() },
+                y: Axis { label: "force [N] <&>".into(), range: (0.0, 2.0), step: 1.0, ..Axis::default() },
                 curves: vec![Curve { points: vec![(0.0, 0.0), (1.0, 2.0)], look: Look::line((9, 8, 7), 2) }],
                 ..Panel::default()
             }],

@@ -67,6 +67,8 @@ pub struct Axis {
     pub range: (f64, f64),
     /// Distance of the marks.
     pub step: f64,
+    /// Marks with words, at their places, instead of numbers.
+    pub words: Vec<(f64, String)>,
 }
 
 /// A curve.
@@ -171,15 +173,23 @@ pub const GREY: (u8, u8, u8) = (150, 150, 150);
 
 /// An axis from 0 (or below) that holds all values, with about `marks` round marks.
 pub fn axis(label: &str, values: impl Iterator<Item = f64>, marks: usize) -> Axis {
-    let (low, high) =
-        values.filter(|value| value.is_finite()).fold((0.0_f64, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+    axis_around(label, values.chain([0.0]), marks)
+}
+
+/// An axis that holds all values, with about `marks` round marks.
+pub fn axis_around(label: &str, values: impl Iterator<Item = f64>, marks: usize) -> Axis {
+    let ends = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let (low, high) = if ends.0 <= ends.1 { ends } else { (0.0, 0.0) };
     let span = if high > low { high - low } else { 1.0 };
     let rough = span / marks.max(1) as f64;
     let power = 10_f64.powf(rough.log10().floor());
     let step = [1.0, 2.0, 2.5, 5.0, 10.0].map(|round| round * power).into_iter().find(|step| *step >= rough);
     let step = step.unwrap_or(10.0 * power);
-    let range = ((low / step).floor() * step, (high / step - 1e-9).ceil().max(1.0) * step);
-    Axis { label: label.to_owned(), range, step }
+    let first = (low / step).floor();
+    let last = (high / step - 1e-9).ceil().max(first + 1.0);
+    Axis { label: label.to_owned(), range: (first * step, last * step), step, words: Vec::new() }
 }
 
 #[cfg(test)]
@@ -192,6 +202,7 @@ mod tests {
         assert_eq!((found.range, found.step), ((0.0, 60.0), 10.0));
         let found = axis("z [mm]", [-300.0, 20.0].into_iter(), 5);
         assert_eq!((found.range, found.step), ((-400.0, 100.0), 100.0));
-        assert_eq!(axis("", std::iter::empty(), 4).range, (0.0, 1.0));
+        assert_eq!(axis("", std::iter::empty(), 4).range.0, 0.0);
+        assert_eq!(axis_around("life", [20.3, 29.9].into_iter(), 5).range, (20.0, 30.0));
     }
 }

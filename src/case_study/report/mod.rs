@@ -2,12 +2,14 @@
 //! depends on a number is made from it. Never computes results.
 
 mod block;
+mod findings;
 mod force;
+mod lives;
 mod wear;
 
 use block::Block;
 
-use super::{Picture, Study};
+use super::{Lives, MODELS, Picture, SHOWN, Study};
 
 const TITLE: &str = "The case study of the RSSR linkage, recomputed";
 
@@ -41,6 +43,26 @@ pub fn summary(study: &Study) -> String {
         peak(&around.deterministic),
         peak(&around.proposed),
         peak(&around.finest),
+    ) + &study.lives.iter().map(|lives| life_in_short(study, lives)).collect::<String>()
+}
+
+fn life_in_short(study: &Study, lives: &Lives) -> String {
+    let Some(under) = lives.under(SHOWN) else { return String::new() };
+    let predicted = MODELS.iter().zip(&under.predictions).map(|(model, found)| {
+        format!(
+            "\n        {model:<24} {:>6} ± {} %, COV {} %",
+            signed(100.0 * found.error, 2),
+            fixed(100.0 * found.error_scatter, 2),
+            fixed(100.0 * found.lives.cov, 2)
+        )
+    });
+    let title = if study.lives.first() == Some(lives) { "Fig. 6" } else { "      " };
+    format!(
+        "\n{title}  error of the mean life, W the {}, gamma {}, fitted on the {}{}",
+        lives.wear,
+        lives.gamma,
+        SHOWN.name(),
+        predicted.collect::<String>()
     )
 }
 
@@ -63,6 +85,8 @@ fn document(study: &Study) -> Vec<Block> {
     blocks.extend(mechanism(study));
     blocks.extend(force::blocks(&study.forces));
     blocks.extend(wear::blocks(&study.around));
+    blocks.extend(lives::blocks(study));
+    blocks.extend(findings::blocks(study));
     blocks
 }
 
@@ -102,6 +126,11 @@ fn mechanism(study: &Study) -> Vec<Block> {
 /// Digits after the point.
 fn fixed(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
+}
+
+/// A part of all, in whole per cents.
+fn percent(part: f64) -> String {
+    format!("{:.0} %", 100.0 * part)
 }
 
 /// With its sign.

@@ -17,7 +17,7 @@ pub(super) fn blocks(around: &Around) -> Vec<Block> {
                 .to_owned(),
         },
         Block::Text(format!(
-            "A cycle stands for {:.4e} revolutions: with them the largest depth of the proposed model reaches 80 µm \
+            "A cycle stands for {:.4e} revolutions: with them the largest depth of the finest model reaches 80 µm \
              after {TRUE_LIFE} cycles, the life of the paper's ground truth. The clearance opens by the largest depth; \
              the deterministic model has a rigid coupler and no feedback, so that its profile only grows in \
              proportion.",
