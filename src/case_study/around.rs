@@ -33,7 +33,7 @@ pub struct Around {
     pub deterministic: WornBearing,
     /// Flexible coupler, feedback.
     pub proposed: WornBearing,
-    /// The same with half the time step, more points, shorter wear steps and twice the angles.
+    /// The same with half the time step, more points and shorter wear steps.
     pub finest: WornBearing,
 }
 

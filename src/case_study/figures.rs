@@ -200,7 +200,7 @@ fn force(forces: &Forces) -> Chart {
     let all = looks.iter().flat_map(|(_, curve, _)| curve.forces.iter().copied());
     let curve =
         |(_, curve, look): &(&str, &super::ForceCurve, Look)| Curve { points: points(curve), look: *look };
-    let mut time = axis("time from the begin of a turn [s]", [forces.period].into_iter(), 10);
+    let mut time = axis("time from the start of a turn [s]", [forces.period].into_iter(), 10);
     time.range.1 = forces.period;
     Chart {
         size: (800, 440),

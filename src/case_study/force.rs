@@ -25,7 +25,7 @@ const THINNED_CHATTER: usize = 5;
 /// A force over one turn.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ForceCurve {
-    /// Time since the begin of the turn [s].
+    /// Time since the start of the turn [s].
     pub times: Vec<f64>,
     /// Normal force, of an ideal joint the reaction across the axis [N].
     pub forces: Vec<f64>,
@@ -44,7 +44,7 @@ pub struct ForceCurve {
 /// What a curve looks like, for a comparison by words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Shape {
-    /// Force at the begin of the turn [N].
+    /// Force at the start of the turn [N].
     pub first: f64,
     /// Largest force in the first tenth of the turn [N].
     pub early_peak: f64,

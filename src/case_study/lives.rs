@@ -82,7 +82,7 @@ pub struct Lives {
     pub truth: LifeNumbers,
     /// Deterministic lives with this cycle, without any fit [cycles], in the order of [`MODELS`].
     pub deterministic: Vec<f64>,
-    /// dLambda of each model over that of the truth, at the begin and at the end of the life.
+    /// dLambda of each model over that of the truth, at the start and at the end of the life.
     pub ratio: Vec<(f64, f64)>,
     /// Exponent of the growth of the truth's dLambda with the clearance over the life.
     pub exponent: f64,

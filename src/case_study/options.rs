@@ -31,7 +31,7 @@ pub(super) struct Effort {
     pub flexible: RevolutionSettings,
     /// Revolutions of the rigid one, which chatters: a mean of many.
     pub rigid: RevolutionSettings,
-    /// Bearing angles of a profile.
+    /// Bearing angles of a profile, the same for all models: the largest depth depends on how finely it is looked for.
     pub bins: usize,
     /// Points of the tables: rigid, proposed, finest.
     pub rigid_points: usize,
@@ -72,10 +72,10 @@ impl Effort {
             step,
             flexible: settings,
             rigid: RevolutionSettings { average: 32, ..settings },
-            bins: 72,
+            bins: 144,
             rigid_points: 17,
-            points: 17,
-            finest_points: 33,
+            points: 33,
+            finest_points: 65,
             data_sets: 240,
             trajectories: 20_000,
             trajectories_per_set: 2_000,

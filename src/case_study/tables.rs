@@ -45,7 +45,7 @@ pub(super) struct Measured {
 pub(super) struct Tables {
     pub rigid: Measured,
     pub flexible: Measured,
-    /// Half the time step, more points, twice the bearing angles.
+    /// Half the time step, more points.
     pub finest: Measured,
 }
 
@@ -56,7 +56,7 @@ pub struct TableQuality {
     pub model: &'static str,
     /// Growth of the clearance per wear.
     pub gamma: f64,
-    /// Points from the clearance at the begin to that at the end.
+    /// Points from the clearance at the start to that at the end.
     pub points: usize,
     /// Turns that every point is the mean of.
     pub turns: u32,
@@ -138,7 +138,7 @@ impl Tables {
         };
         let finest = |gamma| -> Job<'_, Result<Measured, StudyError>> {
             Box::new(move || {
-                let model = Model::flexible().wearing(Area::Hertz, 2 * effort.bins);
+                let model = Model::flexible().wearing(Area::Hertz, effort.bins);
                 measured(&model, (fine, effort.finest_points), (gamma, reach), watch)
             })
         };

@@ -215,9 +215,19 @@ fn contents(panel: &Panel, root: &Area<'_>, place: &dyn Fn((f64, f64)) -> (i32, 
     for note in &panel.notes {
         let (x, y) = place(note.at);
         let shifted = (x + note.shift.0 * FINE as i32, y + note.shift.1 * FINE as i32);
+        halo(root, &note.text, shifted)?;
         let style = text_style(TEXT).pos(Pos::new(HPos::Center, VPos::Center));
         root.draw(&Text::new(note.text.clone(), shifted, style))?;
     }
+    Ok(())
+}
+
+/// White behind a note, so that lines do not run through its letters.
+fn halo(root: &Area<'_>, text: &str, (x, y): (i32, i32)) -> Drawn {
+    let (width, height) = root.estimate_text_size(text, &text_style(TEXT))?;
+    let (right, down) = (width as i32 / 2 + FINE as i32, height as i32 / 2);
+    let corners = [(x - right, y - down), (x + right, y + down)];
+    root.draw(&Rectangle::new(corners, ShapeStyle::from(&WHITE).filled()))?;
     Ok(())
 }
 

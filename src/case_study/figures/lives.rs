@@ -1,10 +1,12 @@
 //! Fig. 6 and the errors behind Table 2 as charts. In: [`Lives`]. Out: charts. Never computes results.
 
-use crate::case_study::{Density, LifeNumbers, Lives, MODELS, PROTOCOLS, Prediction, UnderProtocol};
+use crate::case_study::{Density, LifeNumbers, Lives, MODELS, Prediction, Protocol, UnderProtocol};
 use crate::plot::{
     Axis, BLACK, Chart, Curve, GREY, Look, Marker, ORANGE, Panel, SKY, Shape, axis, axis_around,
 };
 
+/// Protocols with a fit: without one, errors are ten times as large and hide all others.
+const FITTED: [Protocol; 3] = [Protocol::All, Protocol::First20, Protocol::First10];
 /// Room on either side of what is drawn of a protocol, which is 1 wide.
 const SPREAD: f64 = 0.22;
 
@@ -25,7 +27,7 @@ const POINTS: [Look; 3] = [
 ];
 
 fn title(lives: &Lives) -> String {
-    format!("W: {}, γ = {}", lives.wear, lives.gamma)
+    format!("W: {} (Hertz), γ = {}", lives.wear, lives.gamma)
 }
 
 /// Densities of life, one panel per definition of wear.
@@ -63,16 +65,16 @@ pub(super) fn errors(all: &[Lives]) -> Chart {
     };
     let panel = |lives: &Lives| {
         let mut curves = vec![zero()];
-        for (place, under) in lives.protocols.iter().enumerate() {
+        let fitted: Vec<&UnderProtocol> =
+            FITTED.iter().filter_map(|protocol| lives.under(*protocol)).collect();
+        for (place, under) in fitted.iter().enumerate() {
             curves.extend(bars(place, under, &with_scatter));
         }
-        let predictions = lives.protocols.iter().flat_map(|under| &under.predictions);
-        let values = predictions.flat_map(with_scatter);
+        let values = fitted.iter().flat_map(|under| &under.predictions).flat_map(with_scatter);
         let y = axis("error of the mean life [%]", values, 6);
-        let words =
-            PROTOCOLS.iter().zip(0..).map(|(protocol, place)| (f64::from(place) + 0.5, protocol.name()));
+        let words = FITTED.iter().zip(0..).map(|(protocol, place)| (f64::from(place) + 0.5, protocol.name()));
         let x = Axis {
-            range: (0.0, PROTOCOLS.len() as f64),
+            range: (0.0, FITTED.len() as f64),
             words: words.map(|(place, name)| (place, name.to_owned())).collect(),
             ..Axis::default()
         };
@@ -87,7 +89,7 @@ pub(super) fn errors(all: &[Lives]) -> Chart {
 }
 
 fn zero() -> Curve {
-    Curve { points: vec![(0.0, 0.0), (PROTOCOLS.len() as f64, 0.0)], look: Look::line(GREY, 2) }
+    Curve { points: vec![(0.0, 0.0), (FITTED.len() as f64, 0.0)], look: Look::line(GREY, 2) }
 }
 
 fn bars<'a>(

@@ -62,12 +62,12 @@ fn against_the_paper(forces: &Forces) -> String {
     let verdict = match (decays, grows) {
         (true, true) => "Both parts of the description hold here.",
         (true, false) => "The decay is found here, the amplification at the end is not.",
-        (false, true) => "The amplification at the end is found here, the decay at the begin is not.",
+        (false, true) => "The amplification at the end is found here, the decay at the start is not.",
         (false, false) => "Neither is found in a turn that begins with the crank along x.",
     };
     format!(
         "The paper describes its curve as \"rapid decay initially, followed by significant amplification near the \
-         end configuration\" and prints no numbers with it. Here the force is {:.1} N at the begin, rises to {:.1} N \
+         end configuration\" and prints no numbers with it. Here the force is {:.1} N at the start, rises to {:.1} N \
          in the first tenth of the turn, has a mean of {:.1} N between the first tenth and the last fifth, reaches \
          {:.1} N in the last fifth and ends with {:.1} N. {verdict} The paper does not say with which position of \
          the crank its cycle begins, nor where its fixed joints are; our largest force acts at a crank angle of {:.0} deg. A \

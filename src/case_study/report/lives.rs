@@ -23,7 +23,8 @@ pub(super) fn blocks(study: &Study) -> Vec<Block> {
     blocks.extend(study.lives.iter().map(table));
     blocks.push(Block::Figure {
         name: "table2-errors",
-        caption: "Errors of the predicted mean life against the truth: mean and standard deviation over the data sets."
+        caption: "Errors of the predicted mean life against the truth: mean and standard deviation over the data sets. \
+                  Errors with shared parameters, which are larger, stand in the tables."
             .to_owned(),
     });
     blocks.push(calibration(study));
@@ -126,7 +127,7 @@ fn calibration(study: &Study) -> Block {
     });
     Block::table(
         "Behind the lives: the calibrated cycle, the exponent n of dLambda ~ c^n along the life of the truth; and for every \
-         model its deterministic life without any fit, and its dLambda over that of the truth at the begin and at the end",
+         model its deterministic life without any fit, and its dLambda over that of the truth at the start and at the end",
         &[
             "W",
             "gamma",
