@@ -74,8 +74,8 @@ fn lives_are_those_that_the_protocols_lead_to() {
     for gamma in [0.1, 1.0] {
         let all = predictions("depth", gamma, Protocol::All);
         assert!(all[0].error.abs() < 0.007, "{:?}", all[0]);
-        // 300 lives a data set know a deviation to 4 %, ten sets to 1.3 %: 0.04 of 3.0 per cent; twice that.
-        assert!((0.029..0.031).contains(&all[0].lives.cov), "{:?}", all[0]);
+        // A fit of 500 increments knows it to 3 %, 300 lives to 4 %: ten sets to 0.05 of 3.0 per cent. Three times that.
+        assert!((0.0285..0.0315).contains(&all[0].lives.cov), "{:?}", all[0]);
         // Both have wear that grows with the root of the clearance: the fit takes away the constant factor left.
         assert!((all[1].error - all[0].error).abs() < 0.003, "{:?}", all[1]);
     }

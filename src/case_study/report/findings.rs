@@ -5,8 +5,11 @@ use super::block::Block;
 use super::{fixed, percent, signed};
 use crate::case_study::{AreaGrowth, Lives, Orderings, Prediction, Protocol, Study, TABLE_2, UnderProtocol};
 
+/// Part of the data sets in which a claim holds.
+type Share = fn(&Orderings) -> f64;
+
 /// What the paper says about its three models.
-const CLAIMS: [(&str, fn(&Orderings) -> f64); 5] = [
+const CLAIMS: [(&str, Share); 5] = [
     ("the proposed model has the smallest error", |orderings| orderings.proposed_is_nearest),
     ("the proposed model has the smallest scatter", |orderings| orderings.proposed_is_narrowest),
     ("both baselines predict too long a life", |orderings| orderings.baselines_over_predict),
@@ -42,7 +45,7 @@ pub(super) fn sentences(study: &Study) -> Vec<String> {
 }
 
 /// In how many cases a claim of the paper holds.
-fn claimed(study: &Study, claim: &str, of: fn(&Orderings) -> f64) -> String {
+fn claimed(study: &Study, claim: &str, of: Share) -> String {
     let cases: Vec<(String, f64)> = study
         .lives
         .iter()
