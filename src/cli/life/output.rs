@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::super::input::Loaded;
 use super::super::table::{number, table};
 use super::lived::Lived;
+use super::process::Process;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
@@ -46,7 +47,13 @@ impl Lived<'_> {
                 Some(error) => Part::Bound(error * lives.mean().value),
                 None => Part::Bound(self.step_error),
             },
-            parameters: Part::None("alpha and beta are taken as known"),
+            parameters: match self.parameter_error {
+                Some(error) => ErrorBudget::random(error),
+                None if self.plan.process.as_ref().is_some_and(Process::is_fitted) => {
+                    Part::None("the fit gives no covariance")
+                }
+                None => Part::None("alpha and beta are taken as known from the mechanism's file"),
+            },
         };
         Some(Scatter { budget, mean_whole_cycles: whole / count, first: first.collect(), lives })
     }
@@ -83,6 +90,8 @@ impl Lived<'_> {
             "failed_joint": names[self.end.joint],
             "revolutions_per_cycle": joint.revolutions_per_cycle,
             "revolutions": summary.mean * joint.revolutions_per_cycle,
+            "parameters": self.plan.process.as_ref().map(Process::machine),
+            "shared_factor": self.plan.arguments.shared_factor,
             "table_error": self.table_error(),
             "measurements": self.measurements,
             "cycles": cycles,
@@ -107,8 +116,15 @@ impl Lived<'_> {
             self.end.whole_cycles,
             number(self.end.cycles * joint.revolutions_per_cycle),
         );
+        text.push_str(&self.plan.process.as_ref().map_or_else(String::new, Process::human));
         if let Some(scatter) = self.scatter() {
             text.push_str(&scatter.human(&names, self.plan.arguments.seed));
+            if let Some(cov) = self.plan.arguments.shared_factor {
+                let _ = writeln!(
+                    text,
+                    "\nin each life all wear runs by one factor, of coefficient of variation {cov}"
+                );
+            }
         }
         text.push('\n');
         text.push_str(&cycles_table(&names, &self.cycles));
@@ -120,13 +136,7 @@ impl Lived<'_> {
             );
         }
         if self.lives.is_empty() {
-            let has = self
-                .plan
-                .description
-                .contacts
-                .iter()
-                .all(|joint| joint.wear.is_none_or(|wear| wear.scatter.is_some()));
-            text.push_str(if has {
+            text.push_str(if self.plan.process.is_some() {
                 "\nno random lives were drawn; --trajectories 16 draws some\n"
             } else {
                 "\nno random lives: [wear] gives no alpha and beta of the Gamma process\n"
