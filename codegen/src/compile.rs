@@ -78,7 +78,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     warnings.extend(remarks);
     let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
     let tapes = tape::lower(&derived.equations);
-    let compiled = Compiled {
+    let mut compiled = Compiled {
         source: source.clone(),
         mechanism,
         topology,
@@ -91,6 +91,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     };
     let system = compiled.interpreter();
     preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
+    let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
+    compiled.warnings.extend(near);
     Ok(compiled)
 }
 

@@ -25,6 +25,8 @@ mod assemble;
 #[cfg(feature = "std")]
 pub mod clearance;
 #[cfg(feature = "std")]
+mod contact_frequency;
+#[cfg(feature = "std")]
 mod description;
 #[cfg(feature = "std")]
 mod dynamics;
@@ -61,6 +63,8 @@ pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 pub use assemble::{
     State, assemble, assemble_resting, assemble_with, check_clearances, offset_columns, place,
 };
+#[cfg(feature = "std")]
+pub use contact_frequency::contact_frequencies;
 #[cfg(feature = "std")]
 pub use description::{
     Channel, ContactInfo, Description, DriverInfo, GammaRates, List, Motion, ParameterInfo, RowInfo, Tables,

@@ -168,6 +168,8 @@ codes! {
     RigidPart = "W0107",
     /// A harmonic of a drive near a frequency of a flexible body.
     NearResonance = "W0108",
+    /// A contact that vibrates near a frequency of a flexible body.
+    ContactNearMode = "W0109",
 }
 
 impl Code {

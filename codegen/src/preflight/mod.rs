@@ -3,6 +3,7 @@
 //! In: a derivation with all rows kept, run by the interpreter. Out: [`Analysis`] and the rows to keep.
 //! Never knows Rust syntax.
 
+mod contact_resonance;
 mod failures;
 mod idle;
 mod immobile;
@@ -20,6 +21,7 @@ use crate::id::JointId;
 use crate::model::{Mechanism, Start, Topology};
 use crate::source::SourceFile;
 
+pub use contact_resonance::contacts_near_modes;
 pub use prescribed::check_prescribed;
 
 use rank::Rows;

@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 use super::motion::{ConstrainedMotion, Totals};
 use super::warning::RunWarning;
 use crate::clearance::{Clearance, Touch};
-use crate::linear::dot;
+use crate::contact_frequency::inverse_mass;
 use crate::wear::{Observed, Profile};
-use crate::{CONTACT_MOTION, CONTACT_WRENCH, Evaluator};
+use crate::{CONTACT_WRENCH, Evaluator};
 
 /// What one turn of the turn driver did to one joint with clearance.
 #[derive(Clone, Debug, PartialEq)]
@@ -288,28 +288,4 @@ fn spread(deposit: &mut Profile, joint: &Clearance, (before, now): (&Touch, &Tou
         let part = (piece as f64 + 0.5) / pieces;
         deposit.deposit(from.angle + part * arc, first + part * (last - first), amount / pieces);
     }
-}
-
-/// Inverse of the mass [1/kg] that a contact moves along its normal: what a unit force there changes in the
-/// acceleration of the offset. Leaves the forward dynamics under another wrench.
-fn inverse_mass(
-    evaluator: &mut Evaluator<'_>,
-    (t, q, v): (f64, &[f64], &[f64]),
-    (joint, touch): (usize, &Touch),
-    storage: &mut [f64],
-) -> f64 {
-    let (wrenches, change) = storage.split_at_mut(evaluator.sizes().contacts * CONTACT_WRENCH);
-    let normal = touch.normal();
-    wrenches.copy_from_slice(evaluator.clearances().wrenches());
-    change.copy_from_slice(evaluator.forward_under(t, q, v, wrenches).accelerations);
-    for (wrench, component) in wrenches[joint * CONTACT_WRENCH..].iter_mut().zip(normal) {
-        *wrench += component;
-    }
-    let loaded = evaluator.forward_under(t, q, v, wrenches).accelerations;
-    change.iter_mut().zip(loaded).for_each(|(change, loaded)| *change = loaded - *change);
-    // Rates of the offset are linear in the speeds: accelerations in their place give its acceleration.
-    let rate = |motion: &[f64]| dot(&motion[joint * CONTACT_MOTION + 3..][..3], &normal);
-    let moving = rate(evaluator.contact_motion(t, q, change));
-    change.fill(0.0);
-    moving - rate(evaluator.contact_motion(t, q, change))
 }

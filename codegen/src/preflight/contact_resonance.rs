@@ -1,0 +1,77 @@
+//! Contacts that vibrate near frequencies of flexible bodies, kept or left out.
+//! In: a mechanism and its equations. Out: warnings. Never knows the laws of contact.
+
+use linkwear_runtime::{Description, Evaluator, System, assemble_resting, contact_frequencies};
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::Mechanism;
+
+/// Distances below this share of a frequency are near: the force of a contact changes over a turn, and ten times the
+/// force is 1.5 times the frequency (power 1/6 of a sphere's law).
+const NEAR: f64 = 0.2;
+
+/// Warns for every flexible body with a frequency near to that of a resting contact at the start. A mechanism that
+/// does not assemble is told about elsewhere.
+#[must_use]
+pub fn contacts_near_modes(
+    mechanism: &Mechanism,
+    description: &Description,
+    system: &dyn System<f64>,
+) -> Vec<Diagnostic> {
+    let flexible = mechanism.bodies.iter().any(|body| body.flexible.is_some());
+    if description.contacts.is_empty() || !flexible {
+        return Vec::new();
+    }
+    let frequencies = resting_frequencies(description, system).unwrap_or_default();
+    let mut warnings = Vec::new();
+    for (contact, frequency) in description.contacts.iter().zip(frequencies) {
+        let Some(frequency) = frequency else { continue };
+        for body in &mechanism.bodies {
+            let near = modes_near(body, frequency);
+            if near.is_empty() {
+                continue;
+            }
+            let message = format!(
+                "the contact of `{}` vibrates at about {frequency:.0} Hz where it rests at the start, near {} of `{}`",
+                contact.joint,
+                near.join(" and "),
+                body.name
+            );
+            let warning = Diagnostic::new(Code::ContactNearMode, message);
+            let joint = mechanism.joints.iter().find(|joint| joint.name == contact.joint);
+            let placed = match joint {
+                Some(joint) => warning.at(joint.span, ""),
+                None => warning,
+            };
+            warnings.push(placed.help(
+                "keep the modes up to twice that frequency, or compare a run with more of them: what is left out cannot answer the contact",
+            ));
+        }
+    }
+    warnings
+}
+
+fn resting_frequencies(description: &Description, system: &dyn System<f64>) -> Option<Vec<Option<f64>>> {
+    let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
+    let mut evaluator = Evaluator::new(system, description, &parameters).ok()?;
+    let state = assemble_resting(&mut evaluator, 0.0).ok()?;
+    Some(contact_frequencies(&mut evaluator, 0.0, &state.q, &state.v))
+}
+
+/// Frequencies of a body near to one, each with its names.
+fn modes_near(body: &crate::model::Body, frequency: f64) -> Vec<String> {
+    let Some(flexible) = &body.flexible else { return Vec::new() };
+    let kept = flexible.data.modes.iter().map(|mode| (mode.name.clone(), mode.frequency));
+    let left_out = flexible.left_out.iter();
+    let left_out = left_out.map(|mode| (format!("{}, left out", mode.name), mode.frequency));
+    let mut told: Vec<u64> = Vec::new();
+    let mut near = Vec::new();
+    for (name, mode) in kept.chain(left_out) {
+        // Both planes of a round link share their frequencies.
+        if (mode - frequency).abs() < NEAR * mode && !told.contains(&mode.to_bits()) {
+            told.push(mode.to_bits());
+            near.push(format!("{mode:.1} Hz ({name})"));
+        }
+    }
+    near
+}
