@@ -139,7 +139,7 @@ fn a_fit_gives_the_scatter_and_its_uncertainty_enters_the_budget() {
     assert_eq!(life, named);
     assert_eq!(
         (&life["parameters"][0]["from"], &life["parameters"][0]["joint"]),
-        (&fit.into(), &"R1".into())
+        (&fit.clone().into(), &"R1".into())
     );
 
     let (rate, threshold) = pace(&life);
@@ -162,6 +162,15 @@ fn a_fit_gives_the_scatter_and_its_uncertainty_enters_the_budget() {
     // Steps of 2 %, 200 lives with their random numbers in common: some parts in a hundred at most.
     assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
     assert!(number(&budget["total"]) > found);
+
+    // Without random lives the mean path has a budget too: it goes as beta / alpha, 1.96 sqrt(0.002) of it.
+    let mean = steady(&["--mean", "--format", "json", "--fit", &fit]).json();
+    let half = &mean["error_budget"]["half_widths_95"];
+    assert_eq!((&mean["random"], number(&half["monte_carlo"])), (&Value::from(false), 0.0));
+    // The covariance in the file is exact to rounding.
+    assert!(
+        (number(&half["parameters"]) / (1.959_963_984_540_054 * 0.002_f64.sqrt() * path) - 1.0).abs() < 1e-9
+    );
 }
 
 #[test]
@@ -211,6 +220,38 @@ fn a_fit_that_does_not_do_for_a_life_is_refused() {
 }
 
 #[test]
+fn several_wearing_joints_have_a_fit_each() {
+    let folder = Folder::new("life-two");
+    let fit = folder.write("fit.json", FITTED);
+    let other = folder.write("other.json", FITTED);
+    let with = |fits: &[String]| {
+        let mut arguments =
+            vec!["life", "mechanisms/four_bar_wear.toml", "--settle", "1", "--format", "json"];
+        arguments.extend(["--trajectories", "50"]);
+        fits.iter().for_each(|text| arguments.extend(["--fit", text]));
+        linkwear(&arguments)
+    };
+    let both = with(&[format!("R3={other}"), format!("R2={fit}")]).json();
+    let from: Vec<&Value> =
+        both["parameters"].as_array().expect("a list").iter().map(|joint| &joint["from"]).collect();
+    assert_eq!(from, [&Value::from(fit.clone()), &Value::from(other.clone())]);
+    // R2 ends every life. Whether R3 errs with it or apart matters only by what R3's wear does to R2.
+    assert_eq!(both["failed_first"]["R2"], 1.0);
+    let part = |life: &Value| number(&life["error_budget"]["half_widths_95"]["parameters"]);
+    let together = with(&[format!("R2={fit}"), format!("R3={fit}")]).json();
+    assert!((part(&both) / part(&together) - 1.0).abs() < 0.1, "{} {}", part(&both), part(&together));
+
+    let refused = |fits: &[String], code| {
+        let answer = with(fits);
+        assert_eq!(answer.code, code, "{}", answer.out);
+        answer.errors()[0]["message"].as_str().expect("a text").to_owned()
+    };
+    assert!(refused(std::slice::from_ref(&fit), 2).contains("for which wearing joint"));
+    assert!(refused(&[format!("R2={fit}"), format!("R2={other}")], 2).contains("two fits"));
+    assert!(refused(&[format!("R2={fit}")], 1).contains("`R3` has no Gamma process"));
+}
+
+#[test]
 fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
     let lives = ["--trajectories", "2000", "--format", "json", "--shared-factor"];
     let life = steady(&[&lives[..], &["0.2"]].concat()).json();
@@ -228,7 +269,6 @@ fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
     let wide = steady(&["--shared-factor", "0.8", "--format", "json"]);
     assert_eq!(wide.code, 2);
     assert!(wide.errors()[0]["message"].as_str().expect("a text").contains("not finite"));
-    assert_eq!(steady(&["--shared-factor", "0.2", "--mean"]).code, 2);
     let none = steady(&["--shared-factor", "0.2", "--coupling", "full"]);
     assert!(none.code == 2 && none.err.contains("--trajectories"), "{}", none.err);
 }

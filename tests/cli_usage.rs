@@ -7,8 +7,19 @@ use serde_json::Value;
 
 #[test]
 fn help_of_every_subcommand_has_an_example() {
-    for name in ["check", "equations", "generate", "simulate", "life", "new", "schema", "completions", "man"]
-    {
+    for name in [
+        "check",
+        "equations",
+        "generate",
+        "simulate",
+        "life",
+        "fit",
+        "predict",
+        "new",
+        "schema",
+        "completions",
+        "man",
+    ] {
         let answer = linkwear(&[name, "--help"]);
         assert_eq!(answer.code, 0);
         assert!(answer.out.contains(&format!("linkwear {name}")), "{}", answer.out);
@@ -37,6 +48,9 @@ fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
         &["simulate", "mechanisms/pendulum.toml", "--tol", "1e-3", "--integrator", "rk4"],
         &["simulate", "mechanisms/pendulum.toml", "--turns", "1"],
         &["generate", "mechanisms/pendulum.toml", "--check"],
+        &["life", "mechanisms/rssr.toml", "--shared-factor", "0"],
+        &["life", "mechanisms/rssr.toml", "--shared-factor", "0.2", "--mean"],
+        &["predict", "fit.json", "--threshold", "10", "--covariate", "load"],
         &["new", "no-name"],
     ];
     for case in cases {

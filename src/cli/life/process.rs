@@ -156,6 +156,13 @@ impl Process {
         Ok(variance.map(f64::sqrt))
     }
 
+    /// The same of the mean path that ends when this joint fails: wear per cycle is alpha / beta times what the worn
+    /// joint wears by physics, so the path's life goes as beta / alpha. What other joints' fits do to it is left out.
+    pub fn uncertainty_of_mean_path(&self, joint: usize, cycles: f64) -> Option<f64> {
+        let estimate = &self.fits[self.joints[joint].fit?].estimate;
+        estimate.is_uncertain().then(|| cycles * estimate.variance(&[-1.0, 1.0]).sqrt())
+    }
+
     /// Draws with ln alpha (0) or ln beta (1) of one fit moved by a step.
     fn shifted(&self, fit: usize, which: usize, step: f64) -> GammaDraw {
         let mut rates = self.rates();
