@@ -2,6 +2,8 @@
 //! In: arguments. Out: text or one JSON object on stdout, everything else on stderr, an exit code
 //! (0 done, 1 the input or the run failed, 2 wrong usage). Never knows how a stage works.
 
+#[cfg(feature = "case-study")]
+mod case_study;
 mod check;
 mod equations;
 mod failure;
@@ -72,6 +74,10 @@ enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
+    /// Recompute the figures and tables of the paper's case study, beside the paper's own numbers.
+    #[cfg(feature = "case-study")]
+    #[command(after_help = "Example:\n  linkwear case-study --out study")]
+    CaseStudy(CaseStudyArguments),
     /// Tell the remaining life from a fit, and from inspections of the joint.
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
                       linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
@@ -239,6 +245,23 @@ struct LifeArguments {
     backend: Backend,
 }
 
+#[cfg(feature = "case-study")]
+#[derive(Debug, Args)]
+struct CaseStudyArguments {
+    /// A rough study in less than a minute, to test the tool.
+    #[arg(long)]
+    quick: bool,
+    /// Folder for figures, tables and results; must be new or empty.
+    #[arg(long, value_name = "DIR", default_value = "case-study")]
+    out: PathBuf,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Threads [default: all processors]. Their number changes no result.
+    #[arg(long, value_name = "T")]
+    threads: Option<std::num::NonZeroU16>,
+}
+
 #[derive(Debug, Args)]
 struct PredictArguments {
     /// Result of `linkwear fit .. --format json`.
@@ -404,6 +427,8 @@ fn answer(arguments: Arguments) -> Result<(), Failure> {
         Command::Generate(arguments) => generate::run(&arguments, format),
         Command::Simulate(arguments) => simulate::run(&arguments, format),
         Command::Life(arguments) => life::run(&arguments, format),
+        #[cfg(feature = "case-study")]
+        Command::CaseStudy(arguments) => case_study::run(&arguments, format),
         Command::Predict(arguments) => predict::run(&arguments, format),
         Command::Fit(arguments) => fit::run(&arguments, format),
         Command::New(arguments) => new::run(&arguments, format),

@@ -249,7 +249,7 @@ fn worn(
     joints
 }
 
-/// When, in cycles since the begin of the path, a joint reached its threshold in a cycle of it.
+/// When, in cycles since the start of the path, a joint reached its threshold in a cycle of it.
 fn crossing(
     settings: &LifeSettings,
     base: &[JointState],

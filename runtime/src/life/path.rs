@@ -18,7 +18,7 @@ const SAFETY: f64 = 0.9;
 /// What is left of the known noise after a step: a kink that was taken for noise is forgotten in some ten steps.
 const NOISE_KEPT: f64 = 0.9;
 
-/// Mean increments since the begin of a path: per joint the depth [m], then the bins of its profile [m].
+/// Mean increments since the start of a path: per joint the depth [m], then the bins of its profile [m].
 pub(super) type Increments = Vec<f64>;
 
 /// One step of a path: a cubic between two measurements. Times in cycles.
@@ -71,7 +71,7 @@ impl Segment {
 pub(super) struct Walker<'a, F: FineScale> {
     pub(super) settings: &'a LifeSettings,
     pub(super) fine: &'a mut F,
-    /// Joints at the begin.
+    /// Joints at the start.
     pub(super) base: &'a [JointState],
     /// State of the fine scale, after every accepted step.
     pub(super) state: F::State,

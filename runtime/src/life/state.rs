@@ -97,7 +97,7 @@ pub struct CycleRecord {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CycleJoint {
-    /// Clearance at the begin [m].
+    /// Clearance at the start [m].
     pub clearance: f64,
     /// Mean increment dLambda [m].
     pub mean_increment: f64,

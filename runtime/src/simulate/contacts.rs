@@ -47,7 +47,7 @@ const PROBE_AGAIN: f64 = 1.1;
 
 /// One joint within the present turn.
 struct Track {
-    /// Totals at the begin of the turn and at the last step.
+    /// Totals at the start of the turn and at the last step.
     begin: Totals,
     last: Totals,
     peak: f64,

@@ -108,7 +108,7 @@ impl Cubic {
         0.5 * (low + high)
     }
 
-    /// The first event; `touching`: a contact runs at the begin of the step, also if its penetration is still zero
+    /// The first event; `touching`: a contact runs at the start of the step, also if its penetration is still zero
     /// there but for rounding.
     fn event(
         &self,
@@ -137,7 +137,7 @@ impl Cubic {
     }
 }
 
-/// Where the penetration gets above zero between the begin of the step and `high`.
+/// Where the penetration gets above zero between the start of the step and `high`.
 fn root(mut high: f64, penetration: &mut dyn FnMut(f64) -> f64) -> f64 {
     let mut low = 0.0;
     while high - low > LOCATED {

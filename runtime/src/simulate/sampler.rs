@@ -139,7 +139,7 @@ impl Sampler {
         self.times.len() < self.schedule.samples && self.schedule.time(self.times.len()) == t
     }
 
-    /// The state at the begin: a sample unless the run settles first.
+    /// The state at the start: a sample unless the run settles first.
     pub(super) fn sample_at_start(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,

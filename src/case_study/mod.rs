@@ -1,0 +1,120 @@
+//! The case study of the paper, figure by figure, beside the paper's own numbers: an application of the library that
+//! uses nothing but what every user has. In: [`Options`]. Out: [`Study`], plain data; a [`Report`] with figures
+//! from it. Never touches files or terminals, and nothing else in linkwear knows this module.
+
+mod areas;
+mod around;
+mod configuration;
+mod error;
+mod figures;
+mod force;
+mod learn;
+mod lives;
+mod model;
+mod options;
+mod paper;
+mod parameters;
+mod rate;
+mod report;
+mod statistics;
+mod table2;
+mod tables;
+mod watch;
+
+pub use areas::AreaGrowth;
+pub use around::{Around, CYCLES, Peak, Snapshot, WornBearing};
+pub use configuration::{Configuration, JointPlace, Link};
+pub use error::StudyError;
+pub use figures::{Picture, pictures};
+pub use force::{ForceCurve, Forces, Shape};
+pub use learn::{HISTORIES, PROTOCOLS, Protocol};
+pub use lives::{Lives, MODELS, Orderings, Prediction, SHOWN, UnderProtocol};
+pub use options::Options;
+pub use paper::{Printed, TABLE_2};
+pub use parameters::ParameterRow;
+pub use report::{html, markdown, summary};
+pub use statistics::{Density, LifeNumbers};
+pub use table2::{Row, ShownProtocol, Table2};
+pub use tables::{TRUE_LIFE, TableQuality};
+
+use serde::Serialize;
+
+use options::Effort;
+use tables::Tables;
+use watch::Watch;
+
+/// Turns before that of Fig. 4.
+const SETTLE: u32 = 5;
+/// Work of Figs 3 and 4, in turns of the compiled mechanism.
+const FORCE_WORK: f64 = 60.0;
+/// Growth of the clearance per wear: the paper's gamma, which it gives no value.
+const GAMMAS: [f64; 2] = [0.1, 1.0];
+/// Place of gamma = 1 in [`GAMMAS`], which Fig. 5 is made with.
+const FULL_FEEDBACK: usize = 1;
+/// Tables for Fig. 5 reach this part beyond the threshold: its last cycle lies there.
+const REACH: f64 = 1.4;
+
+/// All results, without timings: the same options give the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Study {
+    /// What was asked for.
+    pub options: Options,
+    /// Table 1.
+    pub parameters: Vec<ParameterRow>,
+    /// Fig. 3.
+    pub configuration: Configuration,
+    /// Fig. 4.
+    pub forces: Forces,
+    /// How good the tables of wear per revolution are.
+    pub tables: Vec<TableQuality>,
+    /// Fig. 5.
+    pub around: Around,
+    /// Table 2, ours and the paper's.
+    pub table2: Table2,
+    /// How ours comes about.
+    pub protocol: ShownProtocol,
+    /// How wear grows with the clearance, by model of the contact area.
+    pub areas: Vec<AreaGrowth>,
+    /// Fig. 6 and Table 2, by definition of wear.
+    pub lives: Vec<Lives>,
+}
+
+/// Runs the study on so many threads, whose number changes no bit. `progress` gets the finished part, 0 to 1; `stop`
+/// is asked all the time.
+///
+/// # Errors
+/// If a run fails, or if asked to stop.
+pub fn run(
+    options: Options,
+    threads: usize,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Study, StudyError> {
+    let effort = Effort::of(options);
+    let watch = Watch::new(progress, stop, FORCE_WORK + effort.work(GAMMAS.len()));
+    let compiled = model::compiled()?;
+    let forces = force::forces(threads, SETTLE, &watch)?;
+    let areas = areas::areas(threads, &effort, &watch)?;
+    let measured = Tables::measure(threads, (&GAMMAS, REACH), &effort, &watch)?;
+    let (mut tables, mut lives) = (Vec::new(), Vec::new());
+    for (gamma, measured) in GAMMAS.into_iter().zip(&measured) {
+        tables.extend(measured.quality(gamma, &effort));
+        for definition in lives::definitions(gamma) {
+            lives.push(lives::lives(measured, definition, (threads, options.seed), &effort, &watch)?);
+        }
+    }
+    let none = || StudyError::Missing { kind: "wear", name: model::JOINT.into() };
+    let (table2, protocol) = table2::table2(&lives, options).ok_or_else(none)?;
+    Ok(Study {
+        options,
+        table2,
+        protocol,
+        parameters: parameters::parameters(&compiled)?,
+        configuration: configuration::configuration(&compiled, &watch)?,
+        forces,
+        tables,
+        around: around::around(&measured[FULL_FEEDBACK], &effort)?,
+        areas,
+        lives,
+    })
+}

@@ -1,0 +1,152 @@
+//! The mechanisms that the study runs: the shipped case study and its variants. In: shipped mechanisms, their
+//! files. Out: [`Model`], equations with a description. Never knows lives, figures or what is done with a run.
+//!
+//! Variants are made as any user makes them: by the options of the generator, by editing the text of a file, and by
+//! changing the laws of contact and wear in a description, which the equations do not know.
+
+use linkwear_codegen::{Compiled, Options, SourceFile, compile};
+use linkwear_runtime::life::{FineScale, JointWear, RevolutionWear};
+use linkwear_runtime::wear::{Area, Measure};
+use linkwear_runtime::{
+    Description, Integrator, RevolutionSettings, Revolutions, RunError, System, TurnState,
+};
+
+use super::error::StudyError;
+use super::options::INTERPRETED;
+use super::watch::Watch;
+use crate::mechanisms;
+
+/// The file of the case study.
+pub(super) const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
+/// The joint that wears.
+pub(super) const JOINT: &str = "R1";
+
+/// A mechanism to run.
+pub(super) struct Model {
+    equations: Equations,
+    pub description: Description,
+    pub parameters: Vec<f64>,
+}
+
+enum Equations {
+    Shipped(fn() -> Box<dyn System<f64>>),
+    Compiled(Box<Compiled>),
+}
+
+/// The case study, understood by the generator.
+pub(super) fn compiled() -> Result<Compiled, StudyError> {
+    compile_text(TEXT.to_owned(), false)
+}
+
+fn compile_text(text: String, rigid: bool) -> Result<Compiled, StudyError> {
+    let source = SourceFile { name: "mechanisms/rssr.toml".into(), text };
+    compile(&source, &Options { rigid, ..Options::default() }).map_err(StudyError::Mechanism)
+}
+
+impl Model {
+    /// The case study as it is shipped: flexible coupler, clearance at R1.
+    pub fn flexible() -> Self {
+        Self::shipped(mechanisms::rssr::description(), || Box::new(mechanisms::rssr::Mechanism::default()))
+    }
+
+    /// The same with ideal joints.
+    pub fn ideal() -> Self {
+        Self::shipped(mechanisms::rssr_flexible::description(), || {
+            Box::new(mechanisms::rssr_flexible::Mechanism::default())
+        })
+    }
+
+    /// The case study with a rigid coupler.
+    pub fn rigid() -> Result<Self, StudyError> {
+        Ok(Self::of(compile_text(TEXT.to_owned(), true)?))
+    }
+
+    /// The case study with these frequencies of its coupler [Hz], each in both planes.
+    pub fn with_frequencies(frequencies: [f64; 3]) -> Result<Self, StudyError> {
+        let expected = "damping = \"zeta\" }";
+        let listed: Vec<String> =
+            frequencies.iter().flat_map(|f| [format!("\"{f} Hz\""), format!("\"{f} Hz\"")]).collect();
+        let given = format!("damping = \"zeta\", frequencies = [{}] }}", listed.join(", "));
+        let text = TEXT.replace(expected, &given);
+        if text == TEXT {
+            Err(StudyError::Text { expected })
+        } else {
+            Ok(Self::of(compile_text(text, false)?))
+        }
+    }
+
+    /// With wear over another contact area, and depth kept at so many bearing angles.
+    pub fn wearing(mut self, area: Area, bins: usize) -> Self {
+        for contact in self.description.contacts.to_mut() {
+            if let Some(wear) = &mut contact.wear {
+                (wear.area, wear.profile, wear.bins, wear.measure) =
+                    (area, true, bins, Some(Measure::Maximum));
+            }
+        }
+        self
+    }
+
+    fn shipped(description: &Description, system: fn() -> Box<dyn System<f64>>) -> Self {
+        let parameters = description.parameters.iter().map(|parameter| parameter.default).collect();
+        Self { equations: Equations::Shipped(system), description: description.clone(), parameters }
+    }
+
+    fn of(compiled: Compiled) -> Self {
+        let (description, parameters) = (compiled.description().clone(), compiled.parameters());
+        Self { equations: Equations::Compiled(Box::new(compiled)), description, parameters }
+    }
+
+    /// Its equations, for one thread.
+    pub fn system(&self) -> Box<dyn System<f64>> {
+        match &self.equations {
+            Equations::Shipped(system) => system(),
+            Equations::Compiled(compiled) => Box::new(compiled.interpreter()),
+        }
+    }
+
+    /// Cost of a turn, roughly, in turns of the compiled flexible mechanism: what progress is counted in.
+    pub fn cost(&self) -> f64 {
+        match &self.equations {
+            Equations::Shipped(_) => 1.0,
+            Equations::Compiled(_) => INTERPRETED,
+        }
+    }
+
+    /// Runs `action` with revolutions of this mechanism, each of which is told to the watch.
+    pub fn measuring<T>(
+        &self,
+        settings: RevolutionSettings,
+        watch: &Watch<'_>,
+        action: impl FnOnce(&mut Watched<'_>) -> Result<T, StudyError>,
+    ) -> Result<T, StudyError> {
+        let system = self.system();
+        let stop = || watch.is_stopped();
+        let inner = Revolutions::new(&*system, &self.description, &self.parameters, settings)?;
+        let turns = f64::from(settings.settle + settings.average.max(1));
+        let step = if let Integrator::Rk4 { step } = settings.integrator { 2e-5 / step } else { 1.0 };
+        let cost = turns * step * self.cost();
+        action(&mut Watched { inner: inner.stopped_by(&stop), watch, cost })
+    }
+}
+
+/// Revolutions that tell how far they are.
+pub(super) struct Watched<'a> {
+    pub inner: Revolutions<'a>,
+    watch: &'a Watch<'a>,
+    cost: f64,
+}
+
+impl FineScale for Watched<'_> {
+    type State = Option<TurnState>;
+    type Error = RunError;
+
+    fn measure(
+        &mut self,
+        joints: &[JointWear],
+        state: &mut Self::State,
+    ) -> Result<Vec<RevolutionWear>, Self::Error> {
+        let measured = self.inner.measure(joints, state);
+        self.watch.done(self.cost);
+        measured
+    }
+}
