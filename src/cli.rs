@@ -201,6 +201,14 @@ struct LifeArguments {
     /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
     trajectories: Option<u64>,
+    /// Take alpha and beta from a fit instead of [wear]; its covariance enters the error budget. Wear and Lambda of its
+    /// data must be in um, Lambda from `life` (`fit --lambda life.json`). With several wearing joints: once for each.
+    #[arg(long, value_name = "[JOINT=]FIT.json")]
+    fit: Vec<String>,
+    /// Spread of a factor of mean 1, one for each life, by which all joints wear faster or slower together: its
+    /// coefficient of variation, by a Gamma law.
+    #[arg(long, value_name = "COV", value_parser = input::positive, conflicts_with = "mean")]
+    shared_factor: Option<f64>,
     /// Picks the random numbers; the same seed gives the same bits on any number of threads.
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -267,6 +275,9 @@ struct PredictArguments {
     /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
     #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
     at: Option<f64>,
+    /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = input::covariate)]
+    covariate: Vec<(String, f64)>,
     /// Exposure per unit of time from now on; lives are told in that time [default: 1].
     #[arg(long, value_name = "R", value_parser = input::positive)]
     rate: Option<f64>,
@@ -318,8 +329,8 @@ struct FitArguments {
     /// Column of exposure: time, cycles, distance.
     #[arg(long, value_name = "COL")]
     exposure: Option<String>,
-    /// Column of Lambda; or, with --exposure in cycles, a file that has Lambda by exposure: the JSON of `life`, or a
-    /// CSV of two columns.
+    /// Column of Lambda; or, with --exposure in cycles, a file that has Lambda by exposure: the JSON of `life`, taken in
+    /// um, or a CSV of two columns.
     #[arg(long, value_name = "COL|FILE")]
     lambda: Option<String>,
     /// Estimate the exponent c of Lambda = exposure^c.
@@ -337,6 +348,9 @@ struct FitArguments {
     /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
     #[arg(long, value_name = "COL")]
     covariate: Vec<String>,
+    /// Accept data of one unit, which cannot tell how units differ.
+    #[arg(long)]
+    one_unit: bool,
     /// Compare with Wiener and inverse-Gaussian processes.
     #[arg(long)]
     compare: bool,

@@ -5,7 +5,8 @@ mod command;
 use std::fs;
 use std::path::PathBuf;
 
-use command::linkwear;
+use command::{Folder, linkwear};
+use linkwear_gamma::special::{ln_gamma, ln_gamma_p};
 use serde_json::Value;
 
 const HEAVY: &str = "examples/data/sliding_wear_100g.csv";
@@ -130,4 +131,176 @@ fn the_bootstrap_repeats_its_bits_and_the_fit_is_written_whole() {
     for key in ["alpha", "beta", "exponent", "covariance", "n", "wear_unit", "exposure_unit"] {
         assert_eq!(written[key], first[key], "{key}");
     }
+}
+
+#[test]
+fn one_unit_is_refused_until_it_is_accepted() {
+    let rows = "a,1,1\na,2,2.5\na,3,3.1\na,4,5\n";
+    let error = refused("one", rows, &[]);
+    assert_eq!(error["line"], 2);
+    let message = error["message"].as_str().expect("a text");
+    assert!(message.contains("rows 2 to 5") && message.contains("one unit, a"), "{message}");
+    assert!(error["help"].as_str().expect("a text").contains("--one-unit"), "{error}");
+
+    let path = written("accepted", &format!("unit,cycles,wear_um\n{rows}"));
+    let file = path.display().to_string();
+    let found = fit(&file, &["--one-unit"]);
+    let text = linkwear(&[&["fit", &file], &COLUMNS[..], &["--one-unit"]].concat());
+    fs::remove_file(path).expect("the file");
+    assert!(found["warnings"][0].as_str().expect("a text").contains("one unit only"), "{found}");
+    assert!(text.code == 0 && text.out.contains("warning: one unit only"), "{}", text.out);
+    assert_eq!(fit(HEAVY, &["--power-law"])["warnings"], Value::Array(Vec::new()));
+}
+
+/// Log-likelihood of an increment of wear of this shape.
+fn term(shape: f64, beta: f64, wear: f64) -> f64 {
+    shape * beta.ln() - ln_gamma(shape) + (shape - 1.0) * wear.ln() - beta * wear
+}
+
+/// The printed log-likelihood is that of the estimate, and no step in a parameter leads higher.
+#[track_caller]
+fn a_maximum(found: &Value, estimate: &[f64], log_likelihood: &dyn Fn(&[f64]) -> f64) {
+    let here = log_likelihood(estimate);
+    // Some thirty to ninety terms of size 10, each good to 1e-14 of itself.
+    close(&found["log_likelihood"], here, 1e-11);
+    for at in 0..estimate.len() {
+        for step in [-1e-4, 1e-4] {
+            let mut moved = estimate.to_vec();
+            moved[at] *= 1.0 + step;
+            // Curvatures of some tens and more make a fall of 1e-7, well above rounding.
+            assert!(log_likelihood(&moved) < here - 1e-10, "parameter {at}, step {step}");
+        }
+    }
+}
+
+#[test]
+fn a_covariate_multiplies_lambda_as_a_power() {
+    let folder = Folder::new("fit-covariate");
+    let whole = fs::read_to_string("gamma/tests/data/sliding_wear.csv").expect("the table");
+    // Without the two readings that fall.
+    let kept: Vec<&str> =
+        whole.lines().filter(|line| !line.ends_with(",4.012") && !line.ends_with(",12.869")).collect();
+    assert_eq!(kept.len() + 2, whole.lines().count());
+    let file = folder.write("loads.csv", &kept.join("\n"));
+    let found = fit(&file, &["--power-law", "--covariate", "load_g"]);
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let power = &found["covariates"][0];
+    assert_eq!(power["name"], "load_g");
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for line in kept.iter().filter(|line| line.starts_with('1')) {
+        rows.push(line.split(',').map(|cell| cell.parse().expect("a number")).collect());
+    }
+    let log_likelihood = |phi: &[f64]| -> f64 {
+        let increments = rows.windows(2).filter(|pair| pair[0][0] == pair[1][0]);
+        let share = |pair: &[Vec<f64>]| {
+            let (from, to) = (&pair[0], &pair[1]);
+            let lambda = (to[2].powf(phi[2]) - from[2].powf(phi[2])) * to[1].powf(phi[3]);
+            term(phi[0] * lambda, phi[1], to[3] - from[3])
+        };
+        increments.map(share).sum()
+    };
+    let estimate = [&found["alpha"], &found["beta"], &found["exponent"], &power["coefficient"]].map(number);
+    a_maximum(&found, &estimate, &log_likelihood);
+    assert_eq!(found["covariance"].as_array().expect("a matrix").len(), 4);
+    // Heavier is faster, and surely so.
+    assert!(estimate[3] > 5.0 * number(&found["standard_errors"][3]));
+}
+
+#[test]
+fn a_zero_increment_is_less_than_a_step_of_the_gauge() {
+    let folder = Folder::new("fit-resolution");
+    let units = [[0.5, 0.0, 1.0, 0.5, 0.5], [1.0, 0.5, 0.0, 0.0, 0.5], [0.5, 1.5, 0.5, 0.0, 1.0]];
+    let mut text = "unit,cycles,wear_um\n".to_owned();
+    for (unit, increments) in units.iter().enumerate() {
+        let mut wear = 0.0;
+        text.push_str(&format!("{unit},0,0\n"));
+        for (at, increment) in increments.iter().enumerate() {
+            wear += increment;
+            text.push_str(&format!("{unit},{},{wear}\n", at + 1));
+        }
+    }
+    let file = folder.write("steps.csv", &text);
+    let found = fit(&file, &["--resolution", "0.5"]);
+    let log_likelihood = |phi: &[f64]| -> f64 {
+        let share = |wear: &f64| match *wear {
+            0.0 => ln_gamma_p(phi[0], phi[1] * 0.5),
+            wear => term(phi[0], phi[1], wear),
+        };
+        units.iter().flatten().map(share).sum()
+    };
+    let estimate = [&found["alpha"], &found["beta"]].map(|value| value.as_f64().expect("a number"));
+    a_maximum(&found, &estimate, &log_likelihood);
+    let answer = linkwear(&[&["fit", &file], &COLUMNS[..], &["--format", "json"]].concat());
+    let error = answer.errors()[0].clone();
+    assert!(error["message"].as_str().expect("a text").starts_with("4 increment(s)"), "{error}");
+    assert!(error["help"].as_str().expect("a text").contains("resolution"), "{error}");
+}
+
+#[test]
+fn lambda_comes_from_a_life_from_a_table_or_from_a_column_alike() {
+    let folder = Folder::new("fit-lambda");
+    // Coarse steps: only the way of the numbers is looked at.
+    let hurry = ["--rigid", "--mean", "--step", "5e-5", "--settle", "1", "--format", "json"];
+    let answer = linkwear(&[&["life", "mechanisms/rssr.toml"], &hurry[..]].concat());
+    let life = folder.write("life.json", &answer.out);
+    let mut lambda = vec![0.0];
+    for cycle in answer.json()["cycles"].as_array().expect("a list") {
+        let step = cycle["joints"][0]["dLambda_m"].as_f64().expect("a number");
+        lambda.push(lambda[lambda.len() - 1] + 1e6 * step);
+    }
+    let (mut data, mut total) = ("unit,cycles,wear_um,lambda_um\n".to_owned(), 0.0);
+    for (unit, pace) in [0.9, 1.0, 1.15].into_iter().enumerate() {
+        for (cycle, scatter) in [(0, 0.0), (6, 1.05), (12, 0.97), (18, 1.01)] {
+            let wear = pace * scatter * lambda[cycle];
+            total += if cycle == 18 { wear } else { 0.0 };
+            data.push_str(&format!("{unit},{cycle},{wear},{}\n", lambda[cycle]));
+        }
+    }
+    let file = folder.write("wear.csv", &data);
+    let rows: String = lambda.iter().enumerate().map(|(at, value)| format!("{at},{value}\n")).collect();
+    let table = folder.write("lambda.csv", &format!("cycles,lambda_um\n{rows}"));
+    let by_life = fit(&file, &["--lambda", &life]);
+    // alpha / beta is the mean pace; roots are found to 1e-12.
+    let ratio = by_life["alpha"].as_f64().expect("a number") / by_life["beta"].as_f64().expect("a number");
+    assert!((ratio / (total / (3.0 * lambda[18])) - 1.0).abs() < 1e-10, "{ratio}");
+    assert_eq!(by_life["over_lambda"], true);
+    assert!(by_life["exposure_unit"].as_str().expect("a text").contains("life.json"));
+    let columns = ["fit", &file, "--unit", "unit", "--wear", "wear_um", "--lambda", "lambda_um"];
+    for other in
+        [fit(&file, &["--lambda", &table]), linkwear(&[&columns[..], &["--format", "json"]].concat()).json()]
+    {
+        for key in ["alpha", "beta", "log_likelihood"] {
+            assert_eq!(other[key], by_life[key], "{key}");
+        }
+    }
+    assert_eq!(fit(&file, &[])["over_lambda"], false);
+
+    // The fit goes back into the life: wear is a little faster than Archard's law says, so life is shorter.
+    let out = folder.path("fit.json");
+    fit(&file, &["--lambda", &life, "--out", &out]);
+    let more = [
+        "--rigid",
+        "--step",
+        "5e-5",
+        "--settle",
+        "1",
+        "--trajectories",
+        "20",
+        "--fit",
+        &out,
+        "--format",
+        "json",
+    ];
+    let lived = linkwear(&[&["life", "mechanisms/rssr.toml"], &more[..]].concat()).json();
+    close(&lived["parameters"][0]["alpha_per_um"], by_life["alpha"].as_f64().expect("a number"), 1e-12);
+    let path = |life: &Value| life["mean_path"]["cycles"].as_f64().expect("a number");
+    assert!(ratio > 1.0 && path(&lived) < path(&answer.json()), "{ratio}");
+    assert!(lived["error_budget"]["half_widths_95"]["parameters"].as_f64().expect("a number") > 0.0);
+
+    let late = folder.write("late.csv", "unit,cycles,wear_um\na,0,0\na,100,9\nb,0,0\nb,3,9\n");
+    let answer =
+        linkwear(&[&["fit", &late], &COLUMNS[..], &["--lambda", &life, "--format", "json"]].concat());
+    let error = answer.errors()[0].clone();
+    assert!(error["message"].as_str().expect("a text").contains("exposure 100 is outside"), "{error}");
+    assert_eq!(error["line"], 3);
 }

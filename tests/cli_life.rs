@@ -3,6 +3,8 @@
 mod command;
 
 use command::{Folder, linkwear};
+use linkwear_gamma::life::{Bands, Clock, Estimate, GammaLaw, Lifetime, Method, Passage, Situation};
+use linkwear_gamma::system::{SharedFactor, System};
 use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr.toml";
@@ -110,4 +112,163 @@ fn a_life_that_stops_early_keeps_the_cycles_it_had() {
     assert!(!cycles.is_empty() && number(&cycles[0]["joints"][0]["wear_m"]) > 1e-4, "{answer}");
     let help = answer["errors"][0]["help"].as_str().expect("a text");
     assert!(help.contains(&format!("{} cycles were completed", cycles.len())), "{help}");
+}
+
+/// A life without feedback, in a hurry: wear per cycle is a constant, so there is a closed form.
+fn steady(more: &[&str]) -> command::Answer {
+    let hurry = ["life", RSSR, "--rigid", "--no-feedback", "--step", "5e-5", "--settle", "1"];
+    linkwear(&[&hurry[..], more].concat())
+}
+
+/// Wear per cycle [um] and the threshold of the case study [um].
+fn pace(life: &Value) -> (f64, f64) {
+    (1e6 * number(&life["cycles"][0]["joints"][0]["dLambda_m"]), 80.0)
+}
+
+/// Wear a tenth faster than physics says; standard errors of a tenth, correlation 0.9.
+const FITTED: &str = r#"{ "alpha": 15.0, "beta": 13.6, "over_lambda": true,
+  "covariance": [[2.25, 1.836], [1.836, 1.8496]] }"#;
+
+#[test]
+fn a_fit_gives_the_scatter_and_its_uncertainty_enters_the_budget() {
+    let folder = Folder::new("life-fit");
+    let fit = folder.write("fit.json", FITTED);
+    let lives = ["--trajectories", "400", "--format", "json", "--fit"];
+    let life = steady(&[&lives[..], &[&fit]].concat()).json();
+    let named = steady(&[&lives[..], &[&format!("R1={fit}")]].concat()).json();
+    assert_eq!(life, named);
+    assert_eq!(
+        (&life["parameters"][0]["from"], &life["parameters"][0]["joint"]),
+        (&fit.clone().into(), &"R1".into())
+    );
+
+    let (rate, threshold) = pace(&life);
+    let estimate = Estimate::exact(15.0, 13.6, None).expect("positive");
+    let estimate =
+        estimate.with_log_covariance(&[vec![0.01, 0.009], vec![0.009, 0.01]]).expect("a covariance");
+    let situation = Situation::new(threshold).and_then(|new| new.at_rate(rate)).expect("positive");
+    let exact = situation.life(&estimate).and_then(|life| life.whole_cycles()).expect("finite");
+    // Three standard errors of 400 lives.
+    let (mean, error) = (number(&life["mean_whole_cycles"]), number(&life["standard_errors"]["mean"]));
+    assert!((mean - exact.mean).abs() < 3.0 * error, "{mean} {exact:?}");
+    // The mean path wears by alpha / beta too; its crossing of the threshold is that of a straight line.
+    let path = number(&life["mean_path"]["cycles"]);
+    assert!((path / (threshold / rate * 13.6 / 15.0) - 1.0).abs() < 1e-6, "{path}");
+
+    let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
+    let expected = bands.mean().expect("finite").half_width();
+    let budget = &life["error_budget"];
+    let found = number(&budget["half_widths_95"]["parameters"]);
+    // Steps of 2 %, 200 lives with their random numbers in common: some parts in a hundred at most.
+    assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
+    assert!(number(&budget["total"]) > found);
+
+    // Without random lives the mean path has a budget too: it goes as beta / alpha, 1.96 sqrt(0.002) of it.
+    let mean = steady(&["--mean", "--format", "json", "--fit", &fit]).json();
+    let half = &mean["error_budget"]["half_widths_95"];
+    assert_eq!((&mean["random"], number(&half["monte_carlo"])), (&Value::from(false), 0.0));
+    // The covariance in the file is exact to rounding.
+    assert!(
+        (number(&half["parameters"]) / (1.959_963_984_540_054 * 0.002_f64.sqrt() * path) - 1.0).abs() < 1e-9
+    );
+}
+
+#[test]
+fn parameters_without_uncertainty_are_called_known() {
+    let folder = Folder::new("life-known");
+    let fit = folder.write("fit.json", r#"{ "alpha": 15.0, "beta": 13.6 }"#);
+    let of_file = steady(&["--trajectories", "10"]);
+    assert!(of_file.out.contains("taken as known from the mechanism's file"), "{}", of_file.out);
+    let of_fit = steady(&["--trajectories", "10", "--fit", &fit]);
+    assert!(
+        of_fit.out.contains("the fit gives no covariance") && of_fit.out.contains("R1: alpha 15"),
+        "{}",
+        of_fit.out
+    );
+    assert!(of_fit.out.contains("warning: the fit has no `covariance`"), "{}", of_fit.out);
+}
+
+#[test]
+fn a_fit_that_does_not_do_for_a_life_is_refused() {
+    let folder = Folder::new("life-unfit");
+    let ask = |text: &str, flag: &str| {
+        let file = folder.write("fit.json", text);
+        let answer = steady(&["--format", "json", "--fit", &flag.replace("FILE", &file)]);
+        let error = answer.errors()[0].clone();
+        let text = |key: &str| error[key].as_str().expect("a text").to_owned();
+        (answer.code, text("message"), text("help"))
+    };
+    let cases = [
+        (r#"{ "alpha": 15, "beta": 13, "exponent": 0.9 }"#, "an exponent"),
+        (
+            r#"{ "alpha": 15, "beta": 13, "covariates": [{ "name": "load", "coefficient": 1 }] }"#,
+            "covariates",
+        ),
+        (r#"{ "alpha": 15, "beta": 13, "over_lambda": false }"#, "per um of Lambda"),
+        (r#"{ "alpha": 15, "beta": 13e6, "over_lambda": true }"#, "times as fast as Lambda"),
+    ];
+    for (fit, words) in cases {
+        let (code, message, help) = ask(fit, "FILE");
+        assert!(code == 1 && message.contains(words), "{message}");
+        assert!(help.contains("um"), "{help}");
+    }
+    let (code, message, help) = ask(FITTED, "R9=FILE");
+    assert!(
+        code == 2 && message.contains("does not say for which") && help.contains("R1"),
+        "{message} {help}"
+    );
+}
+
+#[test]
+fn several_wearing_joints_have_a_fit_each() {
+    let folder = Folder::new("life-two");
+    let fit = folder.write("fit.json", FITTED);
+    let other = folder.write("other.json", FITTED);
+    let with = |fits: &[String]| {
+        let mut arguments =
+            vec!["life", "mechanisms/four_bar_wear.toml", "--settle", "1", "--format", "json"];
+        arguments.extend(["--trajectories", "50"]);
+        fits.iter().for_each(|text| arguments.extend(["--fit", text]));
+        linkwear(&arguments)
+    };
+    let both = with(&[format!("R3={other}"), format!("R2={fit}")]).json();
+    let from: Vec<&Value> =
+        both["parameters"].as_array().expect("a list").iter().map(|joint| &joint["from"]).collect();
+    assert_eq!(from, [&Value::from(fit.clone()), &Value::from(other.clone())]);
+    // R2 ends every life. Whether R3 errs with it or apart matters only by what R3's wear does to R2.
+    assert_eq!(both["failed_first"]["R2"], 1.0);
+    let part = |life: &Value| number(&life["error_budget"]["half_widths_95"]["parameters"]);
+    let together = with(&[format!("R2={fit}"), format!("R3={fit}")]).json();
+    assert!((part(&both) / part(&together) - 1.0).abs() < 0.1, "{} {}", part(&both), part(&together));
+
+    let refused = |fits: &[String], code| {
+        let answer = with(fits);
+        assert_eq!(answer.code, code, "{}", answer.out);
+        answer.errors()[0]["message"].as_str().expect("a text").to_owned()
+    };
+    assert!(refused(std::slice::from_ref(&fit), 2).contains("for which wearing joint"));
+    assert!(refused(&[format!("R2={fit}"), format!("R2={other}")], 2).contains("two fits"));
+    assert!(refused(&[format!("R2={fit}")], 1).contains("`R3` has no Gamma process"));
+}
+
+#[test]
+fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
+    let lives = ["--trajectories", "2000", "--format", "json", "--shared-factor"];
+    let life = steady(&[&lives[..], &["0.2"]].concat()).json();
+    let (rate, threshold) = pace(&life);
+    let law = GammaLaw::new(13.65, 13.65).expect("positive");
+    let joint = Passage::new(law, Clock::linear(rate).expect("positive"), threshold).expect("positive");
+    let system = System::sharing(vec![joint], SharedFactor::Gamma { cov: 0.2 }).expect("one joint");
+    let exact = system.whole_cycles().expect("finite");
+    // Three standard errors; whole cycles add 1/12 to the variance, out of some 27.
+    let (mean, errors) = (number(&life["mean_whole_cycles"]), &life["standard_errors"]);
+    assert!((mean - exact.mean).abs() < 3.0 * number(&errors["mean"]), "{mean} {exact:?}");
+    let std = (number(&life["std"]).powi(2) + 1.0 / 12.0).sqrt();
+    assert!((std - exact.std).abs() < 3.0 * number(&errors["std"]), "{std} {exact:?}");
+
+    let wide = steady(&["--shared-factor", "0.8", "--format", "json"]);
+    assert_eq!(wide.code, 2);
+    assert!(wide.errors()[0]["message"].as_str().expect("a text").contains("not finite"));
+    let none = steady(&["--shared-factor", "0.2", "--coupling", "full"]);
+    assert!(none.code == 2 && none.err.contains("--trajectories"), "{}", none.err);
 }

@@ -3,6 +3,7 @@
 mod command;
 
 use command::{Folder, linkwear};
+use linkwear_gamma::life::{Bands, Clock, Estimate, GammaLaw, Lifetime, Method, Passage, Situation};
 use serde_json::Value;
 
 /// GaAs lasers (Meeker & Escobar 1998, table C.17), fit published with the R package `gammaprocesses`; exposure is
@@ -168,4 +169,114 @@ fn wrong_inspections_are_named_by_line() {
     let (message, line) = case("hours,um\n0,0\n", "mu");
     assert!(message.contains("no column `mu`") && line == Some(1), "{message}");
     assert_eq!(case("", "um").0, "the file is empty");
+}
+
+#[test]
+fn a_fit_goes_over_into_its_prediction() {
+    let folder = Folder::new("predict-pipe");
+    let fit = folder.path("fit.json");
+    let data = "examples/data/sliding_wear_100g.csv";
+    let columns = ["--unit", "unit", "--wear", "wear_um", "--exposure", "cycles"];
+    let model = ["--from-zero", "--power-law", "--out", &fit, "--format", "json"];
+    let found = linkwear(&[&["fit", data], &columns[..], &model[..]].concat()).json();
+    let asked = ["predict", &fit, "--threshold", "50", "--current", "30", "--at", "400", "--format", "json"];
+    let life = linkwear(&asked).json();
+
+    let [alpha, beta, exponent] = ["alpha", "beta", "exponent"].map(|key| number(&found[key]));
+    let law = GammaLaw::new(alpha, beta).expect("positive");
+    let clock = Clock::power(1.0, exponent).expect("positive");
+    let closed = Passage::from(law, clock, 50.0, 30.0, 400.0).expect("wear is left");
+    let row = |row: &Value| row.as_array().expect("a row").iter().map(number).collect();
+    let covariance: Vec<Vec<f64>> =
+        found["covariance"].as_array().expect("a matrix").iter().map(row).collect();
+    let estimate = Estimate::exact(alpha, beta, Some(exponent)).expect("positive");
+    let estimate = estimate.with_covariance(&covariance).expect("a covariance");
+    let situation = Situation::new(50.0).and_then(|new| new.worn(30.0, 400.0)).expect("wear is left");
+    let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
+    // The same functions of the same numbers but for exp(ln alpha): rounding, and roots good to 1e-12.
+    let close = |found: &Value, expected: f64| {
+        assert!((number(found) / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    };
+    for (key, p) in [("p10", 0.1), ("p50", 0.5), ("p90", 0.9)] {
+        close(&life["quantiles"][key], closed.quantile(p).expect("a quantile"));
+        let band = bands.quantile(p).expect("a band");
+        close(&life["bands"]["quantiles"][key]["lower"], band.lower);
+        close(&life["bands"]["quantiles"][key]["upper"], band.upper);
+    }
+    close(&life["mean"], closed.moments().expect("finite").mean);
+    // At the median the mean wear of the closed form stands at the threshold, but for the skew of the law.
+    let median = number(&life["quantiles"]["p50"]);
+    let worn = 30.0 + alpha / beta * ((400.0 + median).powf(exponent) - 400.0_f64.powf(exponent));
+    assert!((worn - 50.0).abs() < 0.5 / beta, "{worn}");
+}
+
+/// A fit with a covariate, ln alpha and its power uncertain and correlated.
+const LOADED: &str = r#"{
+  "alpha": 20.0,
+  "beta": 10.0,
+  "covariates": [{ "name": "load", "coefficient": 0.5 }],
+  "covariance": [[4.0, 1.0, 0.02], [1.0, 1.0, 0.0], [0.02, 0.0, 0.0009]]
+}"#;
+
+#[test]
+fn covariates_of_a_fit_are_asked_for_and_count() {
+    let folder = Folder::new("predict-covariate");
+    let fit = folder.write("fit.json", LOADED);
+    let at = |load: &str| {
+        let covariate = format!("load={load}");
+        linkwear(&["predict", &fit, "--threshold", "10", "--covariate", &covariate, "--format", "json"])
+            .json()
+    };
+    let (one, four) = (at("1"), at("4"));
+    // 4 to the power 0.5: wear goes twice as fast, life is half as long. Roots are good to 1e-12.
+    let median = |life: &Value| number(&life["quantiles"]["p50"]);
+    assert!((median(&one) / median(&four) / 2.0 - 1.0).abs() < 1e-10);
+    assert!(four["from"].as_str().expect("a text").contains("load = 4"), "{}", four["from"]);
+    // ln alpha + ln 4 b: variance 4/20^2 + 2 ln 4 0.02/20 + ln 4^2 0.0009, covariance with ln beta 1/(20 10).
+    let ln = 4.0_f64.ln();
+    let variance = 0.01 + 2.0 * ln * 0.001 + ln * ln * 0.0009;
+    let estimate = Estimate::exact(40.0, 10.0, None).expect("positive");
+    let estimate =
+        estimate.with_log_covariance(&[vec![variance, 0.005], vec![0.005, 0.01]]).expect("positive");
+    let situation = Situation::new(10.0).expect("positive");
+    let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
+    let band = bands.quantile(0.5).expect("a band");
+    let found = &four["bands"]["quantiles"]["p50"];
+    assert!((number(&found["lower"]) / band.lower - 1.0).abs() < 1e-9, "{found} {band:?}");
+    assert!((number(&found["upper"]) / band.upper - 1.0).abs() < 1e-9, "{found} {band:?}");
+    // The power is known least far from 1.
+    let width = |life: &Value| number(&life["budget"]["parameters"]["half_width"]) / number(&life["mean"]);
+    assert!(width(&four) > 1.1 * width(&one), "{} {}", width(&four), width(&one));
+
+    let ask = |more: &[&str]| {
+        let answer = linkwear(&[&["predict", &fit, "--threshold", "10", "--format", "json"], more].concat());
+        assert_eq!(answer.code, 1, "{}", answer.out);
+        let error = answer.errors()[0].clone();
+        (
+            error["message"].as_str().expect("a text").to_owned(),
+            error["help"].as_str().expect("a text").to_owned(),
+        )
+    };
+    let (message, help) = ask(&[]);
+    assert!(
+        message.contains("a covariate `load`") && help.contains("--covariate load=VALUE"),
+        "{message} {help}"
+    );
+    let (message, help) = ask(&["--covariate", "laod=3"]);
+    assert!(message.contains("no covariate `laod`") && help.contains("`load`"), "{message} {help}");
+    let (message, _) = ask(&["--covariate", "load=3", "--covariate", "load=4"]);
+    assert!(message.contains("given twice"), "{message}");
+    let wrong = linkwear(&["predict", &fit, "--threshold", "10", "--covariate", "load=-3"]);
+    assert!(wrong.code == 2 && wrong.err.contains("positive"), "{}", wrong.err);
+    // The same file, now without covariates.
+    assert_eq!(lasers(&folder), fit);
+    let (message, help) = ask(&["--covariate", "load=3"]);
+    assert!(
+        message.contains("no covariate `load`") && help.contains("leave --covariate out"),
+        "{message} {help}"
+    );
+    let small = LOADED
+        .replace("[[4.0, 1.0, 0.02], [1.0, 1.0, 0.0], [0.02, 0.0, 0.0009]]", "[[4.0, 1.0], [1.0, 1.0]]");
+    folder.write("fit.json", &small);
+    assert!(ask(&["--covariate", "load=3"]).0.contains("not one of 3 parameters"));
 }

@@ -13,6 +13,8 @@ fn help_of_every_subcommand_has_an_example() {
         "generate",
         "simulate",
         "life",
+        "fit",
+        "predict",
         "case-study",
         "new",
         "schema",
@@ -47,6 +49,9 @@ fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
         &["simulate", "mechanisms/pendulum.toml", "--tol", "1e-3", "--integrator", "rk4"],
         &["simulate", "mechanisms/pendulum.toml", "--turns", "1"],
         &["generate", "mechanisms/pendulum.toml", "--check"],
+        &["life", "mechanisms/rssr.toml", "--shared-factor", "0"],
+        &["life", "mechanisms/rssr.toml", "--shared-factor", "0.2", "--mean"],
+        &["predict", "fit.json", "--threshold", "10", "--covariate", "load"],
         &["new", "no-name"],
     ];
     for case in cases {

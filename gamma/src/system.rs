@@ -1,5 +1,6 @@
 //! Life of a system of wearing joints: it ends when the first of them fails.
-//! In: first passages of the joints, perhaps a factor they share. Out: a [`Lifetime`], and which joint ends it.
+//! In: first passages of the joints, perhaps a factor they share. Out: a [`Lifetime`], which joint ends it, draws of the
+//! factor for lives that have no closed form.
 //! Never knows mechanisms.
 //!
 //! Given the exposures the joints wear independently: the reliabilities multiply. A shared factor Z (load, dirt, the
@@ -10,6 +11,8 @@
 //! ```
 
 use crate::life::{LifeError, Lifetime, Passage, integrate, positive};
+use crate::sample::ln_gamma_variate;
+use crate::stream::Stream;
 
 /// Law of the factor all joints share; mean 1, coefficient of variation `cov` > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +30,29 @@ pub enum SharedFactor {
 }
 
 impl SharedFactor {
+    /// ln of a draw.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`] for its coefficient of variation.
+    pub fn ln_draw(self, stream: &mut Stream) -> Result<f64, LifeError> {
+        Ok(match self.law()? {
+            Law::Gamma { shape } => ln_gamma_variate(shape, stream) - libm::log(shape),
+            Law::Lognormal { sigma } => sigma * (stream.normal() - 0.5 * sigma),
+        })
+    }
+
+    /// Parameters of the law with mean 1.
+    fn law(self) -> Result<Law, LifeError> {
+        let cov = match self {
+            Self::Gamma { cov } | Self::Lognormal { cov } => cov,
+        };
+        let square = positive("the coefficient of variation of the shared factor", cov)?.powi(2);
+        Ok(match self {
+            Self::Gamma { .. } => Law::Gamma { shape: 1.0 / square },
+            Self::Lognormal { .. } => Law::Lognormal { sigma: libm::sqrt(libm::log1p(square)) },
+        })
+    }
+
     /// Points and weights of a trapezoid rule in ln Z. The rule converges faster than any power of the step here; the
     /// law is cut where its density has fallen to e^-45. Weights are scaled to sum 1.
     fn nodes(self) -> Result<Vec<(f64, f64)>, LifeError> {
@@ -34,15 +60,12 @@ impl SharedFactor {
         const CUT: f64 = -45.0;
         /// Steps per standard deviation.
         const FINE: f64 = 5.0;
-        let (ln_density, spread): (Box<dyn Fn(f64) -> f64>, f64) = match self {
-            Self::Gamma { cov } => {
-                let shape = 1.0 / positive("the coefficient of variation of the shared factor", cov)?.powi(2);
+        let (ln_density, spread): (Box<dyn Fn(f64) -> f64>, f64) = match self.law()? {
+            Law::Gamma { shape } => {
                 // Density of u = ln Z, relative to u = 0.
                 (Box::new(move |u: f64| shape * (u - u.exp() + 1.0)), 1.0 / shape.sqrt())
             }
-            Self::Lognormal { cov } => {
-                let cov = positive("the coefficient of variation of the shared factor", cov)?;
-                let sigma = cov.powi(2).ln_1p().sqrt();
+            Law::Lognormal { sigma } => {
                 let mean = -0.5 * sigma * sigma;
                 (Box::new(move |u: f64| -0.5 * ((u - mean) / sigma).powi(2)), sigma)
             }
@@ -66,6 +89,15 @@ impl SharedFactor {
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(nodes)
     }
+}
+
+/// A shared factor by its parameters.
+#[derive(Clone, Copy)]
+enum Law {
+    /// Shape and rate are the same number.
+    Gamma { shape: f64 },
+    /// The mean of the logarithm is -sigma²/2.
+    Lognormal { sigma: f64 },
 }
 
 /// Several wearing joints; time runs from the present, in the unit all their clocks have.
@@ -172,8 +204,7 @@ impl Lifetime for System {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, GammaLaw};
-    use crate::stream::Stream;
+    use crate::life::{Clock, GammaLaw, LifeStatistics};
 
     fn member(alpha: f64, threshold: f64) -> Passage {
         let law = GammaLaw::new(alpha, 10.0).expect("valid");
@@ -213,6 +244,20 @@ mod tests {
                 assert!((moment(2) - 1.0 - cov * cov).abs() < 1e-8, "{factor:?} {}", moment(2));
             }
         }
+    }
+
+    #[test]
+    fn drawn_factors_have_mean_one_and_the_spread_asked_for() {
+        let count = 20_000;
+        for factor in [SharedFactor::Gamma { cov: 0.3 }, SharedFactor::Lognormal { cov: 0.3 }] {
+            let draw = |at: u64| factor.ln_draw(&mut Stream::new(5, at, 0)).expect("valid").exp();
+            let drawn: Vec<f64> = (0..count).map(draw).collect();
+            let seen = LifeStatistics::of(&drawn).expect("positive");
+            // Four standard errors of a fixed seed.
+            assert!((seen.mean().value - 1.0).abs() < 4.0 * seen.mean().error, "{factor:?}");
+            assert!((seen.std().value - 0.3).abs() < 4.0 * seen.std().error, "{factor:?}");
+        }
+        assert!(SharedFactor::Gamma { cov: 0.0 }.ln_draw(&mut Stream::new(5, 0, 0)).is_err());
     }
 
     #[test]

@@ -5,7 +5,9 @@ use std::num::NonZero;
 use std::ops::ControlFlow;
 
 use linkwear_gamma::coupled::{Ended, GammaDraw, Lives, MonteCarlo};
+use linkwear_gamma::life::{Clock, GammaLaw, LifeStatistics, Lifetime, Passage};
 use linkwear_gamma::special::gamma_p;
+use linkwear_gamma::system::{SharedFactor, System};
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::{
     Feedback, FineScale, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearStep,
@@ -98,6 +100,48 @@ fn without_feedback_lives_follow_the_law_of_first_passage() {
     // Interpolated within the cycle, a life is half a cycle shorter; the excess of half a gamma step is left.
     let (continuous, _) = moments(run.failures.iter().map(|(_, failure)| failure.cycles));
     assert!((mean - continuous - 0.5).abs() < 0.02, "{mean} {continuous}");
+}
+
+/// Closed form of lives without feedback, in micrometres: [`PER_CYCLE`] is 3.2 of them.
+fn member(threshold: f64) -> Passage {
+    let law = GammaLaw::new(RATES.alpha * 1e-6, RATES.beta * 1e-6).expect("positive");
+    Passage::new(law, Clock::linear(PER_CYCLE * 1e6).expect("positive"), threshold * 1e6).expect("positive")
+}
+
+#[test]
+fn lives_with_a_shared_factor_follow_the_closed_form() {
+    let (count, factor) = (20_000, SharedFactor::Gamma { cov: 0.2 });
+    for thresholds in [&[THRESHOLD][..], &[THRESHOLD, 1.02 * THRESHOLD]] {
+        let mut settings = settings(0.0, WearStep::Cycle);
+        let own = settings.joints[0].clone();
+        settings.joints =
+            thresholds.iter().map(|threshold| JointLife { threshold: *threshold, ..own.clone() }).collect();
+        let draw = GammaDraw::new(6, &vec![RATES; thresholds.len()]).sharing(factor).expect("positive");
+        let threads = NonZero::new(2).expect("threads");
+        let run = MonteCarlo { settings: &settings, draw: &draw, trajectories: 0..count, threads }.run(
+            &|lend| {
+                lend(&mut Power(0.5));
+                Ok(())
+            },
+            &|_| ControlFlow::Continue(()),
+        );
+        assert_eq!(run.ended, Ended::Complete);
+        let members = thresholds.iter().map(|threshold| member(*threshold)).collect();
+        let system = System::sharing(members, factor).expect("members");
+        let whole: Vec<f64> = run.failures.iter().map(|(_, failure)| failure.whole_cycles as f64).collect();
+        let (seen, exact) =
+            (LifeStatistics::of(&whole).expect("lives"), system.whole_cycles().expect("finite"));
+        // Three standard errors throughout.
+        let (mean, std) = (seen.mean(), seen.std());
+        assert!((mean.value - exact.mean).abs() < 3.0 * mean.error, "{mean:?} {exact:?}");
+        assert!((std.value - exact.std).abs() < 3.0 * std.error, "{std:?} {exact:?}");
+        for cycles in [18.0, 22.0, 26.0, 34.0] {
+            let (part, exact) = (seen.reliability(cycles), system.reliability(cycles));
+            assert!((part.value - exact).abs() < 3.0 * part.error, "{cycles}: {part:?} {exact}");
+        }
+        // Without the factor lives scatter by 3 %: the factor is what is seen.
+        assert!(exact.std > 0.15 * exact.mean);
+    }
 }
 
 #[test]

@@ -11,7 +11,6 @@ use linkwear_gamma::fit::{
     Bootstrap, Estimate, Fit, FitError, Goodness, Interval, LikelihoodRatio, Model, Rival, bootstrap,
     estimate, goodness, inverse_gaussian, likelihood_ratio, profile_interval, wiener,
 };
-use serde_json::json;
 
 use self::read::{Group, fault, groups};
 use super::failure::Failure;
@@ -45,16 +44,20 @@ pub fn run(arguments: &FitArguments, format: Format) -> Result<(), Failure> {
     let groups = groups(arguments)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
-    let pooled = analyse(arguments, "all", &all)?;
+    let data = observe(arguments, &all)?;
+    if data.units.len() == 1 && !arguments.one_unit {
+        return Err(one_unit(arguments, &all));
+    }
+    let pooled = analyse(arguments, "all", &data)?;
     let mut parts = Vec::new();
     if arguments.groups.is_some() {
         for Group { name, readings } in &groups {
-            parts.push(analyse(arguments, name, readings)?);
+            parts.push(analyse(arguments, name, &observe(arguments, readings)?)?);
         }
     }
     let test = ratio(&pooled, &parts);
     if let Some(out) = &arguments.out {
-        let text = json!(pooled.fit);
+        let text = report::fitted(arguments, &pooled.fit);
         write_whole(out, |file| writeln!(file, "{text:#}"))?;
     }
     match format {
@@ -70,31 +73,55 @@ fn ratio(pooled: &Analysis, parts: &[Analysis]) -> Option<LikelihoodRatio> {
     (degrees > 0).then(|| likelihood_ratio(apart, pooled.fit.log_likelihood, degrees))
 }
 
-fn analyse(arguments: &FitArguments, name: &str, readings: &[Reading]) -> Result<Analysis, Failure> {
-    let gauge = arguments.resolution.map_or(Gauge::Exact, Gauge::Resolution);
-    let data = Observations::new(readings, arguments.from_zero, gauge);
-    let data = data.map_err(|error| refused(arguments, &error))?;
-    let model = Model {
+fn model(arguments: &FitArguments) -> Model {
+    Model {
         power_law: arguments.power_law,
         covariates: arguments.covariate.len(),
         resolution: arguments.resolution,
-    };
-    if data.increments.len() <= model.parameters() {
-        let (increments, parameters) = (data.increments.len(), model.parameters());
+    }
+}
+
+/// Increments, enough of them.
+fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<Observations, Failure> {
+    let gauge = arguments.resolution.map_or(Gauge::Exact, Gauge::Resolution);
+    let data = Observations::new(readings, arguments.from_zero, gauge);
+    let data = data.map_err(|error| refused(arguments, &error))?;
+    let (increments, parameters) = (data.increments.len(), model(arguments).parameters());
+    if increments <= parameters {
         let row = readings.last().map_or(0, |reading| reading.row);
         return Err(refused(arguments, &DataError::TooFew { row, increments, parameters }));
     }
-    let found = estimate(&data, &model).map_err(|error| {
+    Ok(data)
+}
+
+/// One unit shows how its own wear scatters; the process is asked about others.
+fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
+    let row = |reading: Option<&Reading>| reading.map_or(0, |reading| reading.row);
+    let (first, last) = (row(readings.first()), row(readings.last()));
+    let unit = readings.first().map_or("", |reading| &reading.unit);
+    let message = format!(
+        "rows {first} to {last}: all readings are of one unit, {unit}: how units differ cannot be seen"
+    );
+    let help = "add readings of other units, or accept it with --one-unit";
+    fault(&arguments.file, Some(first), message, help)
+}
+
+fn analyse(arguments: &FitArguments, name: &str, data: &Observations) -> Result<Analysis, Failure> {
+    let found = estimate(data, &model(arguments)).map_err(|error| {
         let message =
             if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
         fault(&arguments.file, None, message, "look at the data; estimate fewer parameters")
     })?;
-    Ok(complete(arguments, name, &data, &found))
+    Ok(complete(arguments, name, data, &found))
 }
 
 fn complete(arguments: &FitArguments, name: &str, data: &Observations, found: &Estimate) -> Analysis {
-    let clock = arguments.exposure.as_ref().or(arguments.lambda.as_ref()).map_or("", String::as_str);
-    let fit = found.fit(data, &arguments.covariate, &arguments.wear, clock);
+    let clock = match (&arguments.lambda, &arguments.exposure) {
+        (Some(lambda), Some(_)) => format!("Lambda of {lambda}"),
+        (Some(clock), None) | (None, Some(clock)) => clock.clone(),
+        (None, None) => String::new(),
+    };
+    let fit = found.fit(data, &arguments.covariate, &arguments.wear, &clock);
     let mut parameters = vec!["alpha".to_owned(), "beta".to_owned()];
     parameters.extend(arguments.power_law.then(|| "exponent".to_owned()));
     parameters.extend(arguments.covariate.iter().map(|covariate| format!("power of {covariate}")));

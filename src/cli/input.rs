@@ -63,6 +63,12 @@ pub fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
+/// `name=value`, the value a positive number.
+pub fn covariate(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = assignment(text).map_err(|_| "write NAME=VALUE, e.g. load=100".to_owned())?;
+    Ok((name, positive(&value)?))
+}
+
 /// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
@@ -83,6 +89,14 @@ mod tests {
         assert!(assignment("speed").is_err());
         assert!(assignment("=3").is_err());
         assert!(assignment("speed=").is_err());
+    }
+
+    #[test]
+    fn a_covariate_has_a_name_and_a_positive_number() {
+        assert_eq!(covariate("load = 2.5"), Ok(("load".to_owned(), 2.5)));
+        for bad in ["load", "load=", "=3", "load=-1", "load=heavy"] {
+            assert!(covariate(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

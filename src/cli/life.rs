@@ -4,15 +4,16 @@
 mod folder;
 mod lived;
 mod output;
+mod process;
 
 use std::num::NonZero;
 
-use linkwear_gamma::coupled::GammaDraw;
 use linkwear_runtime::life::{Feedback, LifeSettings, WearStep};
 use linkwear_runtime::{Description, Integrator, RevolutionSettings, Revolutions, System};
 
 use self::folder::Folder;
 use self::lived::Lived;
+use self::process::Process;
 use super::failure::Failure;
 use super::file::print;
 use super::input::load_as;
@@ -31,8 +32,10 @@ struct Plan<'a> {
     revolutions: RevolutionSettings,
     settings: LifeSettings,
     coupling: Coupling,
+    /// alpha and beta of all wearing joints, if all have them.
+    process: Option<Process>,
     /// Random lives; nothing for the mean path alone.
-    random: Option<(GammaDraw, u64)>,
+    trajectories: Option<u64>,
     threads: NonZero<usize>,
 }
 
@@ -86,10 +89,21 @@ impl<'a> Plan<'a> {
             Coupling::Table => WearStep::TABLE,
             Coupling::Full => WearStep::FULL,
         };
-        let random = random(arguments, description, coupling)?;
+        let process = Process::of(arguments, description)?;
+        let trajectories = trajectories(arguments, process.as_ref(), coupling)?;
         let threads = arguments.threads.or_else(|| std::thread::available_parallelism().ok());
         let threads = threads.unwrap_or(NonZero::<usize>::MIN);
-        Ok(Self { arguments, description, parameters, revolutions, settings, coupling, random, threads })
+        Ok(Self {
+            arguments,
+            description,
+            parameters,
+            revolutions,
+            settings,
+            coupling,
+            process,
+            trajectories,
+            threads,
+        })
     }
 
     /// Revolutions of a system, ended by Ctrl-C.
@@ -110,32 +124,22 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The draws and how many lives, if any are to be drawn.
-fn random(
+/// How many lives are to be drawn, if any.
+fn trajectories(
     arguments: &LifeArguments,
-    description: &Description,
+    process: Option<&Process>,
     coupling: Coupling,
-) -> Result<Option<(GammaDraw, u64)>, Failure> {
-    let wearing = description.contacts.iter().filter_map(|contact| contact.wear.map(|wear| (contact, wear)));
-    let mut rates = Vec::new();
-    for (contact, wear) in wearing {
-        match wear.scatter {
-            Some(scatter) => rates.push(scatter),
-            None if arguments.trajectories.is_some() => {
-                let message = format!("joint `{}` has no Gamma process to draw from", contact.joint);
-                let help = format!(
-                    "add alpha = \"13.65 1/um\" to [wear.{}], or leave --trajectories out",
-                    contact.joint
-                );
-                return Err(failed(arguments, &message, &help));
-            }
-            None => return Ok(None),
-        }
-    }
+) -> Result<Option<u64>, Failure> {
     let default =
         if coupling == Coupling::Table && !arguments.mean { Some(DEFAULT_TRAJECTORIES) } else { None };
-    let count = arguments.trajectories.or(default);
-    Ok(count.map(|count| (GammaDraw::new(arguments.seed, &rates), count)))
+    let count = process.and(arguments.trajectories.or(default));
+    if count.is_none() && arguments.shared_factor.is_some() {
+        let message = "--shared-factor spreads random lives, and none are asked for".to_owned();
+        let help =
+            "add --trajectories 16; with full coupling every life costs a run of the dynamics".to_owned();
+        return Err(Failure::Usage { message, help });
+    }
+    Ok(count)
 }
 
 fn failed(arguments: &LifeArguments, message: &str, help: &str) -> Failure {

@@ -19,9 +19,14 @@ const TAIL: f64 = 1e-3;
 /// Answers `predict`.
 pub fn run(arguments: &PredictArguments, format: Format) -> Result<(), Failure> {
     let fit = fit_file::read(&arguments.fit)?;
-    let situation = situation(arguments, &fit.estimate)?;
-    let knowledge = Knowledge::gather(arguments, fit.estimate, situation)?;
+    let estimate = fit.estimate(&arguments.covariate)?;
+    let situation = situation(arguments, &estimate)?;
+    let knowledge = Knowledge::gather(arguments, estimate, situation)?;
     let mut answer = knowledge.answer().map_err(|error| asked(arguments, &error))?;
+    for (at, (name, value)) in arguments.covariate.iter().enumerate() {
+        let join = if at == 0 { " at" } else { "," };
+        answer.from.push_str(&format!("{join} {name} = {value}"));
+    }
     answer.warnings.splice(0..0, fit.warnings);
     match format {
         Format::Json => print(&prediction::machine(&answer)),

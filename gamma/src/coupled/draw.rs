@@ -1,14 +1,19 @@
-//! Wear increments of the Gamma process, [CS (21)], for the coarse scale. In: rates per joint, a seed. Out: dW.
+//! Wear increments of the Gamma process, [CS (21)], for the coarse scale. In: rates per joint, a seed, perhaps a factor
+//! all joints share. Out: dW, drawn or in the mean.
 //! Never knows the state of a trajectory.
 
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::IncrementDraw;
 
+use crate::life::LifeError;
 use crate::sample::ln_gamma_variate;
 use crate::stream::Stream;
+use crate::system::SharedFactor;
 
 /// Wear in this layer is counted in micrometres.
 const MICRO: f64 = 1e-6;
+/// Number of the stream that a trajectory draws its shared factor from: no joint has it.
+const TRAJECTORY: u64 = u64::MAX;
 
 /// dW ~ Gamma(shape alpha dLambda, rate beta), joint by joint; one stream per (trajectory, joint).
 #[derive(Clone, Debug)]
@@ -16,6 +21,7 @@ pub struct GammaDraw {
     seed: u64,
     /// alpha [1/µm] and ln beta, beta in 1/µm.
     joints: Vec<(f64, f64)>,
+    shared: Option<SharedFactor>,
 }
 
 impl GammaDraw {
@@ -23,14 +29,35 @@ impl GammaDraw {
     #[must_use]
     pub fn new(seed: u64, joints: &[GammaRates]) -> Self {
         let joint = |rates: &GammaRates| (rates.alpha * MICRO, libm::log(rates.beta * MICRO));
-        Self { seed, joints: joints.iter().map(joint).collect() }
+        Self { seed, joints: joints.iter().map(joint).collect(), shared: None }
+    }
+
+    /// With a factor of mean 1, one draw for each trajectory, that multiplies the exposure dLambda of all its joints and
+    /// cycles, as [`crate::system::System::sharing`] has it. It changes the shapes of increments, not their rates.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`] for its coefficient of variation.
+    pub fn sharing(self, factor: SharedFactor) -> Result<Self, LifeError> {
+        // Errors come here, so that drawing has none.
+        factor.ln_draw(&mut Stream::new(self.seed, 0, TRAJECTORY))?;
+        Ok(Self { shared: Some(factor), ..self })
+    }
+
+    /// ln of the factor of a trajectory: 0 if joints share none.
+    fn ln_factor(&self, trajectory: u64) -> f64 {
+        let drawn =
+            self.shared.map(|factor| factor.ln_draw(&mut Stream::new(self.seed, trajectory, TRAJECTORY)));
+        drawn.and_then(Result::ok).unwrap_or(0.0)
     }
 }
 
 impl IncrementDraw for GammaDraw {
     fn draw(&self, joint: usize, trajectory: u64, cycle: u64, mean: f64) -> f64 {
         let Some((alpha, ln_beta)) = self.joints.get(joint) else { return mean };
-        let shape = alpha * (mean / MICRO);
+        let mut shape = alpha * (mean / MICRO);
+        if self.shared.is_some() {
+            shape *= libm::exp(self.ln_factor(trajectory));
+        }
         if shape <= 0.0 {
             return 0.0;
         }
@@ -38,6 +65,32 @@ impl IncrementDraw for GammaDraw {
         stream.at(cycle);
         // Wear too small for a number is no wear: only here, where it is added to micrometres.
         libm::exp(ln_gamma_variate(shape, &mut stream) - ln_beta) * MICRO
+    }
+}
+
+/// The increments' means, alpha dLambda / beta: the mean path of processes whose alpha and beta differ.
+#[derive(Clone, Debug)]
+pub struct GammaMean {
+    /// alpha / beta.
+    joints: Vec<f64>,
+}
+
+impl GammaMean {
+    /// For these joints, in the order of the wearing joints.
+    #[must_use]
+    pub fn new(joints: &[GammaRates]) -> Self {
+        Self { joints: joints.iter().map(|rates| rates.alpha / rates.beta).collect() }
+    }
+}
+
+impl IncrementDraw for GammaMean {
+    fn draw(&self, joint: usize, _trajectory: u64, _cycle: u64, mean: f64) -> f64 {
+        self.joints.get(joint).copied().unwrap_or(1.0) * mean
+    }
+
+    /// Only where every joint wears as its physics says may cycles be jumped over.
+    fn is_mean(&self) -> bool {
+        self.joints.iter().all(|ratio| *ratio == 1.0)
     }
 }
 
@@ -71,6 +124,29 @@ mod tests {
             assert_ne!(first.to_bits(), other.to_bits());
         }
         assert_ne!(first.to_bits(), GammaDraw::new(2, &[RATES]).draw(0, 3, 5, 1e-6).to_bits());
+    }
+
+    #[test]
+    fn a_shared_factor_belongs_to_the_trajectory() {
+        let draw = GammaDraw::new(1, &[RATES; 2]);
+        let own = draw.clone().sharing(SharedFactor::Gamma { cov: 0.3 }).expect("valid");
+        assert_eq!(own.ln_factor(3), own.ln_factor(3));
+        assert_ne!(own.ln_factor(3), own.ln_factor(4));
+        // At a shape of 1e6 a draw is its mean but for a thousandth: both joints, all cycles, wear by the same factor.
+        let mean = 1e6 / RATES.alpha;
+        for (joint, cycle) in [(0, 0), (1, 0), (0, 7)] {
+            let ratio = own.draw(joint, 3, cycle, mean) / draw.draw(joint, 3, cycle, mean);
+            // Five standard deviations of a quotient of two such draws.
+            assert!((ratio / own.ln_factor(3).exp() - 1.0).abs() < 5.0 * 1.5e-3, "{joint} {cycle}: {ratio}");
+        }
+        assert!(draw.sharing(SharedFactor::Gamma { cov: -1.0 }).is_err());
+    }
+
+    #[test]
+    fn the_mean_increment_is_alpha_over_beta_of_the_exposure() {
+        let mean = GammaMean::new(&[RATES, GammaRates { alpha: 3.0, beta: 2.0 }]);
+        assert_eq!((mean.draw(0, 0, 0, 4e-6), mean.draw(1, 5, 5, 4e-6)), (4e-6, 6e-6));
+        assert!(!mean.is_mean() && GammaMean::new(&[RATES]).is_mean());
     }
 
     #[test]

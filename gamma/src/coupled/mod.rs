@@ -4,5 +4,5 @@
 mod draw;
 mod monte_carlo;
 
-pub use draw::GammaDraw;
+pub use draw::{GammaDraw, GammaMean};
 pub use monte_carlo::{Ended, Lives, MonteCarlo, Scale};

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 mod bootstrap;
+mod covariates;
 mod estimate;
 mod goodness;
 mod interval;
@@ -105,6 +106,16 @@ pub enum FitError {
     /// A gauge's step that is not a positive number.
     #[error("the gauge's resolution must be a positive number")]
     BadResolution,
+    /// A fit is asked for at values that are not those of its covariates.
+    #[error(
+        "the fit has {covariates} covariate(s), {given} value(s) were given: one positive number for each, and a covariance of all parameters, are needed"
+    )]
+    Covariates {
+        /// How many it has.
+        covariates: usize,
+        /// How many values were given.
+        given: usize,
+    },
 }
 
 #[cfg(test)]

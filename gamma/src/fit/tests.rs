@@ -139,7 +139,8 @@ fn the_bootstrap_agrees_with_the_profile_and_repeats_its_bits() {
     let deviation = (values.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / 399.0).sqrt();
     // The standard deviation of 400 draws is uncertain by 1 / sqrt(800), four times that; and by the bias, 1 %.
     close(deviation, found.covariance()[0][0].sqrt(), 4.0 / 800.0_f64.sqrt() + 0.01);
-    // The lasers do not pass Anderson and Darling's test: units differ from each other, which one alpha cannot say.
+    // The lasers do not pass Anderson and Darling's test at 5 %. Units that differ from each other would do that; the
+    // test cannot tell.
     let seen = goodness(&found, &data.increments, 1);
     let p = Bootstrap::p_value(&drawn.anderson_darling, seen.anderson_darling);
     assert!(p < 0.05, "A^2 {} p {p}", seen.anderson_darling);

@@ -48,7 +48,13 @@ impl ErrorBudget {
     /// Monte-Carlo part of a statistic of lives.
     #[must_use]
     pub fn monte_carlo(statistic: Measured) -> Part {
-        Part::Random(Z95 * statistic.error)
+        Self::random(statistic.error)
+    }
+
+    /// Random part from a standard error.
+    #[must_use]
+    pub fn random(standard_error: f64) -> Part {
+        Part::Random(Z95 * standard_error)
     }
 
     /// Parameter part from a 95 % band.

@@ -80,6 +80,15 @@ impl Estimate {
         !self.factor.0.is_empty()
     }
 
+    /// Variance of a value to first order, from its derivatives by (ln alpha, ln beta\[, ln exponent\]); 0 if the
+    /// parameters are taken as known. Derivatives left out count as 0.
+    #[must_use]
+    pub fn variance(&self, gradient: &[f64]) -> f64 {
+        let mut padded = gradient.to_vec();
+        padded.resize(self.logs.len(), 0.0);
+        self.factor.variance(&padded)
+    }
+
     pub(crate) fn logs(&self) -> &[f64] {
         &self.logs
     }
@@ -243,6 +252,8 @@ mod tests {
         assert!((uncertain.factor.variance(&[0.0, 1.0]) - 0.01).abs() < 1e-15);
         // Correlation 0.5: variance of the difference 0.01 + 0.01 - 2 * 0.005.
         assert!((uncertain.factor.variance(&[1.0, -1.0]) - 0.01).abs() < 1e-15);
+        assert!((uncertain.variance(&[1.0]) - 0.01).abs() < 1e-15);
+        assert_eq!(Estimate::exact(2.0, 4.0, None).expect("valid").variance(&[1.0, 1.0]), 0.0);
         let distance = uncertain.factor.distance(&[0.1, 0.1]).expect("full rank");
         // d' C^-1 d with C = 0.01 [[1, .5], [.5, 1]]: 1/0.75 (1 + 1 - 1).
         assert!((distance - 4.0 / 3.0).abs() < 1e-12);

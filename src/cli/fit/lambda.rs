@@ -9,6 +9,9 @@ use serde_json::Value;
 use super::super::failure::Failure;
 use super::read::{Table, fault};
 
+/// Micrometres in a metre.
+const MICRO: f64 = 1e6;
+
 /// Lambda at rising exposures, linear between them.
 pub struct LambdaTable(Vec<(f64, f64)>);
 
@@ -48,7 +51,7 @@ pub fn lambda_table(path: &Path) -> Result<LambdaTable, Failure> {
     Ok(LambdaTable(points))
 }
 
-/// Lambda [m] after each cycle of the joint that failed.
+/// Lambda [um], the unit of the Gamma layer, after each cycle of the joint that failed.
 fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::Read(path.to_path_buf(), error))?;
     let foreign = || {
@@ -62,7 +65,7 @@ fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
     for (at, cycle) in life["cycles"].as_array().ok_or_else(foreign)?.iter().enumerate() {
         let mut joints = cycle["joints"].as_array().ok_or_else(foreign)?.iter();
         let own = joints.find(|entry| entry["joint"] == joint).ok_or_else(foreign)?;
-        sum += own["dLambda_m"].as_f64().ok_or_else(foreign)?;
+        sum += MICRO * own["dLambda_m"].as_f64().ok_or_else(foreign)?;
         points.push(((at + 1) as f64, sum));
     }
     Ok(points)

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use linkwear_gamma::fit::{Bootstrap, Interval, LikelihoodRatio};
+use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
 use serde_json::{Value, json};
 
 use super::super::FitArguments;
@@ -26,10 +26,21 @@ pub fn machine(
     value
 }
 
+/// What a prediction needs: the fit, and whether its exposure is Lambda already.
+pub fn fitted(arguments: &FitArguments, fit: &Fit) -> Value {
+    let mut value = json!(fit);
+    value["over_lambda"] = json!(arguments.lambda.is_some());
+    value
+}
+
+fn warnings(fit: &Fit) -> Vec<&'static str> {
+    if fit.units == 1 { vec!["one unit only; how units differ cannot be seen"] } else { Vec::new() }
+}
+
 fn one(arguments: &FitArguments, own: &Analysis) -> Value {
     let fit = &own.fit;
     let errors = fit.standard_errors();
-    let mut value = json!(fit);
+    let mut value = fitted(arguments, fit);
     let more = json!({
         "name": own.name,
         "se_alpha": errors[0], "se_beta": errors[1],
@@ -52,6 +63,7 @@ fn one(arguments: &FitArguments, own: &Analysis) -> Value {
             "quantiles": own.goodness.quantiles,
         },
         "comparison": comparison(own),
+        "warnings": warnings(fit),
     });
     for (key, entry) in more.as_object().into_iter().flatten() {
         value[key] = entry.clone();
@@ -153,8 +165,8 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         fit.bic()
     );
     fit_quality(text, own);
-    if fit.units == 1 {
-        text.push_str("warning: one unit only; how units differ cannot be seen\n");
+    for warning in warnings(fit) {
+        let _ = writeln!(text, "warning: {warning}");
     }
     if !own.rivals.is_empty() {
         let mut rows =

@@ -5,10 +5,10 @@ use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
-use linkwear_gamma::coupled::{Ended, Lives, MonteCarlo, Scale};
+use linkwear_gamma::coupled::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
 use linkwear_runtime::life::{
-    CycleRecord, DEFAULT_POINTS, Failure as End, FineScale, LifeState, Mean, Outcome, Stop, Table,
-    TableReport, run_life,
+    CycleRecord, DEFAULT_POINTS, Failure as End, FineScale, IncrementDraw, LifeState, Mean, Outcome, Stop,
+    Table, TableReport, run_life,
 };
 use linkwear_runtime::{RunError, System, TurnState};
 
@@ -18,6 +18,11 @@ use super::super::progress::{Progress, stop_requested};
 use super::folder::Folder;
 use super::output::{cycle_entry, cycles_table};
 use super::{Coupling, Plan, failed};
+
+/// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
+/// numbers, so few are enough; with the dynamics at every step each is dear.
+const SHIFTED_BY_TABLE: u64 = 200;
+const SHIFTED_BY_DYNAMICS: u64 = 4;
 
 /// Runs with a fine scale that was made for it.
 type Body<'b> = &'b mut dyn FnMut(&mut dyn FineScale<State = Option<TurnState>, Error = RunError>);
@@ -37,6 +42,8 @@ pub struct Lived<'p> {
     pub measurements: u64,
     /// Random lives, in the order of their numbers.
     pub lives: Vec<End>,
+    /// Standard error of the mean of the random lives by the covariances of fits, if there are any [cycles].
+    pub parameter_error: Option<f64>,
 }
 
 /// Why there is no whole answer, with the cycles of the mean path there were.
@@ -142,7 +149,9 @@ impl<'p> Lived<'p> {
     {
         let state = LifeState::new(&plan.settings, 0);
         let mut state = state.map_err(|error| Stopped::of(plan, &error.to_string(), &[]))?;
-        let outcome = run_life(&plan.settings, fine, &Mean, &mut state, &mut |cycle| {
+        let mean = plan.process.as_ref().map(super::process::Process::mean);
+        let draw: &dyn IncrementDraw = mean.as_ref().map_or(&Mean, |mean| mean);
+        let outcome = run_life(&plan.settings, fine, draw, &mut state, &mut |cycle| {
             show(cycle.used.min(1.0));
             go_on()
         });
@@ -163,35 +172,60 @@ impl<'p> Lived<'p> {
             plan,
             end,
             step_error: state.joints[end.joint].error,
-            warnings: state.warnings.iter().map(warning).collect(),
+            warnings: state
+                .warnings
+                .iter()
+                .map(warning)
+                .chain(plan.process.iter().flat_map(|process| process.warnings.clone()))
+                .collect(),
             cycles: state.cycles,
             table: None,
             measurements: state.measurements,
             lives: Vec::new(),
+            parameter_error: None,
         })
     }
 
-    /// The random lives.
+    /// The random lives, and what uncertain parameters do to their mean.
     fn draw<S: Clone + Default, E: Send + Display>(
         &mut self,
         scale: Scale<'_, S, E>,
         show: &(dyn Fn(f64) + Sync),
     ) -> Result<(), Stopped> {
+        let (Some(process), Some(count)) = (&self.plan.process, self.plan.trajectories) else {
+            return Ok(());
+        };
+        self.lives = self.draw_by(scale, &process.draw(), count, show)?;
+        let few = match self.plan.coupling {
+            Coupling::Table => SHIFTED_BY_TABLE,
+            Coupling::Full => SHIFTED_BY_DYNAMICS,
+        };
+        self.parameter_error = process.uncertainty(&mut |shifted| {
+            let lives = self.draw_by(scale, shifted, count.min(few), &|_| {})?;
+            Ok(lives.iter().map(|end| end.cycles).sum::<f64>() / lives.len() as f64)
+        })?;
+        Ok(())
+    }
+
+    /// Lives by these draws.
+    fn draw_by<S: Clone + Default, E: Send + Display>(
+        &self,
+        scale: Scale<'_, S, E>,
+        draw: &GammaDraw,
+        count: u64,
+        show: &(dyn Fn(f64) + Sync),
+    ) -> Result<Vec<End>, Stopped> {
         let plan = self.plan;
-        let Some((draw, count)) = &plan.random else { return Ok(()) };
         let mut settings = plan.settings.clone();
         settings.keep_cycles = false;
-        let run = MonteCarlo { settings: &settings, draw, trajectories: 0..*count, threads: plan.threads };
+        let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: plan.threads };
         let Lives { failures, ended } = run.run(scale, &|done| {
-            show(done as f64 / *count as f64);
+            show(done as f64 / count as f64);
             go_on()
         });
         let done = failures.len();
         let message = match ended {
-            Ended::Complete => {
-                self.lives = failures.into_iter().map(|(_, end)| end).collect();
-                return Ok(());
-            }
+            Ended::Complete => return Ok(failures.into_iter().map(|(_, end)| end).collect()),
             Ended::Cancelled => format!("stopped on request after {done} of {count} lives"),
             Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if stop_requested() => {
                 format!("stopped on request in life {trajectory}, after {done} of {count} lives")

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::super::input::Loaded;
 use super::super::table::{number, table};
 use super::lived::Lived;
+use super::process::Process;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
@@ -39,16 +40,33 @@ impl Lived<'_> {
         let whole: f64 = self.lives.iter().map(|end| end.whole_cycles as f64).sum();
         let first = (0..self.plan.settings.joints.len())
             .map(|joint| self.lives.iter().filter(|end| end.joint == joint).count() as f64 / count);
-        let budget = ErrorBudget {
-            monte_carlo: ErrorBudget::monte_carlo(lives.mean()),
-            table: match self.table_error() {
-                // A depth that is wrong everywhere by a part makes the life wrong by that part.
-                Some(error) => Part::Bound(error * lives.mean().value),
-                None => Part::Bound(self.step_error),
-            },
-            parameters: Part::None("alpha and beta are taken as known"),
-        };
+        let budget =
+            self.budget(lives.mean().value, ErrorBudget::monte_carlo(lives.mean()), self.parameter_error);
         Some(Scatter { budget, mean_whole_cycles: whole / count, first: first.collect(), lives })
+    }
+
+    /// Of a mean life, with its Monte-Carlo part and its standard error by the fits.
+    fn budget(&self, mean: f64, monte_carlo: Part, by_fits: Option<f64>) -> ErrorBudget {
+        let table = match self.table_error() {
+            // A depth that is wrong everywhere by a part makes the life wrong by that part.
+            Some(error) => Part::Bound(error * mean),
+            None => Part::Bound(self.step_error),
+        };
+        let parameters = match (by_fits, &self.plan.process) {
+            (Some(error), _) => ErrorBudget::random(error),
+            (None, Some(process)) if process.is_fitted() => Part::None("the fit gives no covariance"),
+            (None, Some(_)) => Part::None("alpha and beta are taken as known from the mechanism's file"),
+            (None, None) => Part::None("no Gamma process: wear is what physics says"),
+        };
+        ErrorBudget { monte_carlo, table, parameters }
+    }
+
+    /// Of the mean path.
+    fn budget_of_mean_path(&self) -> ErrorBudget {
+        let (joint, cycles) = (self.end.joint, self.end.cycles);
+        let process = self.plan.process.as_ref();
+        let by_fits = process.and_then(|process| process.uncertainty_of_mean_path(joint, cycles));
+        self.budget(cycles, Part::None("one life, every increment its mean"), by_fits)
     }
 
     /// Largest relative error of the table, if there is one.
@@ -83,15 +101,20 @@ impl Lived<'_> {
             "failed_joint": names[self.end.joint],
             "revolutions_per_cycle": joint.revolutions_per_cycle,
             "revolutions": summary.mean * joint.revolutions_per_cycle,
+            "parameters": self.plan.process.as_ref().map(Process::machine),
+            "shared_factor": self.plan.arguments.shared_factor,
             "table_error": self.table_error(),
             "measurements": self.measurements,
             "cycles": cycles,
             "warnings": warnings,
         });
-        if let Some(scatter) = self.scatter() {
-            let more = scatter.machine(&names);
-            answer.as_object_mut().expect("an object").extend(more);
-        }
+        let more = match self.scatter() {
+            Some(scatter) => scatter.machine(&names),
+            None => {
+                [("error_budget".to_owned(), budget_entry(&self.budget_of_mean_path()))].into_iter().collect()
+            }
+        };
+        answer.as_object_mut().expect("an object").extend(more);
         answer
     }
 
@@ -107,8 +130,15 @@ impl Lived<'_> {
             self.end.whole_cycles,
             number(self.end.cycles * joint.revolutions_per_cycle),
         );
+        text.push_str(&self.plan.process.as_ref().map_or_else(String::new, Process::human));
         if let Some(scatter) = self.scatter() {
             text.push_str(&scatter.human(&names, self.plan.arguments.seed));
+            if let Some(cov) = self.plan.arguments.shared_factor {
+                let _ = writeln!(
+                    text,
+                    "\nin each life all wear runs by one factor, of coefficient of variation {cov}"
+                );
+            }
         }
         text.push('\n');
         text.push_str(&cycles_table(&names, &self.cycles));
@@ -120,13 +150,9 @@ impl Lived<'_> {
             );
         }
         if self.lives.is_empty() {
-            let has = self
-                .plan
-                .description
-                .contacts
-                .iter()
-                .all(|joint| joint.wear.is_none_or(|wear| wear.scatter.is_some()));
-            text.push_str(if has {
+            let budget = self.budget_of_mean_path();
+            let _ = writeln!(text, "\nerror of the mean path, half-widths at 95 % [cycles]\n{budget}");
+            text.push_str(if self.plan.process.is_some() {
                 "\nno random lives were drawn; --trajectories 16 draws some\n"
             } else {
                 "\nno random lives: [wear] gives no alpha and beta of the Gamma process\n"
@@ -158,24 +184,13 @@ impl Scatter {
             .collect();
         let first: serde_json::Map<_, _> =
             names.iter().cloned().zip(self.first.iter().map(|part| json!(part))).collect();
-        let budget: serde_json::Map<_, _> = self
-            .budget
-            .parts()
-            .iter()
-            .map(|(name, part)| ((*name).to_owned(), json!(part.half_width())))
-            .collect();
         let mut more = serde_json::Map::new();
         more.insert("standard_errors".into(), json!({
             "mean": self.lives.mean().error, "std": self.lives.std().error, "cov": measured(self.lives.cov()),
         }));
         more.insert("reliability".into(), json!(reliability));
         more.insert("failed_first".into(), json!(first));
-        more.insert(
-            "error_budget".into(),
-            json!({
-                "half_widths_95": budget, "total": self.budget.total(),
-            }),
-        );
+        more.insert("error_budget".into(), budget_entry(&self.budget));
         more
     }
 
@@ -210,6 +225,13 @@ impl Scatter {
         }
         text
     }
+}
+
+/// A budget for machines.
+fn budget_entry(budget: &ErrorBudget) -> Value {
+    let parts = budget.parts().into_iter().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
+    let parts: serde_json::Map<_, _> = parts.collect();
+    json!({ "half_widths_95": parts, "total": budget.total() })
 }
 
 /// A cycle for machines.
