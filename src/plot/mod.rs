@@ -201,7 +201,7 @@ mod tests {
         let found = axis("force [N]", [3.0, 52.9, f64::NAN].into_iter(), 6);
         assert_eq!((found.range, found.step), ((0.0, 60.0), 10.0));
         let found = axis("z [mm]", [-300.0, 20.0].into_iter(), 5);
-        assert_eq!((found.range, found.step), ((-400.0, 100.0), 100.0));
+        assert_eq!((found.range, found.step), ((-300.0, 100.0), 100.0));
         assert_eq!(axis("", std::iter::empty(), 4).range.0, 0.0);
         assert_eq!(axis_around("life", [20.3, 29.9].into_iter(), 5).range, (20.0, 30.0));
     }

@@ -90,7 +90,8 @@ table { border-collapse: collapse; margin: .6rem 0 1.4rem; font-size: 9.5pt; }
 caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
 th, td { border-bottom: 1px solid #ccc; padding: .15rem .7rem .15rem 0; text-align: left; vertical-align: top; }
 th { border-bottom: 2px solid #444; }
-td.n { text-align: right; font-variant-numeric: tabular-nums; }
+td.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+th.n { text-align: right; }
 figure { margin: 1rem 0 1.6rem; } figure svg { max-width: 100%; height: auto; } figcaption { font-size: 9.5pt; }
 @media print { body { margin: 0; max-width: none; font-size: 10pt; } figure, table, tr { break-inside: avoid; } h2 { break-after: avoid; } }
 ";
@@ -113,7 +114,11 @@ pub fn html<'s>(title: &str, blocks: &[Block], svg_of: &dyn Fn(&str) -> Option<&
                 writeln!(text, "<ul>\n{points}</ul>")
             }
             Block::Table { caption, head, rows } => {
-                let head: String = head.iter().map(|title| format!("<th>{}</th>", safe(title))).collect();
+                let title = |(column, title): (usize, &String)| {
+                    let class = if of_numbers(rows, column) { " class=\"n\"" } else { "" };
+                    format!("<th{class}>{}</th>", safe(title))
+                };
+                let head: String = head.iter().enumerate().map(title).collect();
                 let body: String = rows.iter().map(|row| table_row(row)).collect();
                 let caption = safe(caption);
                 writeln!(text, "<table>\n<caption>{caption}</caption>\n<tr>{head}</tr>\n{body}</table>")
@@ -128,11 +133,18 @@ pub fn html<'s>(title: &str, blocks: &[Block], svg_of: &dyn Fn(&str) -> Option<&
     text
 }
 
+fn is_number(cell: &str) -> bool {
+    let first = cell.trim_start_matches(['+', '-', '−', '±', ' ']).chars().next();
+    first.is_some_and(|letter| letter.is_ascii_digit())
+}
+
+/// Whether most cells of a column are numbers.
+fn of_numbers(rows: &[Vec<String>], column: usize) -> bool {
+    let numbers = rows.iter().filter(|row| row.get(column).is_some_and(|cell| is_number(cell))).count();
+    2 * numbers > rows.len()
+}
+
 fn table_row(cells: &[String]) -> String {
-    let is_number = |cell: &String| {
-        let first = cell.trim_start_matches(['+', '-', '−', '±', ' ']).chars().next();
-        first.is_some_and(|letter| letter.is_ascii_digit())
-    };
     let cell = |cell: &String| {
         let class = if is_number(cell) { " class=\"n\"" } else { "" };
         format!("<td{class}>{}</td>", safe(cell))
@@ -169,6 +181,7 @@ mod tests {
     fn a_page_holds_its_pictures_and_needs_nothing_else() {
         let text = html("T", &blocks(), &|name| (name == "fig").then_some("<svg></svg>\n"));
         assert!(text.contains("<h2>F_n &lt; 3 &amp; more</h2>"), "{text}");
+        assert!(text.contains("<th>name</th><th class=\"n\">value</th>"), "{text}");
         assert!(text.contains("<td>a|b</td><td class=\"n\">-1.5</td>"), "{text}");
         assert!(text.contains("<svg></svg>\n<figcaption>A figure"), "{text}");
         assert!(!text.contains("<script") && !text.contains("src="));

@@ -126,8 +126,9 @@ fn shifts(around: &Around) -> String {
         rigid_centre > (2.0 * finest_centre).max(0.2 * bin),
     ) {
         (_, true) => {
-            "So the wear itself lies elsewhere than in the deterministic model, as the paper says, and the finest own \
-             model stands with the proposed one."
+            "So the centre of the worn volume shifts by a small angle, as the paper says, and the finest own model stands \
+             with the proposed one. Peaks seem to shift by more, but with chatter a peak becomes a flat top, whose highest \
+             place is an accident."
         }
         (true, false) => {
             "So peaks shift, as the paper says, but the worn volume stays where it is: with chatter a peak becomes a \
