@@ -8,8 +8,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkwear_runtime::Scalar;
 use linkwear_runtime::contact::{
-    Friction, ImpactMemory, Laws, LocalGap, Normal, Onset, Restitution, RevoluteContact, RevoluteMotion,
-    SphericalContact, SphericalMotion, Stiffness, Strength, bearing_angle, crossing_speed,
+    Friction, ImpactMemory, Laws, Normal, Onset, Restitution, RevoluteContact, RevoluteMotion,
+    SphericalContact, SphericalMotion, Stiffness, Strength, Support, bearing_angle, crossing_speed,
 };
 use linkwear_runtime::wear::{Archard, Area, Load, Pair, ScalarFeedback};
 use proptest::prelude::*;
@@ -110,8 +110,11 @@ fn everything<T: Scalar>(x: [T; 11]) -> Vec<T> {
     let stiffness = Stiffness::Hertz { modulus: 115e9 }.value(radius, clearance);
     let memory = ImpactMemory { touching, closing_speed: impact };
     let motion = RevoluteMotion { offset: [ox, oy], offset_rate: [vx, vy], joint_speed: omega };
-    let gap = LocalGap { clearance, slope, joint_slope: -slope };
-    let flat = RevoluteContact::new(&motion, radius, &gap);
+    // A worn bearing: the gradient leans.
+    let Support { penetration, gradient: [nx, ny] } = Support::round(motion.offset, clearance);
+    let lean = slope / clearance;
+    let support = Support { penetration: penetration - slope, gradient: [nx - lean * ny, ny + lean * nx] };
+    let flat = RevoluteContact::new(&motion, radius, &support);
     let motion = SphericalMotion {
         offset: [ox, oy, oz],
         offset_rate: [vx, vy, vz],

@@ -128,8 +128,8 @@ fn resting_offset(evaluator: &Evaluator<'_>, index: usize, force: [f64; 3]) -> [
     let clearance = clearances.touches()[index].clearance;
     let normal = force.map(|component| -component / size);
     let profile = state.profile.as_ref();
-    let local = profile.map_or(0.0, |profile| profile.at(normal[1].atan2(normal[0])).0 - profile.mean());
-    let distance = clearance + local + joint.resting_penetration(clearance, size);
+    let round = clearance - profile.map_or(0.0, |profile| profile.mean());
+    let distance = joint.distance(round, profile, normal, joint.resting_penetration(clearance, size));
     normal.map(|component| component * distance)
 }
 

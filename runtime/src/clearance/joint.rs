@@ -2,10 +2,10 @@
 //! In: [`ContactInfo`]; then motion, wear so far, memory. Out: [`Touch`].
 
 use crate::contact::{
-    Friction, ImpactMemory, Laws, LocalGap, Normal, OutOfRange, RevoluteContact, RevoluteMotion,
-    SphericalContact, SphericalMotion, Stiffness, bearing_angle, positive,
+    Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
+    SphericalMotion, Stiffness, Support, positive,
 };
-use crate::wear::{Archard, Load, Pair, Profile, ScalarFeedback, worn_gap};
+use crate::wear::{Archard, Grid, Load, Pair, Profile, ScalarFeedback};
 use crate::{CONTACT_MOTION, CONTACT_WRENCH, ContactInfo, WearInfo};
 
 /// A joint with clearance and its laws.
@@ -18,6 +18,8 @@ pub struct Clearance {
     modulus: f64,
     ball: bool,
     wear: Option<(Archard, WearInfo)>,
+    /// Bins of the profile, if one is kept.
+    grid: Option<Grid>,
 }
 
 /// A contact at one instant.
@@ -98,6 +100,7 @@ impl Clearance {
             length: positive("bearing length", info.length)?,
             modulus: positive("contact modulus", info.modulus)?,
             ball: info.ball,
+            grid: wear.filter(|(_, wear)| wear.keeps_profile()).map(|(_, wear)| Grid::new(wear.bins)),
             wear,
         })
     }
@@ -138,6 +141,24 @@ impl Clearance {
         self.laws.normal.resting_penetration(self.stiffness(clearance), force)
     }
 
+    /// How far [m] from the bearing's centre along a unit vector the journal penetrates by so much [m], at a clearance
+    /// [m] that a profile is worn on top of.
+    #[must_use]
+    pub fn distance(
+        &self,
+        clearance: f64,
+        profile: Option<&Profile>,
+        direction: [f64; 3],
+        penetration: f64,
+    ) -> f64 {
+        match self.grid.as_ref().zip(profile) {
+            Some((grid, profile)) => {
+                grid.distance(profile, clearance, [direction[0], direction[1]], penetration)
+            }
+            None => clearance + penetration,
+        }
+    }
+
     /// Geometry for areas at a clearance [m].
     #[must_use]
     pub fn pair(&self, clearance: f64) -> Pair<f64> {
@@ -167,14 +188,14 @@ impl Clearance {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
             self.ball_touch(&motion, clearance, stiffness, memory)
         } else {
-            let [x, y, _] = offset;
-            let gap = match profile {
-                Some(profile) => worn_gap(round, profile, None, bearing_angle([x, y]), 0.0),
-                None => LocalGap::round(round),
+            let offset = [offset[0], offset[1]];
+            let support = match self.grid.as_ref().zip(profile) {
+                Some((grid, profile)) => grid.support(profile, round, offset),
+                None => Support::round(offset, round),
             };
             let offset_rate = [offset_rate[0], offset_rate[1]];
-            let motion = RevoluteMotion { offset: [x, y], offset_rate, joint_speed: turning[2] };
-            self.journal_touch(&motion, &gap, stiffness, memory)
+            let motion = RevoluteMotion { offset, offset_rate, joint_speed: turning[2] };
+            self.journal_touch(&motion, &support, stiffness, memory)
         };
         touch.clearance = clearance;
         self.finish(&mut touch);
@@ -184,11 +205,11 @@ impl Clearance {
     fn journal_touch(
         &self,
         motion: &RevoluteMotion<f64>,
-        gap: &LocalGap<f64>,
+        support: &Support<f64>,
         stiffness: f64,
         memory: &ImpactMemory<f64>,
     ) -> Touch {
-        let contact = RevoluteContact::new(motion, self.radius, gap);
+        let contact = RevoluteContact::new(motion, self.radius, support);
         let force = contact.force(&self.laws, stiffness, memory);
         Touch {
             offset: [motion.offset[0], motion.offset[1], 0.0],

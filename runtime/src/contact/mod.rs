@@ -23,7 +23,7 @@ pub use memory::{ImpactMemory, crossing_speed};
 pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce, Restitution};
 pub use range::OutOfRange;
 pub(crate) use range::{not_negative, positive};
-pub use revolute::{LocalGap, RevoluteContact, RevoluteForce, RevoluteMotion, bearing_angle};
+pub use revolute::{RevoluteContact, RevoluteForce, RevoluteMotion, Support, bearing_angle};
 pub use spherical::{SphericalContact, SphericalForce, SphericalMotion};
 pub use stiffness::{Stiffness, effective_radius, equivalent_modulus};
 

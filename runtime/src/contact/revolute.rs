@@ -1,5 +1,5 @@
 //! A journal in its bearing, [CS (9)-(13), (16), (17)]: gap, penetration, sliding, forces on the journal.
-//! In: motion of the journal's centre in the bearing's frame, relative speed of the joint, local gap.
+//! In: motion of the journal's centre in the bearing's frame, relative speed of the joint, penetration with its gradient.
 //! Out: one [`RevoluteContact`], from it one [`RevoluteForce`]. Never knows generalised coordinates.
 
 use super::{ImpactMemory, Laws};
@@ -19,34 +19,32 @@ pub struct RevoluteMotion<T> {
     pub joint_speed: T,
 }
 
-/// Radial gap of centred bodies where they touch.
+/// How a bearing meets the centre of its journal: the penetration as a function of the offset.
 ///
-/// With a worn profile it depends on the bearing angle, and on the angle in the journal if that wears
-/// too. Slopes tilt the direction in which the gap opens; the forces follow, so that a worn contact
-/// stores and returns energy like a round one.
+/// The gradient of a round bearing is the unit vector from its centre to that of the journal. A worn bearing has its
+/// own normals, and in a corner the journal leans on two places at once: their mean is shorter than one. Forces
+/// follow the gradient, so that a worn contact stores and returns energy like a round one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocalGap<T> {
-    /// Radial clearance at the contact angle, wear included [m].
-    pub clearance: T,
-    /// Its slope by the contact angle at a fixed joint angle [m/rad].
-    pub slope: T,
-    /// Its slope by the joint angle at a fixed contact angle [m/rad]: minus the slope of the journal's
-    /// depth by the angle in the journal.
-    pub joint_slope: T,
+pub struct Support<T> {
+    /// Penetration, negative while the bodies are apart [m].
+    pub penetration: T,
+    /// Its gradient by the offset [1].
+    pub gradient: [T; 2],
 }
 
-impl<T: Scalar> LocalGap<T> {
-    /// The gap of round bodies with a radial clearance [m].
+impl<T: Scalar> Support<T> {
+    /// That of a round bearing with a radial clearance [m], [CS (11)-(13)].
     #[inline]
-    pub fn round(clearance: T) -> Self {
-        Self { clearance, slope: T::constant(0.0), joint_slope: T::constant(0.0) }
+    pub fn round(offset: [T; 2], clearance: T) -> Self {
+        let (distance, normal) = direction(offset);
+        Self { penetration: distance - clearance, gradient: normal }
     }
 }
 
 /// Geometry and sliding of a contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RevoluteContact<T> {
-    /// Contact angle atan2(y, x) in the bearing's frame, in (-pi, pi] [rad].
+    /// Contact angle atan2(y, x) of the offset in the bearing's frame, in (-pi, pi] [rad].
     pub angle: T,
     /// Distance of the centres [m].
     pub distance: T,
@@ -56,16 +54,12 @@ pub struct RevoluteContact<T> {
     pub penetration: T,
     /// Rate of the penetration [m/s].
     pub penetration_rate: T,
-    /// Unit vector from the bearing's centre to the contact.
+    /// Gradient of the penetration: from the bearing's centre to the contact, of length one in a round bearing.
     pub normal: [T; 2],
-    /// Unit vector a quarter turn ahead of the normal.
+    /// A quarter turn ahead of the normal, of the same length.
     pub tangent: [T; 2],
     /// Speed of the journal's surface over the bearing's along the tangent [m/s].
     pub sliding_speed: T,
-    /// Slope of the penetration along the tangent, zero for round bodies.
-    tilt: T,
-    /// Slope of the penetration by the joint angle [m/rad], zero for round bodies.
-    joint_slope: T,
     journal_radius: T,
 }
 
@@ -115,29 +109,21 @@ impl<T: Scalar> RevoluteContact<T> {
     /// The sliding speed is that of the surfaces: t . offset_rate + r_j joint_speed. [CS (17)] has it
     /// the other way round, bearing minus journal, which is right only for forces on the bearing.
     #[inline]
-    pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, gap: &LocalGap<T>) -> Self {
-        let (distance, normal) = direction(motion.offset);
+    pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, support: &Support<T>) -> Self {
+        let (distance, outward) = direction(motion.offset);
+        let Support { penetration, gradient: normal } = *support;
         let tangent = [-normal[1], normal[0]];
         let [vx, vy] = motion.offset_rate;
-        let radial_speed = normal[0] * vx + normal[1] * vy;
         let around = tangent[0] * vx + tangent[1] * vy;
-        // Centred bodies have no contact angle that could change the gap.
-        let centred = distance.lt(T::constant(f64::MIN_POSITIVE));
-        let divisor = T::select(centred, T::constant(1.0), distance);
-        let tilt = -(T::select(centred, T::constant(0.0), gap.slope) / divisor);
-        let joint_slope = -gap.joint_slope;
-        let penetration = distance - gap.clearance;
         Self {
-            angle: normal[1].atan2(normal[0]),
+            angle: outward[1].atan2(outward[0]),
             distance,
             gap: -penetration,
             penetration,
-            penetration_rate: radial_speed + tilt * around + joint_slope * motion.joint_speed,
+            penetration_rate: normal[0] * vx + normal[1] * vy,
             normal,
             tangent,
             sliding_speed: around + journal_radius * motion.joint_speed,
-            tilt,
-            joint_slope,
             journal_radius,
         }
     }
@@ -149,15 +135,14 @@ impl<T: Scalar> RevoluteContact<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
         let friction_force = laws.friction.signed(self.sliding_speed) * normal.force;
-        let along = friction_force + normal.force * self.tilt;
         RevoluteForce {
             normal_force: normal.force,
             friction_force,
             force: [
-                -(normal.force * self.normal[0] + along * self.tangent[0]),
-                -(normal.force * self.normal[1] + along * self.tangent[1]),
+                -(normal.force * self.normal[0] + friction_force * self.tangent[0]),
+                -(normal.force * self.normal[1] + friction_force * self.tangent[1]),
             ],
-            torque: -(self.journal_radius * friction_force + normal.force * self.joint_slope),
+            torque: -(self.journal_radius * friction_force),
             elastic_energy: normal.elastic_energy,
             elastic_power: normal.elastic_power,
             damping_loss: normal.damping_loss,
@@ -195,7 +180,7 @@ mod tests {
             joint_speed: 4.0 * PI,
         };
         let stiffness = crate::contact::Stiffness::Hertz { modulus: 115e9 }.value(0.01, 1e-5);
-        let contact = RevoluteContact::new(&motion, 0.01, &LocalGap::round(1e-5));
+        let contact = RevoluteContact::new(&motion, 0.01, &Support::round(motion.offset, 1e-5));
         let force = contact.force(&laws(), stiffness, &ImpactMemory::in_contact(0.0));
         // Ten printed digits; p loses two of them against the clearance, F_n has 1.5 times its error.
         assert!((contact.angle - 0.481_561_615_3).abs() < 1e-9);
@@ -214,8 +199,8 @@ mod tests {
             offset_rate: [d(0.1, 0.0), d(0.2, 0.0)],
             joint_speed: d(12.0, 0.0),
         };
-        let gap = LocalGap { slope: d(1e-6, 0.0), ..LocalGap::round(d(1e-5, 0.0)) };
-        let contact = RevoluteContact::new(&motion, d(0.01, 0.0), &gap);
+        let support = Support::round(motion.offset, d(1e-5, 0.0));
+        let contact = RevoluteContact::new(&motion, d(0.01, 0.0), &support);
         let force = contact.force(&laws(), d(K, 0.0), &ImpactMemory::apart());
         assert_eq!((contact.angle.value, contact.penetration.value), (0.0, -1e-5));
         assert_eq!((force.force[0].value, force.force[1].value, force.torque.value), (0.0, 0.0, 0.0));
@@ -237,7 +222,7 @@ mod tests {
     #[test]
     fn a_journal_turning_forwards_is_held_back_at_the_contact() {
         let motion = RevoluteMotion { offset: [1.1e-5, 0.0], offset_rate: [0.0, 0.0], joint_speed: 12.0 };
-        let contact = RevoluteContact::new(&motion, 0.01, &LocalGap::round(1e-5));
+        let contact = RevoluteContact::new(&motion, 0.01, &Support::round(motion.offset, 1e-5));
         let out = contact.force(&laws(), K, &ImpactMemory::in_contact(0.0));
         assert!(out.normal_force > 0.0 && out.torque < 0.0);
         assert_eq!(out.force[0], -out.normal_force);
@@ -246,21 +231,27 @@ mod tests {
         assert!((out.torque / (0.01 * out.force[1]) - 1.0).abs() < 1e-15);
     }
 
-    /// Inputs as one list: offset, its rate, joint speed, clearance, slopes, impact speed.
+    /// A wall: the penetration goes with a constant gradient.
+    fn wall<T: Scalar>(x: &[T; 9]) -> Support<T> {
+        Support { penetration: x[0] * x[6] + x[1] * x[7] - x[5], gradient: [x[6], x[7]] }
+    }
+
+    /// Inputs as one list: offset, its rate, joint speed, clearance, gradient, impact speed.
     fn evaluate<T: Scalar>(x: [T; 9]) -> ([T; 3], RevoluteForce<T>) {
         let motion = RevoluteMotion { offset: [x[0], x[1]], offset_rate: [x[2], x[3]], joint_speed: x[4] };
-        let gap = LocalGap { clearance: x[5], slope: x[6], joint_slope: x[7] };
-        let contact = RevoluteContact::new(&motion, T::constant(0.01), &gap);
+        let contact = RevoluteContact::new(&motion, T::constant(0.01), &wall(&x));
         let out = contact.force(&laws(), T::constant(K), &ImpactMemory::in_contact(x[8]));
         ([out.force[0], out.force[1], out.torque], out)
     }
 
     fn inputs() -> impl Strategy<Value = [f64; 9]> {
         let round = (0.0..2.0 * PI, -5e-7..5e-7_f64, -0.01..0.01_f64, -0.01..0.01_f64, -20.0..20.0_f64);
-        (round, 5e-6..5e-5_f64, -1e-6..1e-6_f64, -1e-6..1e-6_f64, 0.0..0.02_f64).prop_map(
-            |((angle, p, vx, vy, omega), c, slope, joint_slope, impact)| {
-                let r = c + p;
-                [r * angle.cos(), r * angle.sin(), vx, vy, omega, c, slope, joint_slope, impact]
+        (round, 5e-6..5e-5_f64, 0.5..1.0_f64, -0.5..0.5_f64, 0.0..0.02_f64).prop_map(
+            |((angle, p, vx, vy, omega), c, length, lean, impact)| {
+                // The journal points a little beside the normal of the wall.
+                let (gx, gy) = (length * angle.cos(), length * angle.sin());
+                let r = (c + p) / (length * lean.cos());
+                [r * (angle + lean).cos(), r * (angle + lean).sin(), vx, vy, omega, c, gx, gy, impact]
             },
         )
     }
@@ -279,35 +270,28 @@ mod tests {
 
         #[test]
         fn elastic_energy_changes_by_the_elastic_power(x in inputs()) {
-            // Along the motion: the offset moves with its rate, the gap with its slopes.
-            let c = Dual::<f64>::constant;
-            let square = x[0] * x[0] + x[1] * x[1];
-            let angle_rate = (x[0] * x[3] - x[1] * x[2]) / square;
-            let gap_rate = x[6] * angle_rate + x[7] * x[4];
-            let dual = [
-                Dual::new(x[0], x[2]), Dual::new(x[1], x[3]), c(x[2]), c(x[3]), c(x[4]),
-                Dual::new(x[5], gap_rate), c(x[6]), c(x[7]), c(x[8]),
-            ];
+            // Along the motion: the offset moves with its rate.
+            let mut dual = x.map(Dual::<f64>::constant);
+            (dual[0], dual[1]) = (Dual::new(x[0], x[2]), Dual::new(x[1], x[3]));
             let (_, out) = evaluate(dual);
             let scale = out.elastic_power.value.abs() + out.normal_force.value * 0.01;
-            // As above; the derivative of atan2 is not used.
+            // As above.
             prop_assert!((out.elastic_energy.derivative - out.elastic_power.value).abs() <= 1e-14 * scale);
         }
 
         #[test]
         fn derivatives_of_the_forces_agree_with_central_differences(x in inputs(), index in 0..9_usize) {
             // Kinks (onset of contact, clamp, smoothing, floor) within the step are left out.
-            let step = [1e-10, 1e-10, 1e-6, 1e-6, 1e-3, 1e-10, 1e-10, 1e-10, 1e-6][index];
+            let step = [1e-10, 1e-10, 1e-6, 1e-6, 1e-3, 1e-10, 1e-6, 1e-6, 1e-6][index];
             let shifted = |by: f64| { let mut y = x; y[index] += by; y };
             let motion = |y: [f64; 9]| RevoluteMotion { offset: [y[0], y[1]], offset_rate: [y[2], y[3]], joint_speed: y[4] };
             let sides = [shifted(-step), shifted(step)].map(|y| {
-                let gap = LocalGap { clearance: y[5], slope: y[6], joint_slope: y[7] };
-                let contact = RevoluteContact::new(&motion(y), 0.01, &gap);
+                let contact = RevoluteContact::new(&motion(y), 0.01, &wall(&y));
                 let damped = 1.0 + laws().normal.damping_factor() * contact.penetration_rate / y[8].max(1e-3);
                 (contact.penetration > 0.0, contact.sliding_speed.abs() < 1e-3, damped > 0.0, y[8] > 1e-3)
             });
             prop_assume!(sides[0] == sides[1]);
-            prop_assume!((x[0].hypot(x[1]) - x[5]).abs() > 2e-8);
+            prop_assume!(wall(&x).penetration.abs() > 2e-8);
             let mut dual = x.map(Dual::<f64>::constant);
             dual[index] = Dual::variable(x[index]);
             let (exact, out) = evaluate(dual);
@@ -315,8 +299,9 @@ mod tests {
             for i in 0..3 {
                 let difference = (high[i] - low[i]) / (2.0 * step);
                 // Rounding of a force over the step, and (step/size)² of truncation: sizes are 2e-8 m for
-                // the penetration, 1e-3 m/s and 0.1 rad/s (r_j omega = 1e-3 m/s) for the speeds.
-                let scale = out.normal_force.value * [5e7, 5e7, 1e3, 1e3, 10.0, 5e7, 5e7, 5e7, 1e3][index];
+                // the penetration (2e-4 of an offset of 1e-4 m for the gradient), 1e-3 m/s and 0.1 rad/s
+                // (r_j omega = 1e-3 m/s) for the speeds.
+                let scale = out.normal_force.value * [5e7, 5e7, 1e3, 1e3, 10.0, 5e7, 5e3, 5e3, 1e3][index];
                 prop_assert!(
                     (exact[i].derivative - difference).abs() <= 1e-3 * exact[i].derivative.abs() + 2e-4 * scale,
                     "{} {} {}", i, exact[i].derivative, difference

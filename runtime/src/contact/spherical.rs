@@ -139,7 +139,7 @@ mod tests {
     use super::*;
     use crate::Dual;
     use crate::contact::{
-        Friction, LocalGap, Normal, Onset, Restitution, RevoluteContact, RevoluteMotion, Strength,
+        Friction, Normal, Onset, Restitution, RevoluteContact, RevoluteMotion, Strength, Support,
     };
     use proptest::prelude::*;
 
@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn a_ball_turning_about_the_axis_is_a_journal() {
         let flat = RevoluteMotion { offset: [8e-6, 7e-6], offset_rate: [-1e-3, 2e-3], joint_speed: 11.0 };
-        let journal = RevoluteContact::new(&flat, 0.01, &LocalGap::round(1e-5));
+        let journal = RevoluteContact::new(&flat, 0.01, &Support::round(flat.offset, 1e-5));
         let plane = journal.force(&laws(), K, &ImpactMemory::in_contact(2e-3));
         let motion = SphericalMotion {
             offset: [8e-6, 7e-6, 0.0],

@@ -55,7 +55,7 @@ pub struct RevolutionWear {
     pub wear_integral: f64,
     /// Depth by the model of the contact area [m].
     pub depth: f64,
-    /// Depth gained by bearing angle, if asked for.
+    /// Depth gained by the direction of the journal's offset, if asked for: by bearing angle, where the bearing is round.
     pub profile: Option<Profile>,
     /// Mean normal force [N].
     pub mean_force: f64,

@@ -274,7 +274,10 @@ impl JointLife {
     pub(super) fn after(&self, state: &JointState, increment: &[f64], factor: f64) -> JointState {
         let profile = state.profile.as_ref().map(|profile| {
             let mut worn = profile.clone();
-            let fits = worn.add_depths(&increment[1..], factor);
+            let fits = match self.feedback {
+                Feedback::Scalar(_) => worn.add_depths(&increment[1..], factor),
+                Feedback::Profile => worn.wear_in(&increment[1..], factor, state.clearance),
+            };
             debug_assert!(fits, "increments are as wide as the joint says");
             worn
         });

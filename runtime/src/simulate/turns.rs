@@ -128,11 +128,15 @@ impl<'a> TurnRunner<'a> {
             evaluator.clearances_mut().states_mut()[joint] = kept;
             return Err(error);
         }
-        let opened = evaluator.clearances().touches()[joint].gap - before[joint].gap;
         if before[joint].gap < 0.0 {
             let mut targets: Vec<_> = before.iter().map(|touch| Some(touch.offset)).collect();
             let normal = before[joint].normal();
-            targets[joint] = Some(std::array::from_fn(|i| before[joint].offset[i] + opened * normal[i]));
+            let clearances = evaluator.clearances();
+            let profile = clearances.states()[joint].profile.as_ref();
+            let round = clearances.touches()[joint].clearance - profile.map_or(0.0, Profile::mean);
+            let penetration = before[joint].penetration();
+            let distance = clearances.joints()[joint].distance(round, profile, normal, penetration);
+            targets[joint] = Some(normal.map(|component| distance * component));
             // Where loops do not let it, the journal finds its way through the settling turns.
             let _ = place(evaluator, self.t, &mut self.state, &targets);
         }

@@ -11,10 +11,14 @@ mod feedback;
 mod limits;
 #[cfg(feature = "std")]
 mod profile;
+#[cfg(feature = "std")]
+mod reach;
 
 pub use archard::{Archard, WearRates};
 pub use area::{Area, Load, Pair};
 pub use feedback::{Measure, ScalarFeedback};
 pub use limits::{Limits, Observed, Warning};
 #[cfg(feature = "std")]
-pub use profile::{DEFAULT_BINS, Profile, ProfileError, worn_gap};
+pub use profile::{DEFAULT_BINS, Profile, ProfileError};
+#[cfg(feature = "std")]
+pub use reach::Grid;

@@ -6,15 +6,14 @@
 //! so the sum is conserved whatever the arc. Between the middles of bins the depth is a monotone cubic:
 //! continuously differentiable, and never outside the two depths it connects (no negative depth).
 //!
-//! In `f64` only: to look something up by an angle is not an operation of lanes. Their results enter the
-//! lanes as values and slopes, see [`crate::contact::LocalGap`].
+//! In `f64` only: to look something up by an angle is not an operation of lanes. What a profile does to a contact
+//! enters the lanes as a penetration with its gradient, see [`crate::contact::Support`].
 
 use core::error::Error;
 use core::f64::consts::PI;
 use core::fmt;
 
 use super::Measure;
-use crate::contact::LocalGap;
 
 /// Bins unless told otherwise: 5 degrees each.
 pub const DEFAULT_BINS: usize = 72;
@@ -24,7 +23,7 @@ pub const DEFAULT_BINS: usize = 72;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Vec<f64>", into = "Vec<f64>"))]
 pub struct Profile {
-    depths: Vec<f64>,
+    pub(super) depths: Vec<f64>,
 }
 
 /// Depths that make no profile.
@@ -200,25 +199,6 @@ impl Profile {
     }
 }
 
-/// The gap at a bearing angle [rad] of a joint with unworn radial clearance [m], worn on the bearing and
-/// perhaps on the journal, whose own angle is the bearing angle less `joint_angle` [rad].
-pub fn worn_gap(
-    clearance: f64,
-    bearing: &Profile,
-    journal: Option<&Profile>,
-    bearing_angle: f64,
-    joint_angle: f64,
-) -> LocalGap<f64> {
-    let (depth, slope) = bearing.at(bearing_angle);
-    let (journal_depth, journal_slope) =
-        journal.map_or((0.0, 0.0), |journal| journal.at(bearing_angle - joint_angle));
-    LocalGap {
-        clearance: clearance + depth + journal_depth,
-        slope: slope + journal_slope,
-        joint_slope: -journal_slope,
-    }
-}
-
 /// Share of a half ellipse over [-1, 1] that lies below x.
 fn half_ellipse_below(x: f64) -> f64 {
     let x = x.clamp(-1.0, 1.0);
@@ -291,32 +271,6 @@ mod tests {
         // In the middle of a bin the depth is that of the bin; at a peak it is level.
         let (depth, slope) = profile.at(profile.middle(2));
         assert!((depth - 6.0).abs() < 1e-14 && slope.abs() < 1e-13);
-    }
-
-    #[test]
-    fn an_evenly_worn_profile_is_a_larger_clearance() {
-        let worn = Profile::try_from(vec![2e-6; 72]).unwrap();
-        for angle in [-PI, -0.1, 0.0, 3.0, PI, 40.0] {
-            let gap = worn_gap(1e-5, &worn, Some(&worn), angle, 0.7);
-            assert_eq!((gap.clearance, gap.slope, gap.joint_slope), (1e-5 + 2e-6 + 2e-6, 0.0, 0.0));
-        }
-    }
-
-    #[test]
-    fn slopes_of_a_worn_gap_are_its_derivatives() {
-        let bearing = Profile::try_from((0..24).map(|i| f64::from(i * i % 7)).collect::<Vec<_>>()).unwrap();
-        let journal = Profile::try_from((0..16).map(|i| f64::from(i * 5 % 11)).collect::<Vec<_>>()).unwrap();
-        let gap = |angle, joint| worn_gap(10.0, &bearing, Some(&journal), angle, joint);
-        let h = 1e-6;
-        for i in 0..60 {
-            let (angle, joint) = (0.1 * f64::from(i) - 3.0 + 0.013, 0.37 * f64::from(i));
-            let here = gap(angle, joint);
-            let by_angle = (gap(angle + h, joint).clearance - gap(angle - h, joint).clearance) / (2.0 * h);
-            let by_joint = (gap(angle, joint + h).clearance - gap(angle, joint - h).clearance) / (2.0 * h);
-            // Second derivatives (below 2e3 per rad²) jump at the middles of bins: h times that; rounding 1e-9.
-            assert!((here.slope - by_angle).abs() < 2e-3, "{i}: {} {by_angle}", here.slope);
-            assert!((here.joint_slope - by_joint).abs() < 2e-3, "{i}: {} {by_joint}", here.joint_slope);
-        }
     }
 
     #[test]
