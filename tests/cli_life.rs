@@ -272,3 +272,23 @@ fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
     let none = steady(&["--shared-factor", "0.2", "--coupling", "full"]);
     assert!(none.code == 2 && none.err.contains("--trajectories"), "{}", none.err);
 }
+
+#[test]
+fn mechanisms_without_a_life_are_told_what_they_lack() {
+    let ask = |file: &str| {
+        let answer = linkwear(&["life", file, "--format", "json"]);
+        assert_eq!(answer.code, 1);
+        let text = |key: &str| answer.errors()[0][key].as_str().expect("a text").to_owned();
+        (text("message"), text("help"))
+    };
+    let (message, help) = ask("mechanisms/pendulum.toml");
+    assert!(
+        message.contains("no joint of this mechanism wears") && help.contains("[wear.R1]"),
+        "{message} {help}"
+    );
+    let folder = Folder::new("life-undriven");
+    let text = std::fs::read_to_string(RSSR).expect("the case study");
+    let undriven = folder.write("undriven.toml", &text.replace(", drive = \"2*pi*speed*t\"", ""));
+    let (message, help) = ask(&undriven);
+    assert!(message.contains("no revolute joint is driven") && help.contains("drive = "), "{message} {help}");
+}

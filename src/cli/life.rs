@@ -9,7 +9,7 @@ mod process;
 use std::num::NonZero;
 
 use linkwear_runtime::life::{Feedback, LifeSettings, WearStep};
-use linkwear_runtime::{Description, Integrator, RevolutionSettings, Revolutions, System};
+use linkwear_runtime::{Description, Integrator, RevolutionSettings, Revolutions, RunError, System};
 
 use self::folder::Folder;
 use self::lived::Lived;
@@ -71,13 +71,19 @@ impl<'a> Plan<'a> {
             average: arguments.average,
         };
         let wrong = |message: String, help: &str| failed(arguments, &message, help);
-        let start = Revolutions::new(system, description, &parameters, revolutions)
-            .map_err(|error| wrong(error.to_string(), ""))?;
-        let joints = start.joints().map_err(|error| wrong(error.to_string(), ""))?;
-        if joints.is_empty() {
+        if !description.contacts.iter().any(|contact| contact.wear.is_some()) {
             let message = "no joint of this mechanism wears".to_owned();
             return Err(wrong(message, "add [clearance.R1] and [wear.R1], R1 being the joint that wears"));
         }
+        let start =
+            Revolutions::new(system, description, &parameters, revolutions).map_err(|error| match error {
+                RunError::NoTurns => {
+                    let message = "no revolute joint is driven, so revolutions cannot be counted".to_owned();
+                    wrong(message, "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }")
+                }
+                error => wrong(error.to_string(), ""),
+            })?;
+        let joints = start.joints().map_err(|error| wrong(error.to_string(), ""))?;
         let mut settings = LifeSettings::new(joints);
         if arguments.no_feedback {
             settings = settings.without_feedback();
@@ -107,10 +113,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Revolutions of a system, ended by Ctrl-C.
-    fn fine<'s>(
-        &'s self,
-        system: &'s dyn System<f64>,
-    ) -> Result<Revolutions<'s>, linkwear_runtime::RunError> {
+    fn fine<'s>(&'s self, system: &'s dyn System<f64>) -> Result<Revolutions<'s>, RunError> {
         let made = Revolutions::new(system, self.description, &self.parameters, self.revolutions)?;
         Ok(made.stopped_by(&stop_requested))
     }
