@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::error::StudyError;
 use super::model::Model;
 use super::options::Effort;
-use super::tables::{Measured, measured};
-use super::watch::{Job, Watch, run_all};
+use super::tables::{Measured, flexible, job};
+use super::watch::{Watch, run_all};
 
 /// Points of a table of two ends, the fewest that there are.
 pub(super) const POINTS: usize = 3;
@@ -37,18 +37,8 @@ pub(super) fn areas(
     watch: &Watch<'_>,
 ) -> Result<Vec<AreaGrowth>, StudyError> {
     let areas = [("projected", Area::Projected), ("Hertz", Area::Hertz), ("conformal", Area::Conformal)];
-    let rigid = |area: Area| -> Job<'_, Result<Measured, StudyError>> {
-        Box::new(move || {
-            let model = Model::rigid()?.wearing(area, effort.bins);
-            measured(&model, (effort.rigid, POINTS), FULL, watch)
-        })
-    };
-    let flexible = |area: Area| -> Job<'_, Result<Measured, StudyError>> {
-        Box::new(move || {
-            let model = Model::flexible().wearing(area, effort.bins);
-            measured(&model, (effort.flexible, POINTS), FULL, watch)
-        })
-    };
+    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, POINTS), FULL, watch);
+    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, POINTS), FULL, watch);
     let jobs = areas.iter().map(|area| rigid(area.1)).chain(areas.iter().map(|area| flexible(area.1)));
     let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs.collect()).into_iter().collect();
     let found = found?;

@@ -86,10 +86,9 @@ impl Effort {
     }
 
     fn quick() -> Self {
-        let step = 2e-5;
-        let settings = RevolutionSettings { integrator: Integrator::Rk4 { step }, settle: 2, average: 1 };
+        let full = Self::full();
+        let settings = RevolutionSettings { settle: 2, ..full.flexible };
         Self {
-            step,
             flexible: settings,
             rigid: RevolutionSettings { average: 4, ..settings },
             bins: 72,
@@ -100,8 +99,7 @@ impl Effort {
             trajectories: 2_000,
             trajectories_per_set: 300,
             work_of_data_set: 1.0,
-            wear_step: WearStep::TABLE,
-            finest_wear_step: FINEST,
+            ..full
         }
     }
 }

@@ -130,27 +130,14 @@ impl Tables {
     ) -> Result<Vec<Self>, StudyError> {
         let half = Integrator::Rk4 { step: 0.5 * effort.step };
         let fine = RevolutionSettings { integrator: half, ..effort.flexible };
-        let rigid = |gamma| -> Job<'_, Result<Measured, StudyError>> {
-            Box::new(move || {
-                let model = Model::rigid()?.wearing(Area::Hertz, effort.bins);
-                measured(&model, (effort.rigid, effort.rigid_points), (gamma, reach), watch)
-            })
-        };
-        let finest = |gamma| -> Job<'_, Result<Measured, StudyError>> {
-            Box::new(move || {
-                let model = Model::flexible().wearing(Area::Hertz, effort.bins);
-                measured(&model, (fine, effort.finest_points), (gamma, reach), watch)
-            })
-        };
-        let flexible = |gamma| -> Job<'_, Result<Measured, StudyError>> {
-            Box::new(move || {
-                let model = Model::flexible().wearing(Area::Hertz, effort.bins);
-                measured(&model, (effort.flexible, effort.points), (gamma, reach), watch)
-            })
-        };
+        let worn = (Area::Hertz, effort.bins);
+        let rigid =
+            |gamma| job(Model::rigid, worn, (effort.rigid, effort.rigid_points), (gamma, reach), watch);
+        let finest = |gamma| job(flexible, worn, (fine, effort.finest_points), (gamma, reach), watch);
+        let proposed = |gamma| job(flexible, worn, (effort.flexible, effort.points), (gamma, reach), watch);
         let gammas = || gammas.iter().copied();
         // The longest first.
-        let jobs = gammas().map(rigid).chain(gammas().map(finest)).chain(gammas().map(flexible)).collect();
+        let jobs = gammas().map(rigid).chain(gammas().map(finest)).chain(gammas().map(proposed)).collect();
         let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs).into_iter().collect();
         let mut found = found?;
         let flexible = found.split_off(2 * gammas().count());
@@ -192,8 +179,24 @@ impl Tables {
     }
 }
 
+/// The flexible model, where a model may be refused.
+pub(super) fn flexible() -> Result<Model, StudyError> {
+    Ok(Model::flexible())
+}
+
+/// Measuring one model, worn over an area and by so many bearing angles, as a job: see [`measured`].
+pub(super) fn job<'w>(
+    model: fn() -> Result<Model, StudyError>,
+    (area, bins): (Area, usize),
+    (settings, points): (RevolutionSettings, usize),
+    range: (f64, f64),
+    watch: &'w Watch<'_>,
+) -> Job<'w, Result<Measured, StudyError>> {
+    Box::new(move || measured(&model()?.wearing(area, bins), (settings, points), range, watch))
+}
+
 /// Measures one model from the unworn clearance to that at `reach` times the threshold.
-pub(super) fn measured(
+fn measured(
     model: &Model,
     (settings, points): (RevolutionSettings, usize),
     (gamma, reach): (f64, f64),

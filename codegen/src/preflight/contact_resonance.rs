@@ -4,7 +4,9 @@
 use linkwear_runtime::{Description, Evaluator, System, assemble_resting, contact_frequencies};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::Mechanism;
+use crate::model::{Body, Mechanism};
+
+use super::resonance::frequencies;
 
 /// Distances below this share of a frequency are near: the force of a contact changes over a turn, and ten times the
 /// force is 1.5 times the frequency (power 1/6 of a sphere's law).
@@ -59,14 +61,11 @@ fn resting_frequencies(description: &Description, system: &dyn System<f64>) -> O
 }
 
 /// Frequencies of a body near to one, each with its names.
-fn modes_near(body: &crate::model::Body, frequency: f64) -> Vec<String> {
+fn modes_near(body: &Body, frequency: f64) -> Vec<String> {
     let Some(flexible) = &body.flexible else { return Vec::new() };
-    let kept = flexible.data.modes.iter().map(|mode| (mode.name.clone(), mode.frequency));
-    let left_out = flexible.left_out.iter();
-    let left_out = left_out.map(|mode| (format!("{}, left out", mode.name), mode.frequency));
     let mut told: Vec<u64> = Vec::new();
     let mut near = Vec::new();
-    for (name, mode) in kept.chain(left_out) {
+    for (name, mode) in frequencies(flexible) {
         // Both planes of a round link share their frequencies.
         if (mode - frequency).abs() < NEAR * mode && !told.contains(&mode.to_bits()) {
             told.push(mode.to_bits());

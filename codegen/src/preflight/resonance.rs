@@ -2,7 +2,7 @@
 //! In: a mechanism. Out: warnings. Never evaluates equations.
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::Mechanism;
+use crate::model::{Flexible, Mechanism};
 
 /// Harmonics looked at: those of a linkage fall off quickly, and beyond these some harmonic is always near.
 const HARMONICS: usize = 20;
@@ -20,11 +20,8 @@ pub fn near_resonance(mechanism: &Mechanism) -> Vec<Diagnostic> {
             let Some(turns) = turns_per_second(mechanism, &drive.law) else { continue };
             for body in &mechanism.bodies {
                 let Some(flexible) = &body.flexible else { continue };
-                let kept = flexible.data.modes.iter().map(|mode| (mode.name.clone(), mode.frequency));
-                let left_out = flexible.left_out.iter();
-                let left_out = left_out.map(|mode| (format!("{}, left out", mode.name), mode.frequency));
                 let mut told = Vec::new();
-                for (name, frequency) in kept.chain(left_out) {
+                for (name, frequency) in frequencies(flexible) {
                     let Some(harmonic) = nearest_harmonic(turns, frequency) else { continue };
                     // Both planes of a round link share their frequencies.
                     if told.contains(&(harmonic, frequency.to_bits())) {
@@ -45,6 +42,13 @@ pub fn near_resonance(mechanism: &Mechanism) -> Vec<Diagnostic> {
         }
     }
     warnings
+}
+
+/// Names and frequencies [Hz] of a body's modes, kept and left out.
+pub(super) fn frequencies(flexible: &Flexible) -> impl Iterator<Item = (String, f64)> {
+    let kept = flexible.data.modes.iter().map(|mode| (mode.name.clone(), mode.frequency));
+    let left_out = flexible.left_out.iter();
+    kept.chain(left_out.map(|mode| (format!("{}, left out", mode.name), mode.frequency)))
 }
 
 /// Frequency of a drive that turns at constant speed [1/s].

@@ -124,12 +124,10 @@ fn resting_offset(evaluator: &Evaluator<'_>, index: usize, force: [f64; 3]) -> [
     if size.is_nan() || size <= 0.0 {
         return [0.0; 3];
     }
-    let (joint, state) = (&clearances.joints()[index], &clearances.states()[index]);
     let clearance = clearances.touches()[index].clearance;
     let normal = force.map(|component| -component / size);
-    let profile = state.profile.as_ref();
-    let round = clearance - profile.map_or(0.0, |profile| profile.mean());
-    let distance = joint.distance(round, profile, normal, joint.resting_penetration(clearance, size));
+    let penetration = clearances.joints()[index].resting_penetration(clearance, size);
+    let distance = clearances.distance(index, normal, penetration);
     normal.map(|component| component * distance)
 }
 

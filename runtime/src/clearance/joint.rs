@@ -144,7 +144,7 @@ impl Clearance {
     /// How far [m] from the bearing's centre along a unit vector the journal penetrates by so much [m], at a clearance
     /// [m] that a profile is worn on top of.
     #[must_use]
-    pub fn distance(
+    pub(super) fn distance(
         &self,
         clearance: f64,
         profile: Option<&Profile>,

@@ -96,6 +96,15 @@ impl Clearances {
         self.touches.iter().map(|touch| touch.elastic_energy).sum()
     }
 
+    /// How far [m] from the bearing's centre along a unit vector a journal penetrates by so much [m], worn as at the last
+    /// evaluation.
+    #[must_use]
+    pub fn distance(&self, index: usize, direction: [f64; 3], penetration: f64) -> f64 {
+        let profile = self.states[index].profile.as_ref();
+        let round = self.touches[index].clearance - profile.map_or(0.0, Profile::mean);
+        self.joints[index].distance(round, profile, direction, penetration)
+    }
+
     /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
     pub fn evaluate(&mut self, motions: &[f64]) {
         let each = self.joints.iter().zip(&self.states).zip(&mut self.touches);

@@ -131,11 +131,8 @@ impl<'a> TurnRunner<'a> {
         if before[joint].gap < 0.0 {
             let mut targets: Vec<_> = before.iter().map(|touch| Some(touch.offset)).collect();
             let normal = before[joint].normal();
-            let clearances = evaluator.clearances();
-            let profile = clearances.states()[joint].profile.as_ref();
-            let round = clearances.touches()[joint].clearance - profile.map_or(0.0, Profile::mean);
             let penetration = before[joint].penetration();
-            let distance = clearances.joints()[joint].distance(round, profile, normal, penetration);
+            let distance = evaluator.clearances().distance(joint, normal, penetration);
             targets[joint] = Some(normal.map(|component| distance * component));
             // Where loops do not let it, the journal finds its way through the settling turns.
             let _ = place(evaluator, self.t, &mut self.state, &targets);

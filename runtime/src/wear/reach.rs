@@ -158,23 +158,15 @@ impl Bearing {
         })
     }
 
-    /// How far the journal's centre gets in a direction, and the bin that stops it.
-    fn touching(&self, depths: &[f64], direction: usize) -> (f64, usize) {
-        let first = (f64::INFINITY, direction);
-        let nearer = |best: (f64, usize), (bin, reach)| if reach < best.0 { (reach, bin) } else { best };
-        self.places(depths, direction).fold(first, nearer)
-    }
-
     /// Spreads an amount over the bins that the journal touches when it points in a direction.
     fn share(&self, depths: &[f64], (direction, amount): (usize, f64), more: &mut [f64]) {
-        let (nearest, _) = self.touching(depths, direction);
+        let nearest =
+            self.places(depths, direction).fold(f64::INFINITY, |nearest, (_, reach)| nearest.min(reach));
         let scale = SHARED * self.segment;
-        let weights = || {
-            let weight = |(bin, reach): (usize, f64)| (bin, libm::exp((nearest - reach) / scale));
-            self.places(depths, direction).map(weight)
-        };
-        let sum: f64 = weights().map(|(_, weight)| weight).sum();
-        for (bin, weight) in weights() {
+        let weight = |(bin, reach): (usize, f64)| (bin, libm::exp((nearest - reach) / scale));
+        let weights: Vec<(usize, f64)> = self.places(depths, direction).map(weight).collect();
+        let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        for (bin, weight) in weights {
             more[bin] += amount * weight / sum;
         }
     }
