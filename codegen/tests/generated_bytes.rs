@@ -1,0 +1,43 @@
+//! Generated code is a product: a change of a single byte of it is meant, or it does not pass.
+//! One line for each shipped mechanism and closure: SHA-256 of its source, statements, operations.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use linkwear_codegen::compile::{Compiled, Options, compile, sha256};
+use linkwear_codegen::model::Closure;
+use linkwear_codegen::source::SourceFile;
+
+fn compiled(path: &Path, closure: Closure) -> Compiled {
+    let name = path.file_name().expect("a name").to_string_lossy();
+    let text = std::fs::read_to_string(path).expect("a mechanism file");
+    let source = SourceFile { name: format!("mechanisms/{name}"), text };
+    let options = Options { closure: Some(closure), ..Options::default() };
+    compile(&source, &options).unwrap_or_else(|errors| panic!("{}: {errors}", path.display()))
+}
+
+#[test]
+fn every_shipped_mechanism_generates_the_same_bytes() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../mechanisms");
+    let entries = std::fs::read_dir(folder).expect("the folder of mechanisms");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    let mut lines = String::new();
+    for file in &files {
+        for closure in [Closure::Joint, Closure::Log] {
+            let compiled = compiled(file, closure);
+            let counts = compiled.operations();
+            let statements: usize = counts.iter().map(|count| count.statements).sum();
+            let operations: u64 = counts.iter().map(|count| count.operations.total).sum();
+            let name = file.file_stem().expect("a name").to_string_lossy();
+            // The first line carries the version.
+            let source = compiled.rust_source();
+            let body = source.split_once('\n').expect("several lines").1;
+            let hash = &sha256(body)[..16];
+            writeln!(lines, "{name:24} {closure:?}  {hash}  {statements:6} {operations:6}")
+                .expect("text takes it");
+        }
+    }
+    insta::assert_snapshot!(lines);
+}
