@@ -1,5 +1,6 @@
 //! Generated code is a product: a change of a single byte of it is meant, or it does not pass.
-//! One line for each shipped mechanism and closure: SHA-256 of its source, statements, operations.
+//! One line for each file and closure: SHA-256 of its source, statements, operations. The files are the shipped
+//! mechanisms, and those of `data/`, which have every kind of joint in every role.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -16,10 +17,9 @@ fn compiled(path: &Path, closure: Closure) -> Compiled {
     compile(&source, &options).unwrap_or_else(|errors| panic!("{}: {errors}", path.display()))
 }
 
-#[test]
-fn every_shipped_mechanism_generates_the_same_bytes() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../mechanisms");
-    let entries = std::fs::read_dir(folder).expect("the folder of mechanisms");
+/// One line for each mechanism file of a folder and each closure.
+fn hashes(folder: &str) -> String {
+    let entries = std::fs::read_dir(folder).expect("a folder of mechanisms");
     let mut files: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     files.sort();
@@ -39,5 +39,15 @@ fn every_shipped_mechanism_generates_the_same_bytes() {
                 .expect("text takes it");
         }
     }
-    insta::assert_snapshot!(lines);
+    lines
+}
+
+#[test]
+fn every_shipped_mechanism_generates_the_same_bytes() {
+    insta::assert_snapshot!(hashes(concat!(env!("CARGO_MANIFEST_DIR"), "/../mechanisms")));
+}
+
+#[test]
+fn every_kind_of_joint_in_every_role_generates_the_same_bytes() {
+    insta::assert_snapshot!(hashes(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data")));
 }
