@@ -1,7 +1,7 @@
 //! Relative motion of two links across a joint, seen from one of them.
 //! In: link kinematics. Out: [`Across`]. Never knows which rows a closure keeps.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::{Axis, Carrier, JointKind};
 
@@ -127,7 +127,7 @@ pub struct Across {
 
 impl Across {
     /// Computes everything for the joint between two links.
-    pub fn new(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, sides: Sides, place: Place) -> Self {
+    pub fn new(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, sides: Sides, place: Place) -> Self {
         let linkage = geometry.linkage;
         let at = geometry.mechanism.joint(sides.joint).at;
         let mut child_point = geometry.local(g, sides.child, at);
@@ -171,19 +171,19 @@ impl Across {
     }
 
     /// Constant axis of the parent in the common frame.
-    pub fn parent_axis(&self, g: &mut Graph, axes: &JointAxes, j: usize) -> Vec3 {
+    pub fn parent_axis(&self, g: &Scope, axes: &JointAxes, j: usize) -> Vec3 {
         let axis = g.vector(axes.parent.axis(j));
         g.mul_vec3(self.from_parent, axis)
     }
 
     /// Constant axis of the child in the common frame.
-    pub fn child_axis(&self, g: &mut Graph, axes: &JointAxes, j: usize) -> Vec3 {
+    pub fn child_axis(&self, g: &Scope, axes: &JointAxes, j: usize) -> Vec3 {
         let axis = g.vector(axes.child.axis(j));
         g.mul_vec3(self.from_child, axis)
     }
 
     /// Rotation of the child relative to the parent in joint axes: identity when all coordinates are zero.
-    pub fn rotation(&self, g: &mut Graph, axes: &JointAxes) -> Mat3 {
+    pub fn rotation(&self, g: &Scope, axes: &JointAxes) -> Mat3 {
         let parent = [0, 1, 2].map(|j| self.parent_axis(g, axes, j));
         let child = [0, 1, 2].map(|j| self.child_axis(g, axes, j));
         core::array::from_fn(|i| core::array::from_fn(|j| g.dot3(parent[i], child[j])))
@@ -193,7 +193,7 @@ impl Across {
 /// From the parent's joint point to the child's, in the common frame, along the tree from the common
 /// ancestor, so that motion that both share cancels.
 fn distance(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     poses: &Poses,
     sides: Sides,
@@ -201,7 +201,7 @@ fn distance(
     parent_point: Vec3,
 ) -> Vec3 {
     let top = linkage.common_ancestor(sides.parent, sides.child);
-    let mut place = |link: LinkIndex, point: Vec3| {
+    let place = |link: LinkIndex, point: Vec3| {
         let (mut at, mut place) = (link, point);
         while at != top {
             let inner = at.expect("the ancestor lies on the path to the ground");
@@ -220,7 +220,7 @@ fn distance(
 
 impl Motion {
     /// Angular velocity of a link and velocity of a point of it, turned by `rotation`.
-    fn velocity(&self, g: &mut Graph, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+    fn velocity(&self, g: &Scope, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
         match link {
             None => [g.zero_vector(); 2],
             Some(at) => {
@@ -231,7 +231,7 @@ impl Motion {
     }
 
     /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
-    fn acceleration(&self, g: &mut Graph, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+    fn acceleration(&self, g: &Scope, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
         let (alpha, origin) = match link {
             None => (g.zero_vector(), self.ground),
             Some(at) => {
@@ -243,13 +243,13 @@ impl Motion {
     }
 
     /// Velocity in W of a point of a link.
-    pub fn point_velocity_w(&self, g: &mut Graph, link: LinkIndex, point: Vec3) -> Vec3 {
+    pub fn point_velocity_w(&self, g: &Scope, link: LinkIndex, point: Vec3) -> Vec3 {
         let rotation = self.poses.world_of(g, link).rotation;
         self.velocity(g, link, point, rotation)[1]
     }
 
     /// Angular velocity of a ball link relative to its parent, in the ball link's frame.
-    pub fn relative_omega(&self, g: &mut Graph, linkage: &Linkage, at: usize) -> Vec3 {
+    pub fn relative_omega(&self, g: &Scope, linkage: &Linkage, at: usize) -> Vec3 {
         let parent = linkage.links[at].parent.map(|p| self.twists[p]);
         let carried = carried_twist(g, parent, &self.poses.relative[at]);
         g.sub3(self.twists[at].omega, carried.omega)

@@ -6,7 +6,7 @@
 //! the joint screws moved to the closure point, read from the other side. `bias` is the row's
 //! acceleration for zero `v̇` of the free speeds, by the velocity-product recursion.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 use crate::model::{Closure, JointKind};
 
 use super::across::{Across, Motion, Place, Sides, joint_axes};
@@ -60,11 +60,11 @@ pub fn row_count(kind: &JointKind, closure: Closure) -> usize {
 }
 
 /// Derives the rows of every cut. With `exact` the Jacobian is exact off the closed positions too.
-pub fn cut_rows(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, exact: bool) -> Vec<CutRows> {
+pub fn cut_rows(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, exact: bool) -> Vec<CutRows> {
     geometry.linkage.cuts.iter().map(|cut| rows_of(g, geometry, motion, *cut, exact)).collect()
 }
 
-fn rows_of(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, exact: bool) -> CutRows {
+fn rows_of(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, exact: bool) -> CutRows {
     let name = &geometry.mechanism.joint(cut.joint).name;
     g.begin_section(format!("loop closure at {name}"));
     if cut.closure == Closure::Log {
@@ -98,12 +98,12 @@ fn rows_of(g: &mut Graph, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, ex
 impl CutRows {
     /// Wrenches on the child link and on the parent link, in their own frames about their origins, of a
     /// wrench (moment, force) on the child at the joint point given in the common frame.
-    pub fn link_wrenches(&self, g: &mut Graph, moment: Vec3, force: Vec3) -> [Wrench; 2] {
+    pub fn link_wrenches(&self, g: &Scope, moment: Vec3, force: Vec3) -> [Wrench; 2] {
         link_wrenches(g, &self.across, moment, force)
     }
 
     /// Jacobian of one row by all speeds.
-    pub fn jacobian(&self, g: &mut Graph, linkage: &Linkage, poses: &Poses, row: &Row) -> Vec<ExprId> {
+    pub fn jacobian(&self, g: &Scope, linkage: &Linkage, poses: &Poses, row: &Row) -> Vec<ExprId> {
         let zero = g.zero();
         let mut columns = vec![zero; linkage.speeds()];
         let [child, parent] = self.link_wrenches(g, row.moment, row.force);
@@ -122,8 +122,8 @@ impl CutRows {
 }
 
 /// See [`CutRows::link_wrenches`].
-pub fn link_wrenches(g: &mut Graph, across: &Across, moment: Vec3, force: Vec3) -> [Wrench; 2] {
-    let mut side = |rotation: Mat3, point: Vec3| {
+pub fn link_wrenches(g: &Scope, across: &Across, moment: Vec3, force: Vec3) -> [Wrench; 2] {
+    let side = |rotation: Mat3, point: Vec3| {
         let force = g.transpose_mul_vec3(rotation, force);
         let moment = g.transpose_mul_vec3(rotation, moment);
         let lever = g.cross3(point, force);
@@ -143,7 +143,7 @@ struct Carrier<'a> {
 impl Carrier<'_> {
     /// Carries a wrench inwards to `top` (exclusive), adding to the columns on the way. Returns the wrench on
     /// `top` and whether a ball or free link kept something back.
-    fn carry(&mut self, g: &mut Graph, wrench: Wrench, from: LinkIndex, top: LinkIndex) -> (Wrench, bool) {
+    fn carry(&mut self, g: &Scope, wrench: Wrench, from: LinkIndex, top: LinkIndex) -> (Wrench, bool) {
         use super::linkage::Freedom;
         let (mut carried, mut at, mut lost) = (wrench, from, false);
         while at != top {

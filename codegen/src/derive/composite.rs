@@ -4,7 +4,7 @@
 //! With the absolute angular velocity as speed of a ball link, turning the parent does not turn the
 //! child: a composite then passes only its mass inwards, and its own block of M stays constant.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 
 use super::deformation::ModalMass;
 use super::inertia::{LinkMass, inertia_of_second_moment, rotated};
@@ -28,7 +28,7 @@ impl Composite {
 }
 
 /// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
-pub fn mass_matrix(g: &mut Graph, linkage: &Linkage, poses: &Poses, masses: &[LinkMass]) -> Vec<Vec<ExprId>> {
+pub fn mass_matrix(g: &Scope, linkage: &Linkage, poses: &Poses, masses: &[LinkMass]) -> Vec<Vec<ExprId>> {
     let zero = g.zero();
     let n = linkage.speeds();
     let mut columns = Columns { linkage, poses, matrix: vec![vec![zero; n]; n] };
@@ -77,7 +77,7 @@ struct ModalColumns {
 }
 
 impl ModalColumns {
-    fn new(g: &mut Graph, own: &ModalMass) -> Self {
+    fn new(g: &Scope, own: &ModalMass) -> Self {
         Self {
             wrenches: (0..own.matrix.len()).map(|k| own.column(g, k)).collect(),
             block: own.matrix.iter().map(|row| row.iter().map(|x| g.constant(*x)).collect()).collect(),
@@ -85,7 +85,7 @@ impl ModalColumns {
     }
 
     /// Adds what hangs on a node, which the modes move along.
-    fn carry(&mut self, g: &mut Graph, node: &NodePose, pose: &Pose, hanging: &Composite) {
+    fn carry(&mut self, g: &Scope, node: &NodePose, pose: &Pose, hanging: &Composite) {
         let screws: Vec<[Vec3; 2]> =
             (0..self.wrenches.len()).map(|k| node.screw(g, k).map(|v| node.to_section(g, v))).collect();
         for (k, [turn, slide]) in screws.iter().enumerate() {
@@ -101,7 +101,7 @@ impl ModalColumns {
     }
 
     /// Adds that the whole body moves when its inboard node stays.
-    fn hold(&mut self, g: &mut Graph, node: &NodePose, whole: &Composite) {
+    fn hold(&mut self, g: &Scope, node: &NodePose, whole: &Composite) {
         let screws: Vec<[Vec3; 2]> = (0..self.wrenches.len())
             .map(|k| {
                 let [turn, slide] = node.screw(g, k);
@@ -129,7 +129,7 @@ impl ModalColumns {
         }
     }
 
-    fn fill(self, g: &mut Graph, columns: &mut Columns<'_>, at: usize) {
+    fn fill(self, g: &Scope, columns: &mut Columns<'_>, at: usize) {
         let link = &columns.linkage.links[at];
         let first = link.first_speed;
         for (k, row) in self.block.into_iter().enumerate() {
@@ -143,7 +143,7 @@ impl ModalColumns {
     }
 }
 
-fn pass_composite(g: &mut Graph, freedom: Freedom, pose: &Pose, own: Composite) -> Composite {
+fn pass_composite(g: &Scope, freedom: Freedom, pose: &Pose, own: Composite) -> Composite {
     let zero = g.zero();
     let (mass, first, inertia) = match freedom {
         Freedom::Free => (zero, [zero; 3], [[zero; 3]; 3]),
@@ -171,17 +171,17 @@ fn pass_composite(g: &mut Graph, freedom: Freedom, pose: &Pose, own: Composite) 
 }
 
 /// Momentum of the composite per unit of each own speed of its link.
-fn momentum_columns(g: &mut Graph, freedom: Freedom, own: &Composite) -> Vec<Wrench> {
-    let turn = |g: &mut Graph, axis: usize| {
+fn momentum_columns(g: &Scope, freedom: Freedom, own: &Composite) -> Vec<Wrench> {
+    let turn = |g: &Scope, axis: usize| {
         let mut unit = g.zero_vector();
         unit[axis] = g.one();
         Wrench { moment: [0, 1, 2].map(|i| own.inertia[i][axis]), force: g.cross3(unit, own.first) }
     };
-    let slide = |g: &mut Graph, direction: Vec3| Wrench {
+    let slide = |g: &Scope, direction: Vec3| Wrench {
         moment: g.cross3(own.first, direction),
         force: g.scale3(own.mass, direction),
     };
-    let unit = |g: &mut Graph, axis: usize| {
+    let unit = |g: &Scope, axis: usize| {
         let mut unit = g.zero_vector();
         unit[axis] = g.one();
         unit
@@ -221,7 +221,7 @@ struct Columns<'a> {
 
 impl Columns<'_> {
     /// Fills the column of one speed of a link, down to the link and on to the ground.
-    fn fill(&mut self, g: &mut Graph, from: usize, column: usize, wrench: Wrench) {
+    fn fill(&mut self, g: &Scope, from: usize, column: usize, wrench: Wrench) {
         let link = &self.linkage.links[from];
         for (row, entry) in wrench.generalised(g, link.freedom, None).into_iter().enumerate() {
             let row = link.first_speed + row;
@@ -236,7 +236,7 @@ impl Columns<'_> {
     }
 
     /// Carries a momentum column from a link to the ground and reads off the entries of M.
-    fn carry(&mut self, g: &mut Graph, from: LinkIndex, column: usize, wrench: Wrench) {
+    fn carry(&mut self, g: &Scope, from: LinkIndex, column: usize, wrench: Wrench) {
         let mut carried = wrench;
         let mut at = from;
         while let Some(index) = at {

@@ -6,7 +6,7 @@
 //! are coordinates of the joint, so the generalised force of a contact wrench on the journal (its opposite acts on
 //! the bearing at the same place) is the wrench itself: J_rel of [CS (8)] is a selection.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::JointKind;
 
@@ -36,7 +36,7 @@ fn offsets(kind: &JointKind) -> &'static [usize] {
 }
 
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
-pub fn contact_motion(g: &mut Graph, state: &JointStates<'_>, joint: JointId) -> Vec<ExprId> {
+pub fn contact_motion(g: &Scope, state: &JointStates<'_>, joint: JointId) -> Vec<ExprId> {
     let linkage = state.geometry.linkage;
     let data = state.geometry.mechanism.joint(joint);
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
@@ -83,7 +83,7 @@ pub fn contact_motion(g: &mut Graph, state: &JointStates<'_>, joint: JointId) ->
 }
 
 /// Adds what a contact wrench does.
-pub fn contact_forces(g: &mut Graph, loads: &mut Loads, state: &JointStates<'_>, contact: &ContactWrench) {
+pub fn contact_forces(g: &Scope, loads: &mut Loads, state: &JointStates<'_>, contact: &ContactWrench) {
     let linkage = state.geometry.linkage;
     let joint = contact.joint;
     let kind = &state.geometry.mechanism.joint(joint).kind;

@@ -11,7 +11,7 @@
 //!   modal force = Gamma_k . a_O + tr(spin D_k) + 2 omega . sum q'_l axial*(N_lk) + sum M_kl q''_l
 //! where `axial*(D) = ∫ r x phi dm`.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 use crate::flexible::ModalData;
 
 use super::across::ModalState;
@@ -45,14 +45,14 @@ fn axial_of_numbers(m: [[f64; 3]; 3]) -> [f64; 3] {
 }
 
 /// `∫ r x phi dm` of `∫ r phiᵀ dm`.
-pub fn axial(g: &mut Graph, m: Mat3) -> Vec3 {
+pub fn axial(g: &Scope, m: Mat3) -> Vec3 {
     core::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         g.sub(m[j][k], m[k][j])
     })
 }
 
-fn trace_of_product(g: &mut Graph, a: Mat3, b: Mat3) -> ExprId {
+fn trace_of_product(g: &Scope, a: Mat3, b: Mat3) -> ExprId {
     let mut pairs = Vec::with_capacity(9);
     for i in 0..3 {
         for j in 0..3 {
@@ -63,7 +63,7 @@ fn trace_of_product(g: &mut Graph, a: Mat3, b: Mat3) -> ExprId {
 }
 
 /// `sum weight_k matrix_k` of constant matrices.
-fn weighted(g: &mut Graph, matrices: &[[[f64; 3]; 3]], weights: &[ExprId]) -> Mat3 {
+fn weighted(g: &Scope, matrices: &[[[f64; 3]; 3]], weights: &[ExprId]) -> Mat3 {
     core::array::from_fn(|i| {
         core::array::from_fn(|j| {
             let terms: Vec<(ExprId, ExprId)> =
@@ -73,7 +73,7 @@ fn weighted(g: &mut Graph, matrices: &[[[f64; 3]; 3]], weights: &[ExprId]) -> Ma
     })
 }
 
-fn weighted_vectors(g: &mut Graph, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
+fn weighted_vectors(g: &Scope, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
     core::array::from_fn(|i| {
         let terms: Vec<(ExprId, ExprId)> =
             vectors.iter().zip(weights).map(|(v, w)| (g.constant(v[i]), *w)).collect();
@@ -82,7 +82,7 @@ fn weighted_vectors(g: &mut Graph, vectors: &[[f64; 3]], weights: &[ExprId]) -> 
 }
 
 /// Mass properties of the deformed body and what its modes feel.
-pub fn deformed(g: &mut Graph, data: &ModalData, q: &[ExprId]) -> (MassProperties, ModalMass) {
+pub fn deformed(g: &Scope, data: &ModalData, q: &[ExprId]) -> (MassProperties, ModalMass) {
     let n = q.len();
     let second = data.second_order.as_ref();
     let (gamma2, moment2) =
@@ -114,7 +114,7 @@ pub fn deformed(g: &mut Graph, data: &ModalData, q: &[ExprId]) -> (MassPropertie
 }
 
 /// m, s(q), P(q).
-fn mass_properties(g: &mut Graph, data: &ModalData, own: &ModalMass, q: &[ExprId]) -> MassProperties {
+fn mass_properties(g: &Scope, data: &ModalData, own: &ModalMass, q: &[ExprId]) -> MassProperties {
     let n = q.len();
     let rest = g.vector(data.first_moment);
     let linear = weighted_vectors(g, &data.gamma, q);
@@ -159,7 +159,7 @@ fn mass_properties(g: &mut Graph, data: &ModalData, own: &ModalMass, q: &[ExprId
 
 impl ModalMass {
     /// Inertial wrench about the origin of the body's deformation, in its frame.
-    pub fn wrench(&self, g: &mut Graph, twist: &Twist, modes: &ModalState) -> Wrench {
+    pub fn wrench(&self, g: &Scope, twist: &Twist, modes: &ModalState) -> Wrench {
         let (n, two) = (modes.v.len(), g.constant(2.0));
         let (mut drift, mut force) = (g.zero_vector(), g.zero_vector());
         let mut rate = g.matrix([[0.0; 3]; 3]);
@@ -200,7 +200,7 @@ impl ModalMass {
     /// Inertial force of every mode.
     pub fn modal_forces(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         twist: &Twist,
         acceleration: &Acceleration,
         modes: &ModalState,
@@ -224,19 +224,19 @@ impl ModalMass {
     }
 
     /// `sum_l M_kl x_l`.
-    fn own(&self, g: &mut Graph, k: usize, x: &[ExprId]) -> ExprId {
+    fn own(&self, g: &Scope, k: usize, x: &[ExprId]) -> ExprId {
         let terms: Vec<(ExprId, ExprId)> =
             self.matrix[k].iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
         g.dot(&terms)
     }
 
     /// Momentum of the body per unit of modal speed `k`.
-    pub fn column(&self, g: &mut Graph, k: usize) -> Wrench {
+    pub fn column(&self, g: &Scope, k: usize) -> Wrench {
         Wrench { moment: axial(g, self.moment[k]), force: self.gamma[k] }
     }
 
     /// Twice the kinetic energy of deformation: what modal speeds add to that of the frozen body [J].
-    pub fn double_energy(&self, g: &mut Graph, twist: &Twist, v: &[ExprId]) -> ExprId {
+    pub fn double_energy(&self, g: &Scope, twist: &Twist, v: &[ExprId]) -> ExprId {
         let two = g.constant(2.0);
         let mut sum = g.zero();
         for k in 0..v.len() {

@@ -7,7 +7,7 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 
 use super::across::Motion;
 use super::closure::CutRows;
@@ -20,7 +20,7 @@ use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
 /// Inertial wrench of a link about its origin, in its frame.
-fn inertial_wrench(g: &mut Graph, motion: &Motion, masses: &[LinkMass], at: usize) -> Wrench {
+fn inertial_wrench(g: &Scope, motion: &Motion, masses: &[LinkMass], at: usize) -> Wrench {
     let frozen = frozen_wrench(g, &masses[at].frozen, &motion.accelerations[at]);
     match &masses[at].modal {
         Some(modal) => {
@@ -32,7 +32,7 @@ fn inertial_wrench(g: &mut Graph, motion: &Motion, masses: &[LinkMass], at: usiz
 }
 
 /// Inertial wrench of a link frozen in its present shape.
-fn frozen_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> Wrench {
+fn frozen_wrench(g: &Scope, own: &MassProperties, motion: &Acceleration) -> Wrench {
     let (weight, turned) = (g.scale3(own.mass, motion.origin), g.mul_vec3(motion.spin, own.first));
     let product = g.mul_mat3(motion.spin, own.second);
     let (lever, axial) = (g.cross3(own.first, motion.origin), axial_part(g, product));
@@ -40,7 +40,7 @@ fn frozen_wrench(g: &mut Graph, own: &MassProperties, motion: &Acceleration) -> 
 }
 
 /// `A_zy - A_yz`, and cyclic.
-fn axial_part(g: &mut Graph, m: Mat3) -> Vec3 {
+fn axial_part(g: &Scope, m: Mat3) -> Vec3 {
     core::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         g.sub(m[k][j], m[j][k])
@@ -50,7 +50,7 @@ fn axial_part(g: &mut Graph, m: Mat3) -> Vec3 {
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
 /// and loads. Left side of [CS (6)].
 pub fn bias_forces(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     motion: &Motion,
     masses: &[LinkMass],
@@ -86,7 +86,7 @@ pub fn bias_forces(
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
 /// link's origin, in its frame. `external` is everything but joints of the tree.
 pub fn joint_wrenches(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     motion: &Motion,
     masses: &[LinkMass],
@@ -108,7 +108,7 @@ pub fn joint_wrenches(
 }
 
 /// Kinetic energy [J].
-pub fn kinetic_energy(g: &mut Graph, masses: &[LinkMass], motion: &Motion) -> ExprId {
+pub fn kinetic_energy(g: &Scope, masses: &[LinkMass], motion: &Motion) -> ExprId {
     let half = g.constant(0.5);
     let mut sum = g.zero();
     for (at, (mass, twist)) in masses.iter().zip(&motion.twists).enumerate() {
@@ -135,7 +135,7 @@ pub fn kinetic_energy(g: &mut Graph, masses: &[LinkMass], motion: &Motion) -> Ex
 
 /// Potential energy of weight [J], zero at the origin of W.
 pub fn weight_energy(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     motion: &Motion,
     masses: &[LinkMass],
@@ -184,7 +184,7 @@ pub struct KeptRow {
 
 /// Picks the rows that are kept, in order, with their Jacobians.
 pub fn kept_rows(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     motion: &Motion,
     cuts: &[CutRows],
@@ -206,7 +206,7 @@ pub fn kept_rows(
 
 /// Forward dynamics by the structured elimination of [`solve`].
 pub fn forward(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     motion: &Motion,
     masses: &[LinkMass],

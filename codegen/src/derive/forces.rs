@@ -1,7 +1,7 @@
 //! Applied forces: joint damping, springs and actuators, force elements; their energy and power.
 //! In: link motion. Out: [`Loads`]. Never knows constraints. Gravity enters with the accelerations.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Carrier, ForceKind, JointKind, Passive};
 
@@ -32,7 +32,7 @@ pub struct Loads {
 }
 
 /// Collects all loads.
-pub fn loads(g: &mut Graph, state: &JointStates<'_>, contacts: &[ContactWrench]) -> Loads {
+pub fn loads(g: &Scope, state: &JointStates<'_>, contacts: &[ContactWrench]) -> Loads {
     let linkage = state.geometry.linkage;
     let zero = g.zero();
     let none = Wrench::zero(g);
@@ -71,7 +71,7 @@ pub fn loads(g: &mut Graph, state: &JointStates<'_>, contacts: &[ContactWrench])
 
 impl Loads {
     /// Stiffness and damping of a flexible body: `-K_ff q_f - D_ff q_f'`, [CS (6)].
-    fn elasticity(&mut self, g: &mut Graph, state: &JointStates<'_>, at: usize) {
+    fn elasticity(&mut self, g: &Scope, state: &JointStates<'_>, at: usize) {
         let link = &state.geometry.linkage.links[at];
         let flexible = &state.geometry.mechanism.body(link.body).flexible;
         let (Some(flexible), Freedom::Flexible { .. }) = (flexible, link.freedom) else { return };
@@ -90,7 +90,7 @@ impl Loads {
         }
     }
 
-    fn joint_force(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
+    fn joint_force(&mut self, g: &Scope, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
         let kind = &state.geometry.mechanism.joint(joint).kind;
         if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) =
             (kind, passive)
@@ -137,7 +137,7 @@ impl Loads {
 
     /// `-c omega_rel` on the child, its opposite on the parent. The ball sits on a section: where a body is
     /// flexible, its slope there turns the ball, and the moment bends the body.
-    fn spherical_damping(&mut self, g: &mut Graph, state: &JointStates<'_>, joint: JointId, c: ExprId) {
+    fn spherical_damping(&mut self, g: &Scope, state: &JointStates<'_>, joint: JointId, c: ExprId) {
         let linkage = state.geometry.linkage;
         let sections = Sections::new(state, joint);
         if let Some(at) = linkage.ball_of(joint) {
@@ -183,7 +183,7 @@ impl Loads {
     }
 
     /// What modes feel of a moment on a section, given in the floating frame.
-    fn bend(&mut self, g: &mut Graph, sections: &Sections, side: Side, moment: Vec3) {
+    fn bend(&mut self, g: &Scope, sections: &Sections, side: Side, moment: Vec3) {
         let Some((_, first, slopes)) = sections.of(side) else { return };
         for (k, slope) in slopes.iter().enumerate() {
             let slope = g.vector(*slope);
@@ -192,7 +192,7 @@ impl Loads {
         }
     }
 
-    fn dissipate(&mut self, g: &mut Graph, coefficient: ExprId, rate: Vec3) {
+    fn dissipate(&mut self, g: &Scope, coefficient: ExprId, rate: Vec3) {
         let square = g.dot3(rate, rate);
         let power = g.mul(coefficient, square);
         self.dissipated = g.add(self.dissipated, power);
@@ -201,7 +201,7 @@ impl Loads {
     /// A wrench on the child of a joint and its opposite on the parent.
     pub(super) fn pair(
         &mut self,
-        g: &mut Graph,
+        g: &Scope,
         state: &JointStates<'_>,
         joint: JointId,
         across: &Across,
@@ -215,13 +215,13 @@ impl Loads {
         self.push(g, sides.parent, parent);
     }
 
-    fn push(&mut self, g: &mut Graph, link: LinkIndex, wrench: Wrench) {
+    fn push(&mut self, g: &Scope, link: LinkIndex, wrench: Wrench) {
         if let Some(at) = link {
             self.external[at] = self.external[at].plus(g, wrench);
         }
     }
 
-    fn element(&mut self, g: &mut Graph, state: &JointStates<'_>, kind: &ForceKind) {
+    fn element(&mut self, g: &Scope, state: &JointStates<'_>, kind: &ForceKind) {
         match kind {
             ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } => {
                 let [stiffness, rest, damping, preload] =
@@ -249,7 +249,7 @@ impl Loads {
     /// Pull `k (l - rest) + c l̇ + preload` along the line between two points.
     fn spring(
         &mut self,
-        g: &mut Graph,
+        g: &Scope,
         state: &JointStates<'_>,
         bodies: [Carrier; 2],
         at: [PointId; 2],
@@ -290,7 +290,7 @@ impl Loads {
     /// A wrench (moment, force) in W at a place in W on the first link and its opposite on the second.
     fn world_pair(
         &mut self,
-        g: &mut Graph,
+        g: &Scope,
         state: &JointStates<'_>,
         links: [LinkIndex; 2],
         place: Vec3,
@@ -319,7 +319,7 @@ impl Loads {
 
 /// Components in W of a vector given in W or in axes that move with a body.
 fn directed(
-    g: &mut Graph,
+    g: &Scope,
     state: &JointStates<'_>,
     components: &[crate::model::Formula; 3],
     axes: Carrier,
@@ -331,7 +331,7 @@ fn directed(
 }
 
 /// `sum_l row_l x_l`.
-fn row_times(g: &mut Graph, row: &[f64], x: &[ExprId]) -> ExprId {
+fn row_times(g: &Scope, row: &[f64], x: &[ExprId]) -> ExprId {
     let terms: Vec<(ExprId, ExprId)> = row.iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
     g.dot(&terms)
 }
@@ -370,7 +370,7 @@ impl Sections {
     }
 
     /// Angular velocity of the section relative to the floating frame, in that frame.
-    fn rate(&self, g: &mut Graph, state: &JointStates<'_>, side: Side) -> Vec3 {
+    fn rate(&self, g: &Scope, state: &JointStates<'_>, side: Side) -> Vec3 {
         let Some((frame, _, slopes)) = self.of(side) else { return g.zero_vector() };
         let speeds = &state.motion.modes[*frame].v;
         core::array::from_fn(|i| {

@@ -2,7 +2,7 @@
 //! In: [`Mechanism`], [`Linkage`]. Out: expressions, constant wherever no tunable parameter occurs.
 //! Never knows coordinates.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
+use crate::expr::{ExprId, Mat3, Scope, Vec3, transpose};
 use crate::id::PointId;
 use crate::model::{Amount, Carrier, Inertia, Mechanism};
 
@@ -46,12 +46,12 @@ pub struct Geometry<'a> {
 
 impl Geometry<'_> {
     /// Position of a point as `carrier`'s branch describes it, in W at the reference pose [m].
-    pub fn described(&self, g: &mut Graph, point: PointId, carrier: Carrier) -> Vec3 {
+    pub fn described(&self, g: &Scope, point: PointId, carrier: Carrier) -> Vec3 {
         self.inputs.lower3(g, self.mechanism.point(point).position_for(carrier))
     }
 
     /// A point of a link's body in the link's frame [m]; for the ground in W.
-    pub fn local(&self, g: &mut Graph, link: Option<usize>, point: PointId) -> Vec3 {
+    pub fn local(&self, g: &Scope, link: Option<usize>, point: PointId) -> Vec3 {
         let Some(at) = link else { return self.described(g, point, Carrier::Ground) };
         let link = &self.linkage.links[at];
         let carrier = Carrier::Body(link.body);
@@ -63,7 +63,7 @@ impl Geometry<'_> {
     }
 
     /// Position of a link's inboard joint in the parent link's frame [m].
-    pub fn mount(&self, g: &mut Graph, at: usize) -> Vec3 {
+    pub fn mount(&self, g: &Scope, at: usize) -> Vec3 {
         let link = &self.linkage.links[at];
         if link.node.is_some() {
             return g.zero_vector();
@@ -76,13 +76,13 @@ impl Geometry<'_> {
     }
 
     /// Components in a link's frame of a vector in W at the reference pose.
-    pub fn turn(&self, g: &mut Graph, frame: &Frame, vector: Vec3) -> Vec3 {
+    pub fn turn(&self, g: &Scope, frame: &Frame, vector: Vec3) -> Vec3 {
         let matrix = g.matrix(frame.0);
         g.transpose_mul_vec3(matrix, vector)
     }
 
     /// Mass properties of every link, for given coordinates, of which those of modes matter.
-    pub fn masses(&self, g: &mut Graph, q: &[ExprId]) -> Vec<LinkMass> {
+    pub fn masses(&self, g: &Scope, q: &[ExprId]) -> Vec<LinkMass> {
         (0..self.linkage.links.len())
             .map(|at| {
                 let link = &self.linkage.links[at];
@@ -98,7 +98,7 @@ impl Geometry<'_> {
             .collect()
     }
 
-    fn mass_of(&self, g: &mut Graph, at: usize) -> MassProperties {
+    fn mass_of(&self, g: &Scope, at: usize) -> MassProperties {
         let link = &self.linkage.links[at];
         if link.mass_share == 0.0 {
             let zero = g.zero();
@@ -131,7 +131,7 @@ impl Geometry<'_> {
     }
 
     /// Long axis of a body between two points: centre, unit vector, length; link frame.
-    fn axis_between(&self, g: &mut Graph, at: usize, ends: [PointId; 2]) -> (Vec3, Vec3, ExprId) {
+    fn axis_between(&self, g: &Scope, at: usize, ends: [PointId; 2]) -> (Vec3, Vec3, ExprId) {
         let [a, b] = ends.map(|end| self.local(g, Some(at), end));
         let along = g.sub3(b, a);
         let square = g.dot3(along, along);
@@ -146,7 +146,7 @@ impl Geometry<'_> {
     /// Cylinder, solid or hollow.
     fn rod(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         at: usize,
         ends: [PointId; 2],
         radii: [&crate::model::Formula; 2],
@@ -172,7 +172,7 @@ impl Geometry<'_> {
 
     fn cuboid(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         at: usize,
         ends: [PointId; 2],
         width: &[crate::model::Formula; 2],
@@ -200,7 +200,7 @@ impl Geometry<'_> {
         (mass, centre, second_moment)
     }
 
-    fn amount(&self, g: &mut Graph, amount: &Amount, volume: ExprId) -> ExprId {
+    fn amount(&self, g: &Scope, amount: &Amount, volume: ExprId) -> ExprId {
         match amount {
             Amount::Mass(mass) => self.inputs.lower(g, mass),
             Amount::Density(density) => {
@@ -213,7 +213,7 @@ impl Geometry<'_> {
     /// Second moment `tr(J)/2 - J` from an inertia tensor given about the centre in `axes`.
     fn second_moment_of_inertia(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         at: usize,
         inertia: &[crate::model::Formula; 6],
         axes: &[[f64; 3]; 3],
@@ -233,14 +233,14 @@ impl Geometry<'_> {
 }
 
 /// `factor * mass * a * b`.
-fn moment(g: &mut Graph, mass: ExprId, a: ExprId, b: ExprId, factor: ExprId) -> ExprId {
+fn moment(g: &Scope, mass: ExprId, a: ExprId, b: ExprId, factor: ExprId) -> ExprId {
     let square = g.mul(a, b);
     let product = g.mul(mass, square);
     g.mul(factor, product)
 }
 
 /// `along u uᵀ + across (1 - u uᵀ)`.
-fn axial(g: &mut Graph, u: Vec3, along: ExprId, across: ExprId) -> Mat3 {
+fn axial(g: &Scope, u: Vec3, along: ExprId, across: ExprId) -> Mat3 {
     let difference = g.sub(along, across);
     let mut matrix: Mat3 = core::array::from_fn(|i| {
         core::array::from_fn(|j| {
@@ -255,13 +255,13 @@ fn axial(g: &mut Graph, u: Vec3, along: ExprId, across: ExprId) -> Mat3 {
 }
 
 /// `turn m turnᵀ`.
-pub fn rotated(g: &mut Graph, turn: Mat3, m: Mat3) -> Mat3 {
+pub fn rotated(g: &Scope, turn: Mat3, m: Mat3) -> Mat3 {
     let half = g.mul_mat3(turn, m);
     g.mul_mat3(half, transpose(turn))
 }
 
 /// Sets constants that are dust next to the largest constant to zero.
-fn without_dust(g: &mut Graph, v: Vec3) -> Vec3 {
+fn without_dust(g: &Scope, v: Vec3) -> Vec3 {
     let size = v.iter().filter_map(|x| g.as_constant(*x)).fold(0.0, |m: f64, x| m.max(x.abs()));
     v.map(|x| match g.as_constant(x) {
         Some(value) if value.abs() < DUST * size => g.zero(),
@@ -269,7 +269,7 @@ fn without_dust(g: &mut Graph, v: Vec3) -> Vec3 {
     })
 }
 
-fn matrix_without_dust(g: &mut Graph, m: Mat3) -> Mat3 {
+fn matrix_without_dust(g: &Scope, m: Mat3) -> Mat3 {
     let all = m.concat();
     let size = all.iter().filter_map(|x| g.as_constant(*x)).fold(0.0, |m: f64, x| m.max(x.abs()));
     m.map(|row| {
@@ -281,7 +281,7 @@ fn matrix_without_dust(g: &mut Graph, m: Mat3) -> Mat3 {
 }
 
 /// `tr(P) 1 - P`: inertia tensor from the second moment.
-pub fn inertia_of_second_moment(g: &mut Graph, second: Mat3) -> Mat3 {
+pub fn inertia_of_second_moment(g: &Scope, second: Mat3) -> Mat3 {
     let mut inertia: Mat3 = second.map(|row| g.neg3(row));
     for i in 0..3 {
         inertia[i][i] = g.add(second[(i + 1) % 3][(i + 1) % 3], second[(i + 2) % 3][(i + 2) % 3]);

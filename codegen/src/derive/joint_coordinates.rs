@@ -1,7 +1,7 @@
 //! Coordinates of a joint recomputed from the motion across it, for joints that are no chain of the tree.
 //! In: [`Across`]. Out: positions, speeds, accelerations, and the wrench per unit of each coordinate's force.
 
-use crate::expr::{ExprId, Graph, Vec3, transpose};
+use crate::expr::{ExprId, Scope, Vec3, transpose};
 use crate::model::{Axis, JointKind};
 
 use super::across::{Across, JointAxes, Sides, joint_axes};
@@ -24,7 +24,7 @@ pub struct JointCoordinates {
 
 /// Recomputes the coordinates of a joint that is not a chain of the tree.
 pub fn joint_coordinates(
-    g: &mut Graph,
+    g: &Scope,
     geometry: &Geometry<'_>,
     across: &Across,
     sides: Sides,
@@ -65,7 +65,7 @@ pub fn joint_coordinates(
 }
 
 /// Angle about an axis fixed in the parent: q = atan2 from the relative rotation.
-fn turn(g: &mut Graph, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, z: Vec3) {
+fn turn(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, z: Vec3) {
     let rotation = across.rotation(g, axes);
     list.position.push(g.atan2(rotation[1][0], rotation[0][0]));
     list.wraps.push(true);
@@ -78,7 +78,7 @@ fn turn(g: &mut Graph, list: &mut JointCoordinates, across: &Across, axes: &Join
 }
 
 /// Distance along a direction fixed in the parent.
-fn slide(g: &mut Graph, list: &mut JointCoordinates, across: &Across, direction: Vec3) {
+fn slide(g: &Scope, list: &mut JointCoordinates, across: &Across, direction: Vec3) {
     list.position.push(g.dot3(direction, across.distance));
     list.wraps.push(false);
     list.speed.push(g.dot3(direction, across.slide));
@@ -106,13 +106,7 @@ impl UniversalAxes {
 }
 
 /// `omega = v1 a + v2 b` with a fixed in the parent, b in the child; the dual basis gives each speed.
-fn universal(
-    g: &mut Graph,
-    list: &mut JointCoordinates,
-    across: &Across,
-    axes: &JointAxes,
-    own: &UniversalAxes,
-) {
+fn universal(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, own: &UniversalAxes) {
     let a = across.parent_axis(g, axes, 2);
     let b_child = g.vector(own.second_in_child);
     let b = g.mul_vec3(across.from_child, b_child);
@@ -134,7 +128,7 @@ fn universal(
     list.wraps.extend([true, true]);
     let scale_factor = g.constant(1.0 / (1.0 - cosine * cosine));
     let cos = g.constant(cosine);
-    let dual = |g: &mut Graph, own: Vec3, other: Vec3| {
+    let dual = |g: &Scope, own: Vec3, other: Vec3| {
         let part = g.scale3(cos, other);
         let rest = g.sub3(own, part);
         g.scale3(scale_factor, rest)

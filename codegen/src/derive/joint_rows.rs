@@ -1,7 +1,7 @@
 //! The rows that each joint kind takes away, with residual, unit wrench and acceleration bias.
 //! In: relative motion across the cut. Out: [`Row`]s. Never knows the tree.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 use crate::model::JointKind;
 
 use super::across::{Across, JointAxes, Sides};
@@ -10,7 +10,7 @@ use super::inertia::Geometry;
 
 /// Makes the rows of one cut.
 pub struct RowMaker<'a> {
-    g: &'a mut Graph,
+    g: &'a Scope,
     across: &'a Across,
     sides: Sides,
     axes: JointAxes,
@@ -22,7 +22,7 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 
 impl<'a> RowMaker<'a> {
     /// For the cut between the given sides; with `exact` the moments hold off the closed positions too.
-    pub fn new(g: &'a mut Graph, across: &'a Across, sides: Sides, axes: JointAxes, exact: bool) -> Self {
+    pub fn new(g: &'a Scope, across: &'a Across, sides: Sides, axes: JointAxes, exact: bool) -> Self {
         Self { g, across, sides, axes, exact, rows: Vec::new() }
     }
 
@@ -171,7 +171,7 @@ impl<'a> RowMaker<'a> {
 
     /// The two axes of a universal joint keep their angle: one row about their common normal.
     fn cross(&mut self, geometry: &Geometry<'_>, second: [f64; 3]) {
-        let g = &mut *self.g;
+        let g = self.g;
         let across = self.across;
         let frame = match self.sides.child {
             None => super::frame::Frame::IDENTITY,
@@ -201,7 +201,7 @@ impl<'a> RowMaker<'a> {
     /// over many turns.
     fn thread(&mut self, z: Vec3, advance: f64) {
         let rotation = self.across.rotation(self.g, &self.axes);
-        let g = &mut *self.g;
+        let g = self.g;
         let (h, reciprocal) = (g.constant(advance), g.constant(1.0 / advance));
         let stroke = g.dot3(z, self.across.distance);
         let angle = g.mul(reciprocal, stroke);
@@ -212,7 +212,7 @@ impl<'a> RowMaker<'a> {
         let minus_h = g.constant(-advance);
         let moment = g.scale3(minus_h, z);
         let (slid, spun) = (self.translation_bias(z), self.rotation_bias(z));
-        let g = &mut *self.g;
+        let g = self.g;
         let part = g.mul(minus_h, spun);
         let bias = g.add(slid, part);
         let (along, about) = (g.dot3(z, self.across.slide), g.dot3(z, self.across.omega));

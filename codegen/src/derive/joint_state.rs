@@ -1,7 +1,7 @@
 //! Coordinates, speeds and accelerations of joints and points, wherever they come from: a coordinate of the
 //! tree, or recomputed across a cut. In: link motion. Out: expressions. Never knows forces.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Formula, JointKind, Term};
 
@@ -50,7 +50,7 @@ pub fn is_angle(kind: &JointKind, coordinate: usize) -> bool {
 
 impl JointStates<'_> {
     /// Coordinates of a joint; for tree joints read from the state, else recomputed.
-    pub fn coordinates(&self, g: &mut Graph, joint: JointId) -> JointCoordinates {
+    pub fn coordinates(&self, g: &Scope, joint: JointId) -> JointCoordinates {
         let kind = &self.geometry.mechanism.joint(joint).kind;
         let linkage = self.geometry.linkage;
         let links: Vec<Option<usize>> =
@@ -73,12 +73,12 @@ impl JointStates<'_> {
     }
 
     /// Relative motion across any joint.
-    pub fn across(&self, g: &mut Graph, joint: JointId) -> Across {
+    pub fn across(&self, g: &Scope, joint: JointId) -> Across {
         Across::new(g, self.geometry, self.motion, sides_of(self.geometry, joint), Place::Child)
     }
 
     /// Position of a named point in W [m].
-    pub fn point(&self, g: &mut Graph, point: PointId) -> Vec3 {
+    pub fn point(&self, g: &Scope, point: PointId) -> Vec3 {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
@@ -86,7 +86,7 @@ impl JointStates<'_> {
     }
 
     /// Velocity of a named point in W [m/s].
-    pub fn point_velocity(&self, g: &mut Graph, point: PointId) -> Vec3 {
+    pub fn point_velocity(&self, g: &Scope, point: PointId) -> Vec3 {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
@@ -94,7 +94,7 @@ impl JointStates<'_> {
     }
 
     /// A formula over the state.
-    pub fn lower(&self, g: &mut Graph, formula: &Formula) -> ExprId {
+    pub fn lower(&self, g: &Scope, formula: &Formula) -> ExprId {
         self.geometry.inputs.lower_with(g, formula, &mut |g, term| match term {
             Term::JointPosition(joint, c) => self.coordinates(g, *joint).position[*c],
             Term::JointSpeed(joint, c) => self.coordinates(g, *joint).speed[*c],

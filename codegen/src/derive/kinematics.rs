@@ -2,7 +2,7 @@
 //! In: a [`Linkage`], coordinates and speeds. Out: expressions in each link's own frame.
 //! Never knows forces. Twists are (omega, v of the link's origin); docs/notation.md.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3, transpose};
+use crate::expr::{ExprId, Mat3, Scope, Vec3, transpose};
 
 use super::frame::Frame;
 use super::linkage::{Freedom, LinkIndex, Linkage};
@@ -49,7 +49,7 @@ pub struct Poses {
 }
 
 /// Rotation matrix of a unit quaternion, scalar first.
-pub fn rotation_of_quaternion(g: &mut Graph, [w, x, y, z]: [ExprId; 4]) -> Mat3 {
+pub fn rotation_of_quaternion(g: &Scope, [w, x, y, z]: [ExprId; 4]) -> Mat3 {
     let (one, two) = (g.one(), g.constant(2.0));
     let [x2, y2, z2] = [x, y, z].map(|c| g.mul(two, c));
     let [xx, yy, zz] = [(x, x2), (y, y2), (z, z2)].map(|(a, b)| g.mul(a, b));
@@ -67,7 +67,7 @@ pub fn rotation_of_quaternion(g: &mut Graph, [w, x, y, z]: [ExprId; 4]) -> Mat3 
 }
 
 /// Rotation about e_z by an angle, [CS (2)] for a screw through the origin.
-fn rotation_about_z(g: &mut Graph, angle: ExprId) -> Mat3 {
+fn rotation_about_z(g: &Scope, angle: ExprId) -> Mat3 {
     let (s, c) = (g.sin(angle), g.cos(angle));
     let (zero, one, minus) = (g.zero(), g.one(), g.neg(s));
     [[c, minus, zero], [s, c, zero], [zero, zero, one]]
@@ -75,7 +75,7 @@ fn rotation_about_z(g: &mut Graph, angle: ExprId) -> Mat3 {
 
 impl Poses {
     /// All poses. `mounts` are the positions of the joints in their parent links' frames.
-    pub fn new(g: &mut Graph, linkage: &Linkage, mounts: &[Vec3], q: &[ExprId]) -> Self {
+    pub fn new(g: &Scope, linkage: &Linkage, mounts: &[Vec3], q: &[ExprId]) -> Self {
         let mut poses = Self { relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
         for (at, link) in linkage.links.iter().enumerate() {
             let own = &q[link.coordinates()];
@@ -99,7 +99,7 @@ impl Poses {
     }
 
     /// A ball or free link: its orientation (and position) is a coordinate itself.
-    fn absolute(&self, g: &mut Graph, parent: LinkIndex, mount: Vec3, q: &[ExprId]) -> (Pose, Pose) {
+    fn absolute(&self, g: &Scope, parent: LinkIndex, mount: Vec3, q: &[ExprId]) -> (Pose, Pose) {
         let rotation = rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
         if q.len() == 7 {
             let pose = Pose { rotation, offset: [q[4], q[5], q[6]] };
@@ -116,7 +116,7 @@ impl Poses {
         (relative, world)
     }
 
-    fn compose(&self, g: &mut Graph, parent: LinkIndex, relative: Pose) -> Pose {
+    fn compose(&self, g: &Scope, parent: LinkIndex, relative: Pose) -> Pose {
         let Some(parent) = parent else { return relative };
         let outer = self.world[parent];
         let carried = g.mul_vec3(outer.rotation, relative.offset);
@@ -127,7 +127,7 @@ impl Poses {
     }
 
     /// World pose; identity for the ground.
-    pub fn world_of(&self, g: &mut Graph, link: LinkIndex) -> Pose {
+    pub fn world_of(&self, g: &Scope, link: LinkIndex) -> Pose {
         match link {
             Some(at) => self.world[at],
             None => Pose { rotation: g.matrix(Frame::IDENTITY.0), offset: g.zero_vector() },
@@ -135,7 +135,7 @@ impl Poses {
     }
 
     /// Takes components in the frame of `from` to the frame of `to`, along the tree.
-    pub fn rotation_between(&self, g: &mut Graph, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
+    pub fn rotation_between(&self, g: &Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
         let top = linkage.common_ancestor(from, to);
         let down = self.rotation_up(g, linkage, from, top);
         let up = self.rotation_up(g, linkage, to, top);
@@ -143,7 +143,7 @@ impl Poses {
     }
 
     /// Takes components in the frame of `from` to that of its ancestor `to`.
-    fn rotation_up(&self, g: &mut Graph, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
+    fn rotation_up(&self, g: &Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
         if to.is_none() {
             return self.world_of(g, from).rotation;
         }
@@ -158,14 +158,14 @@ impl Poses {
     }
 
     /// Position in W of a point given in a link's frame [m].
-    pub fn position(&self, g: &mut Graph, link: LinkIndex, point: Vec3) -> Vec3 {
+    pub fn position(&self, g: &Scope, link: LinkIndex, point: Vec3) -> Vec3 {
         let Some(at) = link else { return point };
         let carried = g.mul_vec3(self.world[at].rotation, point);
         g.add3(self.world[at].offset, carried)
     }
 }
 
-fn local_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, origin: Vec3, q: &[ExprId]) -> Pose {
+fn local_pose(g: &Scope, freedom: Freedom, mount: &Frame, origin: Vec3, q: &[ExprId]) -> Pose {
     match freedom {
         Freedom::Rotation { offset, advance } => {
             let offset_angle = g.constant(offset);
@@ -189,7 +189,7 @@ fn local_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, origin: Vec3, q: &
 }
 
 /// Pose of a node in its floating frame, or of the floating frame behind its inboard node.
-fn node_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, node: &NodePose) -> Pose {
+fn node_pose(g: &Scope, freedom: Freedom, mount: &Frame, node: &NodePose) -> Pose {
     let identity = g.matrix(Frame::IDENTITY.0);
     let rotation = node.rotation.unwrap_or(identity);
     if freedom == Freedom::Node {
@@ -202,19 +202,19 @@ fn node_pose(g: &mut Graph, freedom: Freedom, mount: &Frame, node: &NodePose) ->
 }
 
 /// Velocity of a point of a link, in the link's frame.
-pub fn point_velocity(g: &mut Graph, twist: &Twist, point: Vec3) -> Vec3 {
+pub fn point_velocity(g: &Scope, twist: &Twist, point: Vec3) -> Vec3 {
     let turned = g.cross3(twist.omega, point);
     g.add3(twist.origin, turned)
 }
 
 /// Acceleration of a point of a link, in the link's frame.
-pub fn point_acceleration(g: &mut Graph, acceleration: &Acceleration, point: Vec3) -> Vec3 {
+pub fn point_acceleration(g: &Scope, acceleration: &Acceleration, point: Vec3) -> Vec3 {
     let turned = g.mul_vec3(acceleration.spin, point);
     g.add3(acceleration.origin, turned)
 }
 
 /// Twists of all links for given speeds.
-pub fn twists(g: &mut Graph, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> Vec<Twist> {
+pub fn twists(g: &Scope, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> Vec<Twist> {
     let mut twists: Vec<Twist> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
         let own = &v[link.speeds()];
@@ -250,7 +250,7 @@ pub fn twists(g: &mut Graph, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> 
 }
 
 /// Twist of a node, or of a floating frame behind its inboard node, from what it would be without modal speeds.
-fn deformed_twist(g: &mut Graph, freedom: Freedom, carried: Twist, node: &NodePose, v: &[ExprId]) -> Twist {
+fn deformed_twist(g: &Scope, freedom: Freedom, carried: Twist, node: &NodePose, v: &[ExprId]) -> Twist {
     let rate = node.velocity(g, v);
     if freedom == Freedom::Node {
         let (turn, slide) = (node.to_section(g, rate.turn), node.to_section(g, rate.slide));
@@ -262,7 +262,7 @@ fn deformed_twist(g: &mut Graph, freedom: Freedom, carried: Twist, node: &NodePo
 }
 
 /// Twist that a link would have if it were fixed to its parent.
-pub fn carried_twist(g: &mut Graph, parent: Option<Twist>, pose: &Pose) -> Twist {
+pub fn carried_twist(g: &Scope, parent: Option<Twist>, pose: &Pose) -> Twist {
     let Some(parent) = parent else {
         let zero = g.zero_vector();
         return Twist { omega: zero, origin: zero };
@@ -275,7 +275,7 @@ pub fn carried_twist(g: &mut Graph, parent: Option<Twist>, pose: &Pose) -> Twist
 }
 
 /// `skew(alpha) + skew(omega)²`.
-pub fn spin(g: &mut Graph, omega: Vec3, alpha: Vec3) -> Mat3 {
+pub fn spin(g: &Scope, omega: Vec3, alpha: Vec3) -> Mat3 {
     let squares = omega.map(|c| g.square(c));
     let mut matrix = g.matrix([[0.0; 3]; 3]);
     for i in 0..3 {
@@ -292,7 +292,7 @@ pub fn spin(g: &mut Graph, omega: Vec3, alpha: Vec3) -> Mat3 {
 /// Accelerations of all links for given speeds and speed derivatives. `ground` is the acceleration of
 /// the ground: minus gravity, so that weight is carried along.
 pub fn accelerations(
-    g: &mut Graph,
+    g: &Scope,
     linkage: &Linkage,
     poses: &Poses,
     twists: &[Twist],
@@ -332,7 +332,7 @@ pub fn accelerations(
 
 /// Angular acceleration of a section and acceleration of its node, in the section's frame.
 fn node_acceleration(
-    g: &mut Graph,
+    g: &Scope,
     node: &NodePose,
     (twist, floating): (Twist, Acceleration),
     velocity: NodeMotion,
@@ -351,7 +351,7 @@ fn node_acceleration(
 /// Angular acceleration of a floating frame and acceleration of its origin, in its frame, from those of the
 /// link that holds its inboard node.
 fn floating_acceleration(
-    g: &mut Graph,
+    g: &Scope,
     node: &NodePose,
     (pose, twist): (&Pose, Twist),
     holder: Acceleration,
@@ -373,7 +373,7 @@ fn floating_acceleration(
 
 /// Angular acceleration and acceleration of the origin of a jointed link, in its frame.
 fn relative_acceleration(
-    g: &mut Graph,
+    g: &Scope,
     freedom: Freedom,
     pose: &Pose,
     parent: Option<(Twist, Acceleration)>,
@@ -417,7 +417,7 @@ fn relative_acceleration(
 }
 
 /// Coriolis acceleration of a relative velocity `slide` added to the carried acceleration.
-fn sliding_acceleration(g: &mut Graph, carried: Vec3, omega: Vec3, slide: Vec3, two: ExprId) -> Vec3 {
+fn sliding_acceleration(g: &Scope, carried: Vec3, omega: Vec3, slide: Vec3, two: ExprId) -> Vec3 {
     let turned = g.cross3(omega, slide);
     let coriolis = g.scale3(two, turned);
     g.add3(carried, coriolis)

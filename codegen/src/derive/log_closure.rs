@@ -7,7 +7,7 @@
 //!   B = d(A)[rho] = skew(rho)/2 + b (skew(phi) skew(rho) + skew(rho) skew(phi)) + 2 b' (phi.rho) skew(phi)².
 //! b(x) and its derivatives are series-safe intrinsics.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 
 use super::across::{Across, Sides, weld_axes};
 use super::closure::Row;
@@ -24,13 +24,7 @@ const NAMES: [&str; 6] = [
 
 /// The six rows of a split end body; `across` is in the frame of the copy (branch a). Without `exact`
 /// the Jacobian is that of closed positions, where `J_r^-1` is the identity.
-pub fn log_rows(
-    g: &mut Graph,
-    geometry: &Geometry<'_>,
-    across: &Across,
-    sides: Sides,
-    exact: bool,
-) -> Vec<Row> {
+pub fn log_rows(g: &Scope, geometry: &Geometry<'_>, across: &Across, sides: Sides, exact: bool) -> Vec<Row> {
     let axes = weld_axes(geometry, sides);
     let rotation = across.rotation(g, &axes);
     let logarithm = Logarithm::new(g, rotation, across.distance);
@@ -68,7 +62,7 @@ struct Logarithm {
 
 impl Logarithm {
     /// `distance` is the position of a from b in the frame of a.
-    fn new(g: &mut Graph, rotation: Mat3, distance: Vec3) -> Self {
+    fn new(g: &Scope, rotation: Mat3, distance: Vec3) -> Self {
         let half = g.constant(0.5);
         let sine: Vec3 = core::array::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -92,7 +86,7 @@ impl Logarithm {
     }
 
     /// A = 1 + skew(phi)/2 + b skew(phi)².
-    fn half_jacobian(&self, g: &mut Graph) -> Mat3 {
+    fn half_jacobian(&self, g: &Scope) -> Mat3 {
         let b = g.log_coefficient(0, self.square);
         let half = g.constant(0.5);
         let skew = g.skew3(self.phi);
@@ -105,7 +99,7 @@ impl Logarithm {
     }
 
     /// The blocks A and B of the inverse right Jacobian.
-    fn inverse_jacobian(&self, g: &mut Graph) -> (Mat3, Mat3) {
+    fn inverse_jacobian(&self, g: &Scope) -> (Mat3, Mat3) {
         let a = self.half_jacobian(g);
         let (b, slope) = (g.log_coefficient(0, self.square), g.log_coefficient(1, self.square));
         let (half, two) = (g.constant(0.5), g.constant(2.0));

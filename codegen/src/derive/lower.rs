@@ -1,7 +1,7 @@
 //! Formulas of the file become expressions of the graph.
 //! In: [`crate::model::Formula`]. Out: [`ExprId`]. Never knows how coordinates are computed: a closure says.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::model::{Formula, Function, Term};
 
 /// Values of parameters and time as expressions: numbers for what is folded, symbols for what stays.
@@ -15,26 +15,26 @@ pub struct Inputs {
 
 impl Inputs {
     /// A formula over parameters and time.
-    pub fn lower(&self, g: &mut Graph, formula: &Formula) -> ExprId {
+    pub fn lower(&self, g: &Scope, formula: &Formula) -> ExprId {
         self.lower_with(g, formula, &mut |g, _| g.zero())
     }
 
     /// A vector of formulas over parameters and time.
-    pub fn lower3(&self, g: &mut Graph, formulas: &[Formula; 3]) -> Vec3 {
+    pub fn lower3(&self, g: &Scope, formulas: &[Formula; 3]) -> Vec3 {
         [0, 1, 2].map(|i| self.lower(g, &formulas[i]))
     }
 
     /// A formula that may read coordinates and speeds, which `state` looks up.
     pub fn lower_with(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         formula: &Formula,
-        state: &mut dyn FnMut(&mut Graph, &Term) -> ExprId,
+        state: &mut dyn FnMut(&Scope, &Term) -> ExprId,
     ) -> ExprId {
         self.term(g, &formula.term, state)
     }
 
-    fn term(&self, g: &mut Graph, term: &Term, state: &mut dyn FnMut(&mut Graph, &Term) -> ExprId) -> ExprId {
+    fn term(&self, g: &Scope, term: &Term, state: &mut dyn FnMut(&Scope, &Term) -> ExprId) -> ExprId {
         match term {
             Term::Number(value) => g.constant(*value),
             Term::Parameter(id) => self.parameters[id.index()],
@@ -43,10 +43,10 @@ impl Inputs {
                 let a = self.term(g, a, state);
                 g.neg(a)
             }
-            Term::Add(a, b) => self.pair(g, a, b, state, Graph::add),
-            Term::Sub(a, b) => self.pair(g, a, b, state, Graph::sub),
-            Term::Mul(a, b) => self.pair(g, a, b, state, Graph::mul),
-            Term::Div(a, b) => self.pair(g, a, b, state, Graph::div),
+            Term::Add(a, b) => self.pair(g, a, b, state, Scope::add),
+            Term::Sub(a, b) => self.pair(g, a, b, state, Scope::sub),
+            Term::Mul(a, b) => self.pair(g, a, b, state, Scope::mul),
+            Term::Div(a, b) => self.pair(g, a, b, state, Scope::div),
             Term::Power(a, n) => {
                 let a = self.term(g, a, state);
                 g.power(a, *n)
@@ -64,11 +64,11 @@ impl Inputs {
 
     fn pair(
         &self,
-        g: &mut Graph,
+        g: &Scope,
         a: &Term,
         b: &Term,
-        state: &mut dyn FnMut(&mut Graph, &Term) -> ExprId,
-        operation: fn(&mut Graph, ExprId, ExprId) -> ExprId,
+        state: &mut dyn FnMut(&Scope, &Term) -> ExprId,
+        operation: fn(&Scope, ExprId, ExprId) -> ExprId,
     ) -> ExprId {
         let a = self.term(g, a, state);
         let b = self.term(g, b, state);
@@ -77,7 +77,7 @@ impl Inputs {
 }
 
 /// Functions of the file in terms of the graph's few.
-fn call(g: &mut Graph, function: Function, arguments: &[ExprId]) -> ExprId {
+fn call(g: &Scope, function: Function, arguments: &[ExprId]) -> ExprId {
     let x = arguments[0];
     let one = g.one();
     match function {
@@ -97,8 +97,8 @@ fn call(g: &mut Graph, function: Function, arguments: &[ExprId]) -> ExprId {
         }
         Function::Atan => g.atan2(x, one),
         Function::Atan2 => g.atan2(x, arguments[1]),
-        Function::Sinh => hyperbolic(g, x, Graph::sub),
-        Function::Cosh => hyperbolic(g, x, Graph::add),
+        Function::Sinh => hyperbolic(g, x, Scope::sub),
+        Function::Cosh => hyperbolic(g, x, Scope::add),
         Function::Tanh => {
             // 1 - 2 / (exp(2 x) + 1) stays finite for large |x|.
             let two = g.constant(2.0);
@@ -115,14 +115,14 @@ fn call(g: &mut Graph, function: Function, arguments: &[ExprId]) -> ExprId {
 }
 
 /// `sqrt(1 - x²)`.
-fn cathetus(g: &mut Graph, x: ExprId) -> ExprId {
+fn cathetus(g: &Scope, x: ExprId) -> ExprId {
     let one = g.one();
     let square = g.square(x);
     let rest = g.sub(one, square);
     g.sqrt(rest)
 }
 
-fn hyperbolic(g: &mut Graph, x: ExprId, join: fn(&mut Graph, ExprId, ExprId) -> ExprId) -> ExprId {
+fn hyperbolic(g: &Scope, x: ExprId, join: fn(&Scope, ExprId, ExprId) -> ExprId) -> ExprId {
     let up = g.exp(x);
     let down = g.reciprocal(up);
     let both = join(g, up, down);

@@ -6,7 +6,7 @@
 //! `theta` it is taken as the Gibbs vector `g = theta / 2`, which needs no branch and no sine:
 //!   R = 1 + tau (skew(g) + skew(g)²),  omega = tau (g_dot + g x g_dot),  tau = 2 / (1 + g.g).
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 use crate::flexible::Node;
 
 use super::frame::Frame;
@@ -71,7 +71,7 @@ pub struct NodeMotion {
 }
 
 /// `sum weight_k vector_k` of constant vectors.
-fn weighted(g: &mut Graph, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
+fn weighted(g: &Scope, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
     core::array::from_fn(|i| {
         let terms: Vec<(ExprId, ExprId)> =
             vectors.iter().zip(weights).map(|(vector, weight)| (g.constant(vector[i]), *weight)).collect();
@@ -80,7 +80,7 @@ fn weighted(g: &mut Graph, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
 }
 
 /// `sum weight_k vector_k` of vectors of expressions.
-fn combined(g: &mut Graph, vectors: &[Vec3], weights: &[ExprId]) -> Vec3 {
+fn combined(g: &Scope, vectors: &[Vec3], weights: &[ExprId]) -> Vec3 {
     core::array::from_fn(|i| {
         let terms: Vec<(ExprId, ExprId)> =
             vectors.iter().zip(weights).map(|(vector, weight)| (vector[i], *weight)).collect();
@@ -90,7 +90,7 @@ fn combined(g: &mut Graph, vectors: &[Vec3], weights: &[ExprId]) -> Vec3 {
 
 impl NodePose {
     /// The node for modal coordinates `q`.
-    pub fn new(g: &mut Graph, shape: &NodeShape, q: &[ExprId]) -> Self {
+    pub fn new(g: &Scope, shape: &NodeShape, q: &[ExprId]) -> Self {
         let slide: Vec<Vec3> = (0..q.len())
             .map(|k| {
                 let first = g.vector(shape.displacement[k]);
@@ -121,7 +121,7 @@ impl NodePose {
         pose
     }
 
-    fn turned(&mut self, g: &mut Graph, shape: &NodeShape, q: &[ExprId]) {
+    fn turned(&mut self, g: &Scope, shape: &NodeShape, q: &[ExprId]) {
         let halves: Vec<[f64; 3]> = shape.rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect();
         self.gibbs = weighted(g, &halves, q);
         let (one, two) = (g.one(), g.constant(2.0));
@@ -146,7 +146,7 @@ impl NodePose {
     }
 
     /// Orientation of the section as a unit quaternion, scalar first.
-    pub fn quaternion(&self, g: &mut Graph) -> [ExprId; 4] {
+    pub fn quaternion(&self, g: &Scope) -> [ExprId; 4] {
         let (one, half, zero) = (g.one(), g.constant(0.5), g.zero());
         if self.rotation.is_none() {
             return [one, zero, zero, zero];
@@ -159,7 +159,7 @@ impl NodePose {
     }
 
     /// Components in the section's frame of a vector in the floating frame.
-    pub fn to_section(&self, g: &mut Graph, vector: Vec3) -> Vec3 {
+    pub fn to_section(&self, g: &Scope, vector: Vec3) -> Vec3 {
         match self.rotation {
             Some(rotation) => g.transpose_mul_vec3(rotation, vector),
             None => vector,
@@ -167,7 +167,7 @@ impl NodePose {
     }
 
     /// Components in the floating frame of a vector in the section's frame.
-    pub fn to_floating(&self, g: &mut Graph, vector: Vec3) -> Vec3 {
+    pub fn to_floating(&self, g: &Scope, vector: Vec3) -> Vec3 {
         match self.rotation {
             Some(rotation) => g.mul_vec3(rotation, vector),
             None => vector,
@@ -175,18 +175,12 @@ impl NodePose {
     }
 
     /// Velocity relative to the floating frame.
-    pub fn velocity(&self, g: &mut Graph, v: &[ExprId]) -> NodeMotion {
+    pub fn velocity(&self, g: &Scope, v: &[ExprId]) -> NodeMotion {
         NodeMotion { slide: combined(g, &self.slide, v), turn: combined(g, &self.turn, v) }
     }
 
     /// Second derivative of place and orientation relative to the floating frame.
-    pub fn acceleration(
-        &self,
-        g: &mut Graph,
-        shape: &NodeShape,
-        v: &[ExprId],
-        v_dot: &[ExprId],
-    ) -> NodeMotion {
+    pub fn acceleration(&self, g: &Scope, shape: &NodeShape, v: &[ExprId], v_dot: &[ExprId]) -> NodeMotion {
         let mut slide = combined(g, &self.slide, v_dot);
         if !shape.second.is_empty() {
             let rows: Vec<Vec3> = shape.second.iter().map(|row| weighted(g, row, v)).collect();
@@ -208,7 +202,7 @@ impl NodePose {
     }
 
     /// Power per unit of each modal speed of a wrench on the node: moment about the node, floating frame.
-    pub fn generalised(&self, g: &mut Graph, moment: Vec3, force: Vec3) -> Vec<ExprId> {
+    pub fn generalised(&self, g: &Scope, moment: Vec3, force: Vec3) -> Vec<ExprId> {
         (0..self.slide.len())
             .map(|k| {
                 let slid = g.dot3(self.slide[k], force);
@@ -225,7 +219,7 @@ impl NodePose {
 
     /// Twist of the section's frame relative to the floating frame per unit of modal speed `k`:
     /// angular velocity, velocity of the node; floating frame.
-    pub fn screw(&self, g: &mut Graph, k: usize) -> [Vec3; 2] {
+    pub fn screw(&self, g: &Scope, k: usize) -> [Vec3; 2] {
         let turn = self.turn.get(k).copied();
         [turn.unwrap_or_else(|| g.zero_vector()), self.slide[k]]
     }
@@ -249,15 +243,15 @@ mod tests {
     /// Rotation, place and their rates for q(t) = a + b t + c t²/2.
     fn at(time: f64) -> Snapshot {
         let (a, b, c) = ([0.4, -0.3], [0.9, 1.3], [-0.5, 0.8]);
-        let mut g = Graph::new();
+        let g = Scope::new();
         let pick = |f: &dyn Fn(usize) -> f64| [f(0), f(1)];
         let q = pick(&|i| a[i] + b[i] * time + 0.5 * c[i] * time * time).map(|x| g.constant(x));
         let v = pick(&|i| b[i] + c[i] * time).map(|x| g.constant(x));
         let v_dot = pick(&|i| c[i]).map(|x| g.constant(x));
         let shape = node();
-        let pose = NodePose::new(&mut g, &shape, &q);
-        let rate = pose.velocity(&mut g, &v);
-        let acceleration = pose.acceleration(&mut g, &shape, &v, &v_dot);
+        let pose = NodePose::new(&g, &shape, &q);
+        let rate = pose.velocity(&g, &v);
+        let acceleration = pose.acceleration(&g, &shape, &v, &v_dot);
         let number = |x: ExprId| g.as_constant(x).expect("functions of numbers fold");
         let rotation = pose.rotation.expect("the node turns").map(|row| row.map(number));
         let rates = [rate.slide, rate.turn, acceleration.slide, acceleration.turn];

@@ -4,7 +4,7 @@
 
 use linkwear_runtime::Channel;
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
 use crate::model::{Flexible, JointKind};
@@ -62,7 +62,7 @@ impl Channels {
 }
 
 /// Derives all columns.
-pub fn channels(g: &mut Graph, observed: &Observed<'_>) -> Channels {
+pub fn channels(g: &Scope, observed: &Observed<'_>) -> Channels {
     let mut list = Channels { channels: Vec::new(), values: Vec::new() };
     let mechanism = observed.state.geometry.mechanism;
     for index in 0..mechanism.joints.len() {
@@ -91,7 +91,7 @@ pub fn channels(g: &mut Graph, observed: &Observed<'_>) -> Channels {
     list
 }
 
-fn joint_coordinates(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels, joint: JointId) {
+fn joint_coordinates(g: &Scope, observed: &Observed<'_>, list: &mut Channels, joint: JointId) {
     let data = observed.state.geometry.mechanism.joint(joint);
     let name = &data.name;
     g.begin_section(format!("coordinates of {name}"));
@@ -128,7 +128,7 @@ fn joint_coordinates(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels
     }
 }
 
-fn bodies(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels) {
+fn bodies(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
     let geometry = observed.state.geometry;
     for (index, body) in geometry.mechanism.bodies.iter().enumerate() {
         g.begin_section(format!("angular velocity of {}", body.name));
@@ -144,7 +144,7 @@ fn bodies(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels) {
 
 /// Modal coordinates, displacement and bending stress at the stations, energy of the modes.
 fn modes(
-    g: &mut Graph,
+    g: &Scope,
     observed: &Observed<'_>,
     list: &mut Channels,
     name: &str,
@@ -184,7 +184,7 @@ fn modes(
 }
 
 /// Strain energy and kinetic energy of the deformation relative to the floating frame [J].
-fn modal_energy(g: &mut Graph, data: &ModalData, q: &[ExprId], v: &[ExprId]) -> ExprId {
+fn modal_energy(g: &Scope, data: &ModalData, q: &[ExprId], v: &[ExprId]) -> ExprId {
     let mut sum = g.zero();
     for (matrix, x) in [(&data.stiffness, q), (&data.mass_matrix, v)] {
         for (row, own) in matrix.iter().zip(x) {
@@ -216,7 +216,7 @@ fn multipliers(observed: &Observed<'_>, list: &mut Channels) {
 }
 
 /// Sum of a cut's constraint wrenches on the child at its joint point, in the common frame.
-fn constraint_wrench(g: &mut Graph, cut: &CutRows, multipliers: &[ExprId]) -> [Vec3; 2] {
+fn constraint_wrench(g: &Scope, cut: &CutRows, multipliers: &[ExprId]) -> [Vec3; 2] {
     let mut sum = [g.zero_vector(), g.zero_vector()];
     for (row, multiplier) in cut.rows.iter().zip(multipliers) {
         let parts = [row.moment, row.force].map(|part| g.scale3(*multiplier, part));
@@ -225,7 +225,7 @@ fn constraint_wrench(g: &mut Graph, cut: &CutRows, multipliers: &[ExprId]) -> [V
     sum
 }
 
-fn wrenches(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels) {
+fn wrenches(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
     let state = observed.state;
     let linkage = state.geometry.linkage;
     g.begin_section("constraint forces of the loops");
@@ -263,13 +263,7 @@ fn wrenches(g: &mut Graph, observed: &Observed<'_>, list: &mut Channels) {
 }
 
 /// Wrench by parent on child in W at the child's joint point, without the drives.
-fn tree_wrench(
-    g: &mut Graph,
-    observed: &Observed<'_>,
-    joint: JointId,
-    at: usize,
-    total: Wrench,
-) -> [Vec3; 2] {
+fn tree_wrench(g: &Scope, observed: &Observed<'_>, joint: JointId, at: usize, total: Wrench) -> [Vec3; 2] {
     let state = observed.state;
     let linkage = state.geometry.linkage;
     let pose = state.motion.poses.world[at];
@@ -318,7 +312,7 @@ fn slides(kind: &JointKind) -> bool {
     )
 }
 
-fn cut_wrench(g: &mut Graph, observed: &Observed<'_>, cut: &CutRows, constraint: [Vec3; 2]) -> [Vec3; 2] {
+fn cut_wrench(g: &Scope, observed: &Observed<'_>, cut: &CutRows, constraint: [Vec3; 2]) -> [Vec3; 2] {
     let [mut moment, mut force] = constraint;
     for (joint, own_moment, own_force) in &observed.loads.in_cuts {
         if *joint == cut.cut.joint {
@@ -334,8 +328,8 @@ fn cut_wrench(g: &mut Graph, observed: &Observed<'_>, cut: &CutRows, constraint:
 pub type Quaternion = [ExprId; 4];
 
 /// Product of quaternions: first `b`, then `a`.
-pub fn quaternion_product(g: &mut Graph, a: Quaternion, b: Quaternion) -> Quaternion {
-    let minus = |g: &mut Graph, x: ExprId| g.neg(x);
+pub fn quaternion_product(g: &Scope, a: Quaternion, b: Quaternion) -> Quaternion {
+    let minus = |g: &Scope, x: ExprId| g.neg(x);
     let m = [minus(g, a[1]), minus(g, a[2]), minus(g, a[3])];
     [
         g.dot(&[(a[0], b[0]), (m[0], b[1]), (m[1], b[2]), (m[2], b[3])]),
@@ -346,18 +340,18 @@ pub fn quaternion_product(g: &mut Graph, a: Quaternion, b: Quaternion) -> Quater
 }
 
 /// Inverse of a unit quaternion.
-pub fn conjugate(g: &mut Graph, a: Quaternion) -> Quaternion {
+pub fn conjugate(g: &Scope, a: Quaternion) -> Quaternion {
     [a[0], g.neg(a[1]), g.neg(a[2]), g.neg(a[3])]
 }
 
 /// Rotation of a link's body from its reference pose, as a quaternion in W.
-fn displacement(g: &mut Graph, observed: &Observed<'_>, link: Option<usize>) -> Quaternion {
+fn displacement(g: &Scope, observed: &Observed<'_>, link: Option<usize>) -> Quaternion {
     let linkage = observed.state.geometry.linkage;
     link_displacement(g, linkage, observed.state.q, link)
 }
 
 /// Rotation of a link's body from its reference pose for given coordinates.
-pub fn link_displacement(g: &mut Graph, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
+pub fn link_displacement(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
     let Some(at) = link else {
         let (one, zero) = (g.one(), g.zero());
         return [one, zero, zero, zero];
@@ -369,7 +363,7 @@ pub fn link_displacement(g: &mut Graph, linkage: &Linkage, q: &[ExprId], link: O
 }
 
 /// Orientation of a link's frame in W as a quaternion.
-fn orientation(g: &mut Graph, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
+fn orientation(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
     let Some(at) = link else {
         let (one, zero) = (g.one(), g.zero());
         return [one, zero, zero, zero];

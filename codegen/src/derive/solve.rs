@@ -7,7 +7,7 @@
 //! L D Lᵀ without pivoting, speeds from the leaves of the tree to its root (no fill-in), then the loop
 //! rows, whose Schur complement J M⁻¹ Jᵀ is eliminated in order of least fill. One reciprocal a pivot.
 
-use crate::expr::{ExprId, Graph};
+use crate::expr::{ExprId, Scope};
 
 /// The solution and the pivots of the loop rows.
 pub struct Solution {
@@ -22,7 +22,7 @@ pub struct Solution {
 /// Solves for accelerations and multipliers. `mass` and `jacobian` are over the same speeds, ordered root to
 /// leaves; `names` label the pivots.
 pub fn solve(
-    g: &mut Graph,
+    g: &Scope,
     mass: &[Vec<ExprId>],
     jacobian: &[Vec<ExprId>],
     force: &[ExprId],
@@ -65,7 +65,7 @@ struct Elimination {
 
 impl Elimination {
     /// Takes unknown `k` out: updates the block of those left and the right-hand side.
-    fn eliminate(&mut self, g: &mut Graph, k: usize, left: &mut Vec<usize>, right: &mut [ExprId]) {
+    fn eliminate(&mut self, g: &Scope, k: usize, left: &mut Vec<usize>, right: &mut [ExprId]) {
         left.retain(|other| *other != k);
         self.order.push(k);
         self.reciprocal[k] = g.reciprocal(self.matrix[k][k]);
@@ -85,7 +85,7 @@ impl Elimination {
     }
 
     /// Solves from the last eliminated unknown to the first.
-    fn substitute(&self, g: &mut Graph, right: &[ExprId]) -> Vec<ExprId> {
+    fn substitute(&self, g: &Scope, right: &[ExprId]) -> Vec<ExprId> {
         let mut solution = vec![g.zero(); right.len()];
         for (position, &k) in self.order.iter().enumerate().rev() {
             let mut sum = right[k];
@@ -99,7 +99,7 @@ impl Elimination {
     }
 
     /// The row with the fewest neighbours among those left; the first among equals.
-    fn least_fill(&self, g: &Graph, left: &[usize]) -> usize {
+    fn least_fill(&self, g: &Scope, left: &[usize]) -> usize {
         let degree = |k: usize| left.iter().filter(|i| **i != k && !g.is_zero(self.matrix[**i][k])).count();
         left.iter().copied().min_by_key(|k| degree(*k)).expect("there are rows left")
     }
@@ -112,11 +112,11 @@ mod tests {
     #[test]
     fn constrained_system_of_numbers_is_solved() {
         // Two unit masses held at equal acceleration, a force of 2 on the first: both accelerate with 1.
-        let mut g = Graph::new();
+        let g = Scope::new();
         let (zero, one, two) = (g.zero(), g.one(), g.constant(2.0));
         let minus = g.neg(one);
         let solution =
-            solve(&mut g, &[vec![one, zero], vec![zero, one]], &[vec![one, minus]], &[two, zero], &[zero]);
+            solve(&g, &[vec![one, zero], vec![zero, one]], &[vec![one, minus]], &[two, zero], &[zero]);
         assert_eq!(
             solution.accelerations.iter().map(|x| g.as_constant(*x)).collect::<Vec<_>>(),
             [Some(1.0), Some(1.0)]

@@ -1,7 +1,7 @@
 //! Start values of the free coordinates and speeds, as the file gives them.
 //! In: [`crate::model::Start`]s. Out: expressions over parameters and t. Never assembles the loops.
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::{Formula, Mechanism, Start};
 
@@ -24,7 +24,7 @@ pub struct StartValues {
 
 /// Start values; `driven_q` and `driven_v` give driven coordinates and speeds by their index among all.
 pub fn start_values(
-    g: &mut Graph,
+    g: &Scope,
     geometry: &Geometry<'_>,
     driven: &[(usize, usize, [ExprId; 2])],
 ) -> StartValues {
@@ -58,7 +58,7 @@ fn find(mechanism: &Mechanism, joint: JointId, coordinate: usize) -> Option<&Sta
     mechanism.starts.iter().find(|start| start.joint == joint && start.coordinate == coordinate)
 }
 
-fn number(g: &mut Graph, geometry: &Geometry<'_>, formula: Option<&Formula>) -> ExprId {
+fn number(g: &Scope, geometry: &Geometry<'_>, formula: Option<&Formula>) -> ExprId {
     match formula {
         Some(formula) => geometry.inputs.lower(g, formula),
         None => g.zero(),
@@ -66,7 +66,7 @@ fn number(g: &mut Graph, geometry: &Geometry<'_>, formula: Option<&Formula>) -> 
 }
 
 impl StartValues {
-    fn position(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
+    fn position(&mut self, g: &Scope, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
         if let Freedom::Flexible { .. } = link.freedom {
             return self.modes(g, geometry, at);
@@ -81,7 +81,7 @@ impl StartValues {
     }
 
     /// Modes start undeformed and at rest unless the file says otherwise, and assembly leaves them so.
-    fn modes(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
+    fn modes(&mut self, g: &Scope, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
         let Some(flexible) = &geometry.mechanism.body(link.body).flexible else { return };
         for (k, (coordinate, speed)) in link.coordinates().zip(link.speeds()).enumerate() {
@@ -92,7 +92,7 @@ impl StartValues {
         }
     }
 
-    fn orientation(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
+    fn orientation(&mut self, g: &Scope, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
         if !matches!(link.freedom, Freedom::Ball | Freedom::Free) {
             return;
@@ -127,7 +127,7 @@ impl StartValues {
         }
     }
 
-    fn scalar_speed(&mut self, g: &mut Graph, geometry: &Geometry<'_>, at: usize) {
+    fn scalar_speed(&mut self, g: &Scope, geometry: &Geometry<'_>, at: usize) {
         let link = &geometry.linkage.links[at];
         if link.freedom.speeds() != 1 || link.node.is_some() {
             return;
@@ -141,7 +141,7 @@ impl StartValues {
     }
 
     /// Speeds of ball and free links are absolute: what the parent carries plus what the file demands.
-    fn absolute_speeds(&mut self, g: &mut Graph, geometry: &Geometry<'_>) {
+    fn absolute_speeds(&mut self, g: &Scope, geometry: &Geometry<'_>) {
         let linkage = geometry.linkage;
         let mounts: Vec<Vec3> = (0..linkage.links.len()).map(|at| geometry.mount(g, at)).collect();
         let poses = Poses::new(g, linkage, &mounts, &self.q);
@@ -183,7 +183,7 @@ impl StartValues {
 }
 
 /// Quaternion of a rotation vector: angle times axis [rad].
-fn quaternion_of_vector(g: &mut Graph, vector: Vec3) -> Quaternion {
+fn quaternion_of_vector(g: &Scope, vector: Vec3) -> Quaternion {
     let square = g.dot3(vector, vector);
     if g.is_zero(square) {
         let (one, zero) = (g.one(), g.zero());

@@ -1,7 +1,7 @@
 //! Wrenches on links: how they pass inwards and what the speeds feel of them.
 //! In: poses, freedoms. Out: expressions. Never knows where a wrench comes from.
 
-use crate::expr::{ExprId, Graph, Mat3, Vec3};
+use crate::expr::{ExprId, Mat3, Scope, Vec3};
 
 use super::kinematics::Pose;
 use super::linkage::Freedom;
@@ -18,22 +18,22 @@ pub struct Wrench {
 
 impl Wrench {
     /// No wrench.
-    pub fn zero(g: &mut Graph) -> Self {
+    pub fn zero(g: &Scope) -> Self {
         Self { moment: g.zero_vector(), force: g.zero_vector() }
     }
 
     /// Sum.
-    pub fn plus(self, g: &mut Graph, other: Self) -> Self {
+    pub fn plus(self, g: &Scope, other: Self) -> Self {
         Self { moment: g.add3(self.moment, other.moment), force: g.add3(self.force, other.force) }
     }
 
     /// Opposite.
-    pub fn negated(self, g: &mut Graph) -> Self {
+    pub fn negated(self, g: &Scope) -> Self {
         Self { moment: g.neg3(self.moment), force: g.neg3(self.force) }
     }
 
     /// The same wrench seen from the parent link.
-    pub fn on_parent(self, g: &mut Graph, pose: &Pose) -> Self {
+    pub fn on_parent(self, g: &Scope, pose: &Pose) -> Self {
         let force = g.mul_vec3(pose.rotation, self.force);
         let turned = g.mul_vec3(pose.rotation, self.moment);
         let lever = g.cross3(pose.offset, force);
@@ -41,7 +41,7 @@ impl Wrench {
     }
 
     /// What the speeds inboard of the link feel of it: a ball link passes no moment, a free link nothing.
-    pub fn passed_inwards(self, g: &mut Graph, freedom: Freedom, pose: &Pose) -> Self {
+    pub fn passed_inwards(self, g: &Scope, freedom: Freedom, pose: &Pose) -> Self {
         match freedom {
             Freedom::Free => Self::zero(g),
             Freedom::Ball => {
@@ -54,7 +54,7 @@ impl Wrench {
 
     /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame
     /// and nodes only what their motion takes, not what deforms the body.
-    pub fn generalised(self, g: &mut Graph, freedom: Freedom, node: Option<&NodePose>) -> Vec<ExprId> {
+    pub fn generalised(self, g: &Scope, freedom: Freedom, node: Option<&NodePose>) -> Vec<ExprId> {
         if let Some(node) = node {
             return self.on_node(g, freedom, node);
         }
@@ -74,7 +74,7 @@ impl Wrench {
         }
     }
 
-    fn on_node(self, g: &mut Graph, freedom: Freedom, node: &NodePose) -> Vec<ExprId> {
+    fn on_node(self, g: &Scope, freedom: Freedom, node: &NodePose) -> Vec<ExprId> {
         if freedom == Freedom::Node {
             let (moment, force) = (node.to_floating(g, self.moment), node.to_floating(g, self.force));
             return node.generalised(g, moment, force);
@@ -87,7 +87,7 @@ impl Wrench {
 
     /// Momentum of a body (mass, first moment, inertia about the origin) per unit of a twist.
     pub fn momentum(
-        g: &mut Graph,
+        g: &Scope,
         (mass, first, inertia): (ExprId, Vec3, Mat3),
         omega: Vec3,
         origin: Vec3,
@@ -98,7 +98,7 @@ impl Wrench {
     }
 
     /// Power on a twist.
-    pub fn power(self, g: &mut Graph, omega: Vec3, origin: Vec3) -> ExprId {
+    pub fn power(self, g: &Scope, omega: Vec3, origin: Vec3) -> ExprId {
         let (turned, moved) = (g.dot3(self.moment, omega), g.dot3(self.force, origin));
         g.add(turned, moved)
     }

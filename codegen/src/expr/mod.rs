@@ -7,11 +7,13 @@ mod build;
 mod diff;
 mod eval;
 mod matrix;
+mod scope;
 
 use std::collections::HashMap;
 
 pub use crate::id::{ExprId, SectionId, SymbolId};
 pub use matrix::{Mat3, Vec3, transpose};
+pub use scope::Scope;
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

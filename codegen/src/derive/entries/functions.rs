@@ -13,7 +13,7 @@ use crate::derive::linkage::Freedom;
 use crate::derive::observe::{Observed, channels};
 use crate::derive::start::start_values;
 use crate::derive::{Block, Function};
-use crate::expr::{ExprId, Graph};
+use crate::expr::{ExprId, Scope};
 use crate::id::JointId;
 
 impl Deriver<'_> {
@@ -57,10 +57,9 @@ impl Deriver<'_> {
             .iter()
             .map(|driver| (driver.coordinate, driver.speed, [driver.law[0], driver.law[1]]))
             .collect();
-        let values = self.with_graph(|g, own| {
-            g.begin_section("start values");
-            start_values(g, &own.geometry(), &driven)
-        });
+        let g = self.g;
+        g.begin_section("start values");
+        let values = start_values(g, &self.geometry(), &driven);
         let q = self.free_q.iter().map(|i| values.q[*i]).collect();
         let v = self.partition.free.iter().map(|i| values.v[*i]).collect();
         self.start = Some(values);
@@ -72,11 +71,11 @@ impl Deriver<'_> {
     }
 
     pub(super) fn forward_dynamics(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
-        let result = self.with_graph(|g, own| {
-            g.begin_section("loop Jacobian");
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
-            forward(g, own.linkage, &instant.motion, masses, &instant.loads, (&rows, &own.partition))
-        });
+        let g = self.g;
+        g.begin_section("loop Jacobian");
+        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &self.keep);
+        let result =
+            forward(g, self.linkage, &instant.motion, masses, &instant.loads, (&rows, &self.partition));
         let outputs = vec![
             Block::vector(
                 "v_dot",
@@ -111,23 +110,21 @@ impl Deriver<'_> {
 
     pub(super) fn rates(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
         let drive = self.drive.clone();
-        let (q_dot, supplied) = self.with_graph(|g, own| {
-            g.begin_section("rates of the coordinates");
-            let mut q_dot = Vec::new();
-            for link in &own.linkage.links {
-                let (first, speed) = (link.first_coordinate, link.first_speed);
-                let q = &q[first..first + link.freedom.coordinates()];
-                let v = &v[speed..speed + link.freedom.speeds()];
-                q_dot.extend(coordinate_rates(g, link.freedom, q, v));
-            }
-            g.begin_section("power");
-            let mut supplied = instant.loads.supplied;
-            for (driver, force) in own.drivers.iter().zip(&drive) {
-                let power = g.mul(*force, driver.law[1]);
-                supplied = g.add(supplied, power);
-            }
-            (q_dot, supplied)
-        });
+        let g = self.g;
+        g.begin_section("rates of the coordinates");
+        let mut q_dot = Vec::new();
+        for link in &self.linkage.links {
+            let (first, speed) = (link.first_coordinate, link.first_speed);
+            let q = &q[first..first + link.freedom.coordinates()];
+            let v = &v[speed..speed + link.freedom.speeds()];
+            q_dot.extend(coordinate_rates(g, link.freedom, q, v));
+        }
+        g.begin_section("power");
+        let mut supplied = instant.loads.supplied;
+        for (driver, force) in self.drivers.iter().zip(&drive) {
+            let power = g.mul(*force, driver.law[1]);
+            supplied = g.add(supplied, power);
+        }
         let q_dot = self.free_q.iter().map(|i| q_dot[*i]).collect();
         let mut inputs = self.state_inputs();
         inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", drive));
@@ -140,11 +137,10 @@ impl Deriver<'_> {
     }
 
     pub(super) fn closure(&mut self, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> Function {
-        let (cuts, rows) = self.with_graph(|g, own| {
-            let instant = own.instant(g, q, v, v_dot, true);
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &own.keep);
-            (instant.cuts, rows)
-        });
+        let g = self.g;
+        let instant = self.instant(q, v, v_dot, true);
+        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &self.keep);
+        let cuts = instant.cuts;
         self.row_info = cuts
             .iter()
             .flat_map(|cut| cut.rows.iter().map(move |row| (cut.cut.joint, row.meaning.clone(), row.angular)))
@@ -175,16 +171,17 @@ impl Deriver<'_> {
         self.function(Entry::Closure, doc, self.state_inputs(), outputs)
     }
 
-    fn energies(&self, g: &mut Graph, instant: &Instant, masses: &[LinkMass]) -> [ExprId; 2] {
+    fn energies(&self, instant: &Instant, masses: &[LinkMass]) -> [ExprId; 2] {
+        let g = self.g;
         g.begin_section("energies");
         let kinetic = kinetic_energy(g, masses, &instant.motion);
-        let gravity = self.gravity(g);
+        let gravity = self.gravity();
         let weight = weight_energy(g, self.linkage, &instant.motion, masses, gravity);
         [kinetic, g.add(weight, instant.loads.potential)]
     }
 
     pub(super) fn energy(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
-        let [kinetic, potential] = self.with_graph(|g, own| own.energies(g, instant, masses));
+        let [kinetic, potential] = self.energies(instant, masses);
         let outputs = vec![
             Block::vector("kinetic", "Kinetic energy [J].", "", vec![kinetic]),
             Block::vector("potential", "Energy of weight and springs [J].", "", vec![potential]),
@@ -200,29 +197,28 @@ impl Deriver<'_> {
         for driver in &self.drivers {
             v_dot[driver.speed] = driver.law[2];
         }
-        let list = self.with_graph(|g, own| {
-            let instant = own.instant(g, q, v, &v_dot, false);
-            let energy = own.energies(g, &instant, masses);
-            let geometry = own.geometry();
-            let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-            let drives: Vec<(JointId, usize, ExprId)> = own
-                .drivers
-                .iter()
-                .zip(&own.drive)
-                .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
-                .collect();
-            let observed = Observed {
-                state: &state,
-                masses,
-                loads: &instant.loads,
-                cuts: &instant.cuts,
-                multipliers: &own.lambda,
-                keep: &own.keep,
-                drives: &drives,
-                energy,
-            };
-            channels(g, &observed)
-        });
+        let g = self.g;
+        let instant = self.instant(q, v, &v_dot, false);
+        let energy = self.energies(&instant, masses);
+        let geometry = self.geometry();
+        let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
+        let drives: Vec<(JointId, usize, ExprId)> = self
+            .drivers
+            .iter()
+            .zip(&self.drive)
+            .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
+            .collect();
+        let observed = Observed {
+            state: &state,
+            masses,
+            loads: &instant.loads,
+            cuts: &instant.cuts,
+            multipliers: &self.lambda,
+            keep: &self.keep,
+            drives: &drives,
+            energy,
+        };
+        let list = channels(g, &observed);
         self.channels = list.channels;
         let mut inputs = self.state_inputs();
         inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
@@ -249,17 +245,15 @@ impl Deriver<'_> {
 
     pub(super) fn contacts(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
         let joints: Vec<JointId> = self.contacts.iter().map(|contact| contact.joint).collect();
-        let entries = self.with_graph(|g, own| {
-            let geometry = own.geometry();
-            let v_dot = vec![g.zero(); v.len()];
-            let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-            let mut entries = Vec::new();
-            for joint in &joints {
-                g.begin_section(format!("motion in the clearance of {}", own.mechanism.joint(*joint).name));
-                entries.extend(contact_motion(g, &state, *joint));
-            }
-            entries
-        });
+        let g = self.g;
+        let geometry = self.geometry();
+        let v_dot = vec![g.zero(); v.len()];
+        let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
+        let mut entries = Vec::new();
+        for joint in &joints {
+            g.begin_section(format!("motion in the clearance of {}", self.mechanism.joint(*joint).name));
+            entries.extend(contact_motion(g, &state, *joint));
+        }
         let doc = "Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.";
         let outputs = vec![Block::matrix("contacts", doc, "[CS (7)-(12)]", joints.len(), 10, entries)];
         let doc = "How the journals of joints with clearance lie and move in their bearings.";
@@ -270,20 +264,18 @@ impl Deriver<'_> {
         let (q, v) = (self.q_all.clone(), self.v_all.clone());
         let n = v.len();
         let zeros = vec![self.g.zero(); n];
-        let (mass, h, rows) = self.with_graph(|g, own| {
-            let instant = own.instant(g, &q, &v, &zeros, false);
-            let h = bias_forces(g, own.linkage, &instant.motion, masses, &instant.loads);
-            g.begin_section("mass matrix by composite bodies");
-            let mass = mass_matrix(g, own.linkage, &instant.motion.poses, masses);
-            g.begin_section("loop Jacobian");
-            // Dropped rows too: they stand in where the kept ones happen to lose rank.
-            let all = vec![true; own.keep.len()];
-            let rows = kept_rows(g, own.linkage, &instant.motion, &instant.cuts, &all);
-            (mass, h, rows)
-        });
+        let g = self.g;
+        let instant = self.instant(&q, &v, &zeros, false);
+        let h = bias_forces(g, self.linkage, &instant.motion, masses, &instant.loads);
+        g.begin_section("mass matrix by composite bodies");
+        let mass = mass_matrix(g, self.linkage, &instant.motion.poses, masses);
+        g.begin_section("loop Jacobian");
+        // Dropped rows too: they stand in where the kept ones happen to lose rank.
+        let all = vec![true; self.keep.len()];
+        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &all);
         let triangle: Vec<ExprId> = (0..n).flat_map(|i| mass[i][i..].to_vec()).collect();
         let residuals = rows.iter().map(|row| row.residual).collect();
-        let gamma = self.with_graph(|g, _| rows.iter().map(|row| g.neg(row.bias)).collect());
+        let gamma = rows.iter().map(|row| g.neg(row.bias)).collect();
         let jacobian: Vec<ExprId> = rows.iter().flat_map(|row| row.jacobian.clone()).collect();
         let outputs = vec![
             Block::vector("mass", "Upper triangle of M, row by row [kg m², kg m, kg].", "[CS (6)]", triangle),
@@ -309,7 +301,7 @@ impl Deriver<'_> {
 }
 
 /// `q̇` of one link from its speeds.
-fn coordinate_rates(g: &mut Graph, freedom: Freedom, q: &[ExprId], v: &[ExprId]) -> Vec<ExprId> {
+fn coordinate_rates(g: &Scope, freedom: Freedom, q: &[ExprId], v: &[ExprId]) -> Vec<ExprId> {
     if !matches!(freedom, Freedom::Ball | Freedom::Free) {
         return v.to_vec();
     }

@@ -7,7 +7,7 @@ mod functions;
 
 use linkwear_runtime::{Channel, Description, Entry, Sizes};
 
-use crate::expr::{ExprId, Graph, Vec3};
+use crate::expr::{ExprId, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::{Mechanism, Topology};
 
@@ -58,10 +58,11 @@ pub fn derive(
 ) -> Derived {
     let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
     let linkage = linkage(mechanism, topology, &defaults);
-    let mut deriver = Deriver::new(mechanism, &linkage, keep);
+    let scope = Scope::new();
+    let mut deriver = Deriver::new(&scope, mechanism, &linkage, keep);
     let functions = deriver.functions(purpose);
     let (sizes, description) = (deriver.sizes(), deriver.description());
-    let equations = Equations { graph: deriver.g, functions };
+    let equations = Equations { graph: scope.into_graph(), functions };
     Derived { equations, sizes, description, linkage }
 }
 
@@ -76,7 +77,7 @@ struct Driver {
 }
 
 struct Deriver<'a> {
-    g: Graph,
+    g: &'a Scope,
     mechanism: &'a Mechanism,
     linkage: &'a Linkage,
     inputs: Inputs,
@@ -115,8 +116,7 @@ fn modal_state(link: &Link, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> Mod
 }
 
 impl<'a> Deriver<'a> {
-    fn new(mechanism: &'a Mechanism, linkage: &'a Linkage, keep: Option<&[bool]>) -> Self {
-        let mut g = Graph::new();
+    fn new(g: &'a Scope, mechanism: &'a Mechanism, linkage: &'a Linkage, keep: Option<&[bool]>) -> Self {
         g.begin_section("prescribed motion");
         let mut parameters = Vec::new();
         let all_parameters = mechanism
@@ -171,7 +171,7 @@ impl<'a> Deriver<'a> {
             for drive in &joint.drives {
                 let Some(link) = self.linkage.link_of_coordinate(id, drive.coordinate) else { continue };
                 let link = &self.linkage.links[link];
-                let position = self.inputs.lower(&mut self.g, &drive.law);
+                let position = self.inputs.lower(self.g, &drive.law);
                 let speed = self.g.derivative(position, self.inputs.time);
                 let acceleration = self.g.derivative(speed, self.inputs.time);
                 self.drivers.push(Driver {
@@ -222,7 +222,7 @@ impl<'a> Deriver<'a> {
         }
         for (index, joint) in self.mechanism.joints.iter().enumerate() {
             if joint.clearance.is_some() {
-                let mut part = |what: &str| {
+                let part = |what: &str| {
                     ["x", "y", "z"].map(|axis| self.g.symbol(format!("{}_contact_{what}{axis}", joint.name)))
                 };
                 let (force, moment) = (part("f"), part("m"));
@@ -245,35 +245,29 @@ impl<'a> Deriver<'a> {
         Geometry { mechanism: self.mechanism, linkage: self.linkage, inputs: &self.inputs }
     }
 
-    /// Runs `action` with the graph taken out of `self`, so that the rest stays readable.
-    fn with_graph<R>(&mut self, action: impl FnOnce(&mut Graph, &Self) -> R) -> R {
-        let mut g = std::mem::take(&mut self.g);
-        let result = action(&mut g, self);
-        self.g = g;
-        result
+    fn gravity(&self) -> Vec3 {
+        self.inputs.lower3(self.g, &self.mechanism.gravity)
     }
 
-    fn gravity(&self, g: &mut Graph) -> Vec3 {
-        self.inputs.lower3(g, &self.mechanism.gravity)
-    }
-
-    fn masses(&self, g: &mut Graph) -> Vec<LinkMass> {
+    fn masses(&self) -> Vec<LinkMass> {
+        let g = self.g;
         g.begin_section("mass properties");
         // Modes are never driven: the symbols of all coordinates are those of the free ones.
         self.geometry().masses(g, &self.q_all)
     }
 
     /// Link motion, loads and closure rows for the given state and accelerations.
-    fn instant(&self, g: &mut Graph, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId], exact: bool) -> Instant {
+    fn instant(&self, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId], exact: bool) -> Instant {
+        let g = self.g;
         let geometry = self.geometry();
         g.begin_section("poses of the links, [CS (2)]");
         let mounts: Vec<Vec3> = (0..self.linkage.links.len()).map(|at| geometry.mount(g, at)).collect();
         let poses = Poses::new(g, self.linkage, &mounts, q);
-        self.label_poses(g, &poses, q);
+        self.label_poses(&poses, q);
         g.begin_section("twists of the links, [CS (5)]");
         let twists = twists(g, self.linkage, &poses, v);
         g.begin_section("accelerations of the links");
-        let gravity = self.gravity(g);
+        let gravity = self.gravity();
         let ground = g.neg3(gravity);
         let accelerations = accelerations(g, self.linkage, &poses, &twists, (v, v_dot), ground);
         for (link, (twist, acceleration)) in self.linkage.links.iter().zip(twists.iter().zip(&accelerations))
@@ -293,7 +287,8 @@ impl<'a> Deriver<'a> {
         Instant { motion, loads, cuts }
     }
 
-    fn label_poses(&self, g: &mut Graph, poses: &Poses, q: &[ExprId]) {
+    fn label_poses(&self, poses: &Poses, q: &[ExprId]) {
+        let g = self.g;
         for (at, link) in self.linkage.links.iter().enumerate() {
             if let Freedom::Rotation { offset, .. } = link.freedom {
                 let joint = &self.mechanism.joint(link.joint).name;
@@ -315,8 +310,8 @@ impl<'a> Deriver<'a> {
         for driver in &self.drivers {
             v_dot_known[driver.speed] = driver.law[2];
         }
-        let masses = self.with_graph(|g, own| own.masses(g));
-        let dynamic = self.with_graph(|g, own| own.instant(g, &q, &v, &v_dot_known, false));
+        let masses = self.masses();
+        let dynamic = self.instant(&q, &v, &v_dot_known, false);
         let list = vec![
             self.prescribed(),
             self.start(),
