@@ -3,8 +3,10 @@
 mod command;
 
 use command::{Folder, linkwear};
-use linkwear_gamma::life::{Bands, Clock, Estimate, GammaLaw, Lifetime, Method, Passage, Situation};
-use linkwear_gamma::system::{SharedFactor, System};
+use linkwear_gamma::life::{
+    Bands, Clock, Estimate, FirstPassage, GammaLaw, Lifetime, Method, OperatingState,
+};
+use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr.toml";
@@ -146,7 +148,7 @@ fn a_fit_gives_the_scatter_and_its_uncertainty_enters_the_budget() {
     let estimate = Estimate::exact(15.0, 13.6, None).expect("positive");
     let estimate =
         estimate.with_log_covariance(&[vec![0.01, 0.009], vec![0.009, 0.01]]).expect("a covariance");
-    let situation = Situation::new(threshold).and_then(|new| new.at_rate(rate)).expect("positive");
+    let situation = OperatingState::new(threshold).and_then(|new| new.at_rate(rate)).expect("positive");
     let exact = situation.life(&estimate).and_then(|life| life.whole_cycles()).expect("finite");
     // Three standard errors of 400 lives.
     let (mean, error) = (number(&life["mean_whole_cycles"]), number(&life["standard_errors"]["mean"]));
@@ -257,8 +259,8 @@ fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
     let life = steady(&[&lives[..], &["0.2"]].concat()).json();
     let (rate, threshold) = pace(&life);
     let law = GammaLaw::new(13.65, 13.65).expect("positive");
-    let joint = Passage::new(law, Clock::linear(rate).expect("positive"), threshold).expect("positive");
-    let system = System::sharing(vec![joint], SharedFactor::Gamma { cov: 0.2 }).expect("one joint");
+    let joint = FirstPassage::new(law, Clock::linear(rate).expect("positive"), threshold).expect("positive");
+    let system = SeriesSystem::sharing(vec![joint], SharedFactor::Gamma { cov: 0.2 }).expect("one joint");
     let exact = system.whole_cycles().expect("finite");
     // Three standard errors; whole cycles add 1/12 to the variance, out of some 27.
     let (mean, errors) = (number(&life["mean_whole_cycles"]), &life["standard_errors"]);

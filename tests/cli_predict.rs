@@ -3,7 +3,9 @@
 mod command;
 
 use command::{Folder, linkwear};
-use linkwear_gamma::life::{Bands, Clock, Estimate, GammaLaw, Lifetime, Method, Passage, Situation};
+use linkwear_gamma::life::{
+    Bands, Clock, Estimate, FirstPassage, GammaLaw, Lifetime, Method, OperatingState,
+};
 use serde_json::Value;
 
 /// GaAs lasers (Meeker & Escobar 1998, table C.17), fit published with the R package `gammaprocesses`; exposure is
@@ -185,13 +187,13 @@ fn a_fit_goes_over_into_its_prediction() {
     let [alpha, beta, exponent] = ["alpha", "beta", "exponent"].map(|key| number(&found[key]));
     let law = GammaLaw::new(alpha, beta).expect("positive");
     let clock = Clock::power(1.0, exponent).expect("positive");
-    let closed = Passage::from(law, clock, 50.0, 30.0, 400.0).expect("wear is left");
+    let closed = FirstPassage::from(law, clock, 50.0, 30.0, 400.0).expect("wear is left");
     let row = |row: &Value| row.as_array().expect("a row").iter().map(number).collect();
     let covariance: Vec<Vec<f64>> =
         found["covariance"].as_array().expect("a matrix").iter().map(row).collect();
     let estimate = Estimate::exact(alpha, beta, Some(exponent)).expect("positive");
     let estimate = estimate.with_covariance(&covariance).expect("a covariance");
-    let situation = Situation::new(50.0).and_then(|new| new.worn(30.0, 400.0)).expect("wear is left");
+    let situation = OperatingState::new(50.0).and_then(|new| new.worn(30.0, 400.0)).expect("wear is left");
     let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
     // The same functions of the same numbers but for exp(ln alpha): rounding, and roots good to 1e-12.
     let close = |found: &Value, expected: f64| {
@@ -238,7 +240,7 @@ fn covariates_of_a_fit_are_asked_for_and_count() {
     let estimate = Estimate::exact(40.0, 10.0, None).expect("positive");
     let estimate =
         estimate.with_log_covariance(&[vec![variance, 0.005], vec![0.005, 0.01]]).expect("positive");
-    let situation = Situation::new(10.0).expect("positive");
+    let situation = OperatingState::new(10.0).expect("positive");
     let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
     let band = bands.quantile(0.5).expect("a band");
     let found = &four["bands"]["quantiles"]["p50"];

@@ -5,7 +5,7 @@ use std::num::NonZero;
 use std::ops::ControlFlow;
 
 use linkwear::mechanisms::rssr;
-use linkwear_gamma::coupled::{Ended, GammaDraw, MonteCarlo};
+use linkwear_gamma::monte_carlo::{Ended, GammaDraw, MonteCarlo};
 use linkwear_runtime::life::{
     DEFAULT_POINTS, FineScale, LifeSettings, LifeState, Mean, Outcome, Table, WearStep, calibrate, run_life,
 };

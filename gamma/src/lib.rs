@@ -4,13 +4,13 @@
 
 #![warn(missing_docs)]
 
-pub mod coupled;
 pub mod data;
 pub mod fit;
 pub mod inspection;
 pub mod life;
 pub mod metrics;
-pub mod sample;
+pub mod monte_carlo;
+mod quadrature;
+pub mod random;
+pub mod series;
 pub mod special;
-pub mod stream;
-pub mod system;

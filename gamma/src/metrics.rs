@@ -5,7 +5,8 @@
 //! the Gamma law: Scheuerer & Möller, Ann. Appl. Stat. 9 (2015) 1328-1349. Prognostic horizon and alpha-lambda accuracy:
 //! Saxena, Celaya, Saha, Saha & Goebel, Int. J. Prognostics and Health Management 1 (2010).
 
-use crate::life::{LifeError, Lifetime, integrate};
+use crate::life::{LifeError, Lifetime};
+use crate::quadrature::integrate;
 use crate::special::{gamma_p, ln_gamma, normal_cdf, normal_density};
 
 /// CRPS of a sample: mean |X - y| - half the mean |X - X'|, over the empirical law. Same unit as the life; 0 is best.
@@ -63,7 +64,7 @@ pub struct Coverage {
     pub held: usize,
     /// Intervals.
     pub count: usize,
-    /// Part that held it.
+    /// Share that held it.
     pub part: f64,
     /// Ends of its 95 % interval by Wilson's score (Wilson 1927).
     pub interval: (f64, f64),
@@ -146,8 +147,9 @@ pub fn alpha_lambda(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, GammaLaw, Passage};
-    use crate::stream::Stream;
+    use crate::life::{Clock, FirstPassage, GammaLaw};
+    use crate::random::{StandardNormal, Stream};
+    use rand::RngExt;
 
     /// Gamma law as a life: what `crps_gamma` is compared with.
     struct GammaLife(f64, f64);
@@ -167,7 +169,7 @@ mod tests {
     #[test]
     fn closed_forms_agree_with_the_integral_and_with_samples() {
         let mut draws = Stream::new(5, 0, 0);
-        let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * draws.normal()).collect();
+        let sample: Vec<f64> = (0..20_000).map(|_| 10.0 + 2.0 * draws.sample(StandardNormal)).collect();
         for truth in [7.0, 10.0, 13.5] {
             for (shape, rate) in [(0.7, 0.1), (3.0, 0.5), (25.0, 2.0)] {
                 let integral = crps_life(&GammaLife(shape, rate), truth).expect("proper");
@@ -200,7 +202,8 @@ mod tests {
     #[test]
     fn horizon_and_accuracy_of_predictions_that_become_good() {
         let law = GammaLaw::new(100.0, 100.0).expect("valid");
-        let life = |left: f64| Passage::new(law, Clock::linear(1.0).expect("valid"), left).expect("valid");
+        let life =
+            |left: f64| FirstPassage::new(law, Clock::linear(1.0).expect("valid"), left).expect("valid");
         // True end of life 10. Predicted rests: 14 at time 0 (wrong), 8 at 2, 4 at 6: right.
         let lives = [life(14.0), life(8.0), life(4.0)];
         let predictions: Vec<Prediction<'_>> =

@@ -2,9 +2,9 @@
 //! by the wear before it, one curve for the truth and one per model. Out: [`Learnt`] per data set. Never knows what
 //! wear is or how often this is done.
 
-use linkwear_gamma::coupled::GammaDraw;
 use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Model as GammaModel, estimate};
+use linkwear_gamma::monte_carlo::GammaDraw;
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::IncrementDraw;
 use serde::Serialize;

@@ -2,8 +2,8 @@
 
 use linkwear_gamma::inspection::{Effort, History, InspectionError, Mixture, Particles, Posterior, Prior};
 use linkwear_gamma::life::{
-    Band, Bands, ErrorBudget, Estimate, LifeError, Lifetime, Measured, Method, Moments, Part, Passage,
-    Situation,
+    Band, Bands, Contribution, ErrorBudget, Estimate, FirstPassage, LifeError, Lifetime, Method, Moments,
+    OperatingState, WithError,
 };
 
 use super::failure::Failure;
@@ -56,14 +56,14 @@ pub struct Answer {
 
 /// What the law of life is made from.
 enum Knowledge {
-    Fit { estimate: Estimate, situation: Situation, method: Method },
-    Exact { posterior: Posterior, situation: Situation, from: String },
-    Noisy { particles: Particles, situation: Situation },
+    Fit { estimate: Estimate, situation: OperatingState, method: Method },
+    Exact { posterior: Posterior, situation: OperatingState, from: String },
+    Noisy { particles: Particles, situation: OperatingState },
 }
 
-fn situation(arguments: &PredictArguments, estimate: &Estimate) -> Result<Situation, Failure> {
+fn situation(arguments: &PredictArguments, estimate: &Estimate) -> Result<OperatingState, Failure> {
     let wrong = |error: LifeError| asked(arguments, &error);
-    let mut situation = Situation::new(arguments.threshold).map_err(wrong)?;
+    let mut situation = OperatingState::new(arguments.threshold).map_err(wrong)?;
     if let Some(rate) = arguments.rate {
         situation = situation.at_rate(rate).map_err(wrong)?;
     }
@@ -78,7 +78,7 @@ impl Knowledge {
     fn gather(
         arguments: &PredictArguments,
         estimate: Estimate,
-        situation: Situation,
+        situation: OperatingState,
     ) -> Result<Self, Failure> {
         let Some(file) = &arguments.inspections else {
             let draws = |count| Method::Draws { count, seed: arguments.seed };
@@ -126,15 +126,16 @@ impl Knowledge {
                 })?;
                 (answer.from, answer.current) = ("fit".to_owned(), situation.current());
                 answer.threshold = situation.threshold();
-                let known = Part::None("the fit gives no covariance");
-                answer.complete(Part::None("closed form"), (!estimate.is_uncertain()).then_some(known));
+                let known = Contribution::None("the fit gives no covariance");
+                answer
+                    .complete(Contribution::None("closed form"), (!estimate.is_uncertain()).then_some(known));
                 Ok(answer)
             }
             Self::Exact { posterior, situation, from } => {
                 let mut answer = common(posterior, &mut |ask| ask.of(posterior))?;
                 (answer.from, answer.current) = (from.clone(), situation.current());
                 answer.threshold = situation.threshold();
-                answer.complete(Part::None("closed forms, quadrature over parameters"), Some(WITHIN));
+                answer.complete(Contribution::None("closed forms, quadrature over parameters"), Some(WITHIN));
                 Ok(answer)
             }
             Self::Noisy { particles, situation } => {
@@ -143,7 +144,7 @@ impl Knowledge {
                 answer.current = particles.wear().0;
                 answer.threshold = situation.threshold();
                 let mean = answer.moments.map_or(f64::NAN, |(moments, _)| moments.mean);
-                let error = Measured { value: mean, error: particles.mean_error() };
+                let error = WithError { value: mean, error: particles.mean_error() };
                 answer.complete(ErrorBudget::monte_carlo(error), Some(WITHIN));
                 if particles.failed_already() > 0.0 {
                     answer.warnings.push(format!(
@@ -158,7 +159,7 @@ impl Knowledge {
 }
 
 /// Uncertainty of the parameters is part of the law itself.
-const WITHIN: Part = Part::None("parameters are integrated over; the law contains them");
+const WITHIN: Contribution = Contribution::None("parameters are integrated over; the law contains them");
 
 /// What is asked of the possible laws, with the answer of the whole.
 enum Ask {
@@ -171,7 +172,7 @@ impl Ask {
     fn of(&self, mixture: &dyn Mixture) -> Result<Band, LifeError> {
         match *self {
             // For a steady load the typical time is the mean; for a curved one it is near, at no cost of an integral.
-            Self::Mean(value) => mixture.credible(value, LEVEL, &|life: &Passage| Ok(life.typical())),
+            Self::Mean(value) => mixture.credible(value, LEVEL, &|life: &FirstPassage| Ok(life.typical())),
             Self::Quantile(p, value) => mixture.credible(value, LEVEL, &|life| life.quantile(p)),
             Self::Reliability(t, value) => mixture.credible(value, LEVEL, &|life| Ok(life.reliability(t))),
         }
@@ -216,10 +217,10 @@ fn common(
 
 impl Answer {
     /// Adds the budget of the mean. `parameters`: None takes the band of the mean.
-    fn complete(&mut self, monte_carlo: Part, parameters: Option<Part>) {
+    fn complete(&mut self, monte_carlo: Contribution, parameters: Option<Contribution>) {
         self.budget = self.moments.map(|(_, band)| ErrorBudget {
             monte_carlo,
-            table: Part::None("exposure is a formula"),
+            table: Contribution::None("exposure is a formula"),
             parameters: parameters.unwrap_or_else(|| ErrorBudget::parameters(band)),
         });
     }

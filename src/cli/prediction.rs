@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use linkwear_gamma::life::{Band, ErrorBudget, Part};
+use linkwear_gamma::life::{Band, Contribution, ErrorBudget};
 use serde_json::{Value, json};
 
 use super::predict::Answer;
@@ -51,10 +51,10 @@ fn ends(band: &Band) -> Value {
 }
 
 fn budget(budget: &ErrorBudget) -> Value {
-    let entry = |part: Part| match part {
-        Part::Random(half) => json!({ "half_width": half, "kind": "random" }),
-        Part::Bound(half) => json!({ "half_width": half, "kind": "bound" }),
-        Part::None(reason) => json!({ "half_width": 0.0, "kind": "none", "reason": reason }),
+    let entry = |part: Contribution| match part {
+        Contribution::Random(half) => json!({ "half_width": half, "kind": "random" }),
+        Contribution::Bound(half) => json!({ "half_width": half, "kind": "bound" }),
+        Contribution::None(reason) => json!({ "half_width": 0.0, "kind": "none", "reason": reason }),
     };
     let mut object: serde_json::Map<String, Value> =
         budget.parts().into_iter().map(|(name, part)| (name.to_owned(), entry(part))).collect();

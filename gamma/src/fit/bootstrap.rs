@@ -4,12 +4,13 @@
 //! P-values of goodness of fit come from here and not from tables: the parameters were estimated from the same data,
 //! and the tables of Kolmogorov would then call bad fits good.
 
+use rand::RngExt;
+
 use super::estimate::{Estimate, estimate_increments};
 use super::goodness::goodness;
 use super::interval::Interval;
 use crate::data::{Increment, Observations};
-use crate::sample::ln_gamma_variate;
-use crate::stream::Stream;
+use crate::random::{LnGamma, Stream};
 
 /// Replicates of an estimate.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,7 @@ pub(super) fn draw(estimate: &Estimate, like: &[Increment], seed: u64, replicate
     let mut stream = Stream::new(seed, replicate, 0);
     let ln_beta = estimate.phi[1];
     let drawn = like.iter().enumerate().map(|(at, increment)| {
-        let ln_wear = ln_gamma_variate(estimate.shape(increment), stream.at(at as u64)) - ln_beta;
+        let ln_wear = stream.at(at as u64).sample(LnGamma(estimate.shape(increment))) - ln_beta;
         // A gauge says 0 below its step; a wear too small for a double is as small as a double gets.
         let wear = match estimate.model.resolution {
             Some(step) if ln_wear < libm::log(step) => 0.0,

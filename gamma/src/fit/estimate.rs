@@ -6,7 +6,7 @@ use super::linear::inverse;
 use super::maximise::{maximise, profile_ln_alpha, start};
 use super::{Covariate, Fit, FitError};
 use crate::data::{Increment, Observations};
-use crate::special::{gamma_q, trigamma};
+use crate::special::{gamma_q, tetragamma, trigamma};
 
 /// An estimate, with what further analysis needs.
 #[derive(Clone, Debug)]
@@ -150,17 +150,6 @@ pub(super) fn first_order_bias(alpha: f64, beta: f64, lambdas: &[f64]) -> [f64; 
     [0, 1].map(|r: usize| inverse[r][0] * contracted[0] + inverse[r][1] * contracted[1])
 }
 
-/// psi''(x), x > 0: recurrence to x >= 12, then the asymptotic series.
-fn tetragamma(x: f64) -> f64 {
-    let (mut x, mut sum) = (x, 0.0);
-    while x < 12.0 {
-        sum -= 2.0 / (x * x * x);
-        x += 1.0;
-    }
-    let r = 1.0 / (x * x);
-    sum - r * (1.0 + 1.0 / x + r * (0.5 - r * (1.0 / 6.0 - r * (1.0 / 6.0 - r * 0.3))))
-}
-
 /// A test of a wider model against a narrower one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LikelihoodRatio {
@@ -196,15 +185,6 @@ mod tests {
         let by_basu = (alpha + expected) * n * beta / (n * alpha - 1.0) - beta;
         // Equal to first order: what is left is of order 1/n of it.
         assert!((of_beta / by_basu - 1.0).abs() < 2.0 / n, "{of_beta} {by_basu}");
-    }
-
-    #[test]
-    fn tetragamma_agrees_with_known_values() {
-        // psi''(1) = -2 zeta(3); psi''(x) by mpmath 1.3.0 at 3.7.
-        assert!((tetragamma(1.0) + 2.0 * 1.202_056_903_159_594_3).abs() < 1e-13);
-        let step = 1e-5;
-        let difference = (trigamma(3.7 + step) - trigamma(3.7 - step)) / (2.0 * step);
-        assert!((tetragamma(3.7) - difference).abs() < 1e-9);
     }
 
     #[test]

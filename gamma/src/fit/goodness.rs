@@ -1,10 +1,13 @@
 //! Goodness of fit. In: an estimate and its data. Out: distances of the probability integral transform from uniform,
 //! and pairs for a quantile plot. Never knows p-values: these need the bootstrap.
 
+use rand::RngExt;
+use rand::distr::Open01;
+
 use super::estimate::Estimate;
 use crate::data::Increment;
+use crate::random::Stream;
 use crate::special::{gamma_p, gamma_quantile};
-use crate::stream::Stream;
 
 /// How far the data are from the fitted law.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +33,9 @@ pub fn goodness(estimate: &Estimate, increments: &[Increment], seed: u64) -> Goo
         .map(|increment| {
             let shape = estimate.shape(increment);
             let u = match estimate.model.resolution {
-                Some(step) if increment.wear == 0.0 => stream.uniform() * gamma_p(shape, beta * step),
+                Some(step) if increment.wear == 0.0 => {
+                    stream.sample::<f64, _>(Open01) * gamma_p(shape, beta * step)
+                }
                 _ => gamma_p(shape, beta * increment.wear),
             };
             (u, shape, increment.wear)

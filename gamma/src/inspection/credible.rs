@@ -1,12 +1,12 @@
 //! What the parameters leave open after readings: weighted intervals over nodes or particles.
 //! In: values with weights. Out: an interval. Never knows what is asked.
 
-use crate::life::{Band, LifeError, Lifetime, Passage};
+use crate::life::{Band, FirstPassage, LifeError, Lifetime};
 
 /// A law of life mixed from those of possible parameters.
 pub trait Mixture: Lifetime {
     /// Each possible law with its weight; weights sum to 1.
-    fn parts(&self) -> Vec<(f64, &Passage)>;
+    fn parts(&self) -> Vec<(f64, &FirstPassage)>;
 
     /// Equal-tailed interval of probability `level` of what `of` gives for the possible parameters, around `value`, the
     /// answer of the mixture.
@@ -17,7 +17,7 @@ pub trait Mixture: Lifetime {
         &self,
         value: f64,
         level: f64,
-        of: &dyn Fn(&Passage) -> Result<f64, LifeError>,
+        of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
     ) -> Result<Band, LifeError> {
         if !(level > 0.0 && level < 1.0) {
             return Err(LifeError::Probability { value: level });

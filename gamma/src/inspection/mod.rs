@@ -11,7 +11,6 @@ mod history;
 mod likelihood;
 mod particles;
 mod posterior;
-mod ruler;
 
 pub use credible::Mixture;
 pub use error::InspectionError;

@@ -7,12 +7,14 @@
 //! follows when weights are uneven. Parameters do not move afterwards, so a reading the prior hardly explains leaves few
 //! different particles: that is refused, not smoothed over.
 
+use rand::RngExt;
+use rand::distr::Open01;
+
 use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
-use crate::life::{Estimate, Lifetime, Passage, Situation, moved};
-use crate::sample::ln_gamma_variate;
-use crate::stream::Stream;
+use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState, moved};
+use crate::random::{LnGamma, StandardNormal, Stream};
 
 /// Different particles below which an answer is refused: three-digit probabilities need that many.
 const FEWEST: usize = 200;
@@ -20,7 +22,7 @@ const FEWEST: usize = 200;
 /// Particles after the last reading, all of the same weight, none of them failed.
 #[derive(Debug)]
 pub struct Particles {
-    lives: Vec<Passage>,
+    lives: Vec<FirstPassage>,
     wear: Vec<f64>,
     failed_already: f64,
     distinct: usize,
@@ -46,11 +48,11 @@ impl Particles {
     /// After the readings of `history`, each off by a normal error of standard deviation `gauge` \[unit of wear\].
     ///
     /// # Errors
-    /// [`InspectionError::Gauge`], [`InspectionError::Degenerate`], those of [`Situation`].
+    /// [`InspectionError::Gauge`], [`InspectionError::Degenerate`], those of [`OperatingState`].
     pub fn follow(
         history: &History,
         prior: &Estimate,
-        situation: &Situation,
+        situation: &OperatingState,
         gauge: f64,
         effort: Effort,
     ) -> Result<Self, InspectionError> {
@@ -75,7 +77,7 @@ impl Particles {
             before = now;
             let last = at + 1 == history.readings().len();
             if last || effective(&ln_weights) < 0.5 * particles.len() as f64 {
-                particles = resampled(&particles, &ln_weights, common.uniform());
+                particles = resampled(&particles, &ln_weights, common.sample(Open01));
                 ln_weights.fill(0.0);
                 let distinct = distinct(&particles);
                 if distinct < fewest.0 {
@@ -92,7 +94,7 @@ impl Particles {
 
     fn alive(
         particles: Vec<Particle>,
-        situation: &Situation,
+        situation: &OperatingState,
         exposure: f64,
         distinct: usize,
     ) -> Result<Self, InspectionError> {
@@ -145,7 +147,7 @@ impl Particles {
 
 impl Particle {
     fn new(origin: usize, prior: &Estimate, draws: &mut Stream) -> Self {
-        let z: Vec<f64> = prior.logs().iter().map(|_| draws.normal()).collect();
+        let z: Vec<f64> = prior.logs().iter().map(|_| draws.sample(StandardNormal)).collect();
         Self { origin, logs: moved(prior.logs(), &prior.factor().times(&z)), wear: 0.0 }
     }
 
@@ -154,7 +156,7 @@ impl Particle {
         let exponent = self.logs.get(2).map_or(1.0, |log| log.exp());
         let shape = self.logs[0].exp() * (now.powf(exponent) - before.powf(exponent));
         if shape > 0.0 {
-            self.wear += (ln_gamma_variate(shape, draws) - self.logs[1]).exp();
+            self.wear += (draws.sample(LnGamma(shape)) - self.logs[1]).exp();
         }
     }
 }
@@ -224,7 +226,7 @@ impl Lifetime for Particles {
 }
 
 impl Mixture for Particles {
-    fn parts(&self) -> Vec<(f64, &Passage)> {
+    fn parts(&self) -> Vec<(f64, &FirstPassage)> {
         let weight = 1.0 / self.lives.len() as f64;
         self.lives.iter().map(|life| (weight, life)).collect()
     }

@@ -10,8 +10,8 @@ use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
 use super::likelihood::{Likelihood, Slice};
-use super::ruler::Hump;
-use crate::life::{Estimate, LifeError, Lifetime, Passage, Situation};
+use crate::life::{Estimate, FirstPassage, LifeError, Lifetime, OperatingState};
+use crate::quadrature::Hump;
 
 /// Weight of all the lightest nodes together that are left out.
 const NEGLIGIBLE: f64 = 1e-8;
@@ -49,7 +49,7 @@ pub struct Posterior {
 struct Node {
     logs: Vec<f64>,
     weight: f64,
-    life: Passage,
+    life: FirstPassage,
 }
 
 /// Mean and standard deviation of one parameter's logarithm.
@@ -67,7 +67,11 @@ impl Posterior {
     ///
     /// # Errors
     /// [`InspectionError`].
-    pub fn update(history: &History, prior: &Prior, situation: &Situation) -> Result<Self, InspectionError> {
+    pub fn update(
+        history: &History,
+        prior: &Prior,
+        situation: &OperatingState,
+    ) -> Result<Self, InspectionError> {
         let last = history.last();
         let now = situation.clone().worn(last.wear, situation.rate() * last.time)?;
         let exposures: Vec<f64> =
@@ -168,7 +172,7 @@ impl Lifetime for Posterior {
 }
 
 impl Mixture for Posterior {
-    fn parts(&self) -> Vec<(f64, &Passage)> {
+    fn parts(&self) -> Vec<(f64, &FirstPassage)> {
         self.nodes.iter().map(|node| (node.weight, &node.life)).collect()
     }
 }
@@ -230,7 +234,7 @@ impl Lines<'_> {
 }
 
 /// Weights that sum to 1, lives of the nodes that count.
-fn weighed(points: Vec<Point>, now: &Situation) -> Result<Vec<Node>, InspectionError> {
+fn weighed(points: Vec<Point>, now: &OperatingState) -> Result<Vec<Node>, InspectionError> {
     let top = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
     let mut kept: Vec<Point> = points.into_iter().filter(|point| point.1 > f64::NEG_INFINITY).collect();
     // Heaviest first, until the rest does not count. The sort is stable: the same nodes in every run.

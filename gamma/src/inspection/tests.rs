@@ -1,12 +1,13 @@
 //! Posteriors against closed forms, brute force and repeated experiments.
 
-use statrs::function::beta::beta_reg;
+use rand::RngExt;
+use rand::distr::Open01;
 
 use super::*;
-use crate::life::{Clock, Estimate, GammaLaw, LifeError, Lifetime, Passage, Situation};
-use crate::sample::ln_gamma_variate;
+use crate::life::{Clock, Estimate, FirstPassage, GammaLaw, LifeError, Lifetime, OperatingState};
+use crate::quadrature::integrate;
+use crate::random::{LnGamma, StandardNormal, Stream};
 use crate::special::ln_gamma;
-use crate::stream::Stream;
 
 const READINGS: [(f64, f64); 6] = [(0.0, 0.0), (1.0, 0.7), (2.0, 1.9), (3.5, 2.8), (4.0, 3.6), (5.0, 4.3)];
 
@@ -15,13 +16,32 @@ fn history(rows: &[(f64, f64)]) -> History {
     History::exact(readings.collect()).expect("rising")
 }
 
-fn situation() -> Situation {
-    Situation::new(10.0).expect("valid")
+fn situation() -> OperatingState {
+    OperatingState::new(10.0).expect("valid")
 }
 
 fn fit() -> Estimate {
     let estimate = Estimate::exact(5.0, 6.0, None).expect("valid");
     estimate.with_log_covariance(&[vec![0.09, 0.08], vec![0.08, 0.10]]).expect("positive")
+}
+
+/// I_x(a, b), the regularised incomplete beta function, by its integral over v = ln(s / (1 - s)).
+fn beta_reg(a: f64, b: f64, x: f64) -> f64 {
+    let ln_density = |v: f64| a * v - (a + b) * v.exp().ln_1p();
+    let mode = (a / b).ln();
+    let scaled = |v: f64| [(ln_density(v) - ln_density(mode)).exp()];
+    let width = (1.0 / a + 1.0 / b).sqrt();
+    let (low, end, high) =
+        (mode - 40.0 / a - 9.0 * width, (x / (1.0 - x)).ln(), mode + 40.0 / b + 9.0 * width);
+    let area = |from: f64, to: f64| {
+        let mut limits: Vec<f64> = [-3.0, -1.0, 0.0, 1.0, 3.0].map(|k| mode + k * width).to_vec();
+        limits.retain(|v| from < *v && *v < to);
+        limits.extend([from, to]);
+        limits.sort_by(f64::total_cmp);
+        integrate(&scaled, &limits, [1e-10]).0[0]
+    };
+    let (below, above) = (area(low.min(end), end), area(end, high.max(end)));
+    below / (below + above)
 }
 
 /// ln of the marginal likelihood of alpha under a flat prior: beta integrated out, but for constants.
@@ -84,7 +104,7 @@ fn a_fit_as_prior_agrees_with_brute_force() {
                 continue;
             }
             let law = GammaLaw::new(alpha, beta).expect("valid");
-            let life = Passage::new(law, Clock::linear(1.0).expect("valid"), 10.0 - 4.3).expect("valid");
+            let life = FirstPassage::new(law, Clock::linear(1.0).expect("valid"), 10.0 - 4.3).expect("valid");
             for (sum, t) in alive.iter_mut().zip(times) {
                 *sum += weight * life.reliability(t);
             }
@@ -129,7 +149,7 @@ fn an_exponent_is_learned_too() {
     rows.insert(0, (0.0, 0.0));
     let flat = Prior::Flat { power_law: true };
     let posterior =
-        Posterior::update(&history(&rows), &flat, &Situation::new(6.0).expect("valid")).expect("proper");
+        Posterior::update(&history(&rows), &flat, &OperatingState::new(6.0).expect("valid")).expect("proper");
     let exponent = posterior.parameters()[2];
     // Within two posterior standard deviations.
     assert!((exponent.mean - (1.0_f64 / 3.0).ln()).abs() < 2.0 * exponent.std, "{exponent:?}");
@@ -141,13 +161,13 @@ fn an_exponent_is_learned_too() {
 
 /// A unit drawn from the prior: its readings at 0, 1, .. 6 until the threshold, and its true remaining life.
 fn unit(draws: &mut Stream, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> {
-    let z = [draws.normal(), draws.normal()];
+    let z = [draws.sample(StandardNormal), draws.sample(StandardNormal)];
     let logs = crate::life::moved(prior.logs(), &prior.factor().times(&z));
     let (alpha, beta) = (logs[0].exp(), logs[1].exp());
     let mut rows = vec![(0.0, 0.0)];
     let mut wear = 0.0;
     for n in 1..=4 {
-        wear += ln_gamma_variate(alpha, draws).exp() / beta;
+        wear += draws.sample(LnGamma(alpha)).exp() / beta;
         rows.push((f64::from(n), wear));
     }
     if wear >= 10.0 {
@@ -155,8 +175,8 @@ fn unit(draws: &mut Stream, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> 
     }
     // Its life given what is left, by the law of passage of its own parameters.
     let law = GammaLaw::new(alpha, beta).ok()?;
-    let life = Passage::new(law, Clock::linear(1.0).ok()?, 10.0 - wear).ok()?;
-    Some((rows, life.quantile(draws.uniform()).ok()?))
+    let life = FirstPassage::new(law, Clock::linear(1.0).ok()?, 10.0 - wear).ok()?;
+    Some((rows, life.quantile(draws.sample(Open01)).ok()?))
 }
 
 #[test]

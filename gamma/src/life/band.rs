@@ -5,12 +5,14 @@
 //! probabilities, the logarithm for times; half-width z times its standard error there, carried back. Draws: parameters
 //! from the normal law of their logarithms, quantiles of the values they give.
 
+use rand::RngExt;
+
 use super::error::LifeError;
-use super::estimate::{Estimate, Situation, moved};
+use super::estimate::{Estimate, OperatingState, moved};
+use super::first_passage::FirstPassage;
 use super::lifetime::Lifetime;
-use super::passage::Passage;
+use crate::random::{StandardNormal, Stream};
 use crate::special::normal_quantile;
-use crate::stream::Stream;
 
 /// Step of the differences in the logarithms of the parameters: error 1e-8 by curvature, 1e-12 by rounding.
 const STEP: f64 = 1e-4;
@@ -52,11 +54,11 @@ pub enum Method {
 #[derive(Debug)]
 pub struct Bands<'a> {
     estimate: &'a Estimate,
-    situation: &'a Situation,
-    life: Passage,
+    situation: &'a OperatingState,
+    life: FirstPassage,
     z: f64,
     level: f64,
-    drawn: Vec<Passage>,
+    drawn: Vec<FirstPassage>,
 }
 
 /// The scale on which a value is unbounded.
@@ -89,7 +91,7 @@ impl<'a> Bands<'a> {
     /// [`LifeError::Probability`] for the level; [`LifeError`] if drawn parameters leave the range of numbers.
     pub fn new(
         estimate: &'a Estimate,
-        situation: &'a Situation,
+        situation: &'a OperatingState,
         level: f64,
         method: Method,
     ) -> Result<Self, LifeError> {
@@ -105,7 +107,7 @@ impl<'a> Bands<'a> {
                 let mut lives = Vec::with_capacity(count);
                 for at in 0..count {
                     let mut draws = Stream::new(seed, at as u64, 0);
-                    let z: Vec<f64> = estimate.logs().iter().map(|_| draws.normal()).collect();
+                    let z: Vec<f64> = estimate.logs().iter().map(|_| draws.sample(StandardNormal)).collect();
                     lives.push(situation.life_at(&moved(estimate.logs(), &estimate.factor().times(&z)))?);
                 }
                 lives
@@ -138,7 +140,11 @@ impl<'a> Bands<'a> {
         self.band(Scale::Log, &|life| Ok(life.moments()?.mean))
     }
 
-    fn band(&self, scale: Scale, of: &dyn Fn(&Passage) -> Result<f64, LifeError>) -> Result<Band, LifeError> {
+    fn band(
+        &self,
+        scale: Scale,
+        of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
+    ) -> Result<Band, LifeError> {
         let value = of(&self.life)?;
         if !self.estimate.is_uncertain() {
             return Ok(Band { value, lower: value, upper: value });
@@ -193,7 +199,7 @@ mod tests {
 
     #[test]
     fn the_published_band_of_the_lasers_is_the_delta_method_on_the_logit_scale() {
-        let (estimate, situation) = (lasers(), Situation::new(10.0).expect("valid"));
+        let (estimate, situation) = (lasers(), OperatingState::new(10.0).expect("valid"));
         let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
         let band = bands.reliability(5.0).expect("valid");
         // Five published decimals: S(5) = .42377, 95 % band .22976 to .64453 (SurPyval 0.25).
@@ -203,7 +209,7 @@ mod tests {
 
     #[test]
     fn draws_agree_with_the_delta_method_where_uncertainty_is_small() {
-        let (estimate, situation) = (lasers(), Situation::new(10.0).expect("valid"));
+        let (estimate, situation) = (lasers(), OperatingState::new(10.0).expect("valid"));
         let delta = Bands::new(&estimate, &situation, 0.9, Method::Delta).expect("valid");
         let draws =
             Bands::new(&estimate, &situation, 0.9, Method::Draws { count: 2000, seed: 7 }).expect("valid");
@@ -224,7 +230,7 @@ mod tests {
     #[test]
     fn known_parameters_leave_nothing_open() {
         let estimate = Estimate::exact(28.0, 14.0, None).expect("valid");
-        let situation = Situation::new(10.0).expect("valid");
+        let situation = OperatingState::new(10.0).expect("valid");
         let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
         assert_eq!(bands.mean().expect("finite").half_width(), 0.0);
     }
@@ -234,7 +240,7 @@ mod tests {
         // Uncertain beta alone: the life is near beta W / alpha, so ln T moves by the step of ln beta, nearly.
         let estimate = Estimate::exact(1000.0, 1000.0, None).expect("valid");
         let estimate = estimate.with_log_covariance(&[vec![0.0, 0.0], vec![0.0, 1e-4]]).expect("valid");
-        let situation = Situation::new(1.0).expect("valid");
+        let situation = OperatingState::new(1.0).expect("valid");
         let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
         let band = bands.quantile(0.5).expect("valid");
         // d ln T / d ln beta = 1 but for terms of order 1 / (beta W) = 1e-3.

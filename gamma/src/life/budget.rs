@@ -4,14 +4,14 @@
 use std::fmt;
 
 use super::band::Band;
-use super::statistics::Measured;
+use super::statistics::WithError;
 
 /// Half-widths that a 95 % interval of a normal law has, in standard errors.
 const Z95: f64 = 1.959_963_984_540_054;
 
 /// One source of error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Part {
+pub enum Contribution {
     /// Random: the half-width of its 95 % interval.
     Random(f64),
     /// A bound of unknown sign.
@@ -20,7 +20,7 @@ pub enum Part {
     None(&'static str),
 }
 
-impl Part {
+impl Contribution {
     /// Half-width, 0 if the source does not arise.
     #[must_use]
     pub fn half_width(self) -> f64 {
@@ -37,35 +37,35 @@ impl Part {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorBudget {
     /// From the finite number of trajectories.
-    pub monte_carlo: Part,
+    pub monte_carlo: Contribution,
     /// From the table of wear per revolution, or of a quadrature.
-    pub table: Part,
+    pub table: Contribution,
     /// From the uncertainty of estimated parameters.
-    pub parameters: Part,
+    pub parameters: Contribution,
 }
 
 impl ErrorBudget {
     /// Monte-Carlo part of a statistic of lives.
     #[must_use]
-    pub fn monte_carlo(statistic: Measured) -> Part {
+    pub fn monte_carlo(statistic: WithError) -> Contribution {
         Self::random(statistic.error)
     }
 
     /// Random part from a standard error.
     #[must_use]
-    pub fn random(standard_error: f64) -> Part {
-        Part::Random(Z95 * standard_error)
+    pub fn random(standard_error: f64) -> Contribution {
+        Contribution::Random(Z95 * standard_error)
     }
 
     /// Parameter part from a 95 % band.
     #[must_use]
-    pub fn parameters(band: Band) -> Part {
-        Part::Random(band.half_width())
+    pub fn parameters(band: Band) -> Contribution {
+        Contribution::Random(band.half_width())
     }
 
     /// The parts with their names.
     #[must_use]
-    pub fn parts(&self) -> [(&'static str, Part); 3] {
+    pub fn parts(&self) -> [(&'static str, Contribution); 3] {
         [("monte_carlo", self.monte_carlo), ("table", self.table), ("parameters", self.parameters)]
     }
 
@@ -75,9 +75,9 @@ impl ErrorBudget {
         let (mut squares, mut bounds) = (0.0, 0.0);
         for (_, part) in self.parts() {
             match part {
-                Part::Random(half) => squares += half * half,
-                Part::Bound(half) => bounds += half,
-                Part::None(_) => {}
+                Contribution::Random(half) => squares += half * half,
+                Contribution::Bound(half) => bounds += half,
+                Contribution::None(_) => {}
             }
         }
         squares.sqrt() + bounds
@@ -89,9 +89,9 @@ impl fmt::Display for ErrorBudget {
         let names = ["Monte Carlo", "table", "parameters"];
         for (name, (_, part)) in names.iter().zip(self.parts()) {
             match part {
-                Part::Random(half) => writeln!(f, "  {name:<12}+- {half:.3e}")?,
-                Part::Bound(half) => writeln!(f, "  {name:<12}+- {half:.3e} (bound)")?,
-                Part::None(reason) => writeln!(f, "  {name:<12}none: {reason}")?,
+                Contribution::Random(half) => writeln!(f, "  {name:<12}+- {half:.3e}")?,
+                Contribution::Bound(half) => writeln!(f, "  {name:<12}+- {half:.3e} (bound)")?,
+                Contribution::None(reason) => writeln!(f, "  {name:<12}none: {reason}")?,
             }
         }
         write!(f, "  {:<12}+- {:.3e}", "total", self.total())
@@ -105,9 +105,9 @@ mod tests {
     #[test]
     fn random_parts_add_as_squares_and_bounds_as_they_are() {
         let budget = ErrorBudget {
-            monte_carlo: Part::Random(3.0),
-            table: Part::Bound(0.5),
-            parameters: Part::Random(4.0),
+            monte_carlo: Contribution::Random(3.0),
+            table: Contribution::Bound(0.5),
+            parameters: Contribution::Random(4.0),
         };
         assert_eq!(budget.total(), 5.5);
         let text = budget.to_string();
@@ -119,8 +119,8 @@ mod tests {
 
     #[test]
     fn a_source_that_does_not_arise_says_why() {
-        let none = Part::None("closed form");
-        let budget = ErrorBudget { monte_carlo: none, table: none, parameters: Part::Random(1.0) };
+        let none = Contribution::None("closed form");
+        let budget = ErrorBudget { monte_carlo: none, table: none, parameters: Contribution::Random(1.0) };
         assert!(budget.to_string().contains("Monte Carlo none: closed form"), "{budget}");
         assert_eq!(budget.total(), 1.0);
     }

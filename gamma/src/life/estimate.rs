@@ -1,10 +1,10 @@
 //! Estimated parameters with their covariance, and the situation life is asked for in.
-//! In: numbers of a fit. Out: a [`Passage`] for these parameters or others near them. Never knows how they were fitted.
+//! In: numbers of a fit. Out: a [`FirstPassage`] for these parameters or others near them. Never knows how they were fitted.
 
 use super::clock::Clock;
 use super::error::{LifeError, non_negative, positive};
+use super::first_passage::FirstPassage;
 use super::law::GammaLaw;
-use super::passage::Passage;
 
 /// alpha, beta and perhaps the exponent of exposure, with the covariance of their logarithms.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,14 +167,14 @@ pub(crate) fn moved(logs: &[f64], by: &[f64]) -> Vec<f64> {
 
 /// What is worn how far, and how fast exposure runs from here.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Situation {
+pub struct OperatingState {
     threshold: f64,
     current: f64,
     exposure: f64,
     rate: f64,
 }
 
-impl Situation {
+impl OperatingState {
     /// A new joint that fails at `threshold` [unit of wear]; one unit of exposure per unit of time.
     ///
     /// # Errors
@@ -227,15 +227,15 @@ impl Situation {
     ///
     /// # Errors
     /// [`LifeError`], if a parameter leaves the range of numbers.
-    pub fn life(&self, estimate: &Estimate) -> Result<Passage, LifeError> {
+    pub fn life(&self, estimate: &Estimate) -> Result<FirstPassage, LifeError> {
         self.life_at(&estimate.logs)
     }
 
     /// The same at given logarithms of the parameters.
-    pub(crate) fn life_at(&self, logs: &[f64]) -> Result<Passage, LifeError> {
+    pub(crate) fn life_at(&self, logs: &[f64]) -> Result<FirstPassage, LifeError> {
         let law = GammaLaw::new(logs[0].exp(), logs[1].exp())?;
         let clock = Clock::power(self.rate, logs.get(2).map_or(1.0, |log| log.exp()))?;
-        Passage::from(law, clock, self.threshold, self.current, self.exposure / self.rate)
+        FirstPassage::from(law, clock, self.threshold, self.current, self.exposure / self.rate)
     }
 }
 
@@ -281,6 +281,6 @@ mod tests {
         assert_eq!(error, LifeError::NotPositive { what: "alpha", value: -1.0 });
         assert!(Estimate::exact(1.0, f64::NAN, None).is_err());
         assert!(Estimate::exact(1.0, 1.0, Some(0.0)).is_err());
-        assert!(Situation::new(3.0).expect("valid").worn(1.0, -0.5).is_err());
+        assert!(OperatingState::new(3.0).expect("valid").worn(1.0, -0.5).is_err());
     }
 }

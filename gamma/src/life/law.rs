@@ -47,15 +47,14 @@ impl GammaLaw {
 mod tests {
     use super::super::LifeStatistics;
     use super::*;
-    use crate::sample::ln_gamma_variate;
-    use crate::stream::Stream;
+    use crate::random::{LnGamma, Stream};
+    use rand::RngExt;
 
     #[test]
     fn drawn_increments_have_mean_and_variance_of_the_law() {
         let law = GammaLaw::new(3.0, 2.0).expect("valid");
         let mut draws = Stream::new(9, 0, 0);
-        let drawn: Vec<f64> =
-            (0..20_000).map(|_| ln_gamma_variate(3.0 * 0.7, &mut draws).exp() / 2.0).collect();
+        let drawn: Vec<f64> = (0..20_000).map(|_| draws.sample(LnGamma(3.0 * 0.7)).exp() / 2.0).collect();
         let seen = LifeStatistics::of(&drawn).expect("positive");
         // Three standard errors of a fixed seed.
         assert!((seen.mean().value - law.mean(0.7)).abs() < 3.0 * seen.mean().error);

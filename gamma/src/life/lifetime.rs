@@ -2,7 +2,7 @@
 //! In: reliability over time from the present. Out: numbers in the unit of that time. Never knows wear.
 
 use super::error::LifeError;
-use super::quadrature::integrate;
+use crate::quadrature::integrate;
 
 /// Survivors that are no longer counted, as a part of the accuracy asked for.
 const GONE: f64 = 1e-5;

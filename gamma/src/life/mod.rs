@@ -10,26 +10,24 @@ mod budget;
 mod clock;
 mod error;
 mod estimate;
+mod first_passage;
 mod law;
 mod lifetime;
-mod passage;
-mod quadrature;
 mod slope;
 mod statistics;
 
 pub use band::{Band, Bands, Method};
-pub use budget::{ErrorBudget, Part};
+pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
 pub use error::LifeError;
-pub use estimate::{Estimate, Situation};
+pub use estimate::{Estimate, OperatingState};
+pub use first_passage::FirstPassage;
 pub use law::GammaLaw;
 pub use lifetime::{Lifetime, Moments};
-pub use passage::Passage;
-pub use statistics::{LifeStatistics, Measured};
+pub use statistics::{LifeStatistics, WithError};
 
 pub(crate) use error::positive;
 pub(crate) use estimate::moved;
-pub(crate) use quadrature::integrate;
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@ use super::error::LifeError;
 
 /// A statistic and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct WithError {
     /// The statistic.
     pub value: f64,
     /// Its standard error from the finite number of lives.
@@ -57,31 +57,31 @@ impl LifeStatistics {
 
     /// Mean; standard error s / sqrt(n).
     #[must_use]
-    pub fn mean(&self) -> Measured {
+    pub fn mean(&self) -> WithError {
         let count = self.sorted.len() as f64;
-        Measured { value: self.mean, error: self.deviation() / count.sqrt() }
+        WithError { value: self.mean, error: self.deviation() / count.sqrt() }
     }
 
     /// Standard deviation (divisor n - 1); standard error sqrt((m4 - m2²) / n) / (2 s), the delta method.
     #[must_use]
-    pub fn std(&self) -> Measured {
+    pub fn std(&self) -> WithError {
         let [m2, _, m4] = self.central;
         let deviation = self.deviation();
         let error = ((m4 - m2 * m2).max(0.0) / self.sorted.len() as f64).sqrt() / (2.0 * deviation);
-        Measured { value: deviation, error: if deviation > 0.0 { error } else { 0.0 } }
+        WithError { value: deviation, error: if deviation > 0.0 { error } else { 0.0 } }
     }
 
     /// Coefficient of variation s / mean; standard error by the delta method with the third and fourth moments:
     /// var(c) = c² [ (m4/m2² - 1)/4 - m3/(m2 mean) + m2/mean² ] / n.
     #[must_use]
-    pub fn cov(&self) -> Measured {
+    pub fn cov(&self) -> WithError {
         let [m2, m3, m4] = self.central;
         let value = self.deviation() / self.mean;
         if m2 == 0.0 {
-            return Measured { value, error: 0.0 };
+            return WithError { value, error: 0.0 };
         }
         let spread = (m4 / (m2 * m2) - 1.0) / 4.0 - m3 / (m2 * self.mean) + m2 / (self.mean * self.mean);
-        Measured { value, error: value * (spread.max(0.0) / self.sorted.len() as f64).sqrt() }
+        WithError { value, error: value * (spread.max(0.0) / self.sorted.len() as f64).sqrt() }
     }
 
     /// Quantile by linear interpolation (type 7 of Hyndman & Fan 1996); standard error without assuming a law: half the
@@ -89,21 +89,21 @@ impl LifeStatistics {
     ///
     /// # Errors
     /// [`LifeError::Probability`].
-    pub fn quantile(&self, p: f64) -> Result<Measured, LifeError> {
+    pub fn quantile(&self, p: f64) -> Result<WithError, LifeError> {
         if !(p > 0.0 && p < 1.0) {
             return Err(LifeError::Probability { value: p });
         }
         let step = (p * (1.0 - p) / self.sorted.len() as f64).sqrt();
         let at = |p: f64| sorted_quantile(&self.sorted, p.clamp(0.0, 1.0));
-        Ok(Measured { value: at(p), error: 0.5 * (at(p + step) - at(p - step)) })
+        Ok(WithError { value: at(p), error: 0.5 * (at(p + step) - at(p - step)) })
     }
 
-    /// Part of the lives longer than `t`; binomial standard error.
+    /// Share of the lives longer than `t`; binomial standard error.
     #[must_use]
-    pub fn reliability(&self, t: f64) -> Measured {
+    pub fn reliability(&self, t: f64) -> WithError {
         let count = self.sorted.len() as f64;
         let value = (self.sorted.len() - self.sorted.partition_point(|life| *life <= t)) as f64 / count;
-        Measured { value, error: (value * (1.0 - value) / count).sqrt() }
+        WithError { value, error: (value * (1.0 - value) / count).sqrt() }
     }
 
     fn deviation(&self) -> f64 {
@@ -124,7 +124,8 @@ pub(super) fn sorted_quantile(sorted: &[f64], p: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::stream::Stream;
+    use crate::random::{StandardNormal, Stream};
+    use rand::RngExt;
 
     #[test]
     fn small_lists_give_what_a_hand_calculation_gives() {
@@ -142,7 +143,8 @@ mod tests {
         let mut found: Vec<[f64; 4]> = Vec::new();
         let mut told = [0.0; 4];
         for _ in 0..400 {
-            let lives: Vec<f64> = (0..200).map(|_| (3.0 + 0.2 * draws.normal()).exp()).collect();
+            let lives: Vec<f64> =
+                (0..200).map(|_| (3.0 + 0.2 * draws.sample(StandardNormal)).exp()).collect();
             let lives = LifeStatistics::of(&lives).expect("valid");
             let all = [lives.mean(), lives.std(), lives.cov(), lives.quantile(0.1).expect("valid")];
             found.push(all.map(|one| one.value));

@@ -1,8 +1,9 @@
 //! Closed forms against drawn paths.
 
+use rand::RngExt;
+
 use super::*;
-use crate::sample::ln_gamma_variate;
-use crate::stream::Stream;
+use crate::random::{LnGamma, Stream};
 
 /// Wear on a bearing like that of the case study: threshold 80 um, some 3.2 um of mean wear a cycle, alpha = beta, and
 /// beta W = 1092, to which the scatter of the paper's lives leads back.
@@ -26,13 +27,13 @@ fn path(rows: &[(f64, f64)], draws: &mut Stream) -> (f64, f64) {
     let mut wear = 0.0;
     for (n, pair) in rows.windows(2).enumerate() {
         let mut shape = RATE * (pair[1].1 - pair[0].1);
-        let mut increment = ln_gamma_variate(shape, draws.at(n as u64)).exp() / RATE;
+        let mut increment = draws.at(n as u64).sample(LnGamma(shape)).exp() / RATE;
         if wear + increment >= THRESHOLD {
             let (mut t, mut length) = (pair[0].0, 1.0);
             for _ in 0..12 {
                 shape *= 0.5;
                 length *= 0.5;
-                let (a, b) = (ln_gamma_variate(shape, draws), ln_gamma_variate(shape, draws));
+                let (a, b) = (draws.sample(LnGamma(shape)), draws.sample(LnGamma(shape)));
                 let first = increment / (1.0 + (b - a).exp());
                 if wear + first >= THRESHOLD {
                     increment = first;
@@ -53,7 +54,7 @@ fn path(rows: &[(f64, f64)], draws: &mut Stream) -> (f64, f64) {
 fn hundred_thousand_paths_agree_with_the_closed_form() {
     let rows = rows();
     let law = GammaLaw::new(RATE, RATE).expect("valid");
-    let life = Passage::new(law, Clock::table(rows.clone()).expect("rising"), THRESHOLD).expect("valid");
+    let life = FirstPassage::new(law, Clock::table(rows.clone()).expect("rising"), THRESHOLD).expect("valid");
     let (whole, running): (Vec<f64>, Vec<f64>) =
         (0..100_000).map(|trajectory| path(&rows, &mut Stream::new(1, trajectory, 0))).unzip();
     for (lives, exact) in [(whole, life.whole_cycles()), (running, life.moments())] {
@@ -70,7 +71,7 @@ fn hundred_thousand_paths_agree_with_the_closed_form() {
 #[test]
 fn whole_cycles_add_half_a_cycle() {
     let law = GammaLaw::new(RATE, RATE).expect("valid");
-    let life = Passage::new(law, Clock::table(rows()).expect("rising"), THRESHOLD).expect("valid");
+    let life = FirstPassage::new(law, Clock::table(rows()).expect("rising"), THRESHOLD).expect("valid");
     let (running, whole) = (life.moments().expect("finite"), life.whole_cycles().expect("finite"));
     // Lives spread over about one cycle: the sum over cycles is the integral and a half but for 2 exp(-2 pi² s²) cycle.
     assert!((whole.mean - running.mean - 0.5).abs() < 1e-3, "{whole:?} {running:?}");

@@ -1,20 +1,17 @@
 //! Special functions of the Gamma law and the normal law. In and out: numbers. Never knows wear.
 //!
-//! The elementary ones are thin covers of `libm` and `statrs`. The incomplete Gamma function is our own over `libm`:
-//! measured against mpmath, that of `statrs` 0.19 loses the upper tail at tiny shapes (1e-8: half of the digits, it
-//! subtracts from 1), loses six digits at shape 1e5 (its prefactor cancels), and gives 0 or 1 where the logarithm is
-//! still needed.
-//!
-//! Everything goes through `libm`, so that debug and release builds give the same bits.
+//! Everything goes through `libm`, so that debug and release builds give the same bits. The incomplete Gamma function is
+//! given by its logarithm, which is still needed where the function itself is 0 or 1 in all digits.
 
 mod incomplete;
 mod normal;
+mod polygamma;
 mod quantile;
 
 pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q, ln_gamma_q_of_ln};
 pub use normal::{normal_cdf, normal_density, normal_quantile, normal_upper};
+pub use polygamma::{digamma, tetragamma, trigamma};
 pub use quantile::{gamma_quantile, ln_gamma_quantile, ln_gamma_quantile_upper};
-pub use statrs::function::gamma::digamma;
 
 /// Euler's constant.
 pub const EULER: f64 = 0.577_215_664_901_532_9;
@@ -52,19 +49,6 @@ pub fn ln_gamma_1p(x: f64) -> f64 {
         sum * x + sign * zeta / (at + 2) as f64
     });
     x * (x * series - EULER)
-}
-
-/// Trigamma function psi'(x), x > 0: recurrence to x >= 12, then the asymptotic series in Bernoulli numbers.
-pub fn trigamma(x: f64) -> f64 {
-    let (mut x, mut sum) = (x, 0.0);
-    while x < 12.0 {
-        sum += 1.0 / (x * x);
-        x += 1.0;
-    }
-    let r = 1.0 / (x * x);
-    let series = 1.0 / 6.0
-        - r * (1.0 / 30.0 - r * (1.0 / 42.0 - r * (1.0 / 30.0 - r * (5.0 / 66.0 - r * 691.0 / 2730.0))));
-    sum + 1.0 / x + 0.5 * r + r / x * series
 }
 
 /// ln(1 - exp(x)) for x <= 0, right at both ends.

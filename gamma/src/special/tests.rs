@@ -117,16 +117,6 @@ fn both_tails_are_right_to_their_last_digits() {
 }
 
 #[test]
-fn statrs_alone_would_not_do() {
-    // Why this module has its own incomplete Gamma function: when these fail, statrs has got better.
-    use statrs::function::gamma::{gamma_lr, gamma_ur};
-    let upper = gamma_ur(1e-8, 0.5);
-    assert!(relative(upper, 5.597735977101512e-9) > 1e-9, "{upper}");
-    let large = gamma_lr(1e5, 98_000.0);
-    assert!(relative(large, 9.690835159102666e-11) > 1e-12, "{large}");
-}
-
-#[test]
 fn plain_functions_agree_with_mpmath() {
     for &(x, gamma, psi, psi_1) in PLAIN {
         // 1e-14: relative, for psi next to its root and for ln Gamma next to 1 and 2 absolute.

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
-use linkwear_gamma::coupled::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
+use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
 use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, Failure as End, FineScale, IncrementDraw, LifeState, Mean, Outcome, Stop,
     Table, TableReport, run_life,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use linkwear_gamma::life::{ErrorBudget, LifeStatistics, Measured, Part};
+use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics, WithError};
 use linkwear_runtime::life::{CycleRecord, Failure as End, Summary};
 use serde_json::{Value, json};
 
@@ -21,7 +21,7 @@ struct Scatter {
     lives: LifeStatistics,
     budget: ErrorBudget,
     mean_whole_cycles: f64,
-    /// Part of the lives that each joint ended.
+    /// Share of the lives that each joint ended.
     first: Vec<f64>,
 }
 
@@ -46,17 +46,19 @@ impl Lived<'_> {
     }
 
     /// Of a mean life, with its Monte-Carlo part and its standard error by the fits.
-    fn budget(&self, mean: f64, monte_carlo: Part, by_fits: Option<f64>) -> ErrorBudget {
+    fn budget(&self, mean: f64, monte_carlo: Contribution, by_fits: Option<f64>) -> ErrorBudget {
         let table = match self.table_error() {
             // A depth that is wrong everywhere by a part makes the life wrong by that part.
-            Some(error) => Part::Bound(error * mean),
-            None => Part::Bound(self.step_error),
+            Some(error) => Contribution::Bound(error * mean),
+            None => Contribution::Bound(self.step_error),
         };
         let parameters = match (by_fits, &self.plan.process) {
             (Some(error), _) => ErrorBudget::random(error),
-            (None, Some(process)) if process.is_fitted() => Part::None("the fit gives no covariance"),
-            (None, Some(_)) => Part::None("alpha and beta are taken as known from the mechanism's file"),
-            (None, None) => Part::None("no Gamma process: wear is what physics says"),
+            (None, Some(process)) if process.is_fitted() => Contribution::None("the fit gives no covariance"),
+            (None, Some(_)) => {
+                Contribution::None("alpha and beta are taken as known from the mechanism's file")
+            }
+            (None, None) => Contribution::None("no Gamma process: wear is what physics says"),
         };
         ErrorBudget { monte_carlo, table, parameters }
     }
@@ -66,7 +68,7 @@ impl Lived<'_> {
         let (joint, cycles) = (self.end.joint, self.end.cycles);
         let process = self.plan.process.as_ref();
         let by_fits = process.and_then(|process| process.uncertainty_of_mean_path(joint, cycles));
-        self.budget(cycles, Part::None("one life, every increment its mean"), by_fits)
+        self.budget(cycles, Contribution::None("one life, every increment its mean"), by_fits)
     }
 
     /// Largest relative error of the table, if there is one.
@@ -174,7 +176,7 @@ impl Scatter {
     }
 
     fn machine(&self, names: &[String]) -> serde_json::Map<String, Value> {
-        let measured = |value: Measured| json!({ "value": value.value, "standard_error": value.error });
+        let measured = |value: WithError| json!({ "value": value.value, "standard_error": value.error });
         let reliability: Vec<Value> = self
             .grid()
             .map(|cycles| {

@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use linkwear_gamma::coupled::{GammaDraw, GammaMean};
 use linkwear_gamma::life::{Estimate, LifeError};
-use linkwear_gamma::system::SharedFactor;
+use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean};
+use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
 use serde_json::{Value, json};
 

@@ -10,9 +10,11 @@
 //! S(t) = E_Z [ product over joints of P(T_j > t | exposure Z Lambda_j) ].
 //! ```
 
-use crate::life::{LifeError, Lifetime, Passage, integrate, positive};
-use crate::sample::ln_gamma_variate;
-use crate::stream::Stream;
+use rand::RngExt;
+
+use crate::life::{FirstPassage, LifeError, Lifetime, positive};
+use crate::quadrature::integrate;
+use crate::random::{LnGamma, StandardNormal, Stream};
 
 /// Law of the factor all joints share; mean 1, coefficient of variation `cov` > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,8 +38,8 @@ impl SharedFactor {
     /// [`LifeError::NotPositive`] for its coefficient of variation.
     pub fn ln_draw(self, stream: &mut Stream) -> Result<f64, LifeError> {
         Ok(match self.law()? {
-            Law::Gamma { shape } => ln_gamma_variate(shape, stream) - libm::log(shape),
-            Law::Lognormal { sigma } => sigma * (stream.normal() - 0.5 * sigma),
+            Law::Gamma { shape } => stream.sample(LnGamma(shape)) - libm::log(shape),
+            Law::Lognormal { sigma } => sigma * (stream.sample(StandardNormal) - 0.5 * sigma),
         })
     }
 
@@ -102,19 +104,19 @@ enum Law {
 
 /// Several wearing joints; time runs from the present, in the unit all their clocks have.
 #[derive(Clone, Debug)]
-pub struct System {
-    members: Vec<Passage>,
+pub struct SeriesSystem {
+    members: Vec<FirstPassage>,
     /// Values of the shared factor with their weights; one value 1 without it.
     factors: Vec<(f64, f64)>,
     shared: Option<SharedFactor>,
 }
 
-impl System {
+impl SeriesSystem {
     /// Joints that wear independently.
     ///
     /// # Errors
     /// [`LifeError::NoMember`].
-    pub fn independent(members: Vec<Passage>) -> Result<Self, LifeError> {
+    pub fn independent(members: Vec<FirstPassage>) -> Result<Self, LifeError> {
         if members.is_empty() {
             return Err(LifeError::NoMember);
         }
@@ -125,7 +127,7 @@ impl System {
     ///
     /// # Errors
     /// [`LifeError::NoMember`], [`LifeError::NotPositive`] for its coefficient of variation.
-    pub fn sharing(members: Vec<Passage>, factor: SharedFactor) -> Result<Self, LifeError> {
+    pub fn sharing(members: Vec<FirstPassage>, factor: SharedFactor) -> Result<Self, LifeError> {
         Ok(Self { factors: factor.nodes()?, shared: Some(factor), ..Self::independent(members)? })
     }
 
@@ -156,7 +158,7 @@ impl System {
     }
 }
 
-impl Lifetime for System {
+impl Lifetime for SeriesSystem {
     fn reliability(&self, t: f64) -> f64 {
         self.factors.iter().map(|(z, weight)| weight * self.alive(t, *z)).sum()
     }
@@ -206,14 +208,15 @@ mod tests {
     use super::*;
     use crate::life::{Clock, GammaLaw, LifeStatistics};
 
-    fn member(alpha: f64, threshold: f64) -> Passage {
+    fn member(alpha: f64, threshold: f64) -> FirstPassage {
         let law = GammaLaw::new(alpha, 10.0).expect("valid");
-        Passage::new(law, Clock::linear(1.0).expect("valid"), threshold).expect("valid")
+        FirstPassage::new(law, Clock::linear(1.0).expect("valid"), threshold).expect("valid")
     }
 
     #[test]
     fn a_system_of_one_is_its_joint() {
-        let (one, joint) = (System::independent(vec![member(8.0, 4.0)]).expect("one"), member(8.0, 4.0));
+        let (one, joint) =
+            (SeriesSystem::independent(vec![member(8.0, 4.0)]).expect("one"), member(8.0, 4.0));
         for t in [0.5, 4.0, 7.0] {
             assert_eq!(one.reliability(t), joint.reliability(t));
             // The hazard is divided by a probability and multiplied by it again.
@@ -225,7 +228,7 @@ mod tests {
 
     #[test]
     fn alike_joints_end_the_life_alike_and_sooner() {
-        let system = System::independent(vec![member(8.0, 4.0); 3]).expect("three");
+        let system = SeriesSystem::independent(vec![member(8.0, 4.0); 3]).expect("three");
         let t = 4.5;
         assert!((system.reliability(t) - member(8.0, 4.0).reliability(t).powi(3)).abs() < 1e-15);
         for share in system.first_to_fail().expect("three") {
@@ -263,12 +266,13 @@ mod tests {
     #[test]
     fn a_shared_factor_agrees_with_drawing_it() {
         let members = vec![member(8.0, 4.0), member(5.0, 3.0)];
-        let system = System::sharing(members.clone(), SharedFactor::Lognormal { cov: 0.4 }).expect("valid");
+        let system =
+            SeriesSystem::sharing(members.clone(), SharedFactor::Lognormal { cov: 0.4 }).expect("valid");
         let sigma = (0.16_f64).ln_1p().sqrt();
         let mut draws = Stream::new(11, 0, 0);
         let (mut sum, mut squares, t, count) = (0.0, 0.0, 4.5, 20_000);
         for _ in 0..count {
-            let z = (sigma * draws.normal() - 0.5 * sigma * sigma).exp();
+            let z = (sigma * draws.sample(StandardNormal) - 0.5 * sigma * sigma).exp();
             let alive: f64 = members.iter().map(|member| member.reliability_at(t, z)).product();
             sum += alive;
             squares += alive * alive;
@@ -281,7 +285,7 @@ mod tests {
         let alone: f64 = members
             .iter()
             .map(|member| {
-                let one = System::sharing(vec![member.clone()], SharedFactor::Lognormal { cov: 0.4 });
+                let one = SeriesSystem::sharing(vec![member.clone()], SharedFactor::Lognormal { cov: 0.4 });
                 one.expect("valid").reliability(t)
             })
             .product();
@@ -292,10 +296,11 @@ mod tests {
 
     #[test]
     fn moments_that_are_not_finite_are_refused() {
-        let wide = System::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: 0.8 }).expect("valid");
+        let wide =
+            SeriesSystem::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: 0.8 }).expect("valid");
         assert!(matches!(wide.moments(), Err(LifeError::HeavyFactor { .. })));
         assert!(wide.quantile(0.5).is_ok());
-        assert!(System::independent(Vec::new()).is_err());
-        assert!(System::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: -0.1 }).is_err());
+        assert!(SeriesSystem::independent(Vec::new()).is_err());
+        assert!(SeriesSystem::sharing(vec![member(8.0, 4.0)], SharedFactor::Gamma { cov: -0.1 }).is_err());
     }
 }

@@ -16,7 +16,7 @@ use crate::special::{gamma_p, gamma_q};
 
 /// Remaining life of one joint; time runs from the present, in the clock's unit.
 #[derive(Clone, Debug)]
-pub struct Passage {
+pub struct FirstPassage {
     law: GammaLaw,
     clock: Clock,
     now: f64,
@@ -24,7 +24,7 @@ pub struct Passage {
     left: f64,
 }
 
-impl Passage {
+impl FirstPassage {
     /// A new joint: clock at 0, no wear.
     ///
     /// # Errors
@@ -95,7 +95,7 @@ impl Passage {
     }
 }
 
-impl Lifetime for Passage {
+impl Lifetime for FirstPassage {
     fn reliability(&self, t: f64) -> f64 {
         self.reliability_at(t, 1.0)
     }
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn lasers_fail_when_published() {
-        let life = Passage::new(lasers(), clock(), 10.0).expect("valid");
+        let life = FirstPassage::new(lasers(), clock(), 10.0).expect("valid");
         for (p, expected) in [(0.1, 4.40056787), (0.5, 4.92036645), (0.9, 5.45921661)] {
             let quantile = life.quantile(p).expect("valid");
             // Eight published decimals.
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_half_worn_laser_has_the_published_rest() {
-        let life = Passage::from(lasers(), clock(), 10.0, 5.0, 2.5).expect("valid");
+        let life = FirstPassage::from(lasers(), clock(), 10.0, 5.0, 2.5).expect("valid");
         for (p, expected) in [(0.025, 1.91631198), (0.5, 2.46597232), (0.975, 3.06025256)] {
             let quantile = life.quantile(p).expect("valid");
             assert!((quantile - expected).abs() < 1e-8, "{p}: {quantile}");
@@ -156,10 +156,10 @@ mod tests {
 
     #[test]
     fn density_integrates_to_the_failed_part() {
-        let life =
-            Passage::from(lasers(), Clock::power(1.3, 0.7).expect("valid"), 10.0, 4.0, 1.0).expect("valid");
+        let life = FirstPassage::from(lasers(), Clock::power(1.3, 0.7).expect("valid"), 10.0, 4.0, 1.0)
+            .expect("valid");
         let end = life.quantile(0.8).expect("valid");
-        let (sum, _) = crate::life::integrate(&|t| [life.density(t)], &[0.0, end], [1e-12]);
+        let (sum, _) = crate::quadrature::integrate(&|t| [life.density(t)], &[0.0, end], [1e-12]);
         // Cancellation in the hazard where everything is alive: 1e-13.
         assert!((sum[0] - 0.8).abs() < 1e-10, "{}", sum[0]);
     }
@@ -167,8 +167,8 @@ mod tests {
     #[test]
     fn a_table_of_a_straight_line_is_a_straight_line() {
         let rows = (0..40).map(|n| (f64::from(n), 0.5 * f64::from(n))).collect();
-        let table = Passage::new(lasers(), Clock::table(rows).expect("rising"), 10.0).expect("valid");
-        let line = Passage::new(lasers(), Clock::linear(0.5).expect("valid"), 10.0).expect("valid");
+        let table = FirstPassage::new(lasers(), Clock::table(rows).expect("rising"), 10.0).expect("valid");
+        let line = FirstPassage::new(lasers(), Clock::linear(0.5).expect("valid"), 10.0).expect("valid");
         let (a, b) = (table.moments().expect("finite"), line.moments().expect("finite"));
         // The accuracy of the integrals.
         assert!((a.mean - b.mean).abs() < 1e-9 && (a.std - b.std).abs() < 1e-8, "{a:?} {b:?}");
@@ -182,7 +182,7 @@ mod tests {
     fn mean_exposure_at_passage_is_half_a_unit_of_shape_beyond_the_threshold() {
         // The integral of P(a, x) over a is x + 1/2 but for e^-x terms: its derivative in x is Ramanujan's integral of
         // x^(a-1) / Gamma(a), times e^-x; the constant follows from sum over n >= 1 of P(n, x) = x.
-        let life = Passage::new(lasers(), clock(), 10.0).expect("valid");
+        let life = FirstPassage::new(lasers(), clock(), 10.0).expect("valid");
         let expected = (14.11445933 * 10.0 + 0.5) / 28.75350606;
         // The accuracy asked of the integral.
         assert!((life.moments().expect("finite").mean - expected).abs() < 1e-9);
@@ -190,15 +190,18 @@ mod tests {
 
     #[test]
     fn no_wear_left_is_refused_with_both_numbers() {
-        let error = Passage::from(lasers(), clock(), 5.0, 5.5, 0.0).expect_err("failed already");
+        let error = FirstPassage::from(lasers(), clock(), 5.0, 5.5, 0.0).expect_err("failed already");
         assert!(error.to_string().contains("5.5") && error.to_string().contains("threshold 5"), "{error}");
         for current in [f64::NAN, -1.0] {
             assert!(matches!(
-                Passage::from(lasers(), clock(), 5.0, current, 0.0),
+                FirstPassage::from(lasers(), clock(), 5.0, current, 0.0),
                 Err(LifeError::Negative { .. })
             ));
         }
-        assert!(matches!(Passage::from(lasers(), clock(), 5.0, 1.0, -2.0), Err(LifeError::Negative { .. })));
-        assert!(matches!(Passage::new(lasers(), clock(), f64::NAN), Err(LifeError::NotPositive { .. })));
+        assert!(matches!(
+            FirstPassage::from(lasers(), clock(), 5.0, 1.0, -2.0),
+            Err(LifeError::Negative { .. })
+        ));
+        assert!(matches!(FirstPassage::new(lasers(), clock(), f64::NAN), Err(LifeError::NotPositive { .. })));
     }
 }

@@ -4,10 +4,10 @@ use std::convert::Infallible;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 
-use linkwear_gamma::coupled::{Ended, GammaDraw, Lives, MonteCarlo};
-use linkwear_gamma::life::{Clock, GammaLaw, LifeStatistics, Lifetime, Passage};
+use linkwear_gamma::life::{Clock, FirstPassage, GammaLaw, LifeStatistics, Lifetime};
+use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo};
+use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use linkwear_gamma::special::gamma_p;
-use linkwear_gamma::system::{SharedFactor, System};
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::{
     Feedback, FineScale, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearStep,
@@ -103,9 +103,10 @@ fn without_feedback_lives_follow_the_law_of_first_passage() {
 }
 
 /// Closed form of lives without feedback, in micrometres: [`PER_CYCLE`] is 3.2 of them.
-fn member(threshold: f64) -> Passage {
+fn member(threshold: f64) -> FirstPassage {
     let law = GammaLaw::new(RATES.alpha * 1e-6, RATES.beta * 1e-6).expect("positive");
-    Passage::new(law, Clock::linear(PER_CYCLE * 1e6).expect("positive"), threshold * 1e6).expect("positive")
+    FirstPassage::new(law, Clock::linear(PER_CYCLE * 1e6).expect("positive"), threshold * 1e6)
+        .expect("positive")
 }
 
 #[test]
@@ -127,7 +128,7 @@ fn lives_with_a_shared_factor_follow_the_closed_form() {
         );
         assert_eq!(run.ended, Ended::Complete);
         let members = thresholds.iter().map(|threshold| member(*threshold)).collect();
-        let system = System::sharing(members, factor).expect("members");
+        let system = SeriesSystem::sharing(members, factor).expect("members");
         let whole: Vec<f64> = run.failures.iter().map(|(_, failure)| failure.whole_cycles as f64).collect();
         let (seen, exact) =
             (LifeStatistics::of(&whole).expect("lives"), system.whole_cycles().expect("finite"));

@@ -2,13 +2,14 @@
 //! all joints share. Out: dW, drawn or in the mean.
 //! Never knows the state of a trajectory.
 
+use rand::RngExt;
+
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::IncrementDraw;
 
 use crate::life::LifeError;
-use crate::sample::ln_gamma_variate;
-use crate::stream::Stream;
-use crate::system::SharedFactor;
+use crate::random::{LnGamma, Stream};
+use crate::series::SharedFactor;
 
 /// Wear in this layer is counted in micrometres.
 const MICRO: f64 = 1e-6;
@@ -33,7 +34,7 @@ impl GammaDraw {
     }
 
     /// With a factor of mean 1, one draw for each trajectory, that multiplies the exposure dLambda of all its joints and
-    /// cycles, as [`crate::system::System::sharing`] has it. It changes the shapes of increments, not their rates.
+    /// cycles, as [`crate::series::SeriesSystem::sharing`] has it. It changes the shapes of increments, not their rates.
     ///
     /// # Errors
     /// [`LifeError::NotPositive`] for its coefficient of variation.
@@ -64,7 +65,7 @@ impl IncrementDraw for GammaDraw {
         let mut stream = Stream::new(self.seed, trajectory, joint as u64);
         stream.at(cycle);
         // Wear too small for a number is no wear: only here, where it is added to micrometres.
-        libm::exp(ln_gamma_variate(shape, &mut stream) - ln_beta) * MICRO
+        libm::exp(stream.sample(LnGamma(shape)) - ln_beta) * MICRO
     }
 }
 

@@ -2,7 +2,7 @@
 //! rates of the Gamma process. Out: lives of trajectories. Never knows equations, files or terminals.
 
 mod draw;
-mod monte_carlo;
+mod trajectories;
 
 pub use draw::{GammaDraw, GammaMean};
-pub use monte_carlo::{Ended, Lives, MonteCarlo, Scale};
+pub use trajectories::{Ended, Lives, MonteCarlo, Scale};
