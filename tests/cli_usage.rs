@@ -15,7 +15,6 @@ fn help_of_every_subcommand_has_an_example() {
         "life",
         "fit",
         "predict",
-        "case-study",
         "new",
         "schema",
         "completions",
@@ -33,6 +32,17 @@ fn help_lists_only_what_there_is() {
     for absent in ["merge", "fmu", "jit", "report"] {
         assert!(!help.lines().any(|line| line.trim_start().starts_with(absent)), "{absent}");
     }
+}
+
+#[test]
+fn the_case_study_is_a_program_of_its_own_and_the_answer_says_which() {
+    let line = "cargo run --release -p linkwear-case-study -- --quick --out study --format json";
+    let answer = linkwear(&["case-study", "--quick", "--out", "study", "--format", "json"]);
+    assert_eq!(answer.code, 2);
+    assert_eq!(answer.errors()[0]["help"], line);
+    let answer = linkwear(&["case-study", "--help"]);
+    assert_eq!(answer.code, 2);
+    assert!(answer.err.contains("cargo run --release -p linkwear-case-study -- --help"), "{}", answer.err);
 }
 
 #[test]

@@ -8,11 +8,11 @@ use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
 
+use super::arguments::{Format, Input};
 use super::failure::Failure;
 use super::file::print;
 use super::input::{Loaded, load};
 use super::table::{number, plural, short_table, table};
-use super::{Format, Input};
 
 /// Answers `check`.
 pub fn run(input: &Input, format: Format) -> Result<(), Failure> {

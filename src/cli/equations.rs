@@ -4,10 +4,10 @@ use linkwear_codegen::render::{OutputInfo, TextFormat};
 use linkwear_codegen::tape::Operations;
 use serde_json::{Value, json};
 
+use super::arguments::{EquationsArguments, Format, Notation};
 use super::failure::Failure;
 use super::file::print;
 use super::input::load;
-use super::{EquationsArguments, Format, Notation};
 
 /// Answers `equations`.
 pub fn run(arguments: &EquationsArguments, format: Format) -> Result<(), Failure> {

@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
+use linkwear::files::print;
 use linkwear_codegen::diagnostic::{Diagnostics, Entry, nearest};
 use linkwear_runtime::RunError;
 use serde_json::{Value, json};
 
-use super::Format;
-use super::file::print;
+use super::arguments::Format;
 
 /// The input or the run failed.
 const FAILED: u8 = 1;
@@ -80,9 +80,6 @@ pub enum Failure {
         /// The cycles before, if they are in no file.
         cycles: Vec<Value>,
     },
-    /// The case study could not be finished.
-    #[cfg(feature = "case-study")]
-    Study(linkwear::case_study::StudyError),
     /// The simulation failed, or was stopped.
     Run {
         /// The mechanism.
@@ -189,8 +186,6 @@ impl Failure {
                 ("C0006", None, format!("there is no output or function `{name}`"), suggestion(name, known))
             }
             Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
-            #[cfg(feature = "case-study")]
-            Self::Study(error) => ("C0012", None, error.to_string(), "nothing was written".to_owned()),
             Self::Life { file, message, help, .. } => ("C0010", Some(file), message.clone(), help.clone()),
             Self::Data { file, message, help, .. } => ("C0011", Some(file), message.clone(), help.clone()),
             Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),

@@ -13,9 +13,9 @@ use linkwear_gamma::fit::{
 };
 
 use self::read::{Group, fault, groups};
+use super::arguments::{FitArguments, Format};
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
-use super::{FitArguments, Format};
 
 /// Level of the intervals printed.
 const LEVEL: f64 = 0.95;

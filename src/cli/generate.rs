@@ -7,12 +7,12 @@ use std::time::Instant;
 
 use serde_json::json;
 
+use super::arguments::{Format, GenerateArguments, Target};
 use super::equations::operations;
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
 use super::input::load;
 use super::table::{count, duration, plural, table};
-use super::{Format, GenerateArguments, Target};
 
 /// Answers `generate`.
 pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure> {

@@ -14,12 +14,12 @@ use linkwear_runtime::{Description, Integrator, RevolutionSettings, Revolutions,
 use self::folder::Folder;
 use self::lived::Lived;
 use self::process::Process;
+use super::arguments::{Coupling, Format, LifeArguments};
 use super::failure::Failure;
 use super::file::print;
 use super::input::load_as;
-use super::progress::{catch_interrupts, stop_requested};
 use super::simulate::choose_backend;
-use super::{Coupling, Format, LifeArguments};
+use linkwear::progress::{catch_interrupts, stop_requested};
 
 /// Random lives unless told otherwise: a standard error of a thirtieth of their scatter.
 const DEFAULT_TRAJECTORIES: u64 = 1000;

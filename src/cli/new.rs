@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::arguments::{Format, NewArguments};
 use super::failure::Failure;
 use super::file::{print, write_whole};
-use super::{Format, NewArguments};
 
 const STARTER: &str = include_str!("starter.toml");
 

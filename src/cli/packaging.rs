@@ -3,9 +3,9 @@
 use clap::CommandFactory;
 use serde_json::json;
 
+use super::arguments::{Arguments, Format};
 use super::failure::Failure;
 use super::file::print;
-use super::{Arguments, Format};
 
 /// Answers `completions`.
 pub fn completions(shell: clap_complete::Shell, format: Format) -> Result<(), Failure> {

@@ -6,9 +6,10 @@ use linkwear_gamma::life::{
     OperatingState, WithError,
 };
 
+use super::arguments::{Format, PredictArguments};
 use super::failure::Failure;
 use super::file::print;
-use super::{Format, PredictArguments, fit_file, prediction, readings};
+use super::{fit_file, prediction, readings};
 
 /// Probability of every interval.
 pub const LEVEL: f64 = 0.95;

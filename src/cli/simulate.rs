@@ -13,12 +13,13 @@ use linkwear_runtime::{
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
+use super::arguments::{Backend, Format, Input, IntegratorName, SimulateArguments};
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
 use super::input::{Loaded, load_as};
-use super::progress::{Progress, catch_interrupts, stop_requested};
+use super::summary;
 use super::table::{duration, number, plural, table};
-use super::{Backend, Format, Input, IntegratorName, SimulateArguments, summary};
+use linkwear::progress::{Progress, catch_interrupts, stop_requested};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;

@@ -8,7 +8,7 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use linkwear_codegen::diagnostic::nearest;
 use linkwear_gamma::data::Reading;
 
-use super::super::FitArguments;
+use super::super::arguments::FitArguments;
 use super::super::failure::Failure;
 use super::lambda::{LambdaTable, lambda_table};
 

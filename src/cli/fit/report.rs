@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
 use serde_json::{Value, json};
 
-use super::super::FitArguments;
+use super::super::arguments::FitArguments;
 use super::super::table::{number, table};
 use super::{Analysis, LEVEL};
 

@@ -1,13 +1,12 @@
 //! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use linkwear_runtime::life::{CycleRecord, Failure as End};
 
 use super::super::failure::Failure;
-use super::super::file::write_whole;
+use super::super::file::{claim_folder, write_whole};
 use super::super::input::Loaded;
 use super::lived::Lived;
 
@@ -17,18 +16,7 @@ pub struct Folder(PathBuf);
 impl Folder {
     /// Makes it; one with something in it is refused, so that no result is mixed with another.
     pub fn claim(path: &Path) -> Result<Self, Failure> {
-        let failed = |error| Failure::Write(path.to_path_buf(), error);
-        match fs::read_dir(path) {
-            Ok(mut entries) => {
-                if entries.next().is_some() {
-                    return Err(Failure::Exists(path.to_path_buf()));
-                }
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                fs::create_dir_all(path).map_err(failed)?
-            }
-            Err(error) => return Err(failed(error)),
-        }
+        claim_folder(path)?;
         Ok(Self(path.to_path_buf()))
     }
 

@@ -12,12 +12,13 @@ use linkwear_runtime::life::{
 };
 use linkwear_runtime::{RunError, System, TurnState};
 
-use super::super::Format;
+use super::super::arguments::Format;
 use super::super::failure::Failure;
-use super::super::progress::{Progress, stop_requested};
+use super::super::arguments::Coupling;
 use super::folder::Folder;
 use super::output::{cycle_entry, cycles_table};
-use super::{Coupling, Plan, failed};
+use super::{Plan, failed};
+use linkwear::progress::{Progress, stop_requested};
 
 /// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
 /// numbers, so few are enough; with the dynamics at every step each is dear.

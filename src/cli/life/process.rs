@@ -12,7 +12,8 @@ use serde_json::{Value, json};
 use super::super::failure::Failure;
 use super::super::fit_file;
 use super::super::table::number;
-use super::{LifeArguments, failed};
+use super::super::arguments::LifeArguments;
+use super::failed;
 
 /// Micrometres in a metre: fits count wear and Lambda in micrometres.
 const PER_METRE: f64 = 1e6;

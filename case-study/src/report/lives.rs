@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::{fixed, percent, signed};
-use crate::case_study::{
+use crate::{
     HISTORIES, LifeNumbers, Lives, MODELS, Prediction, SHOWN, Study, TABLE_2, TRUE_LIFE, UnderProtocol,
 };
 

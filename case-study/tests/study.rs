@@ -1,14 +1,13 @@
 //! The case study in its quick form: the same bits every time, near the independent code, nothing about this machine.
-#![cfg(feature = "case-study")]
 
-mod command;
-
+use std::path::Path;
+use std::process::Command;
 use std::sync::OnceLock;
 
-use command::{Folder, linkwear};
-use linkwear::case_study::{
+use linkwear_case_study::{
     Lives, Options, Prediction, Protocol, Study, TRUE_LIFE, html, markdown, pictures, run,
 };
+use serde_json::Value;
 
 const OPTIONS: Options = Options { quick: true, seed: 7 };
 
@@ -124,22 +123,26 @@ fn a_study_has_the_same_bits_on_any_number_of_threads_and_on_paper() {
     assert_eq!(page.matches("<svg").count(), drawn.len());
 }
 
+/// Exit code and the JSON that the program prints.
+fn program(out: &Path) -> (i32, Value) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_linkwear-case-study"));
+    let answer = command.args(["--quick", "--seed", "7", "--format", "json", "--out"]).arg(out).output();
+    let answer = answer.expect("the program runs");
+    (answer.status.code().expect("a code"), serde_json::from_slice(&answer.stdout).expect("JSON"))
+}
+
 #[test]
-fn the_command_writes_whole_files_into_a_fresh_folder_only() {
-    let folder = Folder::new("case-study");
-    let out = folder.path("study");
-    let answer = linkwear(&["case-study", "--quick", "--seed", "7", "--out", &out, "--format", "json"]);
-    let results = answer.json();
+fn the_program_writes_whole_files_into_a_fresh_folder_only() {
+    let out = std::env::temp_dir().join(format!("linkwear-case-study-{}", std::process::id()));
+    let (code, results) = program(&out);
+    assert_eq!(code, 0);
     assert_eq!(results, serde_json::to_value(study()).expect("plain data"));
-    assert_eq!(
-        results,
-        serde_json::from_str::<serde_json::Value>(&folder.read("study/results.json")).expect("JSON")
-    );
+    let text = std::fs::read_to_string(out.join("results.json")).expect("results");
+    assert_eq!(results, serde_json::from_str::<Value>(&text).expect("JSON"));
     for key in ["truth", "proposed", "baseline_1", "baseline_2"] {
         assert!(results["table2"][key]["mean"].is_f64(), "{key}");
     }
     assert_eq!(results["protocol"]["fitted_on"], "first20");
-    let text = folder.read("study/results.json");
     for absent in ["wall", "elapsed", "millis", "/tmp", env!("CARGO_MANIFEST_DIR")] {
         assert!(!text.contains(absent), "{absent}");
     }
@@ -156,7 +159,7 @@ fn the_command_writes_whole_files_into_a_fresh_folder_only() {
     names.sort();
     assert_eq!(names, expected);
 
-    let refused = linkwear(&["case-study", "--quick", "--out", &out, "--format", "json"]);
-    assert_eq!(refused.code, 1);
-    assert_eq!(refused.errors()[0]["code"], "C0004");
+    let (code, refused) = program(&out);
+    assert_eq!((code, &refused["errors"][0]["code"]), (1, &Value::from("C0004")));
+    std::fs::remove_dir_all(&out).expect("the folder goes");
 }

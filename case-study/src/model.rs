@@ -14,7 +14,7 @@ use linkwear_runtime::{
 use super::error::StudyError;
 use super::options::INTERPRETED;
 use super::watch::Watch;
-use crate::mechanisms;
+use linkwear::mechanisms;
 
 /// The file of the case study.
 pub(super) const TEXT: &str = include_str!("../../mechanisms/rssr.toml");

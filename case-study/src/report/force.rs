@@ -2,7 +2,7 @@
 
 use super::block::Block;
 use super::fixed;
-use crate::case_study::{ForceCurve, Forces};
+use crate::{ForceCurve, Forces};
 
 pub(super) fn blocks(forces: &Forces) -> Vec<Block> {
     let row = |name: &str, curve: &ForceCurve| {

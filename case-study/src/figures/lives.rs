@@ -1,9 +1,9 @@
 //! Fig. 6 and the errors behind Table 2 as charts. In: [`Lives`]. Out: charts. Never computes results.
 
-use crate::case_study::{Density, LifeNumbers, Lives, MODELS, Prediction, Protocol, UnderProtocol};
 use crate::plot::{
     Axis, BLACK, Chart, Curve, GREY, Look, Marker, ORANGE, Panel, SKY, Shape, axis, axis_around,
 };
+use crate::{Density, LifeNumbers, Lives, MODELS, Prediction, Protocol, UnderProtocol};
 
 /// Protocols with a fit: without one, errors are ten times as large and hide all others.
 const FITTED: [Protocol; 3] = [Protocol::All, Protocol::First20, Protocol::First10];

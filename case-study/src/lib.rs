@@ -1,6 +1,6 @@
 //! The case study of the paper, figure by figure, beside the paper's own numbers: an application of the library that
-//! uses nothing but what every user has. In: [`Options`]. Out: [`Study`], plain data; a [`Report`] with figures
-//! from it. Never touches files or terminals, and nothing else in linkwear knows this module.
+//! uses nothing but what every user has. In: [`Options`]. Out: [`Study`], plain data; figures, Markdown and HTML
+//! from it. Never touches files or terminals, and nothing else in linkwear knows this crate.
 
 mod areas;
 mod around;
@@ -14,6 +14,7 @@ mod model;
 mod options;
 mod paper;
 mod parameters;
+mod plot;
 mod rate;
 mod report;
 mod statistics;

@@ -3,7 +3,7 @@
 
 use super::block::Block;
 use super::{fixed, percent, signed};
-use crate::case_study::{AreaGrowth, Lives, Orderings, Prediction, Protocol, Study, TABLE_2, UnderProtocol};
+use crate::{AreaGrowth, Lives, Orderings, Prediction, Protocol, Study, TABLE_2, UnderProtocol};
 
 /// Part of the data sets in which a claim holds.
 type Share = fn(&Orderings) -> f64;
@@ -17,7 +17,7 @@ const CLAIMS: [(&str, Share); 5] = [
     ("all of these at once", |orderings| orderings.all),
 ];
 
-/// Places in [`crate::case_study::MODELS`].
+/// Places in [`crate::MODELS`].
 const PROPOSED: usize = 0;
 const RIGID: usize = 1;
 const NO_FEEDBACK: usize = 2;

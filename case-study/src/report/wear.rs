@@ -2,8 +2,8 @@
 
 use super::block::Block;
 use super::{fixed, signed};
-use crate::case_study::around::turned;
-use crate::case_study::{Around, Peak, TRUE_LIFE, WornBearing};
+use crate::around::turned;
+use crate::{Around, Peak, TRUE_LIFE, WornBearing};
 
 /// Peaks listed per cycle.
 const LISTED: usize = 3;

@@ -25,7 +25,7 @@ pub const TABLE_2: [Printed; 3] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case_study::TRUE_LIFE;
+    use crate::TRUE_LIFE;
 
     #[test]
     fn the_table_agrees_with_itself_and_with_a_ground_truth_of_25_1_cycles() {

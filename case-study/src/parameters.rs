@@ -193,7 +193,7 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case_study::model::compiled;
+    use crate::model::compiled;
 
     #[test]
     fn the_file_has_the_papers_numbers_and_marks_its_own() {

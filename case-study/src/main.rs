@@ -1,0 +1,158 @@
+//! The program of the case study: its figures and tables, recomputed, in a folder.
+//! Exit code 0: done, 1: the study or the writing failed, 2: wrong usage.
+
+use std::fs;
+use std::io::{self, Write as _};
+use std::num::NonZeroU16;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use clap::{Parser, ValueEnum};
+use linkwear::files::{WriteError, claim_folder, print, write_whole};
+use linkwear::progress::{Progress, catch_interrupts, stop_requested};
+use linkwear_case_study::{Options, Picture, Study, html, markdown, pictures, run, summary};
+use serde_json::{Value, json};
+
+/// Recompute the figures and tables of the paper's case study, beside the paper's own numbers.
+#[derive(Debug, Parser)]
+#[command(
+    name = "linkwear-case-study",
+    version,
+    after_help = "Example:\n  cargo run --release -p linkwear-case-study -- --out study"
+)]
+struct Arguments {
+    /// A rough study in less than a minute, to test the tool.
+    #[arg(long)]
+    quick: bool,
+    /// Folder for figures, tables and results; must be new or empty.
+    #[arg(long, value_name = "DIR", default_value = "case-study")]
+    out: PathBuf,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Threads [default: all processors]. Their number changes no result.
+    #[arg(long, value_name = "T")]
+    threads: Option<NonZeroU16>,
+    /// `json`: one JSON object on stdout, nothing else there.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// For whom the answer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+/// An error with the code that the command line of linkwear has for its like.
+struct Failure {
+    code: &'static str,
+    file: Option<PathBuf>,
+    message: String,
+    help: &'static str,
+}
+
+impl Failure {
+    fn study(error: impl ToString) -> Self {
+        Self { code: "C0012", file: None, message: error.to_string(), help: "nothing was written" }
+    }
+
+    fn write(path: &Path, error: impl Into<WriteError>) -> Self {
+        let file = path.display();
+        let (code, message, help) = match error.into() {
+            WriteError::Exists => {
+                ("C0004", format!("`{file}` exists and would be overwritten"), "choose another name")
+            }
+            WriteError::System(error) => (
+                "C0003",
+                format!("cannot write `{file}`: {error}"),
+                "choose a folder that exists and can be written",
+            ),
+        };
+        Self { code, file: Some(path.to_path_buf()), message, help }
+    }
+
+    fn report(&self, format: Format) {
+        let Self { code, file, message, help } = self;
+        match format {
+            Format::Text => eprintln!("error[{code}]: {message}\n  = help: {help}"),
+            Format::Json => {
+                let error = json!({
+                    "code": code, "file": file.as_ref().map(|file| file.display().to_string()),
+                    "line": Value::Null, "column": Value::Null, "message": message, "help": help,
+                });
+                // A reader who has gone away cannot be told; the exit code still says it.
+                let _ = print(&json!({ "errors": [error] }));
+            }
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match answer(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.report(arguments.format);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn answer(arguments: &Arguments) -> Result<(), Failure> {
+    let out = &arguments.out;
+    let is_new = !out.exists();
+    claim_folder(out).map_err(|error| Failure::write(out, error))?;
+    let studied = study(arguments).and_then(|study| Ok((pictures(&study).map_err(Failure::study)?, study)));
+    let (pictures, study) = studied.inspect_err(|_| {
+        if is_new {
+            // Nothing was written: the folder made for it goes, too.
+            let _ = fs::remove_dir(out);
+        }
+    })?;
+    let results = serde_json::to_value(&study)
+        .map_err(|error| Failure::write(&out.join("results.json"), io::Error::other(error)))?;
+    let files = write(out, &study, &pictures, &results)?;
+    let said = match arguments.format {
+        Format::Json => print(&results),
+        Format::Text => print(&format!("{}\n\nin {}: {}", summary(&study), out.display(), files.join(", "))),
+    };
+    said.map_err(|error| Failure::write(Path::new("stdout"), error))
+}
+
+fn study(arguments: &Arguments) -> Result<Study, Failure> {
+    catch_interrupts();
+    let options = Options { quick: arguments.quick, seed: arguments.seed };
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or_else(processors, |threads| usize::from(threads.get()));
+    let progress = Mutex::new(Progress::new());
+    let report = |part: f64| {
+        if let Ok(mut progress) = progress.lock() {
+            progress.set(part);
+        }
+    };
+    let study = run(options, threads, &report, &stop_requested);
+    if let Ok(progress) = progress.lock() {
+        progress.finish();
+    }
+    study.map_err(Failure::study)
+}
+
+/// Writes every file whole; returns their names.
+fn write(out: &Path, study: &Study, pictures: &[Picture], results: &Value) -> Result<Vec<String>, Failure> {
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    for picture in pictures {
+        files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));
+        files.push((format!("{}.png", picture.name), picture.png.clone()));
+    }
+    files.push(("case-study.md".to_owned(), markdown(study).into_bytes()));
+    files.push(("case-study.html".to_owned(), html(study, pictures).into_bytes()));
+    files.push(("results.json".to_owned(), format!("{results:#}\n").into_bytes()));
+    for (name, bytes) in &files {
+        let path = out.join(name);
+        write_whole(&path, |file| file.write_all(bytes)).map_err(|error| Failure::write(&path, error))?;
+    }
+    Ok(files.into_iter().map(|(name, _)| name).collect())
+}

@@ -1,0 +1,375 @@
+//! What can be asked: the definitions that clap reads, one for each subcommand. Never knows who answers.
+
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use super::value::{assignment, covariate, draw_count, positive};
+
+/// Compiles a linkage into its life: specialised dynamics from a TOML file.
+#[derive(Debug, Parser)]
+#[command(name = "linkwear", version, arg_required_else_help = true)]
+pub struct Arguments {
+    /// `json`: one JSON object on stdout, nothing else there.
+    #[arg(long, global = true, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// For whom the answer is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Read a mechanism and say what it is: mobility, redundant rows, idle freedoms, warnings.
+    #[command(after_help = "Example:\n  linkwear check mechanisms/rssr_rigid.toml")]
+    Check(Input),
+    /// Print the symbolic equations, with operation counts before and after sharing.
+    #[command(after_help = "Example:\n  linkwear equations mechanisms/pendulum.toml --only mass --as latex")]
+    Equations(EquationsArguments),
+    /// Write the specialised source code.
+    #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \
+                      linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check")]
+    Generate(GenerateArguments),
+    /// Turn the mechanism and record what happens.
+    #[command(
+        after_help = "Example:\n  linkwear simulate mechanisms/rssr_rigid.toml --turns 2 --out rssr.csv"
+    )]
+    Simulate(SimulateArguments),
+    /// Wear the joints with clearance, cycle by cycle, until the first has failed.
+    #[command(
+        after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
+    )]
+    Life(LifeArguments),
+    /// The paper's case study is a program of its own; this says how to run it.
+    #[command(hide = true, disable_help_flag = true)]
+    CaseStudy {
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        arguments: Vec<String>,
+    },
+    /// Tell the remaining life from a fit, and from inspections of the joint.
+    #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
+                      linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
+    Predict(PredictArguments),
+    /// Fit a Gamma process of wear to measured data by maximum likelihood.
+    #[command(
+        after_help = "Example:\n  linkwear fit examples/data/sliding_wear_100g.csv \\\n    --unit unit \
+                      --wear wear_um --exposure cycles --from-zero --power-law"
+    )]
+    Fit(FitArguments),
+    /// Write a commented starter file to edit.
+    #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
+    New(NewArguments),
+    /// Print the JSON Schema of mechanism files, for editors.
+    #[command(after_help = "Example:\n  linkwear schema > linkwear.schema.json")]
+    Schema,
+    /// Print a completion script for a shell.
+    #[command(after_help = "Example:\n  linkwear completions bash > \
+                      ~/.local/share/bash-completion/completions/linkwear")]
+    Completions {
+        /// Which shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page (troff).
+    #[command(after_help = "Example:\n  linkwear man > linkwear.1")]
+    Man,
+}
+
+/// A mechanism file and changes to it.
+#[derive(Debug, Args)]
+pub struct Input {
+    /// Mechanism (TOML).
+    pub file: PathBuf,
+    /// Override a parameter; units as in the file: --set speed="10 Hz". Repeatable.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub overrides: Vec<(String, String)>,
+    /// How loops are closed: only the rows a cut joint takes away, or six rows of a logarithm.
+    #[arg(long, value_enum)]
+    pub closure: Option<ClosureName>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ClosureName {
+    Joint,
+    Log,
+}
+
+#[derive(Debug, Args)]
+pub struct EquationsArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// Only these outputs or functions, separated by commas.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub only: Vec<String>,
+    /// Notation.
+    #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
+    pub notation: Notation,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Notation {
+    Text,
+    Markdown,
+    Latex,
+}
+
+#[derive(Debug, Args)]
+pub struct GenerateArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// File to write; without it the source goes to stdout.
+    #[arg(short, long, value_name = "OUT.rs")]
+    pub out: Option<PathBuf>,
+    /// Write nothing; fail if OUT.rs is not what would be written.
+    #[arg(long, requires = "out")]
+    pub check: bool,
+    /// Language.
+    #[arg(long, value_enum, default_value_t = Target::Rust)]
+    pub target: Target,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    Rust,
+}
+
+#[derive(Debug, Args)]
+pub struct SimulateArguments {
+    #[command(flatten)]
+    pub input: Input,
+    #[command(flatten)]
+    pub length: LengthArguments,
+    /// Rows of the output, evenly spaced over the run, both ends included.
+    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
+    pub samples: u32,
+    /// File for the rows (CSV). It appears only when it is complete.
+    #[arg(long, value_name = "CSV")]
+    pub out: Option<PathBuf>,
+    /// Method [default: dopri5, or rk4 if --step is given].
+    #[arg(long, value_enum)]
+    pub integrator: Option<IntegratorName>,
+    /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    pub step: Option<f64>,
+    /// Error tolerance of dopri5 [default: 1e-9].
+    #[arg(long, value_name = "E", value_parser = positive)]
+    pub tol: Option<f64>,
+    /// What runs the equations. `auto`: compiled if the file is a shipped mechanism, byte for byte, with
+    /// no generation-time parameter set; else the interpreter.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    pub backend: Backend,
+    /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
+    #[arg(long)]
+    pub rigid: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct LifeArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
+    pub trajectories: Option<u64>,
+    /// Take alpha and beta from a fit instead of [wear]; its covariance enters the error budget. Wear and Lambda of its
+    /// data must be in um, Lambda from `life` (`fit --lambda life.json`). With several wearing joints: once for each.
+    #[arg(long, value_name = "[JOINT=]FIT.json")]
+    pub fit: Vec<String>,
+    /// Spread of a factor of mean 1, one for each life, by which all joints wear faster or slower together: its
+    /// coefficient of variation, by a Gamma law.
+    #[arg(long, value_name = "COV", value_parser = positive, conflicts_with = "mean")]
+    pub shared_factor: Option<f64>,
+    /// Picks the random numbers; the same seed gives the same bits on any number of threads.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Only the mean path: every increment of wear is its mean.
+    #[arg(long)]
+    pub mean: bool,
+    /// Wear per revolution from a table made once, or from the dynamics at every wear step [default: table, or full
+    /// where a profile is fed back].
+    #[arg(long, value_enum)]
+    pub coupling: Option<Coupling>,
+    /// Take flexible bodies as rigid.
+    #[arg(long)]
+    pub rigid: bool,
+    /// Wear does not open the clearance.
+    #[arg(long)]
+    pub no_feedback: bool,
+    /// Step of the fourth-order Runge-Kutta method [s].
+    #[arg(long, value_name = "S", value_parser = positive, default_value = "2e-5")]
+    pub step: f64,
+    /// Revolutions after each change of a clearance before one is measured.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub settle: u32,
+    /// Revolutions whose mean is taken; a motion that chatters needs 20 or more.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub average: u32,
+    /// Folder for life.json, cycles.csv and lives.csv; one with something in it is refused.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Threads that share the random lives [default: one per core].
+    #[arg(long, value_name = "T")]
+    pub threads: Option<NonZero<usize>>,
+    /// What runs the equations.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    pub backend: Backend,
+}
+
+#[derive(Debug, Args)]
+pub struct PredictArguments {
+    /// Result of `linkwear fit .. --format json`.
+    pub fit: PathBuf,
+    /// Wear at failure, in the unit of the fit's data.
+    #[arg(long, value_name = "W", value_parser = positive)]
+    pub threshold: f64,
+    /// Wear now [default: 0].
+    #[arg(long, value_name = "W0", allow_negative_numbers = true)]
+    pub current: Option<f64>,
+    /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
+    #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
+    pub at: Option<f64>,
+    /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
+    pub covariate: Vec<(String, f64)>,
+    /// Exposure per unit of time from now on; lives are told in that time [default: 1].
+    #[arg(long, value_name = "R", value_parser = positive)]
+    pub rate: Option<f64>,
+    /// Readings of this joint (CSV), time since it was new; the last one is the present.
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["current", "at"], requires_all = ["time", "wear"])]
+    pub inspections: Option<PathBuf>,
+    /// Column of the time of a reading.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    pub time: Option<String>,
+    /// Column of the wear.
+    #[arg(long, value_name = "COL", requires = "inspections")]
+    pub wear: Option<String>,
+    /// Standard error of the gauge, in the unit of wear: readings may fall.
+    #[arg(long, value_name = "S", value_parser = positive, requires = "inspections")]
+    pub gauge: Option<f64>,
+    /// Take nothing from the fit but its form: the readings alone decide.
+    #[arg(long, requires = "inspections", conflicts_with = "gauge")]
+    pub flat_prior: bool,
+    /// Particles that follow readings with gauge error.
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    pub particles: u32,
+    /// Bands by this many drawn parameters [default: by the delta method].
+    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = draw_count)]
+    pub draws: Option<usize>,
+    /// Decides all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+}
+
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("clock").required(true).multiple(true).args(["exposure", "lambda"]))]
+pub struct FitArguments {
+    /// Readings (CSV with a header; lines that begin with # are skipped).
+    pub file: PathBuf,
+    /// Column that names the unit (specimen) of a reading.
+    #[arg(long, value_name = "COL")]
+    pub unit: String,
+    /// Column of wear.
+    #[arg(long, value_name = "COL")]
+    pub wear: String,
+    /// Column of exposure: time, cycles, distance.
+    #[arg(long, value_name = "COL")]
+    pub exposure: Option<String>,
+    /// Column of Lambda; or, with --exposure in cycles, a file that has Lambda by exposure: the JSON of `life`, taken in
+    /// um, or a CSV of two columns.
+    #[arg(long, value_name = "COL|FILE")]
+    pub lambda: Option<String>,
+    /// Estimate the exponent c of Lambda = exposure^c.
+    #[arg(long, conflicts_with = "lambda")]
+    pub power_law: bool,
+    /// Column of groups: each is fitted alone, then all together.
+    #[arg(long, value_name = "COL")]
+    pub groups: Option<String>,
+    /// Begin each unit at (0, 0).
+    #[arg(long)]
+    pub from_zero: bool,
+    /// Step of the gauge: an increment of zero then means "less than this".
+    #[arg(long, value_name = "R", value_parser = positive)]
+    pub resolution: Option<f64>,
+    /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
+    #[arg(long, value_name = "COL")]
+    pub covariate: Vec<String>,
+    /// Accept data of one unit, which cannot tell how units differ.
+    #[arg(long)]
+    pub one_unit: bool,
+    /// Compare with Wiener and inverse-Gaussian processes.
+    #[arg(long)]
+    pub compare: bool,
+    /// Replicates of the parametric bootstrap: intervals, p-values of the goodness of fit.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub bootstrap: usize,
+    /// Seed of the bootstrap.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Write the fit (JSON) for `predict`.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Coupling {
+    Table,
+    Full,
+}
+
+/// How long to run: at most one of the two.
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+pub struct LengthArguments {
+    /// Turns of the first driven revolute joint [default: 1, if there is one].
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub turns: Option<f64>,
+    /// Time [s] [default: 1, if no revolute joint is driven].
+    #[arg(long, value_name = "T", value_parser = positive)]
+    pub time: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorName {
+    Rk4,
+    Dopri5,
+    #[value(name = "generalized-alpha")]
+    GeneralizedAlpha,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    Auto,
+    Compiled,
+    Jit,
+    Interpreter,
+}
+
+#[derive(Debug, Args)]
+pub struct NewArguments {
+    /// Name of the mechanism; the file is NAME.toml in the current folder.
+    pub name: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn definitions_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn every_subcommand_shows_an_example() {
+        for command in Arguments::command().get_subcommands().filter(|command| !command.is_hide_set()) {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.contains(&format!("linkwear {}", command.get_name())), "{}", command.get_name());
+        }
+    }
+}
