@@ -6,12 +6,10 @@ use serde::Serialize;
 
 use super::error::StudyError;
 use super::model::Model;
-use super::options::Effort;
+use super::options::{AREA_POINTS, Effort};
 use super::tables::{Measured, flexible, job};
 use super::watch::{Watch, run_all};
 
-/// Points of a table of two ends, the fewest that there are.
-pub(super) const POINTS: usize = 3;
 /// From the unworn clearance to that at the threshold, which opens by all the wear.
 const FULL: (f64, f64) = (1.0, 1.0);
 
@@ -37,8 +35,8 @@ pub(super) fn areas(
     watch: &Watch<'_>,
 ) -> Result<Vec<AreaGrowth>, StudyError> {
     let areas = [("projected", Area::Projected), ("Hertz", Area::Hertz), ("conformal", Area::Conformal)];
-    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, POINTS), FULL, watch);
-    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, POINTS), FULL, watch);
+    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, AREA_POINTS), FULL, watch);
+    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, AREA_POINTS), FULL, watch);
     let jobs = areas.iter().map(|area| rigid(area.1)).chain(areas.iter().map(|area| flexible(area.1)));
     let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs.collect()).into_iter().collect();
     let found = found?;

@@ -5,11 +5,11 @@ use linkwear_runtime::life::WearStep;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde::Serialize;
 
-use super::areas;
-
 /// Wear steps that leave no error beside that of a table.
 const FINEST: WearStep = WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1 };
 
+/// Points of the tables that compare contact areas: the fewest that a table of two ends has.
+pub(super) const AREA_POINTS: usize = 3;
 /// Cost of a turn of an interpreted mechanism, roughly, in turns of a compiled one.
 pub(super) const INTERPRETED: f64 = 4.0;
 
@@ -56,7 +56,7 @@ impl Effort {
         let turns = |settings: RevolutionSettings| f64::from(settings.settle + settings.average);
         let tables = turns(self.flexible) * (self.points + 2 * self.finest_points) as f64
             + INTERPRETED * turns(self.rigid) * self.rigid_points as f64;
-        let areas = 3.0 * areas::POINTS as f64 * (turns(self.flexible) + INTERPRETED * turns(self.rigid));
+        let areas = 3.0 * AREA_POINTS as f64 * (turns(self.flexible) + INTERPRETED * turns(self.rigid));
         let lives = 2.0 * self.data_sets as f64 * self.work_of_data_set;
         areas + gammas as f64 * (tables + lives)
     }

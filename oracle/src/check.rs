@@ -5,8 +5,8 @@ use linkwear_codegen::model::{
     Amount, Body, ForceKind, Formula, Inertia, Joint, JointKind, Mechanism, Passive, Position,
 };
 
+use crate::error::OracleError;
 use crate::joint::JointGeometry;
-use crate::model::OracleError;
 
 /// Everything but motion laws, actuators and components of forces must have a value without a state.
 pub(crate) fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Result<(), OracleError> {

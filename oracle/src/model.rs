@@ -5,41 +5,14 @@
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::{Carrier, Formula, JointKind, Mechanism};
 use nalgebra::Vector3;
-use thiserror::Error;
 
 use crate::check::{check_constants, check_coordinates};
+use crate::error::OracleError;
 use crate::frame::{BodyState, Frame};
 use crate::jet::{Jet, State, evaluate};
 use crate::joint::{JointGeometry, JointMotion};
 use crate::mass::MassProperties;
 use crate::row::{Pair, Row};
-
-/// Why a mechanism cannot be modelled.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum OracleError {
-    /// A mass is not positive, or not a number.
-    #[error("body {body}: mass {mass} kg or its inertia is not a positive number")]
-    NotPositive {
-        /// Name of the body.
-        body: String,
-        /// Its mass [kg].
-        mass: f64,
-    },
-    /// A formula that must be constant depends on time or state.
-    #[error("a formula of {element} must not depend on time or state")]
-    NotConstant {
-        /// Name of the element.
-        element: String,
-    },
-    /// A drive, spring, damper or actuator on a coordinate that the joint does not have.
-    #[error("joint {joint} has no scalar coordinate {coordinate}")]
-    NoCoordinate {
-        /// Name of the joint.
-        joint: String,
-        /// The coordinate asked for.
-        coordinate: usize,
-    },
-}
 
 /// A mechanism with numbers in place of formulas that are constant.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 //! Never computes results.
 
 use super::block::Block;
-use super::{fixed, percent, signed};
+use super::number::{fixed, percent, signed};
 use crate::{AreaGrowth, Lives, Orderings, Prediction, Protocol, Study, TABLE_2, UnderProtocol};
 
 /// Part of the data sets in which a claim holds.

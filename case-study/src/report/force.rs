@@ -1,7 +1,7 @@
 //! Fig. 4 in words. In: [`Forces`]. Out: blocks. Never knows other figures.
 
 use super::block::Block;
-use super::fixed;
+use super::number::fixed;
 use crate::{ForceCurve, Forces};
 
 pub(super) fn blocks(forces: &Forces) -> Vec<Block> {

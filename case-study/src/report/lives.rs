@@ -1,7 +1,7 @@
 //! Fig. 6 and Table 2 in words. In: [`Study`]. Out: blocks. Never knows other figures.
 
 use super::block::Block;
-use super::{fixed, percent, signed};
+use super::number::{fixed, percent, signed};
 use crate::{
     HISTORIES, LifeNumbers, Lives, MODELS, Prediction, SHOWN, Study, TABLE_2, TRUE_LIFE, UnderProtocol,
 };

@@ -5,9 +5,11 @@ mod block;
 mod findings;
 mod force;
 mod lives;
+mod number;
 mod wear;
 
 use block::Block;
+use number::{fixed, signed};
 
 use super::{Lives, MODELS, Picture, SHOWN, Study};
 
@@ -121,21 +123,4 @@ fn mechanism(study: &Study) -> Vec<Block> {
              crank and rocker, and which of the two ways of assembly is taken."
         )),
     ]
-}
-
-/// Digits after the point.
-fn fixed(value: f64, digits: usize) -> String {
-    format!("{value:.digits$}")
-}
-
-/// A part of all, in whole per cents.
-fn percent(part: f64) -> String {
-    format!("{:.0} %", 100.0 * part)
-}
-
-/// With its sign.
-fn signed(value: f64, digits: usize) -> String {
-    // Adding zero turns -0 into 0.
-    let rounded = (value * 10_f64.powi(digits as i32)).round() / 10_f64.powi(digits as i32) + 0.0;
-    format!("{rounded:+.digits$}")
 }

@@ -1,7 +1,7 @@
 //! Fig. 5 in words. In: [`Around`]. Out: blocks. Never knows other figures.
 
 use super::block::Block;
-use super::{fixed, signed};
+use super::number::{fixed, signed};
 use crate::around::turned;
 use crate::{Around, Peak, TRUE_LIFE, WornBearing};
 

@@ -3,8 +3,10 @@
 
 use std::fmt::Write as _;
 
+use super::dice::Dice;
+use super::kind::Kind;
 use super::plan::{Plan, PlannedJoint};
-use super::{Dice, Kind, Recipe};
+use super::recipe::Recipe;
 
 /// Half the edge of the cube in which points are drawn [m].
 const ROOM: f64 = 0.6;

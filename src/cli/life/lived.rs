@@ -12,9 +12,9 @@ use linkwear_runtime::life::{
 };
 use linkwear_runtime::{RunError, System, TurnState};
 
+use super::super::arguments::Coupling;
 use super::super::arguments::Format;
 use super::super::failure::Failure;
-use super::super::arguments::Coupling;
 use super::folder::Folder;
 use super::output::{cycle_entry, cycles_table};
 use super::{Plan, failed};

@@ -9,10 +9,10 @@ use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
 use serde_json::{Value, json};
 
+use super::super::arguments::LifeArguments;
 use super::super::failure::Failure;
 use super::super::fit_file;
 use super::super::table::number;
-use super::super::arguments::LifeArguments;
 use super::failed;
 
 /// Micrometres in a metre: fits count wear and Lambda in micrometres.

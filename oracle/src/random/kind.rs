@@ -1,0 +1,80 @@
+//! Kinds of joints as random mechanisms draw them. Never knows how they are chosen or written.
+
+/// A joint kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "named as in the file format")]
+pub enum Kind {
+    Revolute,
+    Prismatic,
+    Cylindrical,
+    Screw,
+    Universal,
+    Spherical,
+    Planar,
+    Fixed,
+    Free,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 9] = [
+        Self::Revolute,
+        Self::Prismatic,
+        Self::Cylindrical,
+        Self::Screw,
+        Self::Universal,
+        Self::Spherical,
+        Self::Planar,
+        Self::Fixed,
+        Self::Free,
+    ];
+
+    /// Key in the file.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Prismatic => "prismatic",
+            Self::Cylindrical => "cylindrical",
+            Self::Screw => "screw",
+            Self::Universal => "universal",
+            Self::Spherical => "spherical",
+            Self::Planar => "planar",
+            Self::Fixed => "fixed",
+            Self::Free => "free",
+        }
+    }
+
+    /// Rotations and pure translations it leaves.
+    #[must_use]
+    pub const fn freedoms(self) -> [usize; 2] {
+        match self {
+            Self::Revolute | Self::Screw => [1, 0],
+            Self::Prismatic => [0, 1],
+            Self::Cylindrical => [1, 1],
+            Self::Universal => [2, 0],
+            Self::Spherical => [3, 0],
+            Self::Planar => [1, 2],
+            Self::Fixed => [0, 0],
+            Self::Free => [3, 3],
+        }
+    }
+
+    /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
+    pub(super) const fn is_wide(self) -> bool {
+        matches!(self, Self::Spherical | Self::Planar)
+    }
+
+    /// Scalar coordinates that can be driven, sprung and damped; true for an angle.
+    #[must_use]
+    pub const fn coordinates(self) -> &'static [bool] {
+        match self {
+            Self::Revolute | Self::Screw => &[true],
+            Self::Prismatic => &[false],
+            Self::Cylindrical => &[true, false],
+            Self::Universal => &[true, true],
+            Self::Planar => &[false, false, true],
+            Self::Spherical | Self::Fixed | Self::Free => &[],
+        }
+    }
+}
