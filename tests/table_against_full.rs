@@ -7,10 +7,11 @@ use std::ops::ControlFlow;
 use linkwear::mechanisms::rssr;
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, MonteCarlo};
 use linkwear_runtime::life::{
-    DEFAULT_POINTS, FineScale, LifeSettings, LifeState, Mean, Outcome, Table, WearStep, calibrate, run_life,
+    DEFAULT_POINTS, LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearSource, WearStep, WearTable,
+    calibrate, run_life,
 };
 use linkwear_runtime::wear::Area;
-use linkwear_runtime::{Description, RevolutionSettings, Revolutions, System};
+use linkwear_runtime::{Description, DynamicsSource, RevolutionSettings, System};
 
 /// Cycles of the deterministic life.
 const CYCLES: f64 = 25.1;
@@ -28,31 +29,32 @@ impl Case {
         Self { description, system: rssr::Mechanism::default() }
     }
 
-    fn revolutions<'a>(&'a self, system: &'a dyn System<f64>) -> Revolutions<'a> {
+    fn revolutions<'a>(&'a self, system: &'a dyn System<f64>) -> DynamicsSource<'a> {
         let parameters: Vec<f64> =
             self.description.parameters.iter().map(|parameter| parameter.default).collect();
-        Revolutions::new(system, &self.description, &parameters, RevolutionSettings::default())
+        DynamicsSource::new(system, &self.description, &parameters, RevolutionSettings::default())
             .expect("a start")
     }
 
     /// Settings with cycles of the right length, and the table they come from.
-    fn calibrated(&self) -> (LifeSettings, Table) {
+    fn calibrated(&self) -> (LifeSettings, WearTable) {
         let mut fine = self.revolutions(&self.system);
         let mut settings = LifeSettings::new(fine.joints().expect("numbers in range"));
-        let mut table = Table::measure(&settings, &mut fine, DEFAULT_POINTS, &mut |_| {}).expect("a table");
+        let mut table =
+            WearTable::measure(&settings, &mut fine, DEFAULT_POINTS, &mut |_| {}).expect("a table");
         settings.step = WearStep::TABLE;
         let found = calibrate(&settings, &mut table, CYCLES, 1e-6).expect("a length of cycles");
         (settings.with_longer_cycles(found.factor), table)
     }
 }
 
-fn mean_life<F: FineScale>(settings: &LifeSettings, fine: &mut F) -> f64
+fn mean_life<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> f64
 where
     F::Error: std::fmt::Debug,
 {
     let mut state = LifeState::new(settings, 0).expect("settings");
-    match run_life(settings, fine, &Mean, &mut state, &mut |_| ControlFlow::Continue(())) {
-        Ok(Outcome::Failed(failure)) => failure.cycles,
+    match run_life(settings, fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(())) {
+        Ok(LifeOutcome::Failed(failure)) => failure.cycles,
         other => panic!("{other:?}"),
     }
 }

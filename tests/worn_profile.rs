@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use linkwear::mechanisms::rssr;
-use linkwear_runtime::life::{LifeSettings, LifeState, Mean, Outcome, WearStep, run_life};
+use linkwear_runtime::life::{LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearStep, run_life};
 use linkwear_runtime::wear::{Grid, Measure, Profile};
-use linkwear_runtime::{RevolutionSettings, Revolutions};
+use linkwear_runtime::{DynamicsSource, RevolutionSettings};
 
 /// Of which one wears a micrometre off the deepest place of the unworn bearing.
 const REVOLUTIONS: f64 = 4e7;
@@ -22,14 +22,15 @@ fn worn() -> Vec<Profile> {
     let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
     let (system, settle) =
         (rssr::Mechanism::default(), RevolutionSettings { settle: 2, ..RevolutionSettings::default() });
-    let mut fine = Revolutions::new(&system, &description, &parameters, settle).expect("a start");
+    let mut fine = DynamicsSource::new(&system, &description, &parameters, settle).expect("a start");
     let mut settings = LifeSettings::new(fine.joints().expect("numbers in range"));
     settings.step = WearStep::Cycle;
     let mut state = LifeState::new(&settings, 0).expect("settings");
     let live = |cycle| {
         settings.most_cycles = cycle;
-        let outcome = run_life(&settings, &mut fine, &Mean, &mut state, &mut |_| ControlFlow::Continue(()));
-        assert!(matches!(outcome, Ok(Outcome::CycleLimit)), "{outcome:?}");
+        let outcome =
+            run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(()));
+        assert!(matches!(outcome, Ok(LifeOutcome::CycleLimit)), "{outcome:?}");
         state.joints[0].profile.clone().expect("a profile")
     };
     (1..=CYCLES).map(live).collect()

@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use linkwear_runtime::life::{LifeState, Mean, WearStep, run_life};
+use linkwear_runtime::life::{LifeState, MeanIncrement, WearStep, run_life};
 use linkwear_runtime::wear::Profile;
 use serde::Serialize;
 
@@ -120,7 +120,7 @@ fn worn(measured: &Measured, step: WearStep, revolutions: f64) -> Result<WornBea
     let mut snapshots = Vec::new();
     for cycle in CYCLES {
         settings.most_cycles = cycle;
-        run_life(&settings, &mut measured.table.clone(), &Mean, &mut state, &mut |_| {
+        run_life(&settings, &mut measured.table.clone(), &MeanIncrement, &mut state, &mut |_| {
             ControlFlow::Continue(())
         })?;
         let profile = state.joints.first().and_then(|joint| joint.profile.clone());

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use linkwear_codegen::Diagnostics;
 use linkwear_gamma::fit::FitError;
-use linkwear_runtime::life::{CalibrationError, SettingsError, Stop};
+use linkwear_runtime::life::{CalibrationError, LifeError, SettingsError};
 use linkwear_runtime::{RunError, SetupError};
 use thiserror::Error;
 
@@ -36,13 +36,13 @@ pub enum StudyError {
     Setup(#[from] SetupError),
     /// A life could not be lived.
     #[error(transparent)]
-    Life(#[from] Stop<RunError>),
+    Life(#[from] LifeError<RunError>),
     /// A life has settings that make no sense.
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// A life by a table could not be lived.
     #[error(transparent)]
-    TableLife(#[from] Stop<Infallible>),
+    TableLife(#[from] LifeError<Infallible>),
     /// No length of cycle gives the life of the paper.
     #[error(transparent)]
     Calibration(#[from] CalibrationError<Infallible>),

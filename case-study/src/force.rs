@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use linkwear_runtime::clearance::ContactChannels;
+use linkwear_runtime::clearance_joint::ContactChannels;
 use linkwear_runtime::{IdealJoint, Integrator, Run, RunError, Settings, Span, simulate};
 use serde::Serialize;
 

@@ -6,7 +6,7 @@ use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Model as GammaModel, estimate};
 use linkwear_gamma::monte_carlo::GammaDraw;
 use linkwear_runtime::GammaRates;
-use linkwear_runtime::life::IncrementDraw;
+use linkwear_runtime::life::IncrementModel;
 use serde::Serialize;
 
 use super::error::StudyError;

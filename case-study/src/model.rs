@@ -5,10 +5,10 @@
 //! changing the laws of contact and wear in a description, which the equations do not know.
 
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
-use linkwear_runtime::life::{FineScale, JointWear, RevolutionWear};
+use linkwear_runtime::life::{JointWear, RevolutionWear, WearSource};
 use linkwear_runtime::wear::{Area, Measure};
 use linkwear_runtime::{
-    Description, Integrator, RevolutionSettings, Revolutions, RunError, System, TurnState,
+    Description, DynamicsSource, Integrator, RevolutionSettings, RunError, System, TurnState,
 };
 
 use super::error::StudyError;
@@ -121,7 +121,7 @@ impl Model {
     ) -> Result<T, StudyError> {
         let system = self.system();
         let stop = || watch.is_stopped();
-        let inner = Revolutions::new(&*system, &self.description, &self.parameters, settings)?;
+        let inner = DynamicsSource::new(&*system, &self.description, &self.parameters, settings)?;
         let turns = f64::from(settings.settle + settings.average.max(1));
         let step = if let Integrator::Rk4 { step } = settings.integrator { 2e-5 / step } else { 1.0 };
         let cost = turns * step * self.cost();
@@ -131,12 +131,12 @@ impl Model {
 
 /// Revolutions that tell how far they are.
 pub(super) struct Watched<'a> {
-    pub inner: Revolutions<'a>,
+    pub inner: DynamicsSource<'a>,
     watch: &'a Watch<'a>,
     cost: f64,
 }
 
-impl FineScale for Watched<'_> {
+impl WearSource for Watched<'_> {
     type State = Option<TurnState>;
     type Error = RunError;
 

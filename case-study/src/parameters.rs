@@ -2,7 +2,7 @@
 //! In: the file of the mechanism. Out: [`ParameterRow`]s. Never runs anything.
 
 use linkwear_codegen::Compiled;
-use linkwear_codegen::spec::{self, AreaSpec, ClearanceSpec, Literal, Quantity, RestitutionSpec, WearSpec};
+use linkwear_codegen::spec::{self, ClearanceSpec, Literal, Quantity, WearSpec};
 use serde::Serialize;
 
 use super::error::StudyError;
@@ -116,17 +116,11 @@ fn section(
 fn clearance_rows(spec: &ClearanceSpec) -> Vec<(&'static str, Option<String>)> {
     let quantity = |value: &Option<Quantity>| value.as_ref().map(text);
     let speeds = spec.friction_speed.as_ref();
-    let law = spec.law.as_ref().map(|law| match law.value {
-        RestitutionSpec::LankaraniNikravesh => "Lankarani-Nikravesh",
-        RestitutionSpec::Exact => "exact restitution",
-        RestitutionSpec::HuntCrossley => "Hunt-Crossley",
-        RestitutionSpec::Flores => "Flores",
-        RestitutionSpec::LeeWang => "Lee-Wang",
-    });
+    let law = spec.law.as_ref().map(|law| law.value.to_string());
     vec![
         ("Journal radius", quantity(&spec.journal_radius)),
         ("Bearing length", quantity(&spec.length)),
-        ("Law of the normal force (as in the paper)", law.map(str::to_owned)),
+        ("Law of the normal force (as in the paper)", law),
         ("Restitution", quantity(&spec.restitution)),
         ("Least impact speed", quantity(&spec.impact_speed_floor)),
         ("Friction", quantity(&spec.friction)),
@@ -139,13 +133,9 @@ fn clearance_rows(spec: &ClearanceSpec) -> Vec<(&'static str, Option<String>)> {
 
 fn wear_rows(spec: &WearSpec) -> Vec<(&'static str, Option<String>)> {
     let quantity = |value: &Option<Quantity>| value.as_ref().map(text);
-    let area = spec.area.as_ref().map(|area| match area.value {
-        AreaSpec::Projected => "projected, 2 r L",
-        AreaSpec::Hertz => "Hertz, 2 b L",
-        AreaSpec::Conformal => "conformal arc",
-    });
+    let area = spec.area.as_ref().map(|area| area.value.to_string());
     vec![
-        ("Contact area of Archard's law", area.map(str::to_owned)),
+        ("Contact area of Archard's law", area),
         ("Feedback γ", quantity(&spec.feedback)),
         ("Revolutions per cycle (before calibration)", quantity(&spec.revolutions_per_cycle)),
     ]

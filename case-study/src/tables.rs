@@ -4,7 +4,7 @@
 //! A table holds the depth by the area of contact and the depth by bearing angle, so that one serves every
 //! definition of wear W; the feedback factor gamma says up to which clearance it reaches.
 
-use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, Table, WearOf, WearStep, calibrate};
+use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, WearOf, WearStep, WearTable, calibrate};
 use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
 use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError};
 use serde::Serialize;
@@ -36,7 +36,7 @@ const CALIBRATED: f64 = 1e-6;
 /// One model, measured.
 pub(super) struct Measured {
     /// Wear per revolution; a fine scale.
-    pub table: Table,
+    pub table: WearTable,
     rates: Option<GammaRates>,
     joints: Vec<JointLife>,
 }
@@ -214,7 +214,7 @@ fn measured(
         let wears = model.description.contacts.iter().find_map(|contact| contact.wear);
         let rates = wears.and_then(|wear| wear.scatter);
         let surveyed = LifeSettings::new(joints.iter().map(further).collect());
-        let table = Table::measure(&surveyed, revolutions, points, &mut |_| {})?;
+        let table = WearTable::measure(&surveyed, revolutions, points, &mut |_| {})?;
         Ok(Measured { table, rates, joints })
     })
 }

@@ -10,7 +10,7 @@ use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use linkwear_gamma::special::gamma_p;
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::{
-    Feedback, FineScale, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearStep,
+    Feedback, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearSource, WearStep,
 };
 use linkwear_runtime::wear::{Limits, Observed, ScalarFeedback};
 
@@ -24,7 +24,7 @@ const PER_CYCLE: f64 = 3.2e-6;
 #[derive(Clone)]
 struct Power(f64);
 
-impl FineScale for Power {
+impl WearSource for Power {
     type State = ();
     type Error = Infallible;
 

@@ -3,20 +3,21 @@
 
 use std::f64::consts::PI;
 
-use crate::clearance::Touch;
+use crate::clearance_joint::ContactState;
+use crate::evaluate::Evaluator;
 use crate::linear::dot;
-use crate::{CONTACT_MOTION, CONTACT_WRENCH, Evaluator};
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 
 /// Frequency [Hz] of small vibrations of every contact along its normal, at one state; nothing where there is none.
 /// It grows with the force to the power 1/6 of a sphere's law, so that a state at rest tells that of a whole turn
 /// within tens of per cent.
 #[must_use]
 pub fn contact_frequencies(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
-    evaluator.touch(t, q, v);
-    let touches = evaluator.clearances().touches().to_vec();
+    evaluator.evaluate_contacts(t, q, v);
+    let touches = evaluator.clearances().contacts().to_vec();
     let sizes = evaluator.sizes();
     let mut storage = vec![0.0; sizes.contacts * CONTACT_WRENCH + sizes.speeds];
-    let frequency = |(joint, touch): (usize, &Touch)| {
+    let frequency = |(joint, touch): (usize, &ContactState)| {
         let inverse = inverse_mass(evaluator, (t, q, v), (joint, touch), &mut storage);
         let frequency = (touch.tangent_stiffness * inverse).sqrt() / (2.0 * PI);
         (frequency.is_finite() && frequency > 0.0).then_some(frequency)
@@ -29,7 +30,7 @@ pub fn contact_frequencies(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: 
 pub(crate) fn inverse_mass(
     evaluator: &mut Evaluator<'_>,
     (t, q, v): (f64, &[f64], &[f64]),
-    (joint, touch): (usize, &Touch),
+    (joint, touch): (usize, &ContactState),
     storage: &mut [f64],
 ) -> f64 {
     let (wrenches, change) = storage.split_at_mut(evaluator.sizes().contacts * CONTACT_WRENCH);

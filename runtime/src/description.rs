@@ -1,5 +1,5 @@
 //! What a mechanism tells about itself: names, units, rows, channels. Written by the generator.
-//! In: nothing. Out: [`Description`]. Never knows equations or numbers of a run.
+//! Out: [`Description`]. Never knows equations or numbers of a run.
 //! Strings are `Cow` so that generated code can keep them in statics and the interpreter can own them.
 
 use std::borrow::Cow;

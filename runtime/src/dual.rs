@@ -4,7 +4,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::Scalar;
+use crate::scalar::Scalar;
 
 /// `value + derivative * epsilon` with `epsilon² = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]

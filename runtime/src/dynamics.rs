@@ -2,9 +2,10 @@
 //! are nearly singular. In: time and state. Out: accelerations, multipliers, drive forces.
 //! Never knows step sizes.
 
+use crate::error::RunError;
+use crate::evaluate::Evaluator;
 use crate::linear::largest;
-use crate::singular::SingularSolver;
-use crate::{Evaluator, RunError};
+use crate::singular_dynamics::SingularSolver;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
 /// has had makes the runtime leave the generated elimination. At 1e-7 (a singular value of 3e-4) rounding

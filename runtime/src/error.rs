@@ -1,5 +1,5 @@
 //! What can go wrong when a mechanism is set up or run, as data. Every message says what happened,
-//! where, and what to try. In: nothing. Out: error types.
+//! where, and what to try. Out: error types.
 
 use thiserror::Error;
 

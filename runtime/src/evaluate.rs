@@ -2,9 +2,12 @@
 //! In: a [`System`], its [`Description`], parameter values. Out: slices by [`Entry`].
 //! Never knows integrators.
 
-use crate::clearance::Clearances;
+use crate::clearance_joint::Clearances;
+use crate::description::Description;
+use crate::error::SetupError;
+use crate::layout::Layout;
 use crate::linear::dot;
-use crate::{Description, Entry, Layout, SetupError, Sizes, System};
+use crate::system::{Entry, Sizes, System};
 
 /// A mechanism with fixed parameters and the storage to evaluate it.
 pub struct Evaluator<'a> {
@@ -219,7 +222,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Evaluates the contacts; their wrenches go into every answer from here on. Nothing to do without clearance.
-    pub fn touch(&mut self, t: f64, q: &[f64], v: &[f64]) {
+    pub fn evaluate_contacts(&mut self, t: f64, q: &[f64], v: &[f64]) {
         if self.sizes.contacts > 0 {
             self.ask(Entry::Contacts, t, &[q, v]);
             self.clearances.evaluate(&self.outputs[Entry::Contacts as usize]);
@@ -228,7 +231,7 @@ impl<'a> Evaluator<'a> {
 
     /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
-        self.touch(t, q, v);
+        self.evaluate_contacts(t, q, v);
         let clearances = core::mem::take(&mut self.clearances);
         self.forward_under(t, q, v, clearances.wrenches());
         self.clearances = clearances;
@@ -381,7 +384,7 @@ impl<'a> Evaluator<'a> {
         &self.outputs[Entry::Prescribed as usize]
     }
 
-    /// Mass matrix, bias, constraint rows of all coordinates, under the wrenches of the last [`Self::touch`].
+    /// Mass matrix, bias, constraint rows of all coordinates, under the wrenches of the last [`Self::evaluate_contacts`].
     pub fn equations(&mut self, t: f64, all_q: &[f64], all_v: &[f64]) -> Equations<'_> {
         let (n, m) = (self.sizes.all_speeds, self.sizes.all_rows);
         let clearances = core::mem::take(&mut self.clearances);

@@ -2,7 +2,8 @@
 //! Never uses the platform's mathematics library: sine and cosine are [`crate::sin_cos`], the other
 //! transcendental functions come from the `libm` crate, and nothing is contracted to a fused operation.
 
-use crate::{Scalar, sincos::sin_cos};
+use crate::scalar::Scalar;
+use crate::sincos::sin_cos;
 
 impl Scalar for f64 {
     type Mask = bool;

@@ -2,7 +2,7 @@
 //! In: scalars. Out: scalars, finite with finite derivatives also where the textbook formula is 0/0.
 #![expect(clippy::excessive_precision, reason = "digits as computed with many more")]
 
-use crate::Scalar;
+use crate::scalar::Scalar;
 
 /// Coefficients of asin(s)/s in powers of s²: (2n)! / (4^n (n!)² (2n + 1)).
 const ARCSINE: [f64; 8] = [
@@ -88,7 +88,7 @@ fn horner<T: Scalar>(coefficients: &[f64], x: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
+    use crate::dual::Dual;
 
     fn relative(value: f64, exact: f64) -> f64 {
         ((value - exact) / exact).abs()

@@ -2,7 +2,8 @@
 //! In: the motions of a [`crate::Description`]. Out: index maps and updates on the manifold.
 //! Never knows equations.
 
-use crate::{Motion, Scalar};
+use crate::description::Motion;
+use crate::scalar::Scalar;
 
 /// One group of coordinates and speeds, with its places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

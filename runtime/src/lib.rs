@@ -15,6 +15,7 @@ mod float;
 #[cfg(feature = "std")]
 mod include;
 mod intrinsic;
+mod named;
 mod scalar;
 mod sincos;
 mod system;
@@ -23,13 +24,15 @@ pub mod wear;
 #[cfg(feature = "std")]
 mod assemble;
 #[cfg(feature = "std")]
-pub mod clearance;
+pub mod clearance_joint;
 #[cfg(feature = "std")]
 mod contact_frequency;
 #[cfg(feature = "std")]
 mod description;
 #[cfg(feature = "std")]
 mod dynamics;
+#[cfg(feature = "std")]
+mod dynamics_source;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
@@ -43,15 +46,13 @@ pub mod life;
 #[cfg(feature = "std")]
 pub mod linear;
 #[cfg(feature = "std")]
-mod project;
+mod projection;
 #[cfg(feature = "std")]
 mod record;
 #[cfg(feature = "std")]
-mod revolutions;
-#[cfg(feature = "std")]
 mod simulate;
 #[cfg(feature = "std")]
-mod singular;
+mod singular_dynamics;
 
 pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
@@ -61,7 +62,7 @@ pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 
 #[cfg(feature = "std")]
 pub use assemble::{
-    State, assemble, assemble_resting, assemble_with, check_clearances, offset_columns, place,
+    State, assemble, assemble_static_contact, assemble_with, check_clearances, offset_columns, place,
 };
 #[cfg(feature = "std")]
 pub use contact_frequency::contact_frequencies;
@@ -73,21 +74,21 @@ pub use description::{
 #[cfg(feature = "std")]
 pub use dynamics::{Dynamics, SINGULAR_PIVOT};
 #[cfg(feature = "std")]
+pub use dynamics_source::{DynamicsSource, RevolutionSettings};
+#[cfg(feature = "std")]
 pub use error::{AssemblyError, RunError, SetupError};
 #[cfg(feature = "std")]
 pub use evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates};
 #[cfg(feature = "std")]
 pub use layout::{Group, Layout};
 #[cfg(feature = "std")]
-pub use project::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
+pub use projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
 #[cfg(feature = "std")]
 pub use record::write_csv;
-#[cfg(feature = "std")]
-pub use revolutions::{RevolutionSettings, Revolutions};
 #[cfg(feature = "std")]
 pub use simulate::{
     BRANCH_PART, IdealJoint, IdealMeasure, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span,
     Statistics, TurnMeasure, TurnMeasures, TurnRunner, TurnState, simulate,
 };
 #[cfg(feature = "std")]
-pub use singular::{LOST_RANK, NEARLY_LOST};
+pub use singular_dynamics::{LOST_RANK, NEARLY_LOST};

@@ -3,8 +3,9 @@
 
 use std::io::{self, Write};
 
-use crate::clearance::ContactChannels;
-use crate::{Description, Run};
+use crate::clearance_joint::ContactChannels;
+use crate::description::Description;
+use crate::simulate::Run;
 
 /// Writes the header `t [s],name [unit],...` and one line per sample. Columns of contacts follow the generated ones.
 ///
@@ -42,7 +43,7 @@ fn write_number(writer: &mut dyn Write, value: f64) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Channel;
+    use crate::description::Channel;
 
     fn description(names: &[(&'static str, &'static str)]) -> Description {
         let channels = names

@@ -1,5 +1,5 @@
 //! The one scalar trait that generated code and hand-written laws are generic over.
-//! In: nothing. Out: `Scalar`, implemented for `f64` here; lanes and dual numbers implement it too.
+//! Out: `Scalar`, implemented for `f64` here; lanes and dual numbers implement it too.
 //! Never knows mechanisms. Every function is deterministic: same input, same bits, on every machine.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -9,7 +9,7 @@
 //! `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993), which accept the low part of the reduced angle.
 #![expect(clippy::excessive_precision, reason = "digits as published")]
 
-use crate::Scalar;
+use crate::scalar::Scalar;
 
 const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
 /// Adding and subtracting 1.5 * 2^52 rounds |x| < 2^51 to the nearest whole number, ties to even.

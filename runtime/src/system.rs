@@ -4,7 +4,7 @@
 //!
 //! A *free* coordinate or speed is one that no driver prescribes. States hold the free ones only.
 
-use crate::Scalar;
+use crate::scalar::Scalar;
 
 /// Which question is asked. Inputs and outputs are concatenated in the order listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

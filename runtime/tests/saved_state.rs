@@ -4,11 +4,11 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use linkwear_runtime::TurnState;
-use linkwear_runtime::clearance::JointState;
+use linkwear_runtime::clearance_joint::ClearanceState;
 use linkwear_runtime::contact::ImpactMemory;
 use linkwear_runtime::life::{
-    Feedback, FineScale, JointLife, JointWear, LifeSettings, LifeState, Mean, Outcome, RevolutionWear,
-    WearOf, run_life,
+    Feedback, JointLife, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, RevolutionWear,
+    WearOf, WearSource, run_life,
 };
 use linkwear_runtime::wear::{Limits, Measure, Observed, Profile, Warning};
 
@@ -49,7 +49,7 @@ fn warnings_come_back() {
 
 #[test]
 fn a_trajectory_between_two_turns_comes_back() {
-    let worn = JointState {
+    let worn = ClearanceState {
         memory: ImpactMemory::in_contact(1.0 / 3.0),
         worn: 0.1 + 0.2,
         profile: Some(Profile::unworn(8).unwrap()),
@@ -58,7 +58,7 @@ fn a_trajectory_between_two_turns_comes_back() {
         t: 1.0 / 7.0,
         q: vec![1e-300, -0.0],
         v: vec![0.1],
-        joints: vec![worn, JointState::unworn()],
+        joints: vec![worn, ClearanceState::unworn()],
     };
     let text = serde_json::to_string(&state).unwrap();
     assert_eq!(serde_json::from_str::<TurnState>(&text).unwrap(), state);
@@ -67,7 +67,7 @@ fn a_trajectory_between_two_turns_comes_back() {
 /// Wear by angle that depends on what ran before.
 struct Unsettled;
 
-impl FineScale for Unsettled {
+impl WearSource for Unsettled {
     type State = Option<Vec<f64>>;
     type Error = Infallible;
 
@@ -109,17 +109,18 @@ fn a_trajectory_written_after_every_step_ends_with_the_same_bits() {
     };
     let settings = LifeSettings::new(vec![joint]);
     let mut whole = LifeState::new(&settings, 5).unwrap();
-    run_life(&settings, &mut Unsettled, &Mean, &mut whole, &mut |_| ControlFlow::Continue(())).unwrap();
+    run_life(&settings, &mut Unsettled, &MeanIncrement, &mut whole, &mut |_| ControlFlow::Continue(()))
+        .unwrap();
     let mut saved = LifeState::new(&settings, 5).unwrap();
     let mut stops = 0;
     loop {
         let stop = &mut |_: &_| ControlFlow::Break(());
-        let outcome = run_life(&settings, &mut Unsettled, &Mean, &mut saved, stop).unwrap();
+        let outcome = run_life(&settings, &mut Unsettled, &MeanIncrement, &mut saved, stop).unwrap();
         let text = serde_json::to_string(&saved).unwrap();
         let read: LifeState<Option<Vec<f64>>> = serde_json::from_str(&text).unwrap();
         assert_eq!(read, saved);
         saved = read;
-        if outcome != Outcome::Cancelled {
+        if outcome != LifeOutcome::Cancelled {
             break;
         }
         stops += 1;

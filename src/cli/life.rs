@@ -9,7 +9,7 @@ mod process;
 use std::num::NonZero;
 
 use linkwear_runtime::life::{Feedback, LifeSettings, WearStep};
-use linkwear_runtime::{Description, Integrator, RevolutionSettings, Revolutions, RunError, System};
+use linkwear_runtime::{Description, DynamicsSource, Integrator, RevolutionSettings, RunError, System};
 
 use self::folder::Folder;
 use self::lived::Lived;
@@ -76,13 +76,16 @@ impl<'a> Plan<'a> {
             return Err(wrong(message, "add [clearance.R1] and [wear.R1], R1 being the joint that wears"));
         }
         let start =
-            Revolutions::new(system, description, &parameters, revolutions).map_err(|error| match error {
-                RunError::NoTurns => {
-                    let message = "no revolute joint is driven, so revolutions cannot be counted".to_owned();
-                    wrong(message, "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }")
-                }
-                error => wrong(error.to_string(), ""),
-            })?;
+            DynamicsSource::new(system, description, &parameters, revolutions).map_err(
+                |error| match error {
+                    RunError::NoTurns => {
+                        let message =
+                            "no revolute joint is driven, so revolutions cannot be counted".to_owned();
+                        wrong(message, "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }")
+                    }
+                    error => wrong(error.to_string(), ""),
+                },
+            )?;
         let joints = start.joints().map_err(|error| wrong(error.to_string(), ""))?;
         let mut settings = LifeSettings::new(joints);
         if arguments.no_feedback {
@@ -113,8 +116,8 @@ impl<'a> Plan<'a> {
     }
 
     /// Revolutions of a system, ended by Ctrl-C.
-    fn fine<'s>(&'s self, system: &'s dyn System<f64>) -> Result<Revolutions<'s>, RunError> {
-        let made = Revolutions::new(system, self.description, &self.parameters, self.revolutions)?;
+    fn fine<'s>(&'s self, system: &'s dyn System<f64>) -> Result<DynamicsSource<'s>, RunError> {
+        let made = DynamicsSource::new(system, self.description, &self.parameters, self.revolutions)?;
         Ok(made.stopped_by(&stop_requested))
     }
 

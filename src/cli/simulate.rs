@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use linkwear::mechanisms::{SHIPPED, Shipped};
 use linkwear_codegen::{Options, compile};
-use linkwear_runtime::clearance::ContactChannels;
+use linkwear_runtime::clearance_joint::ContactChannels;
 use linkwear_runtime::{
     Description, Integrator, Run, RunError, Settings, Span, System, TurnMeasure, simulate, write_csv,
 };

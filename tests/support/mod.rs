@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::clearance::ContactChannels;
+use linkwear_runtime::clearance_joint::ContactChannels;
 use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
 
 /// Text of a shipped mechanism.

@@ -1,7 +1,7 @@
 //! Contacts that vibrate near frequencies of flexible bodies, kept or left out.
 //! In: a mechanism and its equations. Out: warnings. Never knows the laws of contact.
 
-use linkwear_runtime::{Description, Evaluator, System, assemble_resting, contact_frequencies};
+use linkwear_runtime::{Description, Evaluator, System, assemble_static_contact, contact_frequencies};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Mechanism};
@@ -56,7 +56,7 @@ pub fn contacts_near_modes(
 fn resting_frequencies(description: &Description, system: &dyn System<f64>) -> Option<Vec<Option<f64>>> {
     let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
     let mut evaluator = Evaluator::new(system, description, &parameters).ok()?;
-    let state = assemble_resting(&mut evaluator, 0.0).ok()?;
+    let state = assemble_static_contact(&mut evaluator, 0.0).ok()?;
     Some(contact_frequencies(&mut evaluator, 0.0, &state.q, &state.v))
 }
 

@@ -1,6 +1,8 @@
 //! The tables of a mechanism file, as types: the parser and the JSON Schema are both made from them.
 //! Every field is optional here; what must be present is said by the resolver, which can explain why.
 
+use linkwear_runtime::contact::Restitution;
+use linkwear_runtime::wear::{Area, Measure};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -58,8 +60,8 @@ pub struct ClearanceSpec {
     pub modulus: Option<Quantity>,
     /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
     pub stiffness: Option<Quantity>,
-    /// Law of restitution: "lankarani_nikravesh" (default), "exact", "hunt_crossley", "flores", "lee_wang".
-    pub law: Option<At<RestitutionSpec>>,
+    /// Law of restitution; by default that of Lankarani and Nikravesh.
+    pub law: Option<At<Restitution>>,
     /// Coefficient of restitution.
     pub restitution: Option<Quantity>,
     /// Exponent of penetration; 1.5 by default.
@@ -80,23 +82,6 @@ pub struct ClearanceSpec {
     pub assumed: bool,
 }
 
-/// Law of restitution of a contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum RestitutionSpec {
-    /// Lankarani and Nikravesh; returns more than it is given.
-    #[default]
-    LankaraniNikravesh,
-    /// Returns exactly what it is given.
-    Exact,
-    /// Hunt and Crossley.
-    HuntCrossley,
-    /// Flores et al.
-    Flores,
-    /// Lee and Wang.
-    LeeWang,
-}
-
 /// How a joint with clearance wears, and when it has failed.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -106,8 +91,8 @@ pub struct WearSpec {
     pub coefficient: Option<Quantity>,
     /// Hardness of the softer side.
     pub hardness: Option<Quantity>,
-    /// Area that carries the load: "hertz" (default), "projected", "conformal".
-    pub area: Option<At<AreaSpec>>,
+    /// Area that carries the load; by default that of Hertz.
+    pub area: Option<At<Area>>,
     /// Wear depth at which the joint has failed.
     pub threshold: Option<Quantity>,
     /// Growth of the clearance per wear; 1 by default, 0 for no feedback.
@@ -116,8 +101,8 @@ pub struct WearSpec {
     pub profile: Option<bool>,
     /// Bearing angles of the profile; 72 by default.
     pub bins: Option<At<i64>>,
-    /// What of the depth by bearing angle counts as wear: "mean" or "maximum"; by default the depth by the area.
-    pub measure: Option<At<MeasureSpec>>,
+    /// What of the depth by bearing angle counts as wear; by default the depth by the area.
+    pub measure: Option<At<Measure>>,
     /// Revolutions that one cycle stands for; 1 by default.
     pub revolutions_per_cycle: Option<Quantity>,
     /// Limit of mean pressure times sliding speed.
@@ -128,29 +113,6 @@ pub struct WearSpec {
     pub beta: Option<Quantity>,
     /// Our own assumption.
     pub assumed: bool,
-}
-
-/// Model of the contact area.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum AreaSpec {
-    /// Journal diameter times length.
-    Projected,
-    /// Width of Hertz's line contact times length.
-    #[default]
-    Hertz,
-    /// Arc over which the circles overlap, times length.
-    Conformal,
-}
-
-/// What of a worn profile counts as wear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum MeasureSpec {
-    /// Mean depth.
-    Mean,
-    /// Greatest depth.
-    Maximum,
 }
 
 /// How loops are closed.

@@ -15,10 +15,9 @@ mod written;
 
 pub use dimension::Dimension;
 pub use file::{
-    AreaSpec, BodySpec, ByCoordinate, Centre, ClearanceSpec, ClosureSpec, EachCoordinate, File, FlexibleSpec,
-    ForceSpec, HeldSpec, JointSpec, MeasureSpec, Parameter, Places, PointMassSpec, PointSpec, RepeatSpec,
-    RestitutionSpec, SectionSpec, SpringPart, SpringSpec, StartSpec, StartTable, StepSpec, TheorySpec,
-    WearSpec, Widths,
+    BodySpec, ByCoordinate, Centre, ClearanceSpec, ClosureSpec, EachCoordinate, File, FlexibleSpec,
+    ForceSpec, HeldSpec, JointSpec, Parameter, Places, PointMassSpec, PointSpec, RepeatSpec, SectionSpec,
+    SpringPart, SpringSpec, StartSpec, StartTable, StepSpec, TheorySpec, WearSpec, Widths,
 };
 pub use parse::{Spec, parse};
 pub use repeat::{expand, group_spans};

@@ -5,7 +5,7 @@
 use rand::RngExt;
 
 use linkwear_runtime::GammaRates;
-use linkwear_runtime::life::IncrementDraw;
+use linkwear_runtime::life::IncrementModel;
 
 use crate::life::LifeError;
 use crate::random::{LnGamma, Stream};
@@ -52,7 +52,7 @@ impl GammaDraw {
     }
 }
 
-impl IncrementDraw for GammaDraw {
+impl IncrementModel for GammaDraw {
     fn draw(&self, joint: usize, trajectory: u64, cycle: u64, mean: f64) -> f64 {
         let Some((alpha, ln_beta)) = self.joints.get(joint) else { return mean };
         let mut shape = alpha * (mean / MICRO);
@@ -84,7 +84,7 @@ impl GammaMean {
     }
 }
 
-impl IncrementDraw for GammaMean {
+impl IncrementModel for GammaMean {
     fn draw(&self, joint: usize, _trajectory: u64, _cycle: u64, mean: f64) -> f64 {
         self.joints.get(joint).copied().unwrap_or(1.0) * mean
     }

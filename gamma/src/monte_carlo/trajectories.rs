@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use linkwear_runtime::life::{
-    Failure, FineScale, IncrementDraw, LifeSettings, LifeState, Outcome, Stop, run_life,
+    FailureEvent, IncrementModel, LifeError, LifeOutcome, LifeSettings, LifeState, WearSource, run_life,
 };
 
 /// What to run.
@@ -15,7 +15,7 @@ pub struct MonteCarlo<'a> {
     /// The lives.
     pub settings: &'a LifeSettings,
     /// Their randomness.
-    pub draw: &'a (dyn IncrementDraw + Sync),
+    pub draw: &'a (dyn IncrementModel + Sync),
     /// Numbers of the trajectories.
     pub trajectories: Range<u64>,
     /// Threads that share the work.
@@ -34,7 +34,7 @@ pub enum Ended<E> {
         /// Its number; the lowest if several could not.
         trajectory: u64,
         /// Why.
-        stop: Stop<E>,
+        stop: LifeError<E>,
     },
     /// A trajectory did not fail within the cycles that the settings allow.
     Survived {
@@ -47,7 +47,7 @@ pub enum Ended<E> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lives<E> {
     /// Trajectory and life, by rising number. All of the range if complete, else those that were finished.
-    pub failures: Vec<(u64, Failure)>,
+    pub failures: Vec<(u64, FailureEvent)>,
     /// How it ended.
     pub ended: Ended<E>,
 }
@@ -55,11 +55,11 @@ pub struct Lives<E> {
 /// Makes a fine scale and lends it to what it is called with; an error is that of the making. Lending lets a fine
 /// scale borrow from what is made with it, as revolutions borrow a system.
 pub type Scale<'a, S, E> = &'a (
-        dyn Fn(&mut dyn FnMut(&mut dyn FineScale<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
+        dyn Fn(&mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
     );
 
 /// How one trajectory ended.
-type Result<E> = std::result::Result<Failure, Ended<E>>;
+type Result<E> = std::result::Result<FailureEvent, Ended<E>>;
 
 impl MonteCarlo<'_> {
     /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `observe` hears how many lives
@@ -94,7 +94,7 @@ impl MonteCarlo<'_> {
             });
             if let Err(error) = made {
                 let trajectory = self.trajectories.start;
-                let stop = Stop::Fine { cycle: 1, error };
+                let stop = LifeError::Fine { cycle: 1, error };
                 keep(trajectory, Err(Ended::Stopped { trajectory, stop }));
             }
         };
@@ -107,7 +107,7 @@ impl MonteCarlo<'_> {
         collect(results.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    fn live<F: FineScale>(
+    fn live<F: WearSource>(
         &self,
         fine: &mut F,
         trajectory: u64,
@@ -115,11 +115,11 @@ impl MonteCarlo<'_> {
     ) -> Result<F::Error> {
         let stopped = |stop| Ended::Stopped { trajectory, stop };
         let mut state =
-            LifeState::new(self.settings, trajectory).map_err(|error| stopped(Stop::Settings(error)))?;
+            LifeState::new(self.settings, trajectory).map_err(|error| stopped(LifeError::Settings(error)))?;
         match run_life(self.settings, fine, self.draw, &mut state, &mut |_| go_on()) {
-            Ok(Outcome::Failed(failure)) => Ok(failure),
-            Ok(Outcome::Cancelled) => Err(Ended::Cancelled),
-            Ok(Outcome::CycleLimit) => Err(Ended::Survived { trajectory }),
+            Ok(LifeOutcome::Failed(failure)) => Ok(failure),
+            Ok(LifeOutcome::Cancelled) => Err(Ended::Cancelled),
+            Ok(LifeOutcome::CycleLimit) => Err(Ended::Survived { trajectory }),
             Err(stop) => Err(stopped(stop)),
         }
     }

@@ -2,11 +2,14 @@
 //! Works on all rows, because kept rows alone can vanish at a position the dropped ones forbid (a Bennett
 //! linkage keeps 2 of 5); the Jacobian of dropped rows comes from central differences. Kept rows polish.
 
-use super::{ASSEMBLED, frozen};
+use super::held::frozen;
+use crate::error::AssemblyError;
+use crate::evaluate::Evaluator;
 use crate::layout::turn;
 use crate::linear::{Orthogonal, dot, largest};
-use crate::{AssemblyError, Evaluator};
 
+/// A loop open by more than this [m, rad] after assembly is an error.
+const ASSEMBLED: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 60;
 /// Singular values below this part of the largest are not followed; first strict, then bolder when stuck.
 const TOLERANCES: [f64; 3] = [1e-8, 1e-4, 1e-2];

@@ -1,8 +1,9 @@
 //! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
 
-use super::wanted_and_reached;
+use super::held::wanted_and_reached;
+use crate::error::AssemblyError;
+use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
-use crate::{AssemblyError, Evaluator};
 
 /// Largest residual [m/s, rad/s] per unit of the largest speed (at least 1).
 const CONSISTENT: f64 = 1e-10;

@@ -7,9 +7,8 @@
 //! - Stribeck: mu_k + (mu_s - mu_k) exp(-(s/v_S)^a), smoothed onset;
 //! - Ambrosio: constant strength, dynamic correction between two speeds.
 
-use super::OutOfRange;
-use super::range::{checked, not_negative, positive};
-use crate::Scalar;
+use super::range::{OutOfRange, checked, not_negative, positive};
+use crate::scalar::Scalar;
 
 /// Coefficient of friction of a body that slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -167,7 +166,7 @@ fn power<T: Scalar>(base: T, exponent: f64) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
+    use crate::dual::Dual;
     use proptest::prelude::*;
 
     const STRIBECK: Strength = Strength::Stribeck {

@@ -2,8 +2,8 @@
 //! Out: the impact speed of the running contact. Part of the state of a trajectory: saved and restored with it.
 //! Never knows how long a contact lasts or who integrates.
 
-use super::Normal;
-use crate::Scalar;
+use super::normal::Normal;
+use crate::scalar::Scalar;
 
 /// Memory of the current contact.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,27 +11,22 @@
 //! opposite at the same point. Components are in the bearing's frame.
 
 mod friction;
+mod laws;
 mod memory;
 mod normal;
 mod range;
+mod restitution;
 mod revolute;
 mod spherical;
 mod stiffness;
 
 pub use friction::{Friction, Onset, Strength};
+pub use laws::Laws;
 pub use memory::{ImpactMemory, crossing_speed};
-pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce, Restitution};
+pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce};
 pub use range::OutOfRange;
 pub(crate) use range::{not_negative, positive};
+pub use restitution::Restitution;
 pub use revolute::{RevoluteContact, RevoluteForce, RevoluteMotion, Support, bearing_angle};
 pub use spherical::{SphericalContact, SphericalForce, SphericalMotion};
 pub use stiffness::{Stiffness, effective_radius, equivalent_modulus};
-
-/// The laws of one contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Laws {
-    /// Normal force.
-    pub normal: Normal,
-    /// Friction.
-    pub friction: Friction,
-}

@@ -1,4 +1,4 @@
-//! A number that a law cannot take. In: nothing. Out: the error. Never knows whose number it is.
+//! A number that a law cannot take. Never knows whose number it is.
 
 use core::error::Error;
 use core::fmt;

@@ -2,8 +2,9 @@
 //! In: motion of the journal's centre in the bearing's frame, relative speed of the joint, penetration with its gradient.
 //! Out: one [`RevoluteContact`], from it one [`RevoluteForce`]. Never knows generalised coordinates.
 
-use super::{ImpactMemory, Laws};
-use crate::Scalar;
+use super::laws::Laws;
+use super::memory::ImpactMemory;
+use crate::scalar::Scalar;
 
 /// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
 const CENTRED: f64 = 1e-60;
@@ -154,8 +155,8 @@ impl<T: Scalar> RevoluteContact<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
     use crate::contact::{Friction, Normal, Onset, Restitution, Strength};
+    use crate::dual::Dual;
     use core::f64::consts::PI;
     use proptest::prelude::*;
 

@@ -4,8 +4,9 @@
 //!
 //! The same laws as in [`super::revolute`], with vectors for the tangential parts.
 
-use super::{ImpactMemory, Laws};
-use crate::Scalar;
+use super::laws::Laws;
+use super::memory::ImpactMemory;
+use crate::scalar::Scalar;
 
 /// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
 const CENTRED: f64 = 1e-60;
@@ -137,10 +138,10 @@ impl<T: Scalar> SphericalContact<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
     use crate::contact::{
         Friction, Normal, Onset, Restitution, RevoluteContact, RevoluteMotion, Strength, Support,
     };
+    use crate::dual::Dual;
     use proptest::prelude::*;
 
     const K: f64 = 4.85e11;

@@ -1,9 +1,8 @@
 //! Contact stiffness K of the sphere law, following the clearance. In: materials, journal radius,
 //! clearance. Out: K [N/m^1.5]. Never knows how deep the contact is.
 
-use super::OutOfRange;
-use super::range::{checked, positive};
-use crate::Scalar;
+use super::range::{OutOfRange, checked, positive};
+use crate::scalar::Scalar;
 
 /// Equivalent modulus E* [Pa] of two materials, each (Young's modulus [Pa], Poisson's ratio):
 /// 1/E* = (1 - nu_i²)/E_i + (1 - nu_j²)/E_j.
@@ -58,7 +57,7 @@ impl Stiffness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
+    use crate::dual::Dual;
 
     #[test]
     fn stiffness_of_a_10_mm_bearing_and_a_9_5_mm_journal_of_steel() {

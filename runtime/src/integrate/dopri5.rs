@@ -8,8 +8,8 @@
 //! A projection comes before the last stage: the slope carried over to the next step belongs to the
 //! projected state, and nothing is evaluated twice.
 
-use super::Problem;
-use crate::RunError;
+use super::problem::Problem;
+use crate::error::RunError;
 use crate::linear::add_scaled;
 
 const C: [f64; 7] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];

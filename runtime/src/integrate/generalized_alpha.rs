@@ -7,8 +7,9 @@
 //! free coordinates (in speed space; quaternions and poses move along their group) and the multipliers
 //! times `h²`, which keeps the Newton matrix well scaled at every step size (Bottasso et al. 2007).
 
+use crate::error::RunError;
+use crate::evaluate::Evaluator;
 use crate::linear::{Lu, Orthogonal, add_scaled, dot, largest};
-use crate::{Evaluator, RunError};
 
 const MAX_ITERATIONS: u32 = 40;
 /// Corrections no smaller than this part of the one before: the Newton matrix is out of date.
@@ -252,7 +253,7 @@ impl GeneralizedAlpha {
         for (place, a) in next.free.iter().zip(&next.v_dot) {
             next.all_a[*place] = *a;
         }
-        evaluator.touch(t, &next.q, &next.v);
+        evaluator.evaluate_contacts(t, &next.q, &next.v);
         let equations = evaluator.equations(t, &next.all_q, &next.all_v);
         equations.unpack_mass(all, &mut next.mass);
         for (i, balance) in next.balance.iter_mut().enumerate() {

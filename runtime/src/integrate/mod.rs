@@ -3,44 +3,10 @@
 
 mod dopri5;
 mod generalized_alpha;
+mod problem;
 mod rk4;
 
 pub use dopri5::Dopri5;
 pub use generalized_alpha::GeneralizedAlpha;
+pub use problem::Problem;
 pub use rk4::Rk4;
-
-use crate::RunError;
-
-/// An initial value problem `y' = f(t, y)`, perhaps with constraints that a projection keeps.
-pub trait Problem {
-    /// Writes `f(t, y)`.
-    ///
-    /// # Errors
-    /// If it has no value there; an adaptive method then tries a shorter step.
-    fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError>;
-
-    /// Puts the result `y` of a step from `before` onto the constraints.
-    ///
-    /// # Errors
-    /// If that fails or moves it too far; an adaptive method then tries a shorter step.
-    fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
-        let _ = (t, before, y);
-        Ok(())
-    }
-
-    /// Told of every state that counts, with its derivative.
-    fn reached(&mut self, t: f64, derivative: &[f64]) {
-        let _ = (t, derivative);
-    }
-
-    /// Size below which the error of component `index` is measured absolutely, not relative to the value.
-    fn scale(&self, index: usize) -> f64 {
-        let _ = index;
-        1.0
-    }
-
-    /// Name of a component, for messages.
-    fn name(&self, index: usize) -> String {
-        format!("y{index}")
-    }
-}

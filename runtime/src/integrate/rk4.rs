@@ -1,8 +1,8 @@
 //! The classical Runge-Kutta method of order 4, fixed step (Kutta 1901; Hairer, Norsett, Wanner, Solving
 //! Ordinary Differential Equations I, 2nd ed., table II.1.2). In: a problem and a state. Out: the next one.
 
-use super::Problem;
-use crate::RunError;
+use super::problem::Problem;
+use crate::error::RunError;
 
 /// Storage of the four stages.
 #[derive(Clone, Debug)]

@@ -9,13 +9,13 @@ use std::ops::ControlFlow;
 
 use thiserror::Error;
 
-use super::cycle::{Outcome, run_life};
-use super::draw::Mean;
-use super::fine::FineScale;
+use super::cycle::{LifeOutcome, run_life};
+use super::error::LifeError;
+use super::increment::MeanIncrement;
 use super::path::{Walker, rates};
 use super::settings::{LifeSettings, WearStep};
+use super::source::WearSource;
 use super::state::LifeState;
-use super::stop::Stop;
 
 /// Lives tried at most: bisection alone halves any bracket to rounding in fewer.
 const MOST_LIVES: usize = 100;
@@ -51,7 +51,7 @@ pub enum CalibrationError<E> {
     },
     /// A life could not be computed.
     #[error(transparent)]
-    Life(#[from] Stop<E>),
+    Life(#[from] LifeError<E>),
 }
 
 /// Finds the revolutions per cycle with which the deterministic life has `cycles` cycles to `tolerance` cycles. The
@@ -60,7 +60,7 @@ pub enum CalibrationError<E> {
 ///
 /// # Errors
 /// If the life wanted makes no sense, jumps, or cannot be computed.
-pub fn calibrate<F: FineScale>(
+pub fn calibrate<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
     cycles: f64,
@@ -109,12 +109,12 @@ pub fn calibrate<F: FineScale>(
 }
 
 /// As if nothing changed along the life.
-fn first_guess<F: FineScale>(
+fn first_guess<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
     cycles: f64,
 ) -> Result<f64, CalibrationError<F::Error>> {
-    let state = LifeState::<F::State>::new(settings, 0).map_err(Stop::from)?;
+    let state = LifeState::<F::State>::new(settings, 0).map_err(LifeError::from)?;
     let mut walker =
         Walker { settings, fine, base: &state.joints, state: F::State::default(), cycle: 0, measurements: 0 };
     let width = settings.joints.iter().map(|joint| joint.width()).sum();
@@ -126,11 +126,11 @@ fn first_guess<F: FineScale>(
         rest = others;
         fastest = fastest.max(joint.after(base, rate, 1.0).wear / joint.threshold);
     }
-    if fastest > 0.0 { Ok(1.0 / (fastest * cycles)) } else { Err(Stop::NoWear { cycle: 1 }.into()) }
+    if fastest > 0.0 { Ok(1.0 / (fastest * cycles)) } else { Err(LifeError::NoWear { cycle: 1 }.into()) }
 }
 
 /// Life with cycles longer by a factor; nothing if it ends within its first cycle.
-fn life<F: FineScale>(
+fn life<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
     factor: f64,
@@ -139,11 +139,11 @@ fn life<F: FineScale>(
     let mut settings = settings.clone().with_longer_cycles(factor);
     // Longer lives than this are only known to be too long; the search goes on from there.
     settings.most_cycles = (10.0 * cycles).ceil() as u64;
-    let mut state = LifeState::new(&settings, 0).map_err(Stop::from)?;
-    match run_life(&settings, fine, &Mean, &mut state, &mut |_| ControlFlow::Continue(())) {
-        Ok(Outcome::Failed(failure)) => Ok(Some(failure.cycles)),
-        Ok(Outcome::Cancelled | Outcome::CycleLimit) => Ok(Some(settings.most_cycles as f64)),
-        Err(Stop::ThresholdBelowFirstIncrement { .. }) => Ok(None),
+    let mut state = LifeState::new(&settings, 0).map_err(LifeError::from)?;
+    match run_life(&settings, fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(())) {
+        Ok(LifeOutcome::Failed(failure)) => Ok(Some(failure.cycles)),
+        Ok(LifeOutcome::Cancelled | LifeOutcome::CycleLimit) => Ok(Some(settings.most_cycles as f64)),
+        Err(LifeError::ThresholdBelowFirstIncrement { .. }) => Ok(None),
         Err(stop) => Err(stop.into()),
     }
 }

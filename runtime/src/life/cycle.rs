@@ -4,18 +4,19 @@
 
 use std::ops::ControlFlow;
 
-use super::draw::IncrementDraw;
-use super::fine::{FineScale, RevolutionWear};
+use super::error::LifeError;
+use super::increment::IncrementModel;
 use super::path::{Path, Walker, rates};
 use super::settings::LifeSettings;
-use super::state::{CycleJoint, CycleRecord, Failure, JointState, LifeState};
-use super::stop::Stop;
+use super::source::{RevolutionWear, WearSource};
+use super::state::{CycleJoint, CycleRecord, FailureEvent, LifeState};
+use super::worn::WearState;
 
 /// How a life that did not fail to run came to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum LifeOutcome {
     /// A joint reached its threshold.
-    Failed(Failure),
+    Failed(FailureEvent),
     /// The observer stopped it; the state goes on from there.
     Cancelled,
     /// It lasts longer than was asked for; the state goes on with a larger limit.
@@ -29,36 +30,36 @@ pub enum Outcome {
 ///
 /// # Errors
 /// If it cannot go on; the state is that after the last whole step and can be kept.
-pub fn run_life<F: FineScale>(
+pub fn run_life<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
-    draw: &dyn IncrementDraw,
+    draw: &dyn IncrementModel,
     state: &mut LifeState<F::State>,
     observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
-) -> Result<Outcome, Stop<F::Error>> {
+) -> Result<LifeOutcome, LifeError<F::Error>> {
     settings.check()?;
     state.check(settings)?;
     loop {
         if let Some(failure) = state.failure {
-            return Ok(Outcome::Failed(failure));
+            return Ok(LifeOutcome::Failed(failure));
         }
         if state.cycle >= settings.most_cycles {
-            return Ok(Outcome::CycleLimit);
+            return Ok(LifeOutcome::CycleLimit);
         }
         if advance(settings, fine, draw, state, observer)?.is_break() && state.failure.is_none() {
-            return Ok(Outcome::Cancelled);
+            return Ok(LifeOutcome::Cancelled);
         }
     }
 }
 
 /// One step: a cycle, or several on the mean path.
-fn advance<F: FineScale>(
+fn advance<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
-    draw: &dyn IncrementDraw,
+    draw: &dyn IncrementModel,
     state: &mut LifeState<F::State>,
     observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
-) -> Result<ControlFlow<()>, Stop<F::Error>> {
+) -> Result<ControlFlow<()>, LifeError<F::Error>> {
     let base = state.joints.clone();
     let mut walker = Walker {
         settings,
@@ -116,11 +117,11 @@ fn advance<F: FineScale>(
 /// speeds up does not carry a stage far beyond, where a table ends and a worn joint may not run any more.
 fn reachable<E>(
     settings: &LifeSettings,
-    base: &[JointState],
+    base: &[WearState],
     measured: &[RevolutionWear],
     cycle: u64,
     is_mean: bool,
-) -> Result<u64, Stop<E>> {
+) -> Result<u64, LifeError<E>> {
     let rates = rates(settings, measured);
     let (mut rest, mut life) = (rates.as_slice(), f64::INFINITY);
     for (joint, base) in settings.joints.iter().zip(base) {
@@ -129,14 +130,14 @@ fn reachable<E>(
         let increment = joint.after(base, rate, 1.0).wear - base.wear;
         if cycle == 0 && increment >= joint.threshold {
             let (joint, threshold) = (joint.joint.clone(), joint.threshold);
-            return Err(Stop::ThresholdBelowFirstIncrement { joint, threshold, increment });
+            return Err(LifeError::ThresholdBelowFirstIncrement { joint, threshold, increment });
         }
         if joint.decisive(rate).iter().any(|depth| *depth > 0.0) {
             life = life.min((joint.threshold - base.wear) / increment);
         }
     }
     if life == f64::INFINITY && rates.iter().all(|rate| *rate == 0.0) {
-        return Err(Stop::NoWear { cycle: cycle + 1 });
+        return Err(LifeError::NoWear { cycle: cycle + 1 });
     }
     Ok(if is_mean { (0.5 * life).ceil().max(1.0) as u64 } else { 1 })
 }
@@ -144,8 +145,8 @@ fn reachable<E>(
 /// What the cycles of a path come to, after the draw.
 struct Cycles {
     /// Mean increments dLambda [m] per joint, and the joints, at the end of every cycle.
-    ends: Vec<(Vec<f64>, Vec<JointState>)>,
-    failure: Option<Failure>,
+    ends: Vec<(Vec<f64>, Vec<WearState>)>,
+    failure: Option<FailureEvent>,
     /// Whether the end is that of the mean path, where the next measurement stands already.
     is_mean: bool,
 }
@@ -154,11 +155,11 @@ impl Cycles {
     /// `origin` is the trajectory's number and the cycles done before.
     fn of<E>(
         settings: &LifeSettings,
-        base: &[JointState],
+        base: &[WearState],
         path: &Path,
-        draw: &dyn IncrementDraw,
+        draw: &dyn IncrementModel,
         (trajectory, done): (u64, u64),
-    ) -> Result<Self, Stop<E>> {
+    ) -> Result<Self, LifeError<E>> {
         let mut cycles = Self { ends: Vec::new(), failure: None, is_mean: true };
         let mut factors = vec![1.0; base.len()];
         for cycle in 1..=path.span {
@@ -172,7 +173,7 @@ impl Cycles {
                     let value = draw.draw(joint, trajectory, done, *gain);
                     if !(value >= 0.0 && value.is_finite()) {
                         let (joint, cycle) = (settings.joints[joint].joint.clone(), done + 1);
-                        return Err(Stop::Drawn { joint, cycle, value });
+                        return Err(LifeError::Drawn { joint, cycle, value });
                     }
                     factors[joint] = if *gain > 0.0 { value / gain } else { 0.0 };
                 }
@@ -186,7 +187,7 @@ impl Cycles {
                 (0..base.len()).filter(|joint| joints[*joint].wear >= settings.joints[*joint].threshold);
             let crossing = |joint: usize| {
                 let time = crossing(settings, base, path, joint, (factors[joint], cycle));
-                Failure { joint, cycles: done as f64 + time, whole_cycles: done + cycle }
+                FailureEvent { joint, cycles: done as f64 + time, whole_cycles: done + cycle }
             };
             cycles.failure = failed.map(crossing).min_by(|a, b| a.cycles.total_cmp(&b.cycles));
             cycles.ends.push((gains, joints));
@@ -205,11 +206,11 @@ impl Cycles {
     fn records<'c>(
         &'c self,
         settings: &'c LifeSettings,
-        base: &'c [JointState],
+        base: &'c [WearState],
         done: u64,
         measured: &'c [RevolutionWear],
     ) -> impl Iterator<Item = CycleRecord> + 'c {
-        let record = move |(index, (gains, joints)): (usize, &'c (Vec<f64>, Vec<JointState>))| {
+        let record = move |(index, (gains, joints)): (usize, &'c (Vec<f64>, Vec<WearState>))| {
             let before = if index == 0 { base } else { self.ends[index - 1].1.as_slice() };
             let joint = |at: usize| CycleJoint {
                 clearance: before[at].clearance,
@@ -233,12 +234,7 @@ impl Cycles {
 }
 
 /// All joints after `factors` times the increments.
-fn worn(
-    settings: &LifeSettings,
-    base: &[JointState],
-    increments: &[f64],
-    factors: &[f64],
-) -> Vec<JointState> {
+fn worn(settings: &LifeSettings, base: &[WearState], increments: &[f64], factors: &[f64]) -> Vec<WearState> {
     let mut rest = increments;
     let mut joints = Vec::with_capacity(base.len());
     for ((joint, base), factor) in settings.joints.iter().zip(base).zip(factors) {
@@ -252,7 +248,7 @@ fn worn(
 /// When, in cycles since the start of the path, a joint reached its threshold in a cycle of it.
 fn crossing(
     settings: &LifeSettings,
-    base: &[JointState],
+    base: &[WearState],
     path: &Path,
     joint: usize,
     (factor, cycle): (f64, u64),

@@ -4,10 +4,11 @@
 //! Bogacki and Shampine's pair of order 3 and 2 (Appl. Math. Lett. 2 (1989) 321-325): its last stage is the first of
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
-use super::fine::{FineScale, JointWear, RevolutionWear};
+use super::error::LifeError;
 use super::settings::{Feedback, LifeSettings, WearStep};
-use super::state::{Control, JointState};
-use super::stop::Stop;
+use super::source::{JointWear, RevolutionWear, WearSource};
+use super::state::Control;
+use super::worn::WearState;
 
 /// The next step is at most so many times longer.
 const LARGEST_GROWTH: f64 = 4.0;
@@ -68,11 +69,11 @@ impl Segment {
 }
 
 /// Walks along the mean path from where the joints are.
-pub(super) struct Walker<'a, F: FineScale> {
+pub(super) struct Walker<'a, F: WearSource> {
     pub(super) settings: &'a LifeSettings,
     pub(super) fine: &'a mut F,
     /// Joints at the start.
-    pub(super) base: &'a [JointState],
+    pub(super) base: &'a [WearState],
     /// State of the fine scale, after every accepted step.
     pub(super) state: F::State,
     /// Whole cycles before the path.
@@ -90,19 +91,19 @@ struct Trial<S> {
     error: Vec<f64>,
 }
 
-impl<F: FineScale> Walker<'_, F> {
+impl<F: WearSource> Walker<'_, F> {
     /// What a revolution wears after these increments.
     pub(super) fn measure(
         &mut self,
         increments: &[f64],
         state: &mut F::State,
-    ) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+    ) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
         let mut rest = increments;
         let mut joints = Vec::with_capacity(self.base.len());
         for (joint, base) in self.settings.joints.iter().zip(self.base) {
             let (increment, others) = rest.split_at(joint.width());
             rest = others;
-            let JointState { clearance, wear, profile, .. } = joint.after(base, increment, 1.0);
+            let WearState { clearance, wear, profile, .. } = joint.after(base, increment, 1.0);
             let profile = profile.filter(|_| joint.feedback == Feedback::Profile);
             joints.push(JointWear { clearance, wear, profile });
         }
@@ -116,7 +117,7 @@ impl<F: FineScale> Walker<'_, F> {
         start: &[RevolutionWear],
         control: &mut Control,
         most: u64,
-    ) -> Result<Path, Stop<F::Error>> {
+    ) -> Result<Path, LifeError<F::Error>> {
         let rates = rates(self.settings, start);
         let nothing = vec![0.0; rates.len()];
         let WearStep::Adaptive { tolerance, shortest, longest } = self.settings.step else {
@@ -163,7 +164,12 @@ impl<F: FineScale> Walker<'_, F> {
     }
 
     /// One step of the pair.
-    fn attempt(&mut self, from: &[f64], k1: &[f64], length: f64) -> Result<Trial<F::State>, Stop<F::Error>> {
+    fn attempt(
+        &mut self,
+        from: &[f64],
+        k1: &[f64],
+        length: f64,
+    ) -> Result<Trial<F::State>, LifeError<F::Error>> {
         let mut state = self.state.clone();
         let moved = |rate: &dyn Fn(usize) -> f64| -> Increments {
             from.iter().enumerate().map(|(i, value)| value + length * rate(i)).collect()
@@ -247,23 +253,23 @@ pub(super) fn rates(settings: &LifeSettings, measured: &[RevolutionWear]) -> Inc
 }
 
 /// Asks the fine scale in a cycle (from 1), and refuses joints and answers that mean nothing.
-pub(super) fn measure<F: FineScale>(
+pub(super) fn measure<F: WearSource>(
     settings: &LifeSettings,
     fine: &mut F,
     joints: &[JointWear],
     state: &mut F::State,
     cycle: u64,
-) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
     for (joint, worn) in settings.joints.iter().zip(joints) {
         let clearance = worn.clearance + worn.profile.as_ref().map_or(0.0, |profile| profile.maximum());
         let (name, journal_radius) = (joint.joint.clone(), joint.journal_radius);
         if clearance >= journal_radius {
-            return Err(Stop::ClearanceAboveJournal { joint: name, cycle, clearance, journal_radius });
+            return Err(LifeError::ClearanceAboveJournal { joint: name, cycle, clearance, journal_radius });
         }
     }
-    let measured = fine.measure(joints, state).map_err(|error| Stop::Fine { cycle, error })?;
+    let measured = fine.measure(joints, state).map_err(|error| LifeError::Fine { cycle, error })?;
     let shape = |what, expected, found| {
-        if expected == found { Ok(()) } else { Err(Stop::Shape { what, expected, found }) }
+        if expected == found { Ok(()) } else { Err(LifeError::Shape { what, expected, found }) }
     };
     shape("joints", settings.joints.len(), measured.len())?;
     for (joint, wear) in settings.joints.iter().zip(&measured) {
@@ -272,10 +278,14 @@ pub(super) fn measure<F: FineScale>(
             shape("bins of a profile", bins, found)?;
         }
         if let Some((name, value)) = wear.flaw() {
-            return Err(Stop::Measured { joint: joint.joint.clone(), cycle, name, value });
+            return Err(LifeError::Measured { joint: joint.joint.clone(), cycle, name, value });
         }
         if wear.separated > settings.most_separated {
-            return Err(Stop::ContactLost { joint: joint.joint.clone(), cycle, separated: wear.separated });
+            return Err(LifeError::ContactLost {
+                joint: joint.joint.clone(),
+                cycle,
+                separated: wear.separated,
+            });
         }
     }
     Ok(measured)

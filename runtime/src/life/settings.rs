@@ -3,9 +3,9 @@
 
 use thiserror::Error;
 
-use super::state::JointState;
-use crate::ContactInfo;
+use super::worn::WearState;
 use crate::contact::OutOfRange;
+use crate::description::ContactInfo;
 use crate::wear::{Limits, Measure, Profile, ScalarFeedback};
 
 /// What counts as the wear W of a joint.
@@ -271,7 +271,7 @@ impl JointLife {
     }
 
     /// The joint after `factor` times a mean increment (see [`Self::width`]).
-    pub(super) fn after(&self, state: &JointState, increment: &[f64], factor: f64) -> JointState {
+    pub(super) fn after(&self, state: &WearState, increment: &[f64], factor: f64) -> WearState {
         let profile = state.profile.as_ref().map(|profile| {
             let mut worn = profile.clone();
             let fits = match self.feedback {
@@ -289,7 +289,7 @@ impl JointLife {
             Feedback::Scalar(feedback) => feedback.next_clearance(state.clearance, wear - state.wear),
             Feedback::Profile => state.clearance,
         };
-        JointState { clearance, wear, profile, ..*state }
+        WearState { clearance, wear, profile, ..*state }
     }
 
     /// The part of an increment that W is made of.
@@ -304,8 +304,8 @@ impl JointLife {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::WearInfo;
     use crate::contact::{Restitution, Stiffness};
+    use crate::description::WearInfo;
     use crate::wear::Area;
 
     fn contact(wear: Option<WearInfo>) -> ContactInfo {

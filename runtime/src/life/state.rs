@@ -1,8 +1,9 @@
 //! The state of a trajectory as one value: saved, it goes on with the same bits. In: settings. Out: the state and
 //! the records of cycles. Never knows files or formats.
 
-use super::fine::RevolutionWear;
 use super::settings::{LifeSettings, SettingsError};
+use super::source::RevolutionWear;
+use super::worn::WearState;
 use crate::wear::{Profile, Warning};
 
 /// A trajectory between two cycles. `S` is the state of the fine scale.
@@ -14,7 +15,7 @@ pub struct LifeState<S> {
     /// Whole cycles done.
     pub cycle: u64,
     /// The wearing joints.
-    pub joints: Vec<JointState>,
+    pub joints: Vec<WearState>,
     /// The fine scale.
     pub fine: S,
     /// What a revolution wears now, if it was measured already.
@@ -22,29 +23,13 @@ pub struct LifeState<S> {
     /// Control of the wear step.
     pub control: Control,
     /// How it ended, if it has.
-    pub failure: Option<Failure>,
+    pub failure: Option<FailureEvent>,
     /// Warnings, the first of each kind and joint.
     pub warnings: Vec<JointWarning>,
     /// Records of the cycles, if they are kept.
     pub cycles: Vec<CycleRecord>,
     /// Measurements asked of the fine scale.
     pub measurements: u64,
-}
-
-/// How worn a joint is.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct JointState {
-    /// Clearance [m]; with feedback by profile that of the unworn joint.
-    pub clearance: f64,
-    /// Wear W [m].
-    pub wear: f64,
-    /// Sum Lambda of the mean increments [m].
-    pub exposure: f64,
-    /// Estimated error of the life by the wear steps [cycles], summed over all steps.
-    pub error: f64,
-    /// Depth by bearing angle, if it is kept.
-    pub profile: Option<Profile>,
 }
 
 /// What the step control remembers.
@@ -60,7 +45,7 @@ pub struct Control {
 /// The end of a life.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Failure {
+pub struct FailureEvent {
     /// Index of the joint that failed first.
     pub joint: usize,
     /// Life in cycles, W = `W_crit` interpolated within the last one.
@@ -122,7 +107,7 @@ impl<S: Default> LifeState<S> {
     /// If the settings make no sense.
     pub fn new(settings: &LifeSettings, trajectory: u64) -> Result<Self, SettingsError> {
         settings.check()?;
-        let joints = settings.joints.iter().map(|joint| JointState {
+        let joints = settings.joints.iter().map(|joint| WearState {
             clearance: joint.clearance,
             wear: 0.0,
             exposure: 0.0,

@@ -1,7 +1,7 @@
 //! The distribution of lives in numbers. In: failures of trajectories. Out: [`Summary`], plain data to print.
 //! Never knows how they came about.
 
-use super::state::{CycleRecord, Failure};
+use super::state::{CycleRecord, FailureEvent};
 
 /// Lives of all trajectories, in cycles.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +39,13 @@ pub struct Quantiles {
 
 impl Summary {
     /// Sums up lives, in the order of their trajectories; nothing if there are none.
-    pub fn of(failures: &[Failure], seed: u64, cycles: Vec<CycleRecord>) -> Option<Self> {
+    pub fn of(failures: &[FailureEvent], seed: u64, cycles: Vec<CycleRecord>) -> Option<Self> {
         if failures.is_empty() {
             return None;
         }
         let count = failures.len() as f64;
         let mean = failures.iter().map(|failure| failure.cycles).sum::<f64>() / count;
-        let square = |failure: &Failure| (failure.cycles - mean) * (failure.cycles - mean);
+        let square = |failure: &FailureEvent| (failure.cycles - mean) * (failure.cycles - mean);
         let squares: f64 = failures.iter().map(square).sum();
         let std = if failures.len() > 1 { libm::sqrt(squares / (count - 1.0)) } else { 0.0 };
         let whole: f64 = failures.iter().map(|failure| failure.whole_cycles as f64).sum();
@@ -80,9 +80,9 @@ fn quantile(ordered: &[f64], part: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn lives(cycles: &[f64]) -> Vec<Failure> {
+    fn lives(cycles: &[f64]) -> Vec<FailureEvent> {
         let failure =
-            |cycles: &f64| Failure { joint: 0, cycles: *cycles, whole_cycles: cycles.ceil() as u64 };
+            |cycles: &f64| FailureEvent { joint: 0, cycles: *cycles, whole_cycles: cycles.ceil() as u64 };
         cycles.iter().map(failure).collect()
     }
 

@@ -10,11 +10,11 @@
 
 use core::convert::Infallible;
 
-use super::fine::{FineScale, JointWear, RevolutionWear};
+use super::error::LifeError;
 use super::interpolate::{Curve, find};
 use super::path::measure;
-use super::settings::{Feedback, JointLife, LifeSettings, SettingsError};
-use super::stop::Stop;
+use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf};
+use super::source::{JointWear, RevolutionWear, WearSource};
 use crate::wear::{Observed, Profile};
 
 /// Points of a table unless told otherwise.
@@ -22,7 +22,7 @@ pub const DEFAULT_POINTS: usize = 17;
 
 /// What revolutions wear, by the wear of their joint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct WearTable {
     joints: Vec<JointTable>,
     report: TableReport,
 }
@@ -64,18 +64,18 @@ struct Point {
     measured: Vec<RevolutionWear>,
 }
 
-impl Table {
+impl WearTable {
     /// Measures `points` points along the deterministic life (more with several joints, which need a predictor each).
     /// `progress` gets the finished part, 0 to 1.
     ///
     /// # Errors
     /// If the settings make no sense or feed a profile back, or as [`Stop`] says.
-    pub fn measure<F: FineScale>(
+    pub fn measure<F: WearSource>(
         settings: &LifeSettings,
         fine: &mut F,
         points: usize,
         progress: &mut dyn FnMut(f64),
-    ) -> Result<Self, Stop<F::Error>> {
+    ) -> Result<Self, LifeError<F::Error>> {
         settings.check()?;
         if points < 3 {
             let (name, need) = ("the number of points of a table", "3 or more");
@@ -105,7 +105,7 @@ impl Table {
     }
 }
 
-impl FineScale for Table {
+impl WearSource for WearTable {
     type State = ();
     type Error = Infallible;
 
@@ -194,7 +194,6 @@ fn difference(joint: &JointLife, truth: &RevolutionWear, table: &RevolutionWear)
 
 /// W that one cycle adds to an unworn joint [m].
 fn gain(joint: &JointLife, wear: &RevolutionWear) -> f64 {
-    use super::settings::WearOf;
     let per_revolution = match (joint.wear, &wear.profile) {
         (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
         _ => wear.depth,
@@ -203,15 +202,15 @@ fn gain(joint: &JointLife, wear: &RevolutionWear) -> f64 {
 }
 
 /// Measures along the deterministic life.
-struct Survey<'a, F: FineScale> {
+struct Survey<'a, F: WearSource> {
     settings: &'a LifeSettings,
     fine: &'a mut F,
     state: F::State,
     measurements: usize,
 }
 
-impl<F: FineScale> Survey<'_, F> {
-    fn measure(&mut self, wear: &[f64]) -> Result<Vec<RevolutionWear>, Stop<F::Error>> {
+impl<F: WearSource> Survey<'_, F> {
+    fn measure(&mut self, wear: &[f64]) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
         let worn = |(joint, wear): (&JointLife, &f64)| JointWear {
             clearance: joint.clearance + joint.gamma() * wear,
             wear: *wear,
@@ -223,7 +222,11 @@ impl<F: FineScale> Survey<'_, F> {
     }
 
     /// Points at which the joint that leads has its places; the others are where they are then (Heun's method).
-    fn path(&mut self, points: usize, progress: &mut dyn FnMut(f64)) -> Result<Vec<Point>, Stop<F::Error>> {
+    fn path(
+        &mut self,
+        points: usize,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Vec<Point>, LifeError<F::Error>> {
         let joints = &self.settings.joints;
         let mut wear = vec![0.0; joints.len()];
         let mut measured = self.measure(&wear)?;
@@ -235,7 +238,7 @@ impl<F: FineScale> Survey<'_, F> {
         let lead = (0..joints.len())
             .fold(0, |lead, joint| if pace(&first, joint) > pace(&first, lead) { joint } else { lead });
         if first[lead] == 0.0 {
-            return Err(Stop::NoWear { cycle: 1 });
+            return Err(LifeError::NoWear { cycle: 1 });
         }
         let mut path = vec![Point { wear: wear.clone(), measured: measured.clone() }];
         if joints.iter().all(|joint| joint.gamma() == 0.0) {
@@ -257,13 +260,13 @@ impl<F: FineScale> Survey<'_, F> {
             if joints.len() > 1 {
                 let after = gains(&self.measure(&there)?);
                 if after[lead] == 0.0 {
-                    return Err(Stop::NoWear { cycle: 1 });
+                    return Err(LifeError::NoWear { cycle: 1 });
                 }
                 there = moved(&|joint| 0.5 * (before[joint] / before[lead] + after[joint] / after[lead]));
             }
             measured = self.measure(&there)?;
             if gains(&measured)[lead] == 0.0 {
-                return Err(Stop::NoWear { cycle: 1 });
+                return Err(LifeError::NoWear { cycle: 1 });
             }
             wear = there;
             path.push(Point { wear: wear.clone(), measured: measured.clone() });
@@ -273,7 +276,7 @@ impl<F: FineScale> Survey<'_, F> {
     }
 
     /// Each joint unworn while the others are at the end of the path, against its table.
-    fn others(&mut self, path: &[Point], tables: &[JointTable]) -> Result<Vec<f64>, Stop<F::Error>> {
+    fn others(&mut self, path: &[Point], tables: &[JointTable]) -> Result<Vec<f64>, LifeError<F::Error>> {
         let Some(end) = path.last() else { return Ok(Vec::new()) };
         let mut errors = Vec::with_capacity(tables.len());
         for (joint, table) in tables.iter().enumerate() {

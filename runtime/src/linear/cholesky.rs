@@ -1,7 +1,7 @@
 //! LDLᵀ of a symmetric positive definite matrix, without pivoting: the fast path of projections.
 //! In: the lower triangle. Out: solutions, and the pivots that tell how far the result can be trusted.
 
-use super::{add_scaled, dot};
+use super::vector::{add_scaled, dot};
 
 /// LDLᵀ factors of a matrix of fixed size.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! LU with partial pivoting of a square matrix: Newton systems of implicit integrators.
 //! In: a row-major matrix. Out: solutions, and whether the matrix is singular to working precision.
 
-use super::{add_scaled, dot};
+use super::vector::{add_scaled, dot};
 
 /// LU factors of a square matrix of fixed size.
 #[derive(Clone, Debug)]

@@ -6,35 +6,9 @@
 mod cholesky;
 mod lu;
 mod orthogonal;
+mod vector;
 
 pub use cholesky::Cholesky;
 pub use lu::Lu;
 pub use orthogonal::Orthogonal;
-
-/// Scalar product, in four running sums.
-#[must_use]
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (a_blocks, a_rest) = a.as_chunks::<4>();
-    let (b_blocks, b_rest) = b.as_chunks::<4>();
-    for (x, y) in a_blocks.iter().zip(b_blocks) {
-        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
-            *sum += x * y;
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
-/// `y += factor * x`.
-pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += factor * x;
-    }
-}
-
-/// Largest magnitude; NaN if any entry is not a number.
-#[must_use]
-pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() + 0.0 * most })
-}
+pub use vector::{add_scaled, dot, largest};

@@ -4,7 +4,7 @@
 //! `A P = Q [T 0; 0 0] Z`: Householder QR with column pivoting (Golub & Van Loan, Matrix Computations,
 //! 4th ed., 5.4.2), then reflections from the right (5.4.7).
 
-use super::dot;
+use super::vector::dot;
 
 /// Decomposition of a matrix of at most the size it was made for.
 #[derive(Clone, Debug)]

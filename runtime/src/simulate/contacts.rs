@@ -6,10 +6,11 @@ use std::f64::consts::PI;
 
 use super::motion::{ConstrainedMotion, Totals};
 use super::warning::RunWarning;
-use crate::clearance::{Clearance, Touch};
+use crate::clearance_joint::{Clearance, ContactState};
 use crate::contact_frequency::inverse_mass;
+use crate::evaluate::Evaluator;
+use crate::system::CONTACT_WRENCH;
 use crate::wear::{Observed, Profile};
-use crate::{CONTACT_WRENCH, Evaluator};
 
 /// What one turn of the turn driver did to one joint with clearance.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +64,7 @@ struct Track {
 pub(super) struct Follower {
     tracks: Vec<Track>,
     /// Contacts at the last accepted step.
-    touches: Vec<Touch>,
+    contacts: Vec<ContactState>,
     t: f64,
     turn_begin: f64,
     turn: u64,
@@ -92,7 +93,7 @@ impl Follower {
         };
         let mut follower = Self {
             tracks: evaluator.clearances().joints().iter().map(track).collect(),
-            touches: Vec::new(),
+            contacts: Vec::new(),
             t,
             turn_begin: t,
             turn: 0,
@@ -101,8 +102,8 @@ impl Follower {
             measures: Vec::new(),
         };
         let (q, v, _) = motion.split(state);
-        motion.dynamics.evaluator.touch(t, q, v);
-        follower.touches = motion.dynamics.evaluator.clearances().touches().to_vec();
+        motion.dynamics.evaluator.evaluate_contacts(t, q, v);
+        follower.contacts = motion.dynamics.evaluator.clearances().contacts().to_vec();
         for (track, totals) in follower.tracks.iter_mut().zip(motion.totals(state)) {
             track.last = totals;
         }
@@ -112,8 +113,8 @@ impl Follower {
     }
 
     /// Contacts at the last accepted step.
-    pub(super) fn touches(&self) -> &[Touch] {
-        &self.touches
+    pub(super) fn contacts(&self) -> &[ContactState] {
+        &self.contacts
     }
 
     /// What turns did.
@@ -135,19 +136,19 @@ impl Follower {
         let totals = motion.totals(state);
         let (q, v, _) = motion.split(state);
         let evaluator = &mut motion.dynamics.evaluator;
-        evaluator.touch(t, q, v);
+        evaluator.evaluate_contacts(t, q, v);
         let clearances = evaluator.clearances_mut();
-        clearances.remember(&self.touches);
+        clearances.remember(&self.contacts);
         if let Some(joint) = closing {
             clearances.close(joint);
         }
-        let joints = clearances.joints().iter().zip(clearances.touches());
+        let joints = clearances.joints().iter().zip(clearances.contacts());
         for (((track, before), (joint, now)), totals) in
-            self.tracks.iter_mut().zip(&self.touches).zip(joints).zip(totals)
+            self.tracks.iter_mut().zip(&self.contacts).zip(joints).zip(totals)
         {
             track.take_in(joint, (before, now), totals, step);
         }
-        self.touches.copy_from_slice(clearances.touches());
+        self.contacts.copy_from_slice(clearances.contacts());
         self.probe_frequencies(motion, state);
     }
 
@@ -155,7 +156,7 @@ impl Follower {
     pub(super) fn begin_turn(&mut self, motion: &ConstrainedMotion<'_>) {
         self.turn_begin = self.t;
         let joints = motion.dynamics.evaluator.clearances().joints();
-        for ((track, joint), touch) in self.tracks.iter_mut().zip(joints).zip(&self.touches) {
+        for ((track, joint), touch) in self.tracks.iter_mut().zip(joints).zip(&self.contacts) {
             track.begin = track.last;
             track.peak = touch.normal_force;
             (track.losses, track.touching) = (0, 0.0);
@@ -222,7 +223,7 @@ impl Follower {
     /// Asks for the frequency of every contact that is deeper than it has ever been.
     fn probe_frequencies(&mut self, motion: &mut ConstrainedMotion<'_>, state: &[f64]) {
         let (q, v, _) = motion.split(state);
-        for (joint, (track, touch)) in self.tracks.iter_mut().zip(&self.touches).enumerate() {
+        for (joint, (track, touch)) in self.tracks.iter_mut().zip(&self.contacts).enumerate() {
             if touch.penetration() > PROBE_AGAIN * track.probed_penetration {
                 track.probed_penetration = touch.penetration();
                 let evaluator = &mut motion.dynamics.evaluator;
@@ -238,7 +239,13 @@ impl Follower {
 }
 
 impl Track {
-    fn take_in(&mut self, joint: &Clearance, (before, now): (&Touch, &Touch), totals: Totals, step: f64) {
+    fn take_in(
+        &mut self,
+        joint: &Clearance,
+        (before, now): (&ContactState, &ContactState),
+        totals: Totals,
+        step: f64,
+    ) {
         let done = totals.since(self.last);
         self.last = totals;
         self.peak = self.peak.max(now.normal_force);
@@ -268,11 +275,17 @@ fn empty_deposit(joint: &Clearance) -> Option<Profile> {
 ///
 /// The amount is the integral of the step by the method itself, so the sum over all angles has its order. The
 /// place is taken as linear in time in pieces of at most half a bin: off by less than the width of a bin.
-fn spread(deposit: &mut Profile, joint: &Clearance, (before, now): (&Touch, &Touch), wear_integral: f64) {
+fn spread(
+    deposit: &mut Profile,
+    joint: &Clearance,
+    (before, now): (&ContactState, &ContactState),
+    wear_integral: f64,
+) {
     let Some((archard, _)) = joint.wear() else { return };
-    let half_angle =
-        |touch: &Touch| archard.area().half_angle(&Clearance::load(touch), &joint.pair(touch.clearance));
-    let touching = |touch: &Touch| touch.gap < 0.0;
+    let half_angle = |touch: &ContactState| {
+        archard.area().half_angle(&Clearance::load(touch), &joint.pair(touch.clearance))
+    };
+    let touching = |touch: &ContactState| touch.gap < 0.0;
     let (from, to) = match (touching(before), touching(now)) {
         (false, true) => (now, now),
         (true, false) => (before, before),

@@ -7,8 +7,8 @@
 
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
-use crate::RunError;
-use crate::clearance::Touch;
+use crate::clearance_joint::ContactState;
+use crate::error::RunError;
 use crate::integrate::Dopri5;
 
 /// Accuracy of a located onset, as a part of the step.
@@ -36,12 +36,12 @@ pub(super) fn stop_at_contact(
     let (begin, length) = (method.before(), method.t() - method.before());
     let after: &[f64] = method.y();
     let (q, v, _) = motion.split(after);
-    motion.dynamics.evaluator.touch(method.t(), q, v);
+    motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
     let mut first: Option<Event> = None;
-    for joint in 0..follower.touches().len() {
-        let after = motion.dynamics.evaluator.clearances().touches()[joint];
+    for joint in 0..follower.contacts().len() {
+        let after = motion.dynamics.evaluator.clearances().contacts()[joint];
         let touching = motion.dynamics.evaluator.clearances().states()[joint].memory.touching > 0.5;
-        let curve = Cubic::new(&follower.touches()[joint], &after, length);
+        let curve = Cubic::new(&follower.contacts()[joint], &after, length);
         let mut penetration = |part: f64| -> f64 {
             method.interpolate(begin + part * length, between);
             motion.penetration(joint, begin + part * length, between)
@@ -53,7 +53,7 @@ pub(super) fn stop_at_contact(
         }
         // The search left the contacts at other places of the step.
         let (q, v, _) = motion.split(method.y());
-        motion.dynamics.evaluator.touch(method.t(), q, v);
+        motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
     }
     if let Some(event) = first {
         sampler.closing = event.closing;
@@ -73,7 +73,7 @@ struct Cubic {
 }
 
 impl Cubic {
-    fn new(before: &Touch, after: &Touch, length: f64) -> Self {
+    fn new(before: &ContactState, after: &ContactState, length: f64) -> Self {
         Self {
             from: before.penetration(),
             to: after.penetration(),

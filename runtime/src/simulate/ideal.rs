@@ -5,9 +5,11 @@
 //! ball the part across the force). The quadrature over evenly spaced samples is the trapezoidal rule with Gregory's
 //! end corrections: order 4 where both are smooth, order 2 where the sliding turns round.
 
-use crate::clearance::Clearance;
+use super::run::Run;
+use crate::clearance_joint::Clearance;
+use crate::description::Description;
+use crate::error::SetupError;
 use crate::wear::Load;
-use crate::{Description, Run, SetupError};
 
 /// Where the motion of an ideal joint is found.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,10 @@
 //! (order 2, as the method). In: a consistent start. Out: samples. Never knows the method's formulas.
 
 use super::motion::ConstrainedMotion;
+use super::sampler::Progress;
 use super::sampler::Sampler;
-use super::{Progress, steps_between};
-use crate::RunError;
+use super::schedule::steps_between;
+use crate::error::RunError;
 use crate::integrate::{GeneralizedAlpha, Problem, Rk4};
 
 pub(super) fn run_generalized_alpha(

@@ -2,9 +2,14 @@
 //! supplied, work dissipated, and per joint with clearance the [`Totals`]. In: states. Out: derivatives,
 //! projected states. Never knows samples.
 
+use crate::assemble::{State, offset_columns};
+use crate::description::Motion;
+use crate::dynamics::Dynamics;
+use crate::error::RunError;
+use crate::evaluate::LoopError;
 use crate::integrate::Problem;
 use crate::linear::largest;
-use crate::{Correction, Dynamics, LoopError, Motion, Projector, RunError, State, offset_columns};
+use crate::projection::{Correction, Projector};
 
 /// A projection may move coordinates or speeds by this part of what the step itself moved them...
 pub const BRANCH_PART: f64 = 0.1;
@@ -113,15 +118,15 @@ impl<'a> ConstrainedMotion<'a> {
 
     /// Energy stored in all contacts at a state [J]; their wrenches are then those of this state.
     pub(super) fn elastic_energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
-        self.dynamics.evaluator.touch(t, q, v);
+        self.dynamics.evaluator.evaluate_contacts(t, q, v);
         self.dynamics.evaluator.clearances().elastic_energy()
     }
 
     /// Penetration of one contact at a flat state [m].
     pub(super) fn penetration(&mut self, joint: usize, t: f64, y: &[f64]) -> f64 {
         let (q, v) = y[..self.first_integral()].split_at(self.coordinates);
-        self.dynamics.evaluator.touch(t, q, v);
-        self.dynamics.evaluator.clearances().touches()[joint].penetration()
+        self.dynamics.evaluator.evaluate_contacts(t, q, v);
+        self.dynamics.evaluator.clearances().contacts()[joint].penetration()
     }
 
     /// Natural sizes of the motion along the free speeds.
@@ -135,10 +140,10 @@ impl<'a> ConstrainedMotion<'a> {
             return;
         }
         let columns = offset_columns(&mut self.dynamics.evaluator, t, &state.q);
-        self.dynamics.evaluator.touch(t, &state.q, &state.v);
+        self.dynamics.evaluator.evaluate_contacts(t, &state.q, &state.v);
         let (evaluator, sizes) = (&self.dynamics.evaluator, &mut self.sizes);
         sizes.fill(1.0);
-        for (column, touch) in columns.iter().zip(evaluator.clearances().touches()) {
+        for (column, touch) in columns.iter().zip(evaluator.clearances().contacts()) {
             for row in column {
                 for (size, moved) in sizes.iter_mut().zip(row) {
                     *size = size.min(touch.clearance / moved.abs());
@@ -211,7 +216,7 @@ impl<'a> ConstrainedMotion<'a> {
         let rates = self.dynamics.evaluator.rates(t, q, v);
         coordinates.copy_from_slice(rates.coordinates);
         (powers[0], powers[1]) = (rates.supplied, rates.dissipated);
-        let touches = self.dynamics.evaluator.clearances().touches();
+        let touches = self.dynamics.evaluator.clearances().contacts();
         for (powers, touch) in powers[2..].chunks_exact_mut(TOTALS).zip(touches) {
             powers.copy_from_slice(&[touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss]);
         }

@@ -6,10 +6,14 @@ use std::ops::ControlFlow;
 
 use super::contacts::Follower;
 use super::motion::ConstrainedMotion;
+use super::run::{Run, Statistics};
 use super::schedule::Schedule;
-use super::{Progress, Run, Statistics};
-use crate::clearance::ContactChannels;
-use crate::{LoopError, RunError};
+use crate::clearance_joint::ContactChannels;
+use crate::error::RunError;
+use crate::evaluate::LoopError;
+
+/// Called after every step with the finished part of the run (0 to 1); `Break` stops the run.
+pub type Progress<'p> = &'p mut dyn FnMut(f64) -> ControlFlow<()>;
 
 /// Recorder of one run.
 pub(super) struct Sampler {
@@ -217,7 +221,7 @@ impl Sampler {
         let generated = motion.dynamics.evaluator.observe(t, q, v);
         let count = generated.len();
         self.values[..count].copy_from_slice(generated);
-        let touches = motion.dynamics.evaluator.clearances().touches();
+        let touches = motion.dynamics.evaluator.clearances().contacts();
         self.contact_channels.write(touches, &mut self.values[count..]);
         let values = &self.values;
         if row.is_some()

@@ -1,8 +1,10 @@
 //! When a run begins to record, when it ends, and where a turn ends. In: settings and the drivers' laws.
 //! Out: times [s].
 
-use super::{Settings, Span};
-use crate::{Evaluator, RunError, Scalar};
+use super::settings::{Settings, Span};
+use crate::error::RunError;
+use crate::evaluate::Evaluator;
+use crate::scalar::Scalar;
 
 /// Times of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +59,11 @@ impl Schedule {
             self.start + (self.end - self.start) * (index as f64 / last as f64)
         }
     }
+}
+
+/// Number of equal steps; a hair of slack keeps a span that is a multiple of the step from one step more.
+pub(super) fn steps_between(from: f64, to: f64, longest: f64) -> u64 {
+    (((to - from) / longest) * (1.0 - 1e-9)).ceil().max(1.0) as u64
 }
 
 fn end_of(evaluator: &mut Evaluator<'_>, from: f64, span: Span) -> Result<f64, RunError> {

@@ -1,17 +1,24 @@
 //! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
 //! In: a mechanism, a method, clearances. Out: [`TurnMeasure`]s. Never knows how wear follows from them.
 
+use super::contacts::TurnMeasure;
 use super::motion::ConstrainedMotion;
+use super::run::Statistics;
+use super::sampler::Progress;
 use super::sampler::Sampler;
 use super::schedule::Schedule;
+use super::settings::{Integrator, Settings, Span};
+use super::steps;
+use super::warning::RunWarning;
 use super::warning::step_limits;
-use super::{Integrator, Progress, RunWarning, Settings, Span, Statistics, TurnMeasure};
-use crate::clearance::JointState;
+use crate::assemble::{State, assemble_static_contact, check_clearances, place};
+use crate::clearance_joint::ClearanceState;
+use crate::description::Description;
+use crate::dynamics::Dynamics;
+use crate::error::{RunError, SetupError};
+use crate::evaluate::Evaluator;
+use crate::system::System;
 use crate::wear::Profile;
-use crate::{
-    Description, Dynamics, Evaluator, RunError, SetupError, State, System, assemble_resting,
-    check_clearances, place,
-};
 
 /// All that has to be kept to go on with a trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +31,7 @@ pub struct TurnState {
     /// Free speeds.
     pub v: Vec<f64>,
     /// What contacts remember and how far joints are worn.
-    pub joints: Vec<JointState>,
+    pub joints: Vec<ClearanceState>,
 }
 
 /// What one measured turn gave.
@@ -64,7 +71,7 @@ impl<'a> TurnRunner<'a> {
             return Err(RunError::NoTurns);
         }
         let mut evaluator = Evaluator::new(system, description, parameters)?;
-        let state = assemble_resting(&mut evaluator, 0.0)?;
+        let state = assemble_static_contact(&mut evaluator, 0.0)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
         motion.learn_sizes(0.0, &state);
         Ok(Self { motion, integrator, t: 0.0, state })
@@ -103,8 +110,8 @@ impl<'a> TurnRunner<'a> {
     /// Present radial clearances with their mean wear [m], joint by joint.
     pub fn clearances(&mut self) -> Vec<f64> {
         let evaluator = &mut self.motion.dynamics.evaluator;
-        evaluator.touch(self.t, &self.state.q, &self.state.v);
-        evaluator.clearances().touches().iter().map(|touch| touch.clearance).collect()
+        evaluator.evaluate_contacts(self.t, &self.state.q, &self.state.v);
+        evaluator.clearances().contacts().iter().map(|touch| touch.clearance).collect()
     }
 
     /// Sets how far a joint is worn: radial clearance [m] on top of that of the parameters, and a depth by bearing
@@ -119,8 +126,8 @@ impl<'a> TurnRunner<'a> {
             let what = "joints with clearance";
             return Err(SetupError::Length { what, expected: count, found: joint + 1 });
         }
-        evaluator.touch(self.t, &self.state.q, &self.state.v);
-        let before = evaluator.clearances().touches().to_vec();
+        evaluator.evaluate_contacts(self.t, &self.state.q, &self.state.v);
+        let before = evaluator.clearances().contacts().to_vec();
         let kept = evaluator.clearances().states()[joint].clone();
         let now = &mut evaluator.clearances_mut().states_mut()[joint];
         (now.worn, now.profile) = (worn, profile);
@@ -163,7 +170,7 @@ impl<'a> TurnRunner<'a> {
         let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
         let mut state = self.motion.join(&self.state);
         let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
-        if let Err(error) = super::run(&mut self.motion, &mut sampler, &mut state, self.integrator, progress)
+        if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, progress)
         {
             self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept);
             return Err(error);

@@ -1,10 +1,9 @@
 //! Archard's law, [CS (18)-(20)], as terms of the right-hand side. In: load of a contact, material.
 //! Out: rates of the wear integral and of the depth. Never knows who integrates them.
 
-use super::{Area, Load, Pair};
-use crate::Scalar;
-use crate::contact::OutOfRange;
-use crate::contact::positive;
+use super::area::{Area, Load, Pair};
+use crate::contact::{OutOfRange, positive};
+use crate::scalar::Scalar;
 
 /// Archard's law of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,20 +4,22 @@
 //! How A depends on force and clearance decides the strength of the feedback: at constant force the depth rate
 //! goes with the clearance to the power 0 (`Projected`), 1/2 (`Hertz`), 1/3 (`Conformal`).
 
-use crate::Scalar;
 use crate::contact::effective_radius;
+use crate::named::named;
+use crate::scalar::Scalar;
 
-/// A model of the contact area.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum Area {
-    /// The journal seen from the side: A = 2 r L.
-    Projected,
-    /// Line contact: A = 2 b L, b = sqrt(4 F_n R_eff/(pi E* L)).
-    Hertz,
-    /// Overlap of two circles: A = 2 r L eps, cos eps = c/(c + p).
-    Conformal,
+named! {
+    /// Model of the contact area.
+    #[derive(Default)]
+    pub enum Area {
+        /// The journal seen from the side: A = 2 r L.
+        Projected = "projected", "projected, 2 r L";
+        /// Line contact: A = 2 b L, b = sqrt(4 F_n R_eff/(pi E* L)).
+        #[default]
+        Hertz = "hertz", "Hertz, 2 b L";
+        /// Overlap of two circles: A = 2 r L eps, cos eps = c/(c + p).
+        Conformal = "conformal", "conformal arc";
+    }
 }
 
 /// Geometry and material of a journal in its bearing.
@@ -105,11 +107,9 @@ fn conformal_half_angle<T: Scalar>(penetration: T, pair: &Pair<T>) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Dual;
     use crate::contact::{Normal, Stiffness};
+    use crate::dual::Dual;
     use proptest::prelude::*;
-
-    const AREAS: [Area; 3] = [Area::Projected, Area::Hertz, Area::Conformal];
 
     fn pair<T: Scalar>(clearance: T) -> Pair<T> {
         let c = T::constant;
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn pressure_goes_with_the_clearance_to_the_power_of_the_model() {
-        for (area, exponent) in AREAS.into_iter().zip([0.0, 0.5, 1.0 / 3.0]) {
+        for (&area, exponent) in Area::ALL.iter().zip([0.0, 0.5, 1.0 / 3.0]) {
             for clearance in [10e-6, 30e-6, 90e-6] {
                 let p = pressure(area, 32.0, Dual::variable(clearance));
                 let found = p.derivative * clearance / p.value;
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn without_a_load_there_is_no_pressure_and_no_arc() {
-        for area in AREAS {
+        for &area in Area::ALL {
             let load = Load {
                 normal_force: Dual::variable(0.0),
                 penetration: Dual::new(-1e-6, 1.0),

@@ -1,19 +1,18 @@
 //! Wear fed back as one number: c_(n+1) = c_n + gamma dW_n. In: clearance, wear increment.
 //! Out: the next clearance; the wear W of a set of depths. Never knows how the wear came about.
 
-use crate::Scalar;
-use crate::contact::OutOfRange;
-use crate::contact::not_negative;
+use crate::contact::{OutOfRange, not_negative};
+use crate::named::named;
+use crate::scalar::Scalar;
 
-/// What the wear W of a joint is when its depth differs from angle to angle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum Measure {
-    /// The mean over the circumference.
-    Mean,
-    /// The deepest place.
-    Maximum,
+named! {
+    /// What the wear W of a joint is when its depth differs from angle to angle.
+    pub enum Measure {
+        /// The mean over the circumference.
+        Mean = "mean", "mean depth";
+        /// The deepest place.
+        Maximum = "maximum", "largest depth";
+    }
 }
 
 impl Measure {

@@ -1,10 +1,10 @@
-//! Where the models leave the ground they stand on. In: extremes of a run, limits of the material.
+//! Validity limits of the wear models. In: extremes of a run, limits of the material.
 //! Out: warnings as data. Never stops anything.
 
 use core::fmt;
 
-use super::{Area, Load, Pair};
-use crate::Scalar;
+use super::area::{Area, Load, Pair};
+use crate::scalar::Scalar;
 
 /// Limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,7 +13,7 @@ use core::error::Error;
 use core::f64::consts::PI;
 use core::fmt;
 
-use super::Measure;
+use super::feedback::Measure;
 
 /// Bins unless told otherwise: 5 degrees each.
 pub const DEFAULT_BINS: usize = 72;

@@ -13,14 +13,14 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use super::Profile;
+use super::profile::Profile;
 use crate::contact::Support;
 
 /// A minimum counts as shared by places this part of the depth of a bin's circular segment above it: small against
 /// the segment, so that an unworn bearing is worn where the journal points.
 const SHARED: f64 = 1.0 / 8.0;
-/// The maximum is smoothed over this many bins to both sides of a round bearing: at 0.8 nothing of the bins is seen
-/// (ripple exp(-2 pi^2 0.8^2) = 3e-6), and what is left in a round bearing is taken off exactly.
+/// The maximum is smoothed over this many bins to both sides of a round bearing: at 0.8 the ripple from the bins is
+/// exp(-2 pi^2 0.8^2) = 3e-6, and what is left in a round bearing is taken off exactly.
 const SMOOTHED: f64 = 0.8;
 /// exp of less than minus this changes no sum.
 const NOTHING: f64 = 40.0;
@@ -28,7 +28,7 @@ const NOTHING: f64 = 40.0;
 const MOST_STEPS: usize = 60;
 /// Wear is taken away in pieces of at most this part of that depth, so that edges go before a hole grows.
 const PIECE: f64 = 0.25;
-/// A wear step far beyond the depth of a segment is taken in so many pieces at most.
+/// Upper limit on the number of sub-steps of one wear step.
 const MOST_PIECES: f64 = 4096.0;
 
 /// Directions of the bins of a profile.
@@ -71,7 +71,8 @@ impl Grid {
         Support { penetration: round.penetration + deeper, gradient: [turned(0), turned(1)] }
     }
 
-    /// How far [m] along a unit vector the journal has to be for a penetration [m].
+    /// Distance [m] of the journal's centre from the bearing's, along a unit vector, at which the penetration is
+    /// `penetration` [m].
     #[must_use]
     pub fn distance(&self, depths: &Profile, clearance: f64, direction: [f64; 2], penetration: f64) -> f64 {
         // Newton comes from outside, where the penetration is too large: it is convex.

@@ -4,8 +4,8 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use linkwear_runtime::life::{
-    CycleRecord, Feedback, FineScale, JointLife, JointWear, LifeSettings, LifeState, Mean, Outcome,
-    RevolutionWear, Stop, WearOf, WearStep, run_life,
+    CycleRecord, Feedback, JointLife, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState,
+    MeanIncrement, RevolutionWear, WearOf, WearSource, WearStep, run_life,
 };
 use linkwear_runtime::wear::{Limits, Observed, Profile, ScalarFeedback};
 
@@ -61,7 +61,7 @@ pub fn revolution(depth: f64, clearance: f64) -> RevolutionWear {
     }
 }
 
-impl FineScale for Powers {
+impl WearSource for Powers {
     type State = ();
     type Error = Infallible;
 
@@ -127,13 +127,13 @@ pub fn settings(exponent: f64, gamma: f64, cycles: f64, step: WearStep) -> LifeS
 }
 
 /// Life in cycles and the last state.
-pub type Lived<F> = (f64, LifeState<<F as FineScale>::State>);
+pub type Lived<F> = (f64, LifeState<<F as WearSource>::State>);
 
 /// The deterministic life.
-pub fn live<F: FineScale>(settings: &LifeSettings, fine: &mut F) -> Result<Lived<F>, Stop<F::Error>> {
+pub fn live<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> Result<Lived<F>, LifeError<F::Error>> {
     let mut state = LifeState::new(settings, 0)?;
-    match run_life(settings, fine, &Mean, &mut state, &mut go_on)? {
-        Outcome::Failed(failure) => Ok((failure.cycles, state)),
+    match run_life(settings, fine, &MeanIncrement, &mut state, &mut go_on)? {
+        LifeOutcome::Failed(failure) => Ok((failure.cycles, state)),
         outcome => panic!("{outcome:?}"),
     }
 }

@@ -3,8 +3,8 @@
 use std::fmt;
 
 use linkwear_runtime::life::{
-    Feedback, FineScale, IncrementDraw, JointWear, LifeSettings, LifeState, Mean, Outcome, RevolutionWear,
-    SettingsError, Stop, WearOf, WearStep, run_life,
+    Feedback, IncrementModel, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState, MeanIncrement,
+    RevolutionWear, SettingsError, WearOf, WearSource, WearStep, run_life,
 };
 use linkwear_runtime::wear::{Measure, ScalarFeedback, Warning};
 
@@ -24,7 +24,7 @@ impl fmt::Display for Broken {
     }
 }
 
-impl<F: FnMut(f64) -> Result<RevolutionWear, Broken>> FineScale for By<F> {
+impl<F: FnMut(f64) -> Result<RevolutionWear, Broken>> WearSource for By<F> {
     type State = ();
     type Error = Broken;
 
@@ -37,20 +37,20 @@ impl<F: FnMut(f64) -> Result<RevolutionWear, Broken>> FineScale for By<F> {
 fn life_until<E: Fn(RevolutionWear) -> Result<RevolutionWear, Broken>>(
     limit: f64,
     then: E,
-) -> (Stop<Broken>, LifeState<()>) {
+) -> (LifeError<Broken>, LifeState<()>) {
     let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
     let mut state = LifeState::new(&settings, 0).unwrap();
     let mut fine = By(|clearance: f64| {
         let sound = revolution(DEPTH * (clearance / C0).sqrt(), clearance);
         if clearance > limit { then(sound) } else { Ok(sound) }
     });
-    (run_life(&settings, &mut fine, &Mean, &mut state, &mut go_on).unwrap_err(), state)
+    (run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap_err(), state)
 }
 
 #[test]
 fn a_fine_scale_that_fails_keeps_the_cycles_before() {
     let (stop, state) = life_until(4.0 * C0, |_| Err(Broken));
-    let Stop::Fine { cycle, error: Broken } = stop else { panic!("{stop}") };
+    let LifeError::Fine { cycle, error: Broken } = stop else { panic!("{stop}") };
     assert_eq!((state.cycle, state.cycles.len() as u64, state.failure), (cycle - 1, cycle - 1, None));
     assert!(state.joints[0].clearance > 4.0 * C0 && state.cycles[3].joints[0].wear > 0.0);
     assert_eq!(stop.to_string(), format!("cycle {cycle}: the assembly is lost"));
@@ -65,9 +65,9 @@ fn a_failed_life_goes_on_where_it_was_once_the_cause_is_gone() {
         calls += 1;
         if calls == 20 { Err(Broken) } else { Ok(revolution(DEPTH * (clearance / C0).sqrt(), clearance)) }
     });
-    let stop = run_life(&settings, &mut failing, &Mean, &mut state, &mut go_on).unwrap_err();
-    assert!(matches!(stop, Stop::Fine { .. }));
-    run_life(&settings, &mut Powers::one(0.5), &Mean, &mut state, &mut go_on).unwrap();
+    let stop = run_life(&settings, &mut failing, &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    assert!(matches!(stop, LifeError::Fine { .. }));
+    run_life(&settings, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap();
     let (_, whole) = live(&settings, &mut Powers::one(0.5)).unwrap();
     assert_eq!(state, whole);
 }
@@ -75,7 +75,7 @@ fn a_failed_life_goes_on_where_it_was_once_the_cause_is_gone() {
 #[test]
 fn contact_lost_for_most_of_the_turn_stops_the_life() {
     let (stop, state) = life_until(4.0 * C0, |sound| Ok(RevolutionWear { separated: 0.6, ..sound }));
-    assert!(matches!(stop, Stop::ContactLost { separated: 0.6, .. }), "{stop}");
+    assert!(matches!(stop, LifeError::ContactLost { separated: 0.6, .. }), "{stop}");
     assert!(stop.to_string().contains("`R1` is without contact for 60 %"), "{stop}");
     assert!(state.cycle > 3);
 }
@@ -83,16 +83,16 @@ fn contact_lost_for_most_of_the_turn_stops_the_life() {
 #[test]
 fn numbers_that_mean_nothing_stop_the_life() {
     let (stop, _) = life_until(4.0 * C0, |sound| Ok(RevolutionWear { depth: f64::NAN, ..sound }));
-    assert!(matches!(stop, Stop::Measured { name: "depth", .. }), "{stop}");
+    assert!(matches!(stop, LifeError::Measured { name: "depth", .. }), "{stop}");
     let (stop, _) = life_until(0.0, |sound| Ok(RevolutionWear { wear_integral: -1.0, ..sound }));
-    assert!(matches!(stop, Stop::Measured { name: "wear integral", cycle: 1, .. }), "{stop}");
+    assert!(matches!(stop, LifeError::Measured { name: "wear integral", cycle: 1, .. }), "{stop}");
 }
 
 #[test]
 fn a_threshold_below_the_first_increment_is_told() {
     let settings = settings(0.5, 1.0, 0.3, adaptive(1e-4));
     let stop = live(&settings, &mut Powers::one(0.5)).unwrap_err();
-    let Stop::ThresholdBelowFirstIncrement { threshold, increment, .. } = stop else { panic!("{stop}") };
+    let LifeError::ThresholdBelowFirstIncrement { threshold, increment, .. } = stop else { panic!("{stop}") };
     assert!(threshold == THRESHOLD && increment > THRESHOLD);
 }
 
@@ -101,14 +101,15 @@ fn a_clearance_above_the_journal_is_told_at_once_and_on_the_way() {
     let mut at_once = settings(0.5, 1.0, 25.1, WearStep::FULL);
     at_once.joints[0].clearance = 0.02;
     let stop = live(&at_once, &mut Powers::one(0.5)).unwrap_err();
-    assert!(matches!(stop, Stop::ClearanceAboveJournal { cycle: 1, clearance: 0.02, .. }), "{stop}");
+    assert!(matches!(stop, LifeError::ClearanceAboveJournal { cycle: 1, clearance: 0.02, .. }), "{stop}");
 
     let mut on_the_way = settings(0.0, 0.0, 25.1, WearStep::Cycle);
     on_the_way.joints[0].feedback = Feedback::Scalar(ScalarFeedback::new(500.0).unwrap());
     let mut state = LifeState::new(&on_the_way, 0).unwrap();
-    let stop = run_life(&on_the_way, &mut Powers::one(0.0), &Mean, &mut state, &mut go_on).unwrap_err();
+    let stop =
+        run_life(&on_the_way, &mut Powers::one(0.0), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
     // (0.01 - 1e-5)/500 of 80e-6 is a quarter of 25.1 cycles.
-    assert!(matches!(stop, Stop::ClearanceAboveJournal { cycle: 8, .. }) && state.cycle == 7, "{stop}");
+    assert!(matches!(stop, LifeError::ClearanceAboveJournal { cycle: 8, .. }) && state.cycle == 7, "{stop}");
 }
 
 #[test]
@@ -123,15 +124,15 @@ fn a_worn_profile_counts_for_the_clearance() {
     let mut fine =
         By(|clearance| Ok(RevolutionWear { profile: Some(arc(DEPTH)), ..revolution(DEPTH, clearance) }));
     let mut state = LifeState::new(&settings, 0).unwrap();
-    let stop = run_life(&settings, &mut fine, &Mean, &mut state, &mut go_on).unwrap_err();
-    assert!(matches!(stop, Stop::ClearanceAboveJournal { .. }), "{stop}");
+    let stop = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    assert!(matches!(stop, LifeError::ClearanceAboveJournal { .. }), "{stop}");
 }
 
 #[test]
 fn a_joint_that_does_not_wear_has_no_end() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::FULL);
     let stop = live(&settings, &mut By(|clearance| Ok(revolution(0.0, clearance)))).unwrap_err();
-    assert_eq!(stop, Stop::NoWear { cycle: 1 });
+    assert_eq!(stop, LifeError::NoWear { cycle: 1 });
 }
 
 #[test]
@@ -140,16 +141,16 @@ fn a_life_longer_than_asked_for_can_go_on() {
     settings.most_cycles = 10;
     let mut state = LifeState::new(&settings, 0).unwrap();
     let mut fine = Powers::one(0.5);
-    let outcome = run_life(&settings, &mut fine, &Mean, &mut state, &mut go_on).unwrap();
-    assert_eq!((outcome, state.cycle), (Outcome::CycleLimit, 10));
+    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap();
+    assert_eq!((outcome, state.cycle), (LifeOutcome::CycleLimit, 10));
     settings.most_cycles = 100;
-    let outcome = run_life(&settings, &mut fine, &Mean, &mut state, &mut go_on).unwrap();
-    assert!(matches!(outcome, Outcome::Failed(_)));
+    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap();
+    assert!(matches!(outcome, LifeOutcome::Failed(_)));
 }
 
 struct Negative;
 
-impl IncrementDraw for Negative {
+impl IncrementModel for Negative {
     fn draw(&self, _: usize, _: u64, cycle: u64, mean: f64) -> f64 {
         if cycle == 4 { -mean } else { mean }
     }
@@ -160,7 +161,7 @@ fn a_negative_draw_is_refused_with_its_cycle() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
     let mut state = LifeState::new(&settings, 0).unwrap();
     let stop = run_life(&settings, &mut Powers::one(0.5), &Negative, &mut state, &mut go_on).unwrap_err();
-    assert!(matches!(stop, Stop::Drawn { cycle: 5, .. }) && state.cycle == 4, "{stop}");
+    assert!(matches!(stop, LifeError::Drawn { cycle: 5, .. }) && state.cycle == 4, "{stop}");
 }
 
 #[test]
@@ -212,10 +213,13 @@ fn settings_and_states_that_make_no_sense_are_refused() {
 
     let mut state = LifeState::new(&sound, 0).unwrap();
     let other = LifeSettings::new(vec![joint("R1", 1.0, 1.0), joint("R2", 1.0, 1.0)]);
-    let stop = run_life(&other, &mut Powers::one(0.5), &Mean, &mut state, &mut go_on).unwrap_err();
-    assert!(matches!(stop, Stop::Settings(SettingsError::State { expected: 2, found: 1, .. })), "{stop}");
+    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    assert!(
+        matches!(stop, LifeError::Settings(SettingsError::State { expected: 2, found: 1, .. })),
+        "{stop}"
+    );
     // A fine scale of another mechanism.
     let mut state = LifeState::new(&other, 0).unwrap();
-    let stop = run_life(&other, &mut Powers::one(0.5), &Mean, &mut state, &mut go_on).unwrap_err();
-    assert!(matches!(stop, Stop::Shape { what: "joints", expected: 2, found: 1 }), "{stop}");
+    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    assert!(matches!(stop, LifeError::Shape { what: "joints", expected: 2, found: 1 }), "{stop}");
 }

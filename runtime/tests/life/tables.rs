@@ -1,8 +1,9 @@
 //! `table` against `full` coupling, and the calibration of a cycle.
 
 use linkwear_runtime::life::{
-    CalibrationError, DEFAULT_POINTS, Feedback, FineScale, JointWear, LifeSettings, LifeState, Mean, Outcome,
-    RevolutionWear, SettingsError, Stop, Table, WearOf, WearStep, calibrate, run_life,
+    CalibrationError, DEFAULT_POINTS, Feedback, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState,
+    MeanIncrement, RevolutionWear, SettingsError, WearOf, WearSource, WearStep, WearTable, calibrate,
+    run_life,
 };
 use linkwear_runtime::wear::Measure;
 
@@ -11,11 +12,11 @@ use crate::analytic::{
     with_profile,
 };
 
-fn table<F: FineScale>(settings: &LifeSettings, fine: &mut F) -> Table
+fn table<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> WearTable
 where
     F::Error: std::fmt::Debug,
 {
-    Table::measure(settings, fine, DEFAULT_POINTS, &mut |_| ()).unwrap()
+    WearTable::measure(settings, fine, DEFAULT_POINTS, &mut |_| ()).unwrap()
 }
 
 #[test]
@@ -42,7 +43,7 @@ fn a_power_law_is_tabulated_exactly_and_lives_as_in_full_coupling() {
 /// The clearance's power with a resonance of 0.2 % crossed on the way, as real mechanisms have them.
 struct Resonance;
 
-impl FineScale for Resonance {
+impl WearSource for Resonance {
     type State = ();
     type Error = std::convert::Infallible;
 
@@ -127,7 +128,7 @@ fn coupled_joints_live_by_the_table_as_in_full_coupling_and_the_coupling_is_repo
 /// Depth by angle that goes with the clearance.
 struct Arcs;
 
-impl FineScale for Arcs {
+impl WearSource for Arcs {
     type State = ();
     type Error = std::convert::Infallible;
 
@@ -152,15 +153,15 @@ fn wear_by_profile_is_tabulated_if_it_feeds_back_as_one_number() {
     }
     let fed_back = with_profile(joint("R1", 1e7, 1.0), WearOf::Profile(Measure::Mean), Feedback::Profile);
     let settings = LifeSettings::new(vec![fed_back]);
-    let stop = Table::measure(&settings, &mut Arcs, DEFAULT_POINTS, &mut |_| ()).unwrap_err();
-    assert!(matches!(stop, Stop::Settings(SettingsError::TableOfProfile { .. })), "{stop}");
+    let stop = WearTable::measure(&settings, &mut Arcs, DEFAULT_POINTS, &mut |_| ()).unwrap_err();
+    assert!(matches!(stop, LifeError::Settings(SettingsError::TableOfProfile { .. })), "{stop}");
 }
 
 #[test]
 fn progress_of_a_table_ends_at_one() {
     let mut seen = Vec::new();
     let settings = settings(0.5, 1.0, 25.1, WearStep::TABLE);
-    Table::measure(&settings, &mut Powers::one(0.5), 5, &mut |part| seen.push(part)).unwrap();
+    WearTable::measure(&settings, &mut Powers::one(0.5), 5, &mut |part| seen.push(part)).unwrap();
     assert_eq!(seen, [0.25, 0.5, 0.75, 1.0]);
 }
 
@@ -217,17 +218,17 @@ fn lives_that_cannot_be_calibrated_are_refused() {
     }
     let mut still = Powers::new(vec![(0.0, 0.0, 0.0)]);
     let error = calibrate(&settings, &mut still, 25.1, 1e-6).unwrap_err();
-    assert_eq!(error, CalibrationError::Life(Stop::NoWear { cycle: 1 }));
+    assert_eq!(error, CalibrationError::Life(LifeError::NoWear { cycle: 1 }));
 }
 
 #[test]
 fn a_table_gives_the_same_bits_to_every_trajectory() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::TABLE);
     let table = table(&settings, &mut Powers::one(0.5));
-    let end = |mut table: Table| {
+    let end = |mut table: WearTable| {
         let mut state = LifeState::new(&settings, 0).unwrap();
-        match run_life(&settings, &mut table, &Mean, &mut state, &mut go_on).unwrap() {
-            Outcome::Failed(failure) => failure.cycles.to_bits(),
+        match run_life(&settings, &mut table, &MeanIncrement, &mut state, &mut go_on).unwrap() {
+            LifeOutcome::Failed(failure) => failure.cycles.to_bits(),
             outcome => panic!("{outcome:?}"),
         }
     };

@@ -4,8 +4,8 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 use linkwear_runtime::life::{
-    Feedback, FineScale, IncrementDraw, JointWear, LifeSettings, LifeState, Mean, Outcome, RevolutionWear,
-    WearOf, WearStep, run_life,
+    Feedback, IncrementModel, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, RevolutionWear,
+    WearOf, WearSource, WearStep, run_life,
 };
 use linkwear_runtime::wear::{Measure, Profile};
 
@@ -168,7 +168,7 @@ struct Arc {
     seen: Vec<Option<Profile>>,
 }
 
-impl FineScale for Arc {
+impl WearSource for Arc {
     type State = ();
     type Error = Infallible;
 
@@ -227,7 +227,7 @@ fn wear_by_profile_can_feed_back_as_one_number() {
 #[derive(Default)]
 struct Remembering;
 
-impl FineScale for Remembering {
+impl WearSource for Remembering {
     type State = f64;
     type Error = Infallible;
 
@@ -241,7 +241,7 @@ impl FineScale for Remembering {
 /// Something between 0.5 and 1.5 times the mean, by cycle and trajectory.
 struct Scatter;
 
-impl IncrementDraw for Scatter {
+impl IncrementModel for Scatter {
     fn draw(&self, joint: usize, trajectory: u64, cycle: u64, mean: f64) -> f64 {
         mean * (0.5 + ((cycle * 7 + trajectory * 3 + joint as u64 * 5) % 11) as f64 / 10.0)
     }
@@ -250,7 +250,7 @@ impl IncrementDraw for Scatter {
 #[test]
 fn a_life_that_was_stopped_goes_on_with_the_same_bits() {
     for step in [WearStep::Cycle, WearStep::FULL, adaptive(1e-7)] {
-        for draw in [&Mean as &dyn IncrementDraw, &Scatter] {
+        for draw in [&MeanIncrement as &dyn IncrementModel, &Scatter] {
             let settings = settings(0.5, 1.0, 25.1, step);
             let mut whole = LifeState::new(&settings, 3).unwrap();
             run_life(&settings, &mut Remembering, draw, &mut whole, &mut go_on).unwrap();
@@ -258,7 +258,7 @@ fn a_life_that_was_stopped_goes_on_with_the_same_bits() {
             let mut stops = 0;
             while run_life(&settings, &mut Remembering, draw, &mut pieces, &mut |_| ControlFlow::Break(()))
                 .unwrap()
-                == Outcome::Cancelled
+                == LifeOutcome::Cancelled
             {
                 stops += 1;
             }
@@ -292,7 +292,7 @@ fn draws_feed_back_and_keep_the_mean_apart_from_the_wear() {
 /// A draw that is the mean, but does not say so: cycle by cycle.
 struct Quiet;
 
-impl IncrementDraw for Quiet {
+impl IncrementModel for Quiet {
     fn draw(&self, _: usize, _: u64, _: u64, mean: f64) -> f64 {
         mean
     }
@@ -313,7 +313,7 @@ struct Noisy {
     calls: usize,
 }
 
-impl FineScale for Noisy {
+impl WearSource for Noisy {
     type State = u64;
     type Error = Infallible;
 

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use linkwear_runtime::life::{CycleRecord, Failure as End};
+use linkwear_runtime::life::{CycleRecord, FailureEvent};
 
 use super::super::failure::Failure;
 use super::super::file::{claim_folder, write_whole};
@@ -67,7 +67,7 @@ impl Folder {
     }
 }
 
-fn write_lives(file: &mut impl Write, joints: &[String], lives: &[End]) -> io::Result<()> {
+fn write_lives(file: &mut impl Write, joints: &[String], lives: &[FailureEvent]) -> io::Result<()> {
     writeln!(file, "trajectory,life [cycles],whole cycles,failed joint")?;
     for (trajectory, end) in lives.iter().enumerate() {
         writeln!(file, "{trajectory},{},{},{}", end.cycles, end.whole_cycles, joints[end.joint])?;

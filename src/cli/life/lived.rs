@@ -7,8 +7,8 @@ use std::sync::{Mutex, PoisonError};
 
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
 use linkwear_runtime::life::{
-    CycleRecord, DEFAULT_POINTS, Failure as End, FineScale, IncrementDraw, LifeState, Mean, Outcome, Stop,
-    Table, TableReport, run_life,
+    CycleRecord, DEFAULT_POINTS, FailureEvent, IncrementModel, LifeError, LifeOutcome, LifeState,
+    MeanIncrement, TableReport, WearSource, WearTable, run_life,
 };
 use linkwear_runtime::{RunError, System, TurnState};
 
@@ -26,15 +26,15 @@ const SHIFTED_BY_TABLE: u64 = 200;
 const SHIFTED_BY_DYNAMICS: u64 = 4;
 
 /// Runs with a fine scale that was made for it.
-type Body<'b> = &'b mut dyn FnMut(&mut dyn FineScale<State = Option<TurnState>, Error = RunError>);
+type Body<'b> = &'b mut dyn FnMut(&mut dyn WearSource<State = Option<TurnState>, Error = RunError>);
 /// Makes a system for one more thread.
 type Lend<'l> = &'l (dyn Fn() -> Option<Box<dyn System<f64>>> + Sync);
 
 /// A life and what it was made from.
 pub struct Lived<'p> {
     pub plan: &'p Plan<'p>,
-    /// End of the mean path.
-    pub end: End,
+    /// FailureEvent of the mean path.
+    pub end: FailureEvent,
     pub cycles: Vec<CycleRecord>,
     /// Estimated error of the mean path by its wear steps [cycles].
     pub step_error: f64,
@@ -42,7 +42,7 @@ pub struct Lived<'p> {
     pub table: Option<TableReport>,
     pub measurements: u64,
     /// Random lives, in the order of their numbers.
-    pub lives: Vec<End>,
+    pub lives: Vec<FailureEvent>,
     /// Standard error of the mean of the random lives by the covariances of fits, if there are any [cycles].
     pub parameter_error: Option<f64>,
 }
@@ -111,7 +111,8 @@ impl<'p> Lived<'p> {
         let mut fine = plan.fine(system).map_err(|error| stopped(&error.to_string()))?;
         let mut lived = match plan.coupling {
             Coupling::Table => {
-                let table = Table::measure(&plan.settings, &mut fine, DEFAULT_POINTS, &mut |part| show(part));
+                let table =
+                    WearTable::measure(&plan.settings, &mut fine, DEFAULT_POINTS, &mut |part| show(part));
                 let mut table = table.map_err(|stop| stopped(&stop.to_string()))?;
                 let mut lived = Self::mean_path(plan, &mut table, &|_| {})?;
                 lived.draw(
@@ -144,22 +145,22 @@ impl<'p> Lived<'p> {
     }
 
     /// The life in which every increment is its mean.
-    fn mean_path<F: FineScale>(plan: &'p Plan<'p>, fine: &mut F, show: &dyn Fn(f64)) -> Result<Self, Stopped>
+    fn mean_path<F: WearSource>(plan: &'p Plan<'p>, fine: &mut F, show: &dyn Fn(f64)) -> Result<Self, Stopped>
     where
         F::Error: Display,
     {
         let state = LifeState::new(&plan.settings, 0);
         let mut state = state.map_err(|error| Stopped::of(plan, &error.to_string(), &[]))?;
         let mean = plan.process.as_ref().map(super::process::Process::mean);
-        let draw: &dyn IncrementDraw = mean.as_ref().map_or(&Mean, |mean| mean);
+        let draw: &dyn IncrementModel = mean.as_ref().map_or(&MeanIncrement, |mean| mean);
         let outcome = run_life(&plan.settings, fine, draw, &mut state, &mut |cycle| {
             show(cycle.used.min(1.0));
             go_on()
         });
         let end = match outcome {
-            Ok(Outcome::Failed(end)) => end,
-            Ok(Outcome::Cancelled) => return Err(Stopped::of(plan, "stopped on request", &state.cycles)),
-            Ok(Outcome::CycleLimit) => {
+            Ok(LifeOutcome::Failed(end)) => end,
+            Ok(LifeOutcome::Cancelled) => return Err(Stopped::of(plan, "stopped on request", &state.cycles)),
+            Ok(LifeOutcome::CycleLimit) => {
                 let message = format!("no joint has failed after {} cycles", plan.settings.most_cycles);
                 return Err(Stopped::of(plan, &message, &state.cycles));
             }
@@ -215,7 +216,7 @@ impl<'p> Lived<'p> {
         draw: &GammaDraw,
         count: u64,
         show: &(dyn Fn(f64) + Sync),
-    ) -> Result<Vec<End>, Stopped> {
+    ) -> Result<Vec<FailureEvent>, Stopped> {
         let plan = self.plan;
         let mut settings = plan.settings.clone();
         settings.keep_cycles = false;
@@ -228,7 +229,7 @@ impl<'p> Lived<'p> {
         let message = match ended {
             Ended::Complete => return Ok(failures.into_iter().map(|(_, end)| end).collect()),
             Ended::Cancelled => format!("stopped on request after {done} of {count} lives"),
-            Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if stop_requested() => {
+            Ended::Stopped { trajectory, stop: LifeError::Fine { .. } } if stop_requested() => {
                 format!("stopped on request in life {trajectory}, after {done} of {count} lives")
             }
             Ended::Stopped { trajectory, stop } => format!("life {trajectory}: {stop}"),

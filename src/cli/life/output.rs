@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics, WithError};
-use linkwear_runtime::life::{CycleRecord, Failure as End, Summary};
+use linkwear_runtime::life::{CycleRecord, FailureEvent, Summary};
 use serde_json::{Value, json};
 
 use super::super::input::Loaded;
@@ -29,7 +29,7 @@ impl Lived<'_> {
     /// The mean path as a distribution of one life, or that of the random lives.
     fn summary(&self) -> Summary {
         let own = [self.end];
-        let ends: &[End] = if self.lives.is_empty() { &own } else { &self.lives };
+        let ends: &[FailureEvent] = if self.lives.is_empty() { &own } else { &self.lives };
         Summary::of(ends, self.plan.arguments.seed, Vec::new()).expect("a life is not none")
     }
 

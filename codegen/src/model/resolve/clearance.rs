@@ -1,16 +1,14 @@
 //! Joints with clearance: which they are, and the constants of their laws of contact, friction and wear.
 
 use linkwear_runtime::contact::{IMPACT_SPEED_FLOOR, Onset, Restitution, Stiffness, Strength};
-use linkwear_runtime::wear::{Area, DEFAULT_BINS, Measure};
+use linkwear_runtime::wear::{Area, DEFAULT_BINS};
 use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 
 use super::quantity::Allowed;
 use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Axis, Clearance, Formula, Joint, JointKind};
-use crate::spec::{
-    AreaSpec, At, ClearanceSpec, Dimension, File, MeasureSpec, Name, Quantity, RestitutionSpec, WearSpec,
-};
+use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity, WearSpec};
 
 /// Speed below which friction is smoothed, unless the file says otherwise [m/s].
 const FRICTION_SPEED: f64 = 1e-3;
@@ -155,13 +153,6 @@ impl Resolver<'_> {
             }
             None => Stiffness::Hertz { modulus },
         };
-        let law = match own.law.as_ref().map_or(RestitutionSpec::default(), |law| law.value) {
-            RestitutionSpec::LankaraniNikravesh => Restitution::LankaraniNikravesh,
-            RestitutionSpec::Exact => Restitution::Exact,
-            RestitutionSpec::HuntCrossley => Restitution::HuntCrossley,
-            RestitutionSpec::Flores => Restitution::Flores,
-            RestitutionSpec::LeeWang => Restitution::LeeWang,
-        };
         let restitution = self.positive(name, "restitution", own.restitution.as_ref(), Dimension::NONE, 1.0);
         if let (Some(given), true) = (&own.restitution, restitution > 1.0) {
             let message =
@@ -176,7 +167,7 @@ impl Resolver<'_> {
             length,
             modulus,
             stiffness,
-            law,
+            law: own.law.as_ref().map_or_else(Restitution::default, |law| law.value),
             restitution,
             exponent: self.positive(name, "exponent", own.exponent.as_ref(), Dimension::NONE, 1.5),
             impact_speed_floor: self.positive(
@@ -312,15 +303,8 @@ impl Resolver<'_> {
                 f64::NAN,
             ),
             hardness: self.positive(name, "hardness", own.hardness.as_ref(), pressure, f64::NAN),
-            area: match own.area.as_ref().map_or(AreaSpec::default(), |area| area.value) {
-                AreaSpec::Projected => Area::Projected,
-                AreaSpec::Hertz => Area::Hertz,
-                AreaSpec::Conformal => Area::Conformal,
-            },
-            measure: own.measure.as_ref().map(|measure| match measure.value {
-                MeasureSpec::Mean => Measure::Mean,
-                MeasureSpec::Maximum => Measure::Maximum,
-            }),
+            area: own.area.as_ref().map_or_else(Area::default, |area| area.value),
+            measure: own.measure.as_ref().map(|measure| measure.value),
             feedback: self.not_negative(name, "feedback", own.feedback.as_ref(), Dimension::NONE, 1.0),
             profile: own.profile.unwrap_or(false),
             bins,

@@ -1,16 +1,18 @@
 //! All joints with clearance of a mechanism, with what each remembers and how far it is worn.
-//! In: the answer of [`crate::Entry::Contacts`]. Out: [`Touch`]es and the wrenches. Does not allocate while it runs.
+//! In: the answer of [`crate::Entry::Contacts`]. Out: [`ContactState`]es and the wrenches. Does not allocate while it runs.
 
-use super::{Clearance, Touch};
+use super::joint::{Clearance, ContactState};
 use crate::contact::{ImpactMemory, crossing_speed};
+use crate::description::ContactInfo;
+use crate::error::SetupError;
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::wear::Profile;
-use crate::{CONTACT_MOTION, CONTACT_WRENCH, ContactInfo, SetupError};
 
 /// What belongs to a joint with clearance between two steps, besides coordinates and speeds: saved and
 /// restored with them.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct JointState {
+pub struct ClearanceState {
     /// What the running contact remembers.
     pub memory: ImpactMemory<f64>,
     /// Radial clearance on top of that of the parameters [m].
@@ -19,7 +21,7 @@ pub struct JointState {
     pub profile: Option<Profile>,
 }
 
-impl JointState {
+impl ClearanceState {
     /// An unworn joint, apart.
     #[must_use]
     pub fn unworn() -> Self {
@@ -31,8 +33,8 @@ impl JointState {
 #[derive(Clone, Debug, Default)]
 pub struct Clearances {
     joints: Vec<Clearance>,
-    states: Vec<JointState>,
-    touches: Vec<Touch>,
+    states: Vec<ClearanceState>,
+    contacts: Vec<ContactState>,
     wrenches: Vec<f64>,
 }
 
@@ -48,8 +50,8 @@ impl Clearances {
         };
         let joints = contacts.iter().map(build).collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
-            states: vec![JointState::unworn(); joints.len()],
-            touches: vec![Touch::default(); joints.len()],
+            states: vec![ClearanceState::unworn(); joints.len()],
+            contacts: vec![ContactState::default(); joints.len()],
             wrenches: vec![0.0; CONTACT_WRENCH * joints.len()],
             joints,
         })
@@ -69,19 +71,19 @@ impl Clearances {
 
     /// What belongs to each between two steps.
     #[must_use]
-    pub fn states(&self) -> &[JointState] {
+    pub fn states(&self) -> &[ClearanceState] {
         &self.states
     }
 
     /// The same, to restore it or to change wear. As many as joints.
-    pub fn states_mut(&mut self) -> &mut [JointState] {
+    pub fn states_mut(&mut self) -> &mut [ClearanceState] {
         &mut self.states
     }
 
     /// Every contact at the last evaluation.
     #[must_use]
-    pub fn touches(&self) -> &[Touch] {
-        &self.touches
+    pub fn contacts(&self) -> &[ContactState] {
+        &self.contacts
     }
 
     /// The wrenches of the last evaluation, joint by joint.
@@ -93,34 +95,34 @@ impl Clearances {
     /// Energy stored in all contacts at the last evaluation [J].
     #[must_use]
     pub fn elastic_energy(&self) -> f64 {
-        self.touches.iter().map(|touch| touch.elastic_energy).sum()
+        self.contacts.iter().map(|touch| touch.elastic_energy).sum()
     }
 
-    /// How far [m] from the bearing's centre along a unit vector a journal penetrates by so much [m], worn as at the last
-    /// evaluation.
+    /// Distance [m] of a journal's centre from the bearing's, along the unit vector `direction`, at which the
+    /// penetration is `penetration` [m], worn as at the last evaluation.
     #[must_use]
     pub fn distance(&self, index: usize, direction: [f64; 3], penetration: f64) -> f64 {
         let profile = self.states[index].profile.as_ref();
-        let round = self.touches[index].clearance - profile.map_or(0.0, Profile::mean);
+        let round = self.contacts[index].clearance - profile.map_or(0.0, Profile::mean);
         self.joints[index].distance(round, profile, direction, penetration)
     }
 
     /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
     pub fn evaluate(&mut self, motions: &[f64]) {
-        let each = self.joints.iter().zip(&self.states).zip(&mut self.touches);
+        let each = self.joints.iter().zip(&self.states).zip(&mut self.contacts);
         for (((joint, state), touch), motion) in each.zip(motions.chunks_exact(CONTACT_MOTION)) {
             *touch = joint.evaluate(motion, state.worn, state.profile.as_ref(), &state.memory);
         }
-        for (wrench, touch) in self.wrenches.chunks_exact_mut(CONTACT_WRENCH).zip(&self.touches) {
+        for (wrench, touch) in self.wrenches.chunks_exact_mut(CONTACT_WRENCH).zip(&self.contacts) {
             wrench.copy_from_slice(&touch.wrench);
         }
     }
 
     /// Brings the memories up to date after a step from `before` to the last evaluation. A gap that closed
     /// within it remembers the speed at the crossing, both taken as linear.
-    pub fn remember(&mut self, before: &[Touch]) {
-        for ((state, before), now) in self.states.iter_mut().zip(before).zip(&self.touches) {
-            let at = |touch: &Touch| (touch.penetration(), touch.penetration_rate);
+    pub fn remember(&mut self, before: &[ContactState]) {
+        for ((state, before), now) in self.states.iter_mut().zip(before).zip(&self.contacts) {
+            let at = |touch: &ContactState| (touch.penetration(), touch.penetration_rate);
             let speed = crossing_speed(at(before), at(now));
             state.memory = state.memory.updated(now.penetration(), speed);
         }
@@ -128,13 +130,13 @@ impl Clearances {
 
     /// A gap that closes just now, whatever rounding says of its sign.
     pub fn close(&mut self, index: usize) {
-        let speed = self.touches[index].penetration_rate.max(0.0);
+        let speed = self.contacts[index].penetration_rate.max(0.0);
         self.states[index].memory = ImpactMemory::in_contact(speed);
     }
 
     /// Memories of contacts that nobody has followed so far: those that touch take their present rate.
     pub fn begin(&mut self) {
-        for (state, now) in self.states.iter_mut().zip(&self.touches) {
+        for (state, now) in self.states.iter_mut().zip(&self.contacts) {
             state.memory = ImpactMemory::apart().updated(now.penetration(), now.penetration_rate);
         }
     }

@@ -9,5 +9,5 @@ mod joint;
 mod joints;
 
 pub use channels::ContactChannels;
-pub use joint::{Clearance, Touch};
-pub use joints::{Clearances, JointState};
+pub use joint::{Clearance, ContactState};
+pub use joints::{ClearanceState, Clearances};

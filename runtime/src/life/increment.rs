@@ -2,7 +2,7 @@
 //! Never knows the trajectory's state: a draw depends on its arguments alone, so the order of work changes no bit.
 
 /// Draws the wear increment of a joint in a cycle.
-pub trait IncrementDraw {
+pub trait IncrementModel {
     /// Wear increment dW [m], not below zero, of a joint (index among the wearing joints) in a cycle (counted from
     /// 0) of a trajectory, from its mean dLambda [m].
     ///
@@ -17,9 +17,9 @@ pub trait IncrementDraw {
 
 /// The deterministic life: dW = dLambda.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Mean;
+pub struct MeanIncrement;
 
-impl IncrementDraw for Mean {
+impl IncrementModel for MeanIncrement {
     fn draw(&self, _joint: usize, _trajectory: u64, _cycle: u64, mean: f64) -> f64 {
         mean
     }

@@ -1,10 +1,10 @@
-//! Where the coarse scale meets the fine one. In: nothing. Out: the trait and what passes through it.
+//! Where the coarse scale meets the fine one. Out: the trait and what passes through it.
 //! Never knows how a revolution is computed.
 
 use crate::wear::{Observed, Profile};
 
 /// The fine scale: what one settled revolution wears at a given state of wear.
-pub trait FineScale {
+pub trait WearSource {
     /// What the fine scale carries from one measurement to the next: positions, speeds, impact memories. Its default
     /// is that of a mechanism that has not run yet. It is saved with the trajectory, so a measurement must depend on
     /// nothing but the wear and this.
@@ -23,7 +23,7 @@ pub trait FineScale {
     ) -> Result<Vec<RevolutionWear>, Self::Error>;
 }
 
-impl<F: FineScale + ?Sized> FineScale for &mut F {
+impl<F: WearSource + ?Sized> WearSource for &mut F {
     type State = F::State;
     type Error = F::Error;
 

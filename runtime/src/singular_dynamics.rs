@@ -13,7 +13,7 @@
 //! Multipliers are the smallest ones that balance the regular directions; in lost directions ideal joints
 //! would need infinite forces, which are left out. They do no work.
 
-use crate::Evaluator;
+use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, dot, largest};
 
 /// Singular values of the constraint rows (scaled to unit length) below this part of the largest one mark

@@ -1,8 +1,8 @@
-//! Output columns of joints with clearance, after the generated ones. In: a [`Description`], [`Touch`]es.
+//! Output columns of joints with clearance, after the generated ones. In: a [`Description`], [`ContactState`]es.
 //! Out: channels and their values, in the same order.
 
-use super::Touch;
-use crate::{Channel, Description};
+use super::joint::ContactState;
+use crate::description::{Channel, Description};
 
 /// One quantity of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +64,9 @@ impl ContactChannels {
     }
 
     /// Writes their values, one per column.
-    pub fn write(&self, touches: &[Touch], values: &mut [f64]) {
+    pub fn write(&self, contacts: &[ContactState], values: &mut [f64]) {
         for ((joint, quantity), value) in self.sources.iter().zip(values) {
-            let touch = &touches[*joint];
+            let touch = &contacts[*joint];
             *value = match quantity {
                 Quantity::Offset(axis) => touch.offset[*axis],
                 Quantity::Gap => touch.gap,

@@ -1,12 +1,13 @@
 //! One joint with clearance: its laws, built once, and one evaluation of them.
-//! In: [`ContactInfo`]; then motion, wear so far, memory. Out: [`Touch`].
+//! In: [`ContactInfo`]; then motion, wear so far, memory. Out: [`ContactState`].
 
 use crate::contact::{
     Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
     SphericalMotion, Stiffness, Support, positive,
 };
+use crate::description::{ContactInfo, WearInfo};
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::wear::{Archard, Grid, Load, Pair, Profile, ScalarFeedback};
-use crate::{CONTACT_MOTION, CONTACT_WRENCH, ContactInfo, WearInfo};
 
 /// A joint with clearance and its laws.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,7 @@ pub struct Clearance {
 
 /// A contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Touch {
+pub struct ContactState {
     /// Journal centre minus bearing centre, in the bearing's frame [m].
     pub offset: [f64; 3],
     /// Angle of the offset about the joint's axis, in (-pi, pi] [rad]; zero for a ball.
@@ -53,7 +54,7 @@ pub struct Touch {
     pub wrench: [f64; CONTACT_WRENCH],
 }
 
-impl Touch {
+impl ContactState {
     /// Minus the gap [m].
     #[must_use]
     pub fn penetration(&self) -> f64 {
@@ -141,8 +142,8 @@ impl Clearance {
         self.laws.normal.resting_penetration(self.stiffness(clearance), force)
     }
 
-    /// How far [m] from the bearing's centre along a unit vector the journal penetrates by so much [m], at a clearance
-    /// [m] that a profile is worn on top of.
+    /// Distance [m] of the journal's centre from the bearing's, along the unit vector `direction`, at which the
+    /// penetration is `penetration` [m]; `clearance` [m] is that of the round bearing, without the profile.
     #[must_use]
     pub(super) fn distance(
         &self,
@@ -177,7 +178,7 @@ impl Clearance {
         worn: f64,
         profile: Option<&Profile>,
         memory: &ImpactMemory<f64>,
-    ) -> Touch {
+    ) -> ContactState {
         debug_assert_eq!(motion.len(), CONTACT_MOTION);
         let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
         let (offset, offset_rate, turning) = (three(0), three(3), three(6));
@@ -186,7 +187,7 @@ impl Clearance {
         let stiffness = self.stiffness(clearance);
         let mut touch = if self.ball {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
-            self.ball_touch(&motion, clearance, stiffness, memory)
+            self.ball_contact(&motion, clearance, stiffness, memory)
         } else {
             let offset = [offset[0], offset[1]];
             let support = match self.grid.as_ref().zip(profile) {
@@ -195,23 +196,23 @@ impl Clearance {
             };
             let offset_rate = [offset_rate[0], offset_rate[1]];
             let motion = RevoluteMotion { offset, offset_rate, joint_speed: turning[2] };
-            self.journal_touch(&motion, &support, stiffness, memory)
+            self.journal_contact(&motion, &support, stiffness, memory)
         };
         touch.clearance = clearance;
         self.finish(&mut touch);
         touch
     }
 
-    fn journal_touch(
+    fn journal_contact(
         &self,
         motion: &RevoluteMotion<f64>,
         support: &Support<f64>,
         stiffness: f64,
         memory: &ImpactMemory<f64>,
-    ) -> Touch {
+    ) -> ContactState {
         let contact = RevoluteContact::new(motion, self.radius, support);
         let force = contact.force(&self.laws, stiffness, memory);
-        Touch {
+        ContactState {
             offset: [motion.offset[0], motion.offset[1], 0.0],
             angle: contact.angle,
             gap: contact.gap,
@@ -221,21 +222,21 @@ impl Clearance {
             elastic_energy: force.elastic_energy,
             loss: force.damping_loss + force.friction_loss,
             wrench: [force.force[0], force.force[1], 0.0, 0.0, 0.0, force.torque],
-            ..Touch::default()
+            ..ContactState::default()
         }
     }
 
-    fn ball_touch(
+    fn ball_contact(
         &self,
         motion: &SphericalMotion<f64>,
         clearance: f64,
         stiffness: f64,
         memory: &ImpactMemory<f64>,
-    ) -> Touch {
+    ) -> ContactState {
         let contact = SphericalContact::new(motion, self.radius, clearance);
         let force = contact.force(&self.laws, stiffness, memory);
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
-        Touch {
+        ContactState {
             offset: motion.offset,
             gap: contact.gap,
             penetration_rate: contact.penetration_rate,
@@ -244,11 +245,11 @@ impl Clearance {
             elastic_energy: force.elastic_energy,
             loss: force.damping_loss + force.friction_loss,
             wrench: [fx, fy, fz, mx, my, mz],
-            ..Touch::default()
+            ..ContactState::default()
         }
     }
 
-    fn finish(&self, touch: &mut Touch) {
+    fn finish(&self, touch: &mut ContactState) {
         let depth = touch.penetration();
         let law = &self.laws.normal;
         if depth > 0.0 {
@@ -264,7 +265,7 @@ impl Clearance {
 
     /// What acts on the contact, for laws of wear.
     #[must_use]
-    pub fn load(touch: &Touch) -> Load<f64> {
+    pub fn load(touch: &ContactState) -> Load<f64> {
         Load {
             normal_force: touch.normal_force,
             penetration: touch.penetration(),

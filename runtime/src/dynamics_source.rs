@@ -3,12 +3,13 @@
 
 use std::ops::ControlFlow;
 
-use crate::life::{FineScale, JointLife, JointWear, RevolutionWear, SettingsError};
+use crate::description::Description;
+use crate::dynamics::SINGULAR_PIVOT;
+use crate::error::RunError;
+use crate::life::{JointLife, JointWear, RevolutionWear, SettingsError, WearSource};
+use crate::simulate::{Integrator, RunWarning, TurnMeasure, TurnMeasures, TurnRunner, TurnState};
+use crate::system::System;
 use crate::wear::{Observed, Profile};
-use crate::{
-    Description, Integrator, RunError, RunWarning, SINGULAR_PIVOT, System, TurnMeasure, TurnMeasures,
-    TurnRunner, TurnState,
-};
 
 /// How revolutions are run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ impl Default for RevolutionSettings {
 }
 
 /// Revolutions of one mechanism.
-pub struct Revolutions<'a> {
+pub struct DynamicsSource<'a> {
     runner: TurnRunner<'a>,
     description: &'a Description,
     start: TurnState,
@@ -40,7 +41,7 @@ pub struct Revolutions<'a> {
     warnings: Vec<RunWarning>,
 }
 
-impl<'a> Revolutions<'a> {
+impl<'a> DynamicsSource<'a> {
     /// Starts at t = 0 with unworn joints.
     ///
     /// # Errors
@@ -107,7 +108,7 @@ impl<'a> Revolutions<'a> {
     }
 }
 
-impl FineScale for Revolutions<'_> {
+impl WearSource for DynamicsSource<'_> {
     type State = Option<TurnState>;
     type Error = RunError;
 

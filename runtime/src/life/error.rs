@@ -1,4 +1,4 @@
-//! Why a life stopped before its end, as data. In: nothing. Out: the error type.
+//! Why a life stopped before its end, as data.
 //! What was computed until then stands in the state and went to the observer.
 
 use thiserror::Error;
@@ -7,7 +7,7 @@ use super::settings::SettingsError;
 
 /// A life that cannot go on. Cycles are counted from 1; the state is that of the last whole cycle before.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum Stop<E> {
+pub enum LifeError<E> {
     /// Settings, or a state that is not of these settings.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -6,8 +6,8 @@
 //! as the residual can be met without them: near a singular position an error of 1e-15 m there would
 //! move the mechanism by far more, perhaps to another branch.
 
+use crate::evaluate::{Evaluator, LoopError};
 use crate::linear::{Cholesky, Orthogonal, largest};
-use crate::{Evaluator, LoopError};
 
 /// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
 pub const POSITION_TOLERANCE: f64 = 1e-14;

@@ -6,9 +6,13 @@
 //! journal then goes against its force, by the clearance and the penetration of a resting contact. A joint whose
 //! offset is demanded in the file stays where the file puts it.
 
-use super::{State, assemble_with, frozen};
+use super::consistent::assemble_with;
+use super::held::frozen;
+use super::state::State;
+use crate::error::{AssemblyError, SetupError};
+use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
-use crate::{AssemblyError, CONTACT_MOTION, CONTACT_WRENCH, Evaluator, SetupError};
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 
 /// Offsets [m] (or nothing, where they may be anything) that journals shall have.
 type Targets = [Option<[f64; 3]>];
@@ -29,7 +33,7 @@ const DIFFERENCE: f64 = 1e-6;
 ///
 /// # Errors
 /// As [`assemble_with`]; [`SetupError::Clearance`] if a clearance is no clearance.
-pub fn assemble_resting(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, AssemblyError> {
+pub fn assemble_static_contact(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, AssemblyError> {
     let mut state = assemble_with(evaluator, t)?;
     if evaluator.clearances().is_empty() {
         return Ok(state);
@@ -48,7 +52,7 @@ pub fn assemble_resting(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, 
             state = middle;
         }
     }
-    evaluator.touch(t, &state.q, &state.v);
+    evaluator.evaluate_contacts(t, &state.q, &state.v);
     evaluator.clearances_mut().begin();
     Ok(state)
 }
@@ -58,10 +62,10 @@ pub fn assemble_resting(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, 
 /// # Errors
 /// [`SetupError::Clearance`] for the first that is not.
 pub fn check_clearances(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Result<(), SetupError> {
-    evaluator.touch(t, &state.q, &state.v);
+    evaluator.evaluate_contacts(t, &state.q, &state.v);
     let description = evaluator.description();
     let clearances = evaluator.clearances();
-    for (index, touch) in clearances.touches().iter().enumerate() {
+    for (index, touch) in clearances.contacts().iter().enumerate() {
         let journal_radius = clearances.joints()[index].journal_radius();
         let fits = touch.clearance > 0.0 && touch.clearance < journal_radius;
         if !fits {
@@ -124,7 +128,7 @@ fn resting_offset(evaluator: &Evaluator<'_>, index: usize, force: [f64; 3]) -> [
     if size.is_nan() || size <= 0.0 {
         return [0.0; 3];
     }
-    let clearance = clearances.touches()[index].clearance;
+    let clearance = clearances.contacts()[index].clearance;
     let normal = force.map(|component| -component / size);
     let penetration = clearances.joints()[index].resting_penetration(clearance, size);
     let distance = clearances.distance(index, normal, penetration);
@@ -145,7 +149,7 @@ fn ideal_reactions(
         .filter(|joint| placeable[*joint])
         .flat_map(|joint| (0..freedoms[joint]).map(move |axis| (joint, axis)))
         .collect();
-    evaluator.touch(t, q, v);
+    evaluator.evaluate_contacts(t, q, v);
     let mut wrenches = evaluator.clearances().wrenches().to_vec();
     for (joint, wrench) in wrenches.chunks_exact_mut(CONTACT_WRENCH).enumerate() {
         if placeable[joint] {

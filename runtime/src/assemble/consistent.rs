@@ -1,0 +1,80 @@
+//! Closed loops first, then speeds that keep them closed. In: a mechanism's start values. Out: a [`State`].
+
+use super::held::wanted_and_reached;
+use super::newton::Newton;
+use super::speeds;
+use super::state::State;
+use crate::description::Description;
+use crate::error::AssemblyError;
+use crate::evaluate::Evaluator;
+use crate::system::System;
+
+/// Finds a consistent state at time `t` [s] near the mechanism's own start values.
+///
+/// # Errors
+/// If the loops cannot be closed, demanded start values contradict them, or numbers are not finite.
+pub fn assemble(
+    system: &dyn System<f64>,
+    description: &Description,
+    parameters: &[f64],
+    t: f64,
+) -> Result<State, AssemblyError> {
+    assemble_with(&mut Evaluator::new(system, description, parameters)?, t)
+}
+
+/// As [`assemble`], with an evaluator at hand.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_with(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, AssemblyError> {
+    let (guess, wish) = evaluator.start(t);
+    let (mut guess, wish) = (guess.to_vec(), wish.to_vec());
+    let description = evaluator.description();
+    for (values, names) in [(&guess, &description.coordinates), (&wish, &description.speeds)] {
+        if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+            return Err(AssemblyError::NonFinite { what: format!("start value of {}", names[i].name) });
+        }
+    }
+    evaluator.layout().normalize(&mut guess);
+    let q = close(evaluator, t, &guess, &wish)?;
+    let v = speeds::consistent(evaluator, t, &q, &wish)?;
+    Ok(State { q, v })
+}
+
+fn close(
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+    guess: &[f64],
+    wish: &[f64],
+) -> Result<Vec<f64>, AssemblyError> {
+    let held: Vec<bool> = evaluator.description().coordinates.iter().map(|c| c.held).collect();
+    let failure = match Newton::new(evaluator, t, guess, wish, &held).run() {
+        Ok(q) => return Ok(q),
+        Err(failure) => failure,
+    };
+    if held.contains(&true)
+        && let Ok(free) = Newton::new(evaluator, t, guess, wish, &vec![false; held.len()]).run()
+    {
+        let names = conflicts(evaluator, &held, guess, &free);
+        let AssemblyError::NoConvergence { residual_m, residual_rad, .. } = failure else {
+            return Err(failure);
+        };
+        if !names.is_empty() {
+            return Err(AssemblyError::HeldPositions { names, residual_m, residual_rad });
+        }
+    }
+    Err(failure)
+}
+
+/// Held coordinates that moved when nothing was held, with where they went.
+fn conflicts(evaluator: &Evaluator<'_>, held: &[bool], wanted: &[f64], reached: &[f64]) -> Vec<String> {
+    evaluator
+        .description()
+        .coordinates
+        .iter()
+        .enumerate()
+        // Far above the accuracy of assembly, far below what a user would call different.
+        .filter(|(i, _)| held[*i] && (wanted[*i] - reached[*i]).abs() > 1e-8)
+        .map(|(i, c)| wanted_and_reached(c, wanted[i], reached[i]))
+        .collect()
+}

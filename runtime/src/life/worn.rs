@@ -1,0 +1,19 @@
+//! How worn a joint is, between two cycles.
+
+use crate::wear::Profile;
+
+/// How worn a joint is.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WearState {
+    /// Clearance [m]; with feedback by profile that of the unworn joint.
+    pub clearance: f64,
+    /// Wear W [m].
+    pub wear: f64,
+    /// Sum Lambda of the mean increments [m].
+    pub exposure: f64,
+    /// Estimated error of the life by the wear steps [cycles], summed over all steps.
+    pub error: f64,
+    /// Depth by bearing angle, if it is kept.
+    pub profile: Option<Profile>,
+}

@@ -1,0 +1,89 @@
+//! Runs a schedule to its end, step by step. In: a start, a method. Out: samples. Never knows how a start is found.
+
+use super::motion::ConstrainedMotion;
+use super::sampler::{Progress, Sampler};
+use super::schedule::steps_between;
+use super::settings::Integrator;
+use super::{events, implicit};
+use crate::error::RunError;
+use crate::integrate::{Dopri5, Rk4};
+
+/// Runs a schedule to its end with a method; `state` is then where it got.
+pub(super) fn run(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    state: &mut [f64],
+    integrator: Integrator,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    match integrator {
+        Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, progress),
+        Integrator::Dopri5 { tolerance, max_step } => {
+            let longest = max_step.unwrap_or(sampler.duration() / 10.0);
+            run_dopri5(motion, sampler, state, (tolerance, longest), progress)
+        }
+        Integrator::GeneralizedAlpha { step, rho } => {
+            implicit::run_generalized_alpha(motion, sampler, state, (step, rho), progress)
+        }
+    }
+}
+
+/// Equal steps no longer than asked for, that land on every sample.
+fn run_rk4(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    state: &mut [f64],
+    longest: f64,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    let mut method = Rk4::new(state.len());
+    let mut t = sampler.begin();
+    sampler.sample_at_start(motion, state)?;
+    while let Some(target) = sampler.next_stop(t) {
+        let (from, steps) = (t, steps_between(t, target, longest));
+        for i in 1..=steps {
+            let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
+            method.step(motion, t, state, next - t)?;
+            t = next;
+            sampler.note_loop_error(motion.loop_error());
+            sampler.step_done(motion, t, state)?;
+            if sampler.is_due(t) {
+                sampler.sample(motion, t, state)?;
+            }
+            sampler.report(t, progress)?;
+        }
+    }
+    Ok(())
+}
+
+fn run_dopri5(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler,
+    state: &mut [f64],
+    (tolerance, longest): (f64, f64),
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    let (begin, end) = (sampler.begin(), sampler.end());
+    let mut between = state.to_vec();
+    sampler.sample_at_start(motion, state)?;
+    let mut method = Dopri5::start(motion, (begin, end), state, tolerance, longest)?;
+    while method.t() < end {
+        let outcome = method.step(motion, sampler.hard_stop(method.t()));
+        sampler.statistics.rejected = method.rejected();
+        outcome?;
+        events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
+        sampler.note_loop_error(motion.loop_error());
+        while let Some(t) = sampler.due_before(method.t()) {
+            method.interpolate(t, &mut between);
+            sampler.sample(motion, t, &mut between)?;
+        }
+        sampler.step_done(motion, method.t(), method.y())?;
+        state.copy_from_slice(method.y());
+        if sampler.is_due(method.t()) {
+            between.copy_from_slice(method.y());
+            sampler.sample(motion, method.t(), &mut between)?;
+        }
+        sampler.report(method.t(), progress)?;
+    }
+    Ok(())
+}
