@@ -1,7 +1,7 @@
 //! Relative motion of two links across a joint, seen from one of them.
 //! In: link kinematics. Out: [`Across`]. Never knows which rows a closure keeps.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::{Axis, Carrier, JointKind};
 
@@ -11,28 +11,28 @@ use super::kinematics::{Acceleration, Poses, Twist, carried_twist, point_acceler
 use super::linkage::{Freedom, LinkIndex, Linkage};
 
 /// Kinematics of all links at one instant.
-pub struct Motion {
+pub struct Motion<'g> {
     /// Poses.
-    pub poses: Poses,
+    pub poses: Poses<'g>,
     /// Twists.
-    pub twists: Vec<Twist>,
+    pub twists: Vec<Twist<'g>>,
     /// Accelerations, gravity included (the ground accelerates by minus gravity).
-    pub accelerations: Vec<Acceleration>,
+    pub accelerations: Vec<Acceleration<'g>>,
     /// Acceleration of the ground [m/s²].
-    pub ground: Vec3,
+    pub ground: Vec3<'g>,
     /// Modal coordinates, speeds and accelerations of every link; empty unless it is a floating frame.
-    pub modes: Vec<ModalState>,
+    pub modes: Vec<ModalState<'g>>,
 }
 
 /// Modal coordinates of a flexible body with their derivatives.
 #[derive(Clone, Debug, Default)]
-pub struct ModalState {
+pub struct ModalState<'g> {
     /// Coordinates.
-    pub q: Vec<ExprId>,
+    pub q: Vec<Expr<'g>>,
     /// Speeds.
-    pub v: Vec<ExprId>,
+    pub v: Vec<Expr<'g>>,
     /// Accelerations.
-    pub v_dot: Vec<ExprId>,
+    pub v_dot: Vec<Expr<'g>>,
 }
 
 /// The two links of a joint and which of them lends its frame.
@@ -100,34 +100,40 @@ pub enum Place {
 }
 
 /// Relative motion, all in the frame of [`Sides::beside`].
-pub struct Across {
+pub struct Across<'g> {
     /// Takes components in the parent's frame to the common frame.
-    pub from_parent: Mat3,
+    pub from_parent: Mat3<'g>,
     /// Takes components in the child's frame to the common frame.
-    pub from_child: Mat3,
+    pub from_child: Mat3<'g>,
     /// Child's joint point from the parent's [m].
-    pub distance: Vec3,
+    pub distance: Vec3<'g>,
     /// The chosen place as a point of the child, in its frame [m].
-    pub child_point: Vec3,
+    pub child_point: Vec3<'g>,
     /// The chosen place as a point of the parent, in its frame [m].
-    pub parent_point: Vec3,
+    pub parent_point: Vec3<'g>,
     /// Angular velocity of the child relative to the parent.
-    pub omega: Vec3,
+    pub omega: Vec3<'g>,
     /// Velocity of the child at the chosen place relative to the parent there.
-    pub slide: Vec3,
+    pub slide: Vec3<'g>,
     /// Angular velocity of the parent.
-    pub parent_omega: Vec3,
+    pub parent_omega: Vec3<'g>,
     /// Angular velocity of the child.
-    pub child_omega: Vec3,
+    pub child_omega: Vec3<'g>,
     /// Angular acceleration of the child minus that of the parent.
-    pub alpha: Vec3,
+    pub alpha: Vec3<'g>,
     /// Acceleration of the child at the chosen place minus that of the parent there.
-    pub acceleration: Vec3,
+    pub acceleration: Vec3<'g>,
 }
 
-impl Across {
+impl<'g> Across<'g> {
     /// Computes everything for the joint between two links.
-    pub fn new(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, sides: Sides, place: Place) -> Self {
+    pub fn new(
+        g: &'g Scope,
+        geometry: &Geometry<'g>,
+        motion: &Motion<'g>,
+        sides: Sides,
+        place: Place,
+    ) -> Self {
         let linkage = geometry.linkage;
         let at = geometry.mechanism.joint(sides.joint).at;
         let mut child_point = geometry.local(g, sides.child, at);
@@ -171,37 +177,37 @@ impl Across {
     }
 
     /// Constant axis of the parent in the common frame.
-    pub fn parent_axis(&self, g: &Scope, axes: &JointAxes, j: usize) -> Vec3 {
+    pub fn parent_axis(&self, g: &'g Scope, axes: &JointAxes, j: usize) -> Vec3<'g> {
         let axis = g.vector(axes.parent.axis(j));
         g.mul_vec3(self.from_parent, axis)
     }
 
     /// Constant axis of the child in the common frame.
-    pub fn child_axis(&self, g: &Scope, axes: &JointAxes, j: usize) -> Vec3 {
+    pub fn child_axis(&self, g: &'g Scope, axes: &JointAxes, j: usize) -> Vec3<'g> {
         let axis = g.vector(axes.child.axis(j));
         g.mul_vec3(self.from_child, axis)
     }
 
     /// Rotation of the child relative to the parent in joint axes: identity when all coordinates are zero.
-    pub fn rotation(&self, g: &Scope, axes: &JointAxes) -> Mat3 {
+    pub fn rotation(&self, g: &'g Scope, axes: &JointAxes) -> Mat3<'g> {
         let parent = [0, 1, 2].map(|j| self.parent_axis(g, axes, j));
         let child = [0, 1, 2].map(|j| self.child_axis(g, axes, j));
-        core::array::from_fn(|i| core::array::from_fn(|j| g.dot3(parent[i], child[j])))
+        Mat3::from_fn(|i, j| parent[i].dot(child[j]))
     }
 }
 
 /// From the parent's joint point to the child's, in the common frame, along the tree from the common
 /// ancestor, so that motion that both share cancels.
-fn distance(
-    g: &Scope,
+fn distance<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    poses: &Poses,
+    poses: &Poses<'g>,
     sides: Sides,
-    child_point: Vec3,
-    parent_point: Vec3,
-) -> Vec3 {
+    child_point: Vec3<'g>,
+    parent_point: Vec3<'g>,
+) -> Vec3<'g> {
     let top = linkage.common_ancestor(sides.parent, sides.child);
-    let place = |link: LinkIndex, point: Vec3| {
+    let place = |link: LinkIndex, point: Vec3<'g>| {
         let (mut at, mut place) = (link, point);
         while at != top {
             let inner = at.expect("the ancestor lies on the path to the ground");
@@ -218,9 +224,9 @@ fn distance(
     g.mul_vec3(rotation, apart)
 }
 
-impl Motion {
+impl<'g> Motion<'g> {
     /// Angular velocity of a link and velocity of a point of it, turned by `rotation`.
-    fn velocity(&self, g: &Scope, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+    fn velocity(&self, g: &'g Scope, link: LinkIndex, point: Vec3<'g>, rotation: Mat3<'g>) -> [Vec3<'g>; 2] {
         match link {
             None => [g.zero_vector(); 2],
             Some(at) => {
@@ -231,7 +237,13 @@ impl Motion {
     }
 
     /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
-    fn acceleration(&self, g: &Scope, link: LinkIndex, point: Vec3, rotation: Mat3) -> [Vec3; 2] {
+    fn acceleration(
+        &self,
+        g: &'g Scope,
+        link: LinkIndex,
+        point: Vec3<'g>,
+        rotation: Mat3<'g>,
+    ) -> [Vec3<'g>; 2] {
         let (alpha, origin) = match link {
             None => (g.zero_vector(), self.ground),
             Some(at) => {
@@ -243,13 +255,13 @@ impl Motion {
     }
 
     /// Velocity in W of a point of a link.
-    pub fn point_velocity_w(&self, g: &Scope, link: LinkIndex, point: Vec3) -> Vec3 {
+    pub fn point_velocity_w(&self, g: &'g Scope, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
         let rotation = self.poses.world_of(g, link).rotation;
         self.velocity(g, link, point, rotation)[1]
     }
 
     /// Angular velocity of a ball link relative to its parent, in the ball link's frame.
-    pub fn relative_omega(&self, g: &Scope, linkage: &Linkage, at: usize) -> Vec3 {
+    pub fn relative_omega(&self, g: &'g Scope, linkage: &Linkage, at: usize) -> Vec3<'g> {
         let parent = linkage.links[at].parent.map(|p| self.twists[p]);
         let carried = carried_twist(g, parent, &self.poses.relative[at]);
         g.sub3(self.twists[at].omega, carried.omega)
@@ -258,7 +270,7 @@ impl Motion {
 
 /// Axes of a joint in the frames of its links; `in_child` says which frame should see simple numbers.
 #[must_use]
-pub fn joint_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
+pub fn joint_axes<'g>(geometry: &Geometry<'g>, sides: Sides) -> JointAxes {
     let linkage = geometry.linkage;
     let frame = |link: LinkIndex| link.map_or(Frame::IDENTITY, |at| linkage.links[at].frame);
     let (parent, child) = (frame(sides.parent), frame(sides.child));
@@ -288,7 +300,7 @@ pub fn joint_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
 
 /// Axes of a body that two branches reach: its copy's frame, and that frame seen from its own branch.
 #[must_use]
-pub fn weld_axes(geometry: &Geometry<'_>, sides: Sides) -> JointAxes {
+pub fn weld_axes<'g>(geometry: &Geometry<'g>, sides: Sides) -> JointAxes {
     let frame = |link: LinkIndex| link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
     let (own, copy) = (frame(sides.parent), frame(sides.child));
     JointAxes { parent: own.transposed().times(&copy).snapped(), child: Frame::IDENTITY }
@@ -310,7 +322,7 @@ fn both(axis: Axis, parent: &Frame, child: &Frame, in_child: bool) -> (Frame, Fr
 
 /// The link of a joint's parent or child body, as the joint sees it (through its copy for closure `log`).
 #[must_use]
-pub fn sides_of(geometry: &Geometry<'_>, joint: JointId) -> Sides {
+pub fn sides_of<'g>(geometry: &Geometry<'g>, joint: JointId) -> Sides {
     let linkage = geometry.linkage;
     let data = geometry.mechanism.joint(joint);
     let turns = data.kind.holds_orientation();

@@ -6,7 +6,7 @@
 //! the joint screws moved to the closure point, read from the other side. `bias` is the row's
 //! acceleration for zero `v̇` of the free speeds, by the velocity-product recursion.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::{Closure, JointKind};
 
 use super::across::{Across, Motion, Place, Sides, joint_axes};
@@ -18,33 +18,33 @@ use super::log_closure::log_rows;
 use super::wrench::Wrench;
 
 /// One scalar constraint of a cut.
-pub struct Row {
+pub struct Row<'g> {
     /// What it forbids, for people.
     pub meaning: String,
     /// Residual in rad (else in m).
     pub angular: bool,
     /// Position residual.
-    pub residual: ExprId,
+    pub residual: Expr<'g>,
     /// Moment of the unit wrench on the child about its joint point, common frame.
-    pub moment: Vec3,
+    pub moment: Vec3<'g>,
     /// Force of the unit wrench on the child, common frame.
-    pub force: Vec3,
+    pub force: Vec3<'g>,
     /// Velocity residual.
-    pub rate: ExprId,
+    pub rate: Expr<'g>,
     /// Acceleration residual for the accelerations that `Motion` was built with.
-    pub bias: ExprId,
+    pub bias: Expr<'g>,
 }
 
 /// All rows of one cut with the relative motion they were made from.
-pub struct CutRows {
+pub struct CutRows<'g> {
     /// The cut.
     pub cut: Cut,
     /// Its sides.
     pub sides: Sides,
     /// Relative motion.
-    pub across: Across,
+    pub across: Across<'g>,
     /// Rows, in a fixed order: rotation first for `log`, translation first for `joint`.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Row<'g>>,
 }
 
 /// Number of rows that a cut joint takes away, and whether each is angular, without deriving them.
@@ -60,11 +60,22 @@ pub fn row_count(kind: &JointKind, closure: Closure) -> usize {
 }
 
 /// Derives the rows of every cut. With `exact` the Jacobian is exact off the closed positions too.
-pub fn cut_rows(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, exact: bool) -> Vec<CutRows> {
+pub fn cut_rows<'g>(
+    g: &'g Scope,
+    geometry: &Geometry<'g>,
+    motion: &Motion<'g>,
+    exact: bool,
+) -> Vec<CutRows<'g>> {
     geometry.linkage.cuts.iter().map(|cut| rows_of(g, geometry, motion, *cut, exact)).collect()
 }
 
-fn rows_of(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, exact: bool) -> CutRows {
+fn rows_of<'g>(
+    g: &'g Scope,
+    geometry: &Geometry<'g>,
+    motion: &Motion<'g>,
+    cut: Cut,
+    exact: bool,
+) -> CutRows<'g> {
     let name = &geometry.mechanism.joint(cut.joint).name;
     g.begin_section(format!("loop closure at {name}"));
     if cut.closure == Closure::Log {
@@ -95,15 +106,21 @@ fn rows_of(g: &Scope, geometry: &Geometry<'_>, motion: &Motion, cut: Cut, exact:
     CutRows { cut, sides, across, rows }
 }
 
-impl CutRows {
+impl<'g> CutRows<'g> {
     /// Wrenches on the child link and on the parent link, in their own frames about their origins, of a
     /// wrench (moment, force) on the child at the joint point given in the common frame.
-    pub fn link_wrenches(&self, g: &Scope, moment: Vec3, force: Vec3) -> [Wrench; 2] {
+    pub fn link_wrenches(&self, g: &'g Scope, moment: Vec3<'g>, force: Vec3<'g>) -> [Wrench<'g>; 2] {
         link_wrenches(g, &self.across, moment, force)
     }
 
     /// Jacobian of one row by all speeds.
-    pub fn jacobian(&self, g: &Scope, linkage: &Linkage, poses: &Poses, row: &Row) -> Vec<ExprId> {
+    pub fn jacobian(
+        &self,
+        g: &'g Scope,
+        linkage: &Linkage,
+        poses: &Poses<'g>,
+        row: &Row<'g>,
+    ) -> Vec<Expr<'g>> {
         let zero = g.zero();
         let mut columns = vec![zero; linkage.speeds()];
         let [child, parent] = self.link_wrenches(g, row.moment, row.force);
@@ -122,8 +139,13 @@ impl CutRows {
 }
 
 /// See [`CutRows::link_wrenches`].
-pub fn link_wrenches(g: &Scope, across: &Across, moment: Vec3, force: Vec3) -> [Wrench; 2] {
-    let side = |rotation: Mat3, point: Vec3| {
+pub fn link_wrenches<'g>(
+    g: &'g Scope,
+    across: &Across<'g>,
+    moment: Vec3<'g>,
+    force: Vec3<'g>,
+) -> [Wrench<'g>; 2] {
+    let side = |rotation: Mat3<'g>, point: Vec3<'g>| {
         let force = g.transpose_mul_vec3(rotation, force);
         let moment = g.transpose_mul_vec3(rotation, moment);
         let lever = g.cross3(point, force);
@@ -134,16 +156,22 @@ pub fn link_wrenches(g: &Scope, across: &Across, moment: Vec3, force: Vec3) -> [
     [child, parent.negated(g)]
 }
 
-struct Carrier<'a> {
+struct Carrier<'a, 'g> {
     linkage: &'a Linkage,
-    poses: &'a Poses,
-    columns: &'a mut [ExprId],
+    poses: &'a Poses<'g>,
+    columns: &'a mut [Expr<'g>],
 }
 
-impl Carrier<'_> {
+impl<'g> Carrier<'_, 'g> {
     /// Carries a wrench inwards to `top` (exclusive), adding to the columns on the way. Returns the wrench on
     /// `top` and whether a ball or free link kept something back.
-    fn carry(&mut self, g: &Scope, wrench: Wrench, from: LinkIndex, top: LinkIndex) -> (Wrench, bool) {
+    fn carry(
+        &mut self,
+        g: &'g Scope,
+        wrench: Wrench<'g>,
+        from: LinkIndex,
+        top: LinkIndex,
+    ) -> (Wrench<'g>, bool) {
         use super::linkage::Freedom;
         let (mut carried, mut at, mut lost) = (wrench, from, false);
         while at != top {

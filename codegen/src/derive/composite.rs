@@ -4,7 +4,7 @@
 //! With the absolute angular velocity as speed of a ball link, turning the parent does not turn the
 //! child: a composite then passes only its mass inwards, and its own block of M stays constant.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::deformation::ModalMass;
 use super::inertia::{LinkMass, inertia_of_second_moment, rotated};
@@ -15,24 +15,29 @@ use super::wrench::Wrench;
 
 /// Composite rigid body: everything outboard of a link's joint, frozen.
 #[derive(Clone, Copy, Debug)]
-struct Composite {
-    mass: ExprId,
-    first: Vec3,
-    inertia: Mat3,
+struct Composite<'g> {
+    mass: Expr<'g>,
+    first: Vec3<'g>,
+    inertia: Mat3<'g>,
 }
 
-impl Composite {
-    fn parts(&self) -> (ExprId, Vec3, Mat3) {
+impl<'g> Composite<'g> {
+    fn parts(&self) -> (Expr<'g>, Vec3<'g>, Mat3<'g>) {
         (self.mass, self.first, self.inertia)
     }
 }
 
 /// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
-pub fn mass_matrix(g: &Scope, linkage: &Linkage, poses: &Poses, masses: &[LinkMass]) -> Vec<Vec<ExprId>> {
+pub fn mass_matrix<'g>(
+    g: &'g Scope,
+    linkage: &Linkage,
+    poses: &Poses<'g>,
+    masses: &[LinkMass<'g>],
+) -> Vec<Vec<Expr<'g>>> {
     let zero = g.zero();
     let n = linkage.speeds();
     let mut columns = Columns { linkage, poses, matrix: vec![vec![zero; n]; n] };
-    let mut composites: Vec<Composite> = masses
+    let mut composites: Vec<Composite<'g>> = masses
         .iter()
         .map(|own| Composite {
             mass: own.frozen.mass,
@@ -40,7 +45,7 @@ pub fn mass_matrix(g: &Scope, linkage: &Linkage, poses: &Poses, masses: &[LinkMa
             inertia: inertia_of_second_moment(g, own.frozen.second),
         })
         .collect();
-    let mut modal: Vec<Option<ModalColumns>> =
+    let mut modal: Vec<Option<ModalColumns<'g>>> =
         masses.iter().map(|own| own.modal.as_ref().map(|modal| ModalColumns::new(g, modal))).collect();
     for at in (0..linkage.links.len()).rev() {
         let link = &linkage.links[at];
@@ -69,24 +74,24 @@ pub fn mass_matrix(g: &Scope, linkage: &Linkage, poses: &Poses, masses: &[LinkMa
 }
 
 /// Momentum per unit of every modal speed of one flexible body.
-struct ModalColumns {
+struct ModalColumns<'g> {
     /// Of the body and what its nodes carry, about its origin, in its frame.
-    wrenches: Vec<Wrench>,
+    wrenches: Vec<Wrench<'g>>,
     /// Block of M.
-    block: Vec<Vec<ExprId>>,
+    block: Vec<Vec<Expr<'g>>>,
 }
 
-impl ModalColumns {
-    fn new(g: &Scope, own: &ModalMass) -> Self {
+impl<'g> ModalColumns<'g> {
+    fn new(g: &'g Scope, own: &ModalMass<'g>) -> Self {
         Self {
-            wrenches: (0..own.matrix.len()).map(|k| own.column(g, k)).collect(),
+            wrenches: (0..own.matrix.len()).map(|k| own.column(k)).collect(),
             block: own.matrix.iter().map(|row| row.iter().map(|x| g.constant(*x)).collect()).collect(),
         }
     }
 
     /// Adds what hangs on a node, which the modes move along.
-    fn carry(&mut self, g: &Scope, node: &NodePose, pose: &Pose, hanging: &Composite) {
-        let screws: Vec<[Vec3; 2]> =
+    fn carry(&mut self, g: &'g Scope, node: &NodePose<'g>, pose: &Pose<'g>, hanging: &Composite<'g>) {
+        let screws: Vec<[Vec3<'g>; 2]> =
             (0..self.wrenches.len()).map(|k| node.screw(g, k).map(|v| node.to_section(g, v))).collect();
         for (k, [turn, slide]) in screws.iter().enumerate() {
             let momentum = Wrench::momentum(g, hanging.parts(), *turn, *slide);
@@ -101,15 +106,15 @@ impl ModalColumns {
     }
 
     /// Adds that the whole body moves when its inboard node stays.
-    fn hold(&mut self, g: &Scope, node: &NodePose, whole: &Composite) {
-        let screws: Vec<[Vec3; 2]> = (0..self.wrenches.len())
+    fn hold(&mut self, g: &'g Scope, node: &NodePose<'g>, whole: &Composite<'g>) {
+        let screws: Vec<[Vec3<'g>; 2]> = (0..self.wrenches.len())
             .map(|k| {
                 let [turn, slide] = node.screw(g, k);
                 let lever = g.cross3(turn, node.place);
                 [g.neg3(turn), g.sub3(lever, slide)]
             })
             .collect();
-        let moved: Vec<Wrench> =
+        let moved: Vec<Wrench<'g>> =
             screws.iter().map(|[turn, slide]| Wrench::momentum(g, whole.parts(), *turn, *slide)).collect();
         for k in 0..screws.len() {
             for l in 0..=k {
@@ -129,7 +134,7 @@ impl ModalColumns {
         }
     }
 
-    fn fill(self, g: &Scope, columns: &mut Columns<'_>, at: usize) {
+    fn fill(self, g: &'g Scope, columns: &mut Columns<'_, 'g>, at: usize) {
         let link = &columns.linkage.links[at];
         let first = link.first_speed;
         for (k, row) in self.block.into_iter().enumerate() {
@@ -143,11 +148,11 @@ impl ModalColumns {
     }
 }
 
-fn pass_composite(g: &Scope, freedom: Freedom, pose: &Pose, own: Composite) -> Composite {
+fn pass_composite<'g>(g: &'g Scope, freedom: Freedom, pose: &Pose<'g>, own: Composite<'g>) -> Composite<'g> {
     let zero = g.zero();
     let (mass, first, inertia) = match freedom {
-        Freedom::Free => (zero, [zero; 3], [[zero; 3]; 3]),
-        Freedom::Ball => (own.mass, [zero; 3], [[zero; 3]; 3]),
+        Freedom::Free => (zero, g.zero_vector(), g.matrix([[0.0; 3]; 3])),
+        Freedom::Ball => (own.mass, g.zero_vector(), g.matrix([[0.0; 3]; 3])),
         _ => {
             let inertia = rotated(g, pose.rotation, own.inertia);
             (own.mass, g.mul_vec3(pose.rotation, own.first), inertia)
@@ -158,8 +163,7 @@ fn pass_composite(g: &Scope, freedom: Freedom, pose: &Pose, own: Composite) -> C
     // Parallel axes: (2 p.s + m p.p) 1 - (p sᵀ + s pᵀ + m p pᵀ), with u = 2 s + m p.
     let shifted = g.add3(first, weighted);
     let mut moved = inertia;
-    let pairs: Mat3 =
-        core::array::from_fn(|i| core::array::from_fn(|j| g.dot(&[(p[i], shifted[j]), (first[i], p[j])])));
+    let pairs: Mat3<'g> = Mat3::from_fn(|i, j| p[i] * shifted[j] + first[i] * p[j]);
     for i in 0..3 {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let sum = g.add(pairs[j][j], pairs[k][k]);
@@ -171,17 +175,17 @@ fn pass_composite(g: &Scope, freedom: Freedom, pose: &Pose, own: Composite) -> C
 }
 
 /// Momentum of the composite per unit of each own speed of its link.
-fn momentum_columns(g: &Scope, freedom: Freedom, own: &Composite) -> Vec<Wrench> {
-    let turn = |g: &Scope, axis: usize| {
+fn momentum_columns<'g>(g: &'g Scope, freedom: Freedom, own: &Composite<'g>) -> Vec<Wrench<'g>> {
+    let turn = |g: &'g Scope, axis: usize| {
         let mut unit = g.zero_vector();
         unit[axis] = g.one();
-        Wrench { moment: [0, 1, 2].map(|i| own.inertia[i][axis]), force: g.cross3(unit, own.first) }
+        Wrench { moment: Vec3::from_fn(|i| own.inertia[i][axis]), force: g.cross3(unit, own.first) }
     };
-    let slide = |g: &Scope, direction: Vec3| Wrench {
+    let slide = |g: &'g Scope, direction: Vec3<'g>| Wrench {
         moment: g.cross3(own.first, direction),
         force: g.scale3(own.mass, direction),
     };
-    let unit = |g: &Scope, axis: usize| {
+    let unit = |g: &'g Scope, axis: usize| {
         let mut unit = g.zero_vector();
         unit[axis] = g.one();
         unit
@@ -201,7 +205,7 @@ fn momentum_columns(g: &Scope, freedom: Freedom, own: &Composite) -> Vec<Wrench>
         }
         Freedom::Ball => (0..3).map(|axis| turn(g, axis)).collect(),
         Freedom::Free => {
-            let mut columns: Vec<Wrench> = (0..3).map(|axis| turn(g, axis)).collect();
+            let mut columns: Vec<Wrench<'g>> = (0..3).map(|axis| turn(g, axis)).collect();
             for axis in 0..3 {
                 let direction = unit(g, axis);
                 columns.push(slide(g, direction));
@@ -213,15 +217,15 @@ fn momentum_columns(g: &Scope, freedom: Freedom, own: &Composite) -> Vec<Wrench>
 }
 
 /// The columns of M as they fill.
-struct Columns<'a> {
+struct Columns<'a, 'g> {
     linkage: &'a Linkage,
-    poses: &'a Poses,
-    matrix: Vec<Vec<ExprId>>,
+    poses: &'a Poses<'g>,
+    matrix: Vec<Vec<Expr<'g>>>,
 }
 
-impl Columns<'_> {
+impl<'g> Columns<'_, 'g> {
     /// Fills the column of one speed of a link, down to the link and on to the ground.
-    fn fill(&mut self, g: &Scope, from: usize, column: usize, wrench: Wrench) {
+    fn fill(&mut self, g: &'g Scope, from: usize, column: usize, wrench: Wrench<'g>) {
         let link = &self.linkage.links[from];
         for (row, entry) in wrench.generalised(g, link.freedom, None).into_iter().enumerate() {
             let row = link.first_speed + row;
@@ -236,7 +240,7 @@ impl Columns<'_> {
     }
 
     /// Carries a momentum column from a link to the ground and reads off the entries of M.
-    fn carry(&mut self, g: &Scope, from: LinkIndex, column: usize, wrench: Wrench) {
+    fn carry(&mut self, g: &'g Scope, from: LinkIndex, column: usize, wrench: Wrench<'g>) {
         let mut carried = wrench;
         let mut at = from;
         while let Some(index) = at {

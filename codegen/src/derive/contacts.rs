@@ -6,7 +6,7 @@
 //! are coordinates of the joint, so the generalised force of a contact wrench on the journal (its opposite acts on
 //! the bearing at the same place) is the wrench itself: J_rel of [CS (8)] is a selection.
 
-use crate::expr::{ExprId, Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::JointKind;
 
@@ -17,13 +17,13 @@ use super::wrench::Wrench;
 
 /// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.
 #[derive(Clone, Copy, Debug)]
-pub struct ContactWrench {
+pub struct ContactWrench<'g> {
     /// The joint.
     pub joint: JointId,
     /// [N].
-    pub force: Vec3,
+    pub force: Vec3<'g>,
     /// [N m].
-    pub moment: Vec3,
+    pub moment: Vec3<'g>,
 }
 
 /// Coordinates of a joint that are its offset.
@@ -36,7 +36,7 @@ fn offsets(kind: &JointKind) -> &'static [usize] {
 }
 
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
-pub fn contact_motion(g: &Scope, state: &JointStates<'_>, joint: JointId) -> Vec<ExprId> {
+pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec<Expr<'g>> {
     let linkage = state.geometry.linkage;
     let data = state.geometry.mechanism.joint(joint);
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
@@ -60,7 +60,7 @@ pub fn contact_motion(g: &Scope, state: &JointStates<'_>, joint: JointId) -> Vec
         }
     } else {
         let across = state.across(g, joint);
-        let axes = joint_axes(state.geometry, sides_of(state.geometry, joint));
+        let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
         let journal = matches!(data.kind, JointKind::Journal { .. });
         for j in 0..3 {
             let axis = across.parent_axis(g, &axes, j);
@@ -83,13 +83,18 @@ pub fn contact_motion(g: &Scope, state: &JointStates<'_>, joint: JointId) -> Vec
 }
 
 /// Adds what a contact wrench does.
-pub fn contact_forces(g: &Scope, loads: &mut Loads, state: &JointStates<'_>, contact: &ContactWrench) {
+pub fn contact_forces<'g>(
+    g: &'g Scope,
+    loads: &mut Loads<'g>,
+    state: &JointStates<'g>,
+    contact: &ContactWrench<'g>,
+) {
     let linkage = state.geometry.linkage;
     let joint = contact.joint;
     let kind = &state.geometry.mechanism.joint(joint).kind;
     if linkage.link_of_joint[joint.index()].is_none() {
         let across = state.across(g, joint);
-        let axes = joint_axes(state.geometry, sides_of(state.geometry, joint));
+        let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
         let journal = matches!(kind, JointKind::Journal { .. });
         let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
         for j in 0..3 {

@@ -11,7 +11,7 @@
 //!   modal force = Gamma_k . a_O + tr(spin D_k) + 2 omega . sum q'_l axial*(N_lk) + sum M_kl q''_l
 //! where `axial*(D) = ∫ r x phi dm`.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::ModalData;
 
 use super::across::ModalState;
@@ -21,11 +21,11 @@ use super::wrench::Wrench;
 
 /// What the modes of one body feel, for given modal coordinates.
 #[derive(Clone, Debug)]
-pub struct ModalMass {
+pub struct ModalMass<'g> {
     /// `Gamma_k(q)`, floating frame.
-    pub gamma: Vec<Vec3>,
+    pub gamma: Vec<Vec3<'g>>,
     /// `D_k(q)`, floating frame.
-    pub moment: Vec<Mat3>,
+    pub moment: Vec<Mat3<'g>>,
     /// `Gamma_kl`; empty without second order.
     pub gamma2: Vec<Vec<[f64; 3]>>,
     /// `∫ rbar chi_klᵀ dm`; empty without second order.
@@ -45,44 +45,19 @@ fn axial_of_numbers(m: [[f64; 3]; 3]) -> [f64; 3] {
 }
 
 /// `∫ r x phi dm` of `∫ r phiᵀ dm`.
-pub fn axial(g: &Scope, m: Mat3) -> Vec3 {
-    core::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        g.sub(m[j][k], m[k][j])
-    })
+fn axial<'g>(m: Mat3<'g>) -> Vec3<'g> {
+    m.transpose().axial()
 }
 
-fn trace_of_product(g: &Scope, a: Mat3, b: Mat3) -> ExprId {
-    let mut pairs = Vec::with_capacity(9);
-    for i in 0..3 {
-        for j in 0..3 {
-            pairs.push((a[i][j], b[j][i]));
-        }
-    }
-    g.dot(&pairs)
-}
-
-/// `sum weight_k matrix_k` of constant matrices.
-fn weighted(g: &Scope, matrices: &[[[f64; 3]; 3]], weights: &[ExprId]) -> Mat3 {
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            let terms: Vec<(ExprId, ExprId)> =
-                matrices.iter().zip(weights).map(|(m, w)| (g.constant(m[i][j]), *w)).collect();
-            g.dot(&terms)
-        })
-    })
-}
-
-fn weighted_vectors(g: &Scope, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
-    core::array::from_fn(|i| {
-        let terms: Vec<(ExprId, ExprId)> =
-            vectors.iter().zip(weights).map(|(v, w)| (g.constant(v[i]), *w)).collect();
-        g.dot(&terms)
-    })
+/// `tr(a b)`.
+fn trace_of_product<'g>(a: Mat3<'g>, b: Mat3<'g>) -> Expr<'g> {
+    let columns = b.transpose();
+    let terms = a.into_iter().zip(columns).flat_map(|(row, column)| row.into_iter().zip(column));
+    a[0][0].scope().sum(terms.map(|(x, y)| x * y))
 }
 
 /// Mass properties of the deformed body and what its modes feel.
-pub fn deformed(g: &Scope, data: &ModalData, q: &[ExprId]) -> (MassProperties, ModalMass) {
+pub fn deformed<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>]) -> (MassProperties<'g>, ModalMass<'g>) {
     let n = q.len();
     let second = data.second_order.as_ref();
     let (gamma2, moment2) =
@@ -99,14 +74,14 @@ pub fn deformed(g: &Scope, data: &ModalData, q: &[ExprId]) -> (MassProperties, M
     let properties = mass_properties(g, data, &own, q);
     for k in 0..n {
         let column: Vec<[[f64; 3]; 3]> = (0..n).map(|l| transposed(l, k)).collect();
-        let linear = weighted(g, &column, q);
+        let linear = g.weighted_matrices(&column, q);
         own.moment[k] = g.add_mat3(own.moment[k], linear);
         if let Some(row) = own.moment2.get(k).cloned() {
-            let bent = weighted(g, &row, q);
+            let bent = g.weighted_matrices(&row, q);
             own.moment[k] = g.add_mat3(own.moment[k], bent);
         }
         if let Some(row) = own.gamma2.get(k).cloned() {
-            let bent = weighted_vectors(g, &row, q);
+            let bent = g.weighted_vectors(&row, q);
             own.gamma[k] = g.add3(own.gamma[k], bent);
         }
     }
@@ -114,10 +89,15 @@ pub fn deformed(g: &Scope, data: &ModalData, q: &[ExprId]) -> (MassProperties, M
 }
 
 /// m, s(q), P(q).
-fn mass_properties(g: &Scope, data: &ModalData, own: &ModalMass, q: &[ExprId]) -> MassProperties {
+fn mass_properties<'g>(
+    g: &'g Scope,
+    data: &ModalData,
+    own: &ModalMass<'g>,
+    q: &[Expr<'g>],
+) -> MassProperties<'g> {
     let n = q.len();
     let rest = g.vector(data.first_moment);
-    let linear = weighted_vectors(g, &data.gamma, q);
+    let linear = g.weighted_vectors(&data.gamma, q);
     let mut first = g.add3(rest, linear);
     let both: Vec<[[f64; 3]; 3]> = data
         .moment
@@ -125,7 +105,7 @@ fn mass_properties(g: &Scope, data: &ModalData, own: &ModalMass, q: &[ExprId]) -
         .map(|c| core::array::from_fn(|i| core::array::from_fn(|j| c[i][j] + c[j][i])))
         .collect();
     let rest = g.matrix(data.second_moment);
-    let linear = weighted(g, &both, q);
+    let linear = g.weighted_matrices(&both, q);
     let mut second = g.add_mat3(rest, linear);
     for k in 0..n {
         for l in k..n {
@@ -139,27 +119,23 @@ fn mass_properties(g: &Scope, data: &ModalData, own: &ModalMass, q: &[ExprId]) -
                 })
             });
             let product = g.mul(q[k], q[l]);
-            let term = weighted(g, &[coefficient], &[product]);
+            let term = g.weighted_matrices(&[coefficient], &[product]);
             second = g.add_mat3(second, term);
             if let Some(row) = own.gamma2.get(k) {
-                let term = weighted_vectors(g, &[row[l].map(|x| factor * x)], &[product]);
+                let term = g.weighted_vectors(&[row[l].map(|x| factor * x)], &[product]);
                 first = g.add3(first, term);
             }
         }
     }
     // One triangle, mirrored, so that P is symmetric to the bit.
     let upper = second;
-    for (i, row) in second.iter_mut().enumerate() {
-        for (j, entry) in row.iter_mut().enumerate().take(i) {
-            *entry = upper[j][i];
-        }
-    }
+    let second = Mat3::from_fn(|i, j| upper[i.min(j)][i.max(j)]);
     MassProperties { mass: g.constant(data.mass), first, second }
 }
 
-impl ModalMass {
+impl<'g> ModalMass<'g> {
     /// Inertial wrench about the origin of the body's deformation, in its frame.
-    pub fn wrench(&self, g: &Scope, twist: &Twist, modes: &ModalState) -> Wrench {
+    pub fn wrench(&self, g: &'g Scope, twist: &Twist<'g>, modes: &ModalState<'g>) -> Wrench<'g> {
         let (n, two) = (modes.v.len(), g.constant(2.0));
         let (mut drift, mut force) = (g.zero_vector(), g.zero_vector());
         let mut rate = g.matrix([[0.0; 3]; 3]);
@@ -169,17 +145,17 @@ impl ModalMass {
             drift = g.add3(drift, moved);
             let pushed = g.scale3(modes.v_dot[k], self.gamma[k]);
             force = g.add3(force, pushed);
-            let turning = self.moment[k].map(|row| g.scale3(modes.v[k], row));
+            let turning = modes.v[k] * self.moment[k];
             rate = g.add_mat3(rate, turning);
-            let axial = axial(g, self.moment[k]);
+            let axial = axial(self.moment[k]);
             let spun = g.scale3(modes.v_dot[k], axial);
             moment = g.add3(moment, spun);
             if !self.gamma2.is_empty() {
-                let bent = weighted_vectors(g, &self.gamma2[k], &modes.v);
+                let bent = g.weighted_vectors(&self.gamma2[k], &modes.v);
                 let bent = g.scale3(modes.v[k], bent);
                 force = g.add3(force, bent);
                 let row: Vec<[f64; 3]> = self.moment2[k].iter().map(|m| axial_of_numbers(*m)).collect();
-                let bent = weighted_vectors(g, &row, &modes.v);
+                let bent = g.weighted_vectors(&row, &modes.v);
                 let bent = g.scale3(modes.v[k], bent);
                 moment = g.add3(moment, bent);
             }
@@ -200,19 +176,19 @@ impl ModalMass {
     /// Inertial force of every mode.
     pub fn modal_forces(
         &self,
-        g: &Scope,
-        twist: &Twist,
-        acceleration: &Acceleration,
-        modes: &ModalState,
-    ) -> Vec<ExprId> {
+        g: &'g Scope,
+        twist: &Twist<'g>,
+        acceleration: &Acceleration<'g>,
+        modes: &ModalState<'g>,
+    ) -> Vec<Expr<'g>> {
         let n = modes.v.len();
         let two = g.constant(2.0);
         (0..n)
             .map(|k| {
                 let carried = g.dot3(self.gamma[k], acceleration.origin);
-                let turned = trace_of_product(g, acceleration.spin, self.moment[k]);
+                let turned = trace_of_product(acceleration.spin, self.moment[k]);
                 let row: Vec<[f64; 3]> = (0..n).map(|l| self.gyroscopic[l][k]).collect();
-                let gyroscopic = weighted_vectors(g, &row, &modes.v);
+                let gyroscopic = g.weighted_vectors(&row, &modes.v);
                 let half = g.dot3(twist.omega, gyroscopic);
                 let coriolis = g.mul(two, half);
                 let own = self.own(g, k, &modes.v_dot);
@@ -224,23 +200,23 @@ impl ModalMass {
     }
 
     /// `sum_l M_kl x_l`.
-    fn own(&self, g: &Scope, k: usize, x: &[ExprId]) -> ExprId {
-        let terms: Vec<(ExprId, ExprId)> =
+    fn own(&self, g: &'g Scope, k: usize, x: &[Expr<'g>]) -> Expr<'g> {
+        let terms: Vec<(Expr<'g>, Expr<'g>)> =
             self.matrix[k].iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
         g.dot(&terms)
     }
 
     /// Momentum of the body per unit of modal speed `k`.
-    pub fn column(&self, g: &Scope, k: usize) -> Wrench {
-        Wrench { moment: axial(g, self.moment[k]), force: self.gamma[k] }
+    pub fn column(&self, k: usize) -> Wrench<'g> {
+        Wrench { moment: axial(self.moment[k]), force: self.gamma[k] }
     }
 
     /// Twice the kinetic energy of deformation: what modal speeds add to that of the frozen body [J].
-    pub fn double_energy(&self, g: &Scope, twist: &Twist, v: &[ExprId]) -> ExprId {
+    pub fn double_energy(&self, g: &'g Scope, twist: &Twist<'g>, v: &[Expr<'g>]) -> Expr<'g> {
         let two = g.constant(2.0);
         let mut sum = g.zero();
         for k in 0..v.len() {
-            let momentum = self.column(g, k).power(g, twist.omega, twist.origin);
+            let momentum = self.column(k).power(g, twist.omega, twist.origin);
             let mixed = g.mul(two, momentum);
             let own = self.own(g, k, v);
             let both = g.add(mixed, own);

@@ -7,7 +7,7 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 
 use super::across::Motion;
 use super::closure::CutRows;
@@ -20,7 +20,7 @@ use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
 /// Inertial wrench of a link about its origin, in its frame.
-fn inertial_wrench(g: &Scope, motion: &Motion, masses: &[LinkMass], at: usize) -> Wrench {
+fn inertial_wrench<'g>(g: &'g Scope, motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
     let frozen = frozen_wrench(g, &masses[at].frozen, &motion.accelerations[at]);
     match &masses[at].modal {
         Some(modal) => {
@@ -32,30 +32,22 @@ fn inertial_wrench(g: &Scope, motion: &Motion, masses: &[LinkMass], at: usize) -
 }
 
 /// Inertial wrench of a link frozen in its present shape.
-fn frozen_wrench(g: &Scope, own: &MassProperties, motion: &Acceleration) -> Wrench {
+fn frozen_wrench<'g>(g: &'g Scope, own: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wrench<'g> {
     let (weight, turned) = (g.scale3(own.mass, motion.origin), g.mul_vec3(motion.spin, own.first));
     let product = g.mul_mat3(motion.spin, own.second);
-    let (lever, axial) = (g.cross3(own.first, motion.origin), axial_part(g, product));
+    let (lever, axial) = (g.cross3(own.first, motion.origin), product.axial());
     Wrench { moment: g.add3(lever, axial), force: g.add3(weight, turned) }
-}
-
-/// `A_zy - A_yz`, and cyclic.
-fn axial_part(g: &Scope, m: Mat3) -> Vec3 {
-    core::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        g.sub(m[k][j], m[j][k])
-    })
 }
 
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
 /// and loads. Left side of [CS (6)].
-pub fn bias_forces(
-    g: &Scope,
+pub fn bias_forces<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    motion: &Motion,
-    masses: &[LinkMass],
-    loads: &Loads,
-) -> Vec<ExprId> {
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    loads: &Loads<'g>,
+) -> Vec<Expr<'g>> {
     let mut forces = vec![g.zero(); linkage.speeds()];
     let none = Wrench::zero(g);
     let mut carried = vec![none; linkage.links.len()];
@@ -85,13 +77,13 @@ pub fn bias_forces(
 
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
 /// link's origin, in its frame. `external` is everything but joints of the tree.
-pub fn joint_wrenches(
-    g: &Scope,
+pub fn joint_wrenches<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    motion: &Motion,
-    masses: &[LinkMass],
-    external: &[Wrench],
-) -> Vec<Wrench> {
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    external: &[Wrench<'g>],
+) -> Vec<Wrench<'g>> {
     let none = Wrench::zero(g);
     let mut totals = vec![none; linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
@@ -108,7 +100,7 @@ pub fn joint_wrenches(
 }
 
 /// Kinetic energy [J].
-pub fn kinetic_energy(g: &Scope, masses: &[LinkMass], motion: &Motion) -> ExprId {
+pub fn kinetic_energy<'g>(g: &'g Scope, masses: &[LinkMass<'g>], motion: &Motion<'g>) -> Expr<'g> {
     let half = g.constant(0.5);
     let mut sum = g.zero();
     for (at, (mass, twist)) in masses.iter().zip(&motion.twists).enumerate() {
@@ -134,23 +126,16 @@ pub fn kinetic_energy(g: &Scope, masses: &[LinkMass], motion: &Motion) -> ExprId
 }
 
 /// Potential energy of weight [J], zero at the origin of W.
-pub fn weight_energy(
-    g: &Scope,
-    linkage: &Linkage,
-    motion: &Motion,
-    masses: &[LinkMass],
-    gravity: Vec3,
-) -> ExprId {
-    let mut sum = g.zero();
-    for (at, own) in masses.iter().enumerate().take(linkage.links.len()) {
-        let (own, pose) = (&own.frozen, motion.poses.world[at]);
-        let lifted = g.scale3(own.mass, pose.offset);
-        let turned = g.mul_vec3(pose.rotation, own.first);
-        let moment = g.add3(lifted, turned);
-        let energy = g.dot3(gravity, moment);
-        sum = g.sub(sum, energy);
-    }
-    sum
+pub fn weight_energy<'g>(
+    g: &'g Scope,
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    gravity: Vec3<'g>,
+) -> Expr<'g> {
+    masses.iter().zip(&motion.poses.world).fold(g.zero(), |sum, (mass, pose)| {
+        let own = &mass.frozen;
+        sum - gravity.dot(own.mass * pose.offset + pose.rotation * own.first)
+    })
 }
 
 /// Which speeds are free and which are driven, by index among all.
@@ -163,33 +148,33 @@ pub struct Partition {
 }
 
 /// Accelerations of free speeds, multipliers of `rows`, and drive forces.
-pub struct Forward {
+pub struct Forward<'g> {
     /// Accelerations, multipliers, pivots.
-    pub solution: Solution,
+    pub solution: Solution<'g>,
     /// Generalised force of every driver.
-    pub drive: Vec<ExprId>,
+    pub drive: Vec<Expr<'g>>,
 }
 
 /// A kept row with its Jacobian by all speeds.
-pub struct KeptRow {
+pub struct KeptRow<'g> {
     /// Columns by all speeds.
-    pub jacobian: Vec<ExprId>,
+    pub jacobian: Vec<Expr<'g>>,
     /// Acceleration bias.
-    pub bias: ExprId,
+    pub bias: Expr<'g>,
     /// Position residual.
-    pub residual: ExprId,
+    pub residual: Expr<'g>,
     /// Velocity residual.
-    pub rate: ExprId,
+    pub rate: Expr<'g>,
 }
 
 /// Picks the rows that are kept, in order, with their Jacobians.
-pub fn kept_rows(
-    g: &Scope,
+pub fn kept_rows<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    motion: &Motion,
-    cuts: &[CutRows],
+    motion: &Motion<'g>,
+    cuts: &[CutRows<'g>],
     keep: &[bool],
-) -> Vec<KeptRow> {
+) -> Vec<KeptRow<'g>> {
     let mut kept = Vec::new();
     let mut index = 0;
     for cut in cuts {
@@ -205,23 +190,24 @@ pub fn kept_rows(
 }
 
 /// Forward dynamics by the structured elimination of [`solve`].
-pub fn forward(
-    g: &Scope,
+pub fn forward<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    motion: &Motion,
-    masses: &[LinkMass],
-    loads: &Loads,
-    (rows, partition): (&[KeptRow], &Partition),
-) -> Forward {
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    loads: &Loads<'g>,
+    (rows, partition): (&[KeptRow<'g>], &Partition),
+) -> Forward<'g> {
     let h = bias_forces(g, linkage, motion, masses, loads);
     g.begin_section("mass matrix by composite bodies");
     let mass = mass_matrix(g, linkage, &motion.poses, masses);
     let free = &partition.free;
-    let block: Vec<Vec<ExprId>> = free.iter().map(|i| free.iter().map(|j| mass[*i][*j]).collect()).collect();
-    let jacobian: Vec<Vec<ExprId>> =
+    let block: Vec<Vec<Expr<'g>>> =
+        free.iter().map(|i| free.iter().map(|j| mass[*i][*j]).collect()).collect();
+    let jacobian: Vec<Vec<Expr<'g>>> =
         rows.iter().map(|row| free.iter().map(|j| row.jacobian[*j]).collect()).collect();
-    let force: Vec<ExprId> = free.iter().map(|i| g.neg(h[*i])).collect();
-    let target: Vec<ExprId> = rows.iter().map(|row| g.neg(row.bias)).collect();
+    let force: Vec<Expr<'g>> = free.iter().map(|i| g.neg(h[*i])).collect();
+    let target: Vec<Expr<'g>> = rows.iter().map(|row| g.neg(row.bias)).collect();
     let solution = solve(g, &block, &jacobian, &force, &target);
     g.begin_section("drive forces");
     let drive = partition

@@ -1,7 +1,7 @@
 //! Applied forces: joint damping, springs and actuators, force elements; their energy and power.
 //! In: link motion. Out: [`Loads`]. Never knows constraints. Gravity enters with the accelerations.
 
-use crate::expr::{ExprId, Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Carrier, ForceKind, JointKind, Passive};
 
@@ -13,26 +13,26 @@ use super::linkage::{Freedom, LinkIndex};
 use super::wrench::Wrench;
 
 /// Everything that pushes, and what it does to energy.
-pub struct Loads {
+pub struct Loads<'g> {
     /// Wrench on every link from force elements and cut joints, in its frame about its origin.
-    pub external: Vec<Wrench>,
+    pub external: Vec<Wrench<'g>>,
     /// Force of tree joints along every speed, on the outboard side.
-    pub joint: Vec<ExprId>,
+    pub joint: Vec<Expr<'g>>,
     /// Reactions of ball joints' moments on their parent links.
-    pub reactions: Vec<Wrench>,
+    pub reactions: Vec<Wrench<'g>>,
     /// Moment and force of forces in cut joints on the child at its joint point, in the frame of
     /// [`super::across::Sides::beside`].
-    pub in_cuts: Vec<(JointId, Vec3, Vec3)>,
+    pub in_cuts: Vec<(JointId, Vec3<'g>, Vec3<'g>)>,
     /// Energy stored in springs [J].
-    pub potential: ExprId,
+    pub potential: Expr<'g>,
     /// Power taken out by dampers [W].
-    pub dissipated: ExprId,
+    pub dissipated: Expr<'g>,
     /// Power put in by actuators and applied forces [W].
-    pub supplied: ExprId,
+    pub supplied: Expr<'g>,
 }
 
 /// Collects all loads.
-pub fn loads(g: &Scope, state: &JointStates<'_>, contacts: &[ContactWrench]) -> Loads {
+pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrench<'g>]) -> Loads<'g> {
     let linkage = state.geometry.linkage;
     let zero = g.zero();
     let none = Wrench::zero(g);
@@ -69,9 +69,9 @@ pub fn loads(g: &Scope, state: &JointStates<'_>, contacts: &[ContactWrench]) -> 
     loads
 }
 
-impl Loads {
+impl<'g> Loads<'g> {
     /// Stiffness and damping of a flexible body: `-K_ff q_f - D_ff q_f'`, [CS (6)].
-    fn elasticity(&mut self, g: &Scope, state: &JointStates<'_>, at: usize) {
+    fn elasticity(&mut self, g: &'g Scope, state: &JointStates<'g>, at: usize) {
         let link = &state.geometry.linkage.links[at];
         let flexible = &state.geometry.mechanism.body(link.body).flexible;
         let (Some(flexible), Freedom::Flexible { .. }) = (flexible, link.freedom) else { return };
@@ -90,7 +90,7 @@ impl Loads {
         }
     }
 
-    fn joint_force(&mut self, g: &Scope, state: &JointStates<'_>, joint: JointId, passive: &Passive) {
+    fn joint_force(&mut self, g: &'g Scope, state: &JointStates<'g>, joint: JointId, passive: &Passive) {
         let kind = &state.geometry.mechanism.joint(joint).kind;
         if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) =
             (kind, passive)
@@ -137,7 +137,7 @@ impl Loads {
 
     /// `-c omega_rel` on the child, its opposite on the parent. The ball sits on a section: where a body is
     /// flexible, its slope there turns the ball, and the moment bends the body.
-    fn spherical_damping(&mut self, g: &Scope, state: &JointStates<'_>, joint: JointId, c: ExprId) {
+    fn spherical_damping(&mut self, g: &'g Scope, state: &JointStates<'g>, joint: JointId, c: Expr<'g>) {
         let linkage = state.geometry.linkage;
         let sections = Sections::new(state, joint);
         if let Some(at) = linkage.ball_of(joint) {
@@ -183,7 +183,7 @@ impl Loads {
     }
 
     /// What modes feel of a moment on a section, given in the floating frame.
-    fn bend(&mut self, g: &Scope, sections: &Sections, side: Side, moment: Vec3) {
+    fn bend(&mut self, g: &'g Scope, sections: &Sections, side: Side, moment: Vec3<'g>) {
         let Some((_, first, slopes)) = sections.of(side) else { return };
         for (k, slope) in slopes.iter().enumerate() {
             let slope = g.vector(*slope);
@@ -192,7 +192,7 @@ impl Loads {
         }
     }
 
-    fn dissipate(&mut self, g: &Scope, coefficient: ExprId, rate: Vec3) {
+    fn dissipate(&mut self, g: &'g Scope, coefficient: Expr<'g>, rate: Vec3<'g>) {
         let square = g.dot3(rate, rate);
         let power = g.mul(coefficient, square);
         self.dissipated = g.add(self.dissipated, power);
@@ -201,27 +201,27 @@ impl Loads {
     /// A wrench on the child of a joint and its opposite on the parent.
     pub(super) fn pair(
         &mut self,
-        g: &Scope,
-        state: &JointStates<'_>,
+        g: &'g Scope,
+        state: &JointStates<'g>,
         joint: JointId,
-        across: &Across,
-        moment: Vec3,
-        force: Vec3,
+        across: &Across<'g>,
+        moment: Vec3<'g>,
+        force: Vec3<'g>,
     ) {
-        let sides = sides_of(state.geometry, joint);
+        let sides = sides_of(&state.geometry, joint);
         self.in_cuts.push((joint, moment, force));
         let [child, parent] = link_wrenches(g, across, moment, force);
         self.push(g, sides.child, child);
         self.push(g, sides.parent, parent);
     }
 
-    fn push(&mut self, g: &Scope, link: LinkIndex, wrench: Wrench) {
+    fn push(&mut self, g: &'g Scope, link: LinkIndex, wrench: Wrench<'g>) {
         if let Some(at) = link {
             self.external[at] = self.external[at].plus(g, wrench);
         }
     }
 
-    fn element(&mut self, g: &Scope, state: &JointStates<'_>, kind: &ForceKind) {
+    fn element(&mut self, g: &'g Scope, state: &JointStates<'g>, kind: &ForceKind) {
         match kind {
             ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } => {
                 let [stiffness, rest, damping, preload] =
@@ -249,11 +249,11 @@ impl Loads {
     /// Pull `k (l - rest) + c l̇ + preload` along the line between two points.
     fn spring(
         &mut self,
-        g: &Scope,
-        state: &JointStates<'_>,
+        g: &'g Scope,
+        state: &JointStates<'g>,
         bodies: [Carrier; 2],
         at: [PointId; 2],
-        [stiffness, rest, damping, preload]: [ExprId; 4],
+        [stiffness, rest, damping, preload]: [Expr<'g>; 4],
     ) {
         let links = [0, 1].map(|i| state.geometry.linkage.link_at(bodies[i], at[i], false));
         let locals = [0, 1].map(|i| state.geometry.local(g, links[i], at[i]));
@@ -290,18 +290,18 @@ impl Loads {
     /// A wrench (moment, force) in W at a place in W on the first link and its opposite on the second.
     fn world_pair(
         &mut self,
-        g: &Scope,
-        state: &JointStates<'_>,
+        g: &'g Scope,
+        state: &JointStates<'g>,
         links: [LinkIndex; 2],
-        place: Vec3,
-        [moment, force]: [Vec3; 2],
+        place: Vec3<'g>,
+        [moment, force]: [Vec3<'g>; 2],
     ) {
         for (i, link) in links.into_iter().enumerate() {
             let Some(at) = link else { continue };
             let pose = state.motion.poses.world[at];
             let arm = g.sub3(place, pose.offset);
             let lever = g.cross3(arm, force);
-            let is_force = force.iter().any(|component| !g.is_zero(*component));
+            let is_force = force.into_iter().any(|component| !component.is_zero());
             let total = if is_force { g.add3(moment, lever) } else { moment };
             let wrench = Wrench {
                 moment: g.transpose_mul_vec3(pose.rotation, total),
@@ -318,21 +318,21 @@ impl Loads {
 }
 
 /// Components in W of a vector given in W or in axes that move with a body.
-fn directed(
-    g: &Scope,
-    state: &JointStates<'_>,
+fn directed<'g>(
+    g: &'g Scope,
+    state: &JointStates<'g>,
     components: &[crate::model::Formula; 3],
     axes: Carrier,
-) -> Vec3 {
-    let components = [0, 1, 2].map(|i| state.lower(g, &components[i]));
+) -> Vec3<'g> {
+    let components = Vec3::from_fn(|i| state.lower(g, &components[i]));
     let Some(at) = state.geometry.linkage.link(axes) else { return components };
     let local = state.geometry.turn(g, &state.geometry.linkage.links[at].frame, components);
     g.mul_vec3(state.motion.poses.world[at].rotation, local)
 }
 
 /// `sum_l row_l x_l`.
-fn row_times(g: &Scope, row: &[f64], x: &[ExprId]) -> ExprId {
-    let terms: Vec<(ExprId, ExprId)> = row.iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
+fn row_times<'g>(g: &'g Scope, row: &[f64], x: &[Expr<'g>]) -> Expr<'g> {
+    let terms: Vec<(Expr<'g>, Expr<'g>)> = row.iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
     g.dot(&terms)
 }
 
@@ -370,13 +370,9 @@ impl Sections {
     }
 
     /// Angular velocity of the section relative to the floating frame, in that frame.
-    fn rate(&self, g: &Scope, state: &JointStates<'_>, side: Side) -> Vec3 {
+    fn rate<'g>(&self, g: &'g Scope, state: &JointStates<'g>, side: Side) -> Vec3<'g> {
         let Some((frame, _, slopes)) = self.of(side) else { return g.zero_vector() };
         let speeds = &state.motion.modes[*frame].v;
-        core::array::from_fn(|i| {
-            let terms: Vec<(ExprId, ExprId)> =
-                slopes.iter().zip(speeds).map(|(slope, v)| (g.constant(slope[i]), *v)).collect();
-            g.dot(&terms)
-        })
+        g.weighted_vectors(slopes, speeds)
     }
 }

@@ -1,7 +1,7 @@
 //! Coordinates of a joint recomputed from the motion across it, for joints that are no chain of the tree.
 //! In: [`Across`]. Out: positions, speeds, accelerations, and the wrench per unit of each coordinate's force.
 
-use crate::expr::{ExprId, Scope, Vec3, transpose};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::model::{Axis, JointKind};
 
 use super::across::{Across, JointAxes, Sides, joint_axes};
@@ -9,26 +9,26 @@ use super::frame::{Frame, cross, dot, scale, sub};
 use super::inertia::Geometry;
 
 /// Coordinates of a joint with their first and second derivatives, recomputed from the motion across it.
-pub struct JointCoordinates {
+pub struct JointCoordinates<'g> {
     /// `q`, one per freedom (empty for spherical, fixed and free joints).
-    pub position: Vec<ExprId>,
+    pub position: Vec<Expr<'g>>,
     /// `v`.
-    pub speed: Vec<ExprId>,
+    pub speed: Vec<Expr<'g>>,
     /// `a`.
-    pub acceleration: Vec<ExprId>,
+    pub acceleration: Vec<Expr<'g>>,
     /// Which positions are angles from atan2.
     pub wraps: Vec<bool>,
     /// Wrench on the child, at its joint point, per unit of each coordinate's force.
-    pub duals: Vec<(Vec3, Vec3)>,
+    pub duals: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
 /// Recomputes the coordinates of a joint that is not a chain of the tree.
-pub fn joint_coordinates(
-    g: &Scope,
-    geometry: &Geometry<'_>,
-    across: &Across,
+pub fn joint_coordinates<'g>(
+    g: &'g Scope,
+    geometry: &Geometry<'g>,
+    across: &Across<'g>,
     sides: Sides,
-) -> JointCoordinates {
+) -> JointCoordinates<'g> {
     let kind = geometry.mechanism.joint(sides.joint).kind.clone();
     let axes = joint_axes(geometry, sides);
     let z = across.parent_axis(g, &axes, 2);
@@ -65,7 +65,13 @@ pub fn joint_coordinates(
 }
 
 /// Angle about an axis fixed in the parent: q = atan2 from the relative rotation.
-fn turn(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, z: Vec3) {
+fn turn<'g>(
+    g: &'g Scope,
+    list: &mut JointCoordinates<'g>,
+    across: &Across<'g>,
+    axes: &JointAxes,
+    z: Vec3<'g>,
+) {
     let rotation = across.rotation(g, axes);
     list.position.push(g.atan2(rotation[1][0], rotation[0][0]));
     list.wraps.push(true);
@@ -78,7 +84,7 @@ fn turn(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &JointAxe
 }
 
 /// Distance along a direction fixed in the parent.
-fn slide(g: &Scope, list: &mut JointCoordinates, across: &Across, direction: Vec3) {
+fn slide<'g>(g: &'g Scope, list: &mut JointCoordinates<'g>, across: &Across<'g>, direction: Vec3<'g>) {
     list.position.push(g.dot3(direction, across.distance));
     list.wraps.push(false);
     list.speed.push(g.dot3(direction, across.slide));
@@ -106,7 +112,13 @@ impl UniversalAxes {
 }
 
 /// `omega = v1 a + v2 b` with a fixed in the parent, b in the child; the dual basis gives each speed.
-fn universal(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &JointAxes, own: &UniversalAxes) {
+fn universal<'g>(
+    g: &'g Scope,
+    list: &mut JointCoordinates<'g>,
+    across: &Across<'g>,
+    axes: &JointAxes,
+    own: &UniversalAxes,
+) {
     let a = across.parent_axis(g, axes, 2);
     let b_child = g.vector(own.second_in_child);
     let b = g.mul_vec3(across.from_child, b_child);
@@ -117,7 +129,7 @@ fn universal(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &Joi
     let seen = g.mul_vec3(rotation, b_joint);
     list.position.push(g.atan2(seen[1], seen[0]));
     // a in the child's joint axes turns about b by -q2; e_y is at right angles to both at q2 = 0.
-    let seen = transpose(rotation).map(|row| row[2]);
+    let seen = rotation[2];
     let across_b = scale(1.0 / bx, sub([0.0, 0.0, 1.0], scale(cosine, own.second)));
     let normal = cross(own.second, across_b);
     debug_assert!((dot(normal, normal) - 1.0).abs() < 1e-9);
@@ -128,7 +140,7 @@ fn universal(g: &Scope, list: &mut JointCoordinates, across: &Across, axes: &Joi
     list.wraps.extend([true, true]);
     let scale_factor = g.constant(1.0 / (1.0 - cosine * cosine));
     let cos = g.constant(cosine);
-    let dual = |g: &Scope, own: Vec3, other: Vec3| {
+    let dual = |g: &'g Scope, own: Vec3<'g>, other: Vec3<'g>| {
         let part = g.scale3(cos, other);
         let rest = g.sub3(own, part);
         g.scale3(scale_factor, rest)

@@ -1,7 +1,7 @@
 //! The rows that each joint kind takes away, with residual, unit wrench and acceleration bias.
 //! In: relative motion across the cut. Out: [`Row`]s. Never knows the tree.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::JointKind;
 
 use super::across::{Across, JointAxes, Sides};
@@ -9,25 +9,25 @@ use super::closure::Row;
 use super::inertia::Geometry;
 
 /// Makes the rows of one cut.
-pub struct RowMaker<'a> {
-    g: &'a Scope,
-    across: &'a Across,
+pub struct RowMaker<'a, 'g> {
+    g: &'g Scope,
+    across: &'a Across<'g>,
     sides: Sides,
     axes: JointAxes,
     exact: bool,
-    rows: Vec<Row>,
+    rows: Vec<Row<'g>>,
 }
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-impl<'a> RowMaker<'a> {
+impl<'a, 'g> RowMaker<'a, 'g> {
     /// For the cut between the given sides; with `exact` the moments hold off the closed positions too.
-    pub fn new(g: &'a Scope, across: &'a Across, sides: Sides, axes: JointAxes, exact: bool) -> Self {
+    pub fn new(g: &'g Scope, across: &'a Across<'g>, sides: Sides, axes: JointAxes, exact: bool) -> Self {
         Self { g, across, sides, axes, exact, rows: Vec::new() }
     }
 
     /// The rows of a joint kind.
-    pub fn joint(mut self, geometry: &Geometry<'_>, kind: &JointKind) -> Vec<Row> {
+    pub fn joint(mut self, geometry: &Geometry<'g>, kind: &JointKind) -> Vec<Row<'g>> {
         let beside = match self.sides.beside() {
             None => "ground".to_owned(),
             Some(at) => geometry.mechanism.body(geometry.linkage.links[at].body).name.clone(),
@@ -70,16 +70,16 @@ impl<'a> RowMaker<'a> {
     }
 
     /// Joint axes of the side that lends its frame: constants.
-    fn own_axes(&mut self) -> [Vec3; 3] {
+    fn own_axes(&mut self) -> [Vec3<'g>; 3] {
         let frame = if self.sides.in_child { self.axes.child } else { self.axes.parent };
         [0, 1, 2].map(|j| self.g.vector(frame.axis(j)))
     }
 
-    fn beside_omega(&self) -> Vec3 {
+    fn beside_omega(&self) -> Vec3<'g> {
         if self.sides.in_child { self.across.child_omega } else { self.across.parent_omega }
     }
 
-    fn translations(&mut self, which: &[usize], axes: [Vec3; 3], frame: &str) {
+    fn translations(&mut self, which: &[usize], axes: [Vec3<'g>; 3], frame: &str) {
         for &j in which {
             let u = axes[j];
             let residual = self.g.dot3(u, self.across.distance);
@@ -89,7 +89,7 @@ impl<'a> RowMaker<'a> {
     }
 
     /// u . (a_C - a_P) - u . ((omega_beside + omega_P) x slide).
-    fn translation_bias(&mut self, u: Vec3) -> ExprId {
+    fn translation_bias(&mut self, u: Vec3<'g>) -> Expr<'g> {
         let beside = self.beside_omega();
         let sum = self.g.add3(beside, self.across.parent_omega);
         let turned = self.g.cross3(sum, self.across.slide);
@@ -98,21 +98,21 @@ impl<'a> RowMaker<'a> {
     }
 
     /// u . (alpha_C - alpha_P) - u . (omega_beside x omega_rel).
-    fn rotation_bias(&mut self, u: Vec3) -> ExprId {
+    fn rotation_bias(&mut self, u: Vec3<'g>) -> Expr<'g> {
         let beside = self.beside_omega();
         let turned = self.g.cross3(beside, self.across.omega);
         let rate = self.g.sub3(self.across.alpha, turned);
         self.g.dot3(u, rate)
     }
 
-    fn push_translation(&mut self, meaning: String, residual: ExprId, u: Vec3) {
+    fn push_translation(&mut self, meaning: String, residual: Expr<'g>, u: Vec3<'g>) {
         let bias = self.translation_bias(u);
         let rate = self.g.dot3(u, self.across.slide);
         let moment = self.g.zero_vector();
         self.rows.push(Row { meaning, angular: false, residual, moment, force: u, rate, bias });
     }
 
-    fn push_rotation(&mut self, meaning: String, residual: ExprId, u: Vec3) {
+    fn push_rotation(&mut self, meaning: String, residual: Expr<'g>, u: Vec3<'g>) {
         let bias = self.rotation_bias(u);
         let rate = self.g.dot3(u, self.across.omega);
         let force = self.g.zero_vector();
@@ -120,7 +120,7 @@ impl<'a> RowMaker<'a> {
     }
 
     /// The joint axis of the other side stays on that of this side: two rows.
-    fn tilts(&mut self, own: [Vec3; 3]) {
+    fn tilts(&mut self, own: [Vec3<'g>; 3]) {
         let other = if self.sides.in_child {
             self.across.parent_axis(self.g, &self.axes, 2)
         } else {
@@ -140,8 +140,8 @@ impl<'a> RowMaker<'a> {
     }
 
     /// No relative rotation: three rows, the axial vector of the relative rotation matrix.
-    fn rotations(&mut self, own: [Vec3; 3]) {
-        let rotation: Mat3 = self.across.rotation(self.g, &self.axes);
+    fn rotations(&mut self, own: [Vec3<'g>; 3]) {
+        let rotation: Mat3<'g> = self.across.rotation(self.g, &self.axes);
         let half = self.g.constant(0.5);
         for (j, axis) in own.into_iter().enumerate() {
             let (k, l) = ((j + 1) % 3, (j + 2) % 3);
@@ -153,7 +153,7 @@ impl<'a> RowMaker<'a> {
     }
 
     /// Row `j` of (tr(E) 1 - E) / 2 in the common frame: how the axial part of the relative rotation E changes.
-    fn turned_axis(&mut self, rotation: &Mat3, j: usize) -> Vec3 {
+    fn turned_axis(&mut self, rotation: &Mat3<'g>, j: usize) -> Vec3<'g> {
         let half = self.g.constant(0.5);
         let partial = self.g.add(rotation[0][0], rotation[1][1]);
         let trace = self.g.add(partial, rotation[2][2]);
@@ -170,7 +170,7 @@ impl<'a> RowMaker<'a> {
     }
 
     /// The two axes of a universal joint keep their angle: one row about their common normal.
-    fn cross(&mut self, geometry: &Geometry<'_>, second: [f64; 3]) {
+    fn cross(&mut self, geometry: &Geometry<'g>, second: [f64; 3]) {
         let g = self.g;
         let across = self.across;
         let frame = match self.sides.child {
@@ -199,7 +199,7 @@ impl<'a> RowMaker<'a> {
 
     /// Advance and turn of a screw stay in proportion. The residual `-h sin(angle - stroke / h)` is smooth
     /// over many turns.
-    fn thread(&mut self, z: Vec3, advance: f64) {
+    fn thread(&mut self, z: Vec3<'g>, advance: f64) {
         let rotation = self.across.rotation(self.g, &self.axes);
         let g = self.g;
         let (h, reciprocal) = (g.constant(advance), g.constant(1.0 / advance));

@@ -1,7 +1,7 @@
 //! Coordinates, speeds and accelerations of joints and points, wherever they come from: a coordinate of the
 //! tree, or recomputed across a cut. In: link motion. Out: expressions. Never knows forces.
 
-use crate::expr::{ExprId, Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Formula, JointKind, Term};
 
@@ -10,17 +10,17 @@ use super::inertia::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 
 /// All a formula or an output column may ask of the state.
-pub struct JointStates<'a> {
+pub struct JointStates<'g> {
     /// Places and links.
-    pub geometry: &'a Geometry<'a>,
+    pub geometry: Geometry<'g>,
     /// Motion of the links.
-    pub motion: &'a Motion,
+    pub motion: Motion<'g>,
     /// All coordinates.
-    pub q: &'a [ExprId],
+    pub q: Vec<Expr<'g>>,
     /// All speeds.
-    pub v: &'a [ExprId],
+    pub v: Vec<Expr<'g>>,
     /// All speed derivatives (zero where they are not asked for).
-    pub v_dot: &'a [ExprId],
+    pub v_dot: Vec<Expr<'g>>,
 }
 
 /// Number of scalar coordinates `q` of a joint kind, as columns and formulas name them.
@@ -48,37 +48,37 @@ pub fn is_angle(kind: &JointKind, coordinate: usize) -> bool {
     }
 }
 
-impl JointStates<'_> {
+impl<'g> JointStates<'g> {
     /// Coordinates of a joint; for tree joints read from the state, else recomputed.
-    pub fn coordinates(&self, g: &Scope, joint: JointId) -> JointCoordinates {
+    pub fn coordinates(&self, g: &'g Scope, joint: JointId) -> JointCoordinates<'g> {
         let kind = &self.geometry.mechanism.joint(joint).kind;
         let linkage = self.geometry.linkage;
         let links: Vec<Option<usize>> =
             (0..coordinate_count(kind)).map(|c| linkage.link_of_coordinate(joint, c)).collect();
         if links.iter().all(Option::is_some) {
             let links: Vec<usize> = links.into_iter().flatten().collect();
-            let pick = |values: &[ExprId], first: fn(&super::linkage::Link) -> usize| {
-                links.iter().map(|at| values[first(&linkage.links[*at])]).collect::<Vec<ExprId>>()
+            let pick = |values: &[Expr<'g>], first: fn(&super::linkage::Link) -> usize| {
+                links.iter().map(|at| values[first(&linkage.links[*at])]).collect::<Vec<Expr<'g>>>()
             };
             return JointCoordinates {
-                position: pick(self.q, |link| link.first_coordinate),
-                speed: pick(self.v, |link| link.first_speed),
-                acceleration: pick(self.v_dot, |link| link.first_speed),
+                position: pick(&self.q, |link| link.first_coordinate),
+                speed: pick(&self.v, |link| link.first_speed),
+                acceleration: pick(&self.v_dot, |link| link.first_speed),
                 wraps: vec![false; links.len()],
                 duals: Vec::new(),
             };
         }
         let across = self.across(g, joint);
-        joint_coordinates(g, self.geometry, &across, sides_of(self.geometry, joint))
+        joint_coordinates(g, &self.geometry, &across, sides_of(&self.geometry, joint))
     }
 
     /// Relative motion across any joint.
-    pub fn across(&self, g: &Scope, joint: JointId) -> Across {
-        Across::new(g, self.geometry, self.motion, sides_of(self.geometry, joint), Place::Child)
+    pub fn across(&self, g: &'g Scope, joint: JointId) -> Across<'g> {
+        Across::new(g, &self.geometry, &self.motion, sides_of(&self.geometry, joint), Place::Child)
     }
 
     /// Position of a named point in W [m].
-    pub fn point(&self, g: &Scope, point: PointId) -> Vec3 {
+    pub fn point(&self, g: &'g Scope, point: PointId) -> Vec3<'g> {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
@@ -86,7 +86,7 @@ impl JointStates<'_> {
     }
 
     /// Velocity of a named point in W [m/s].
-    pub fn point_velocity(&self, g: &Scope, point: PointId) -> Vec3 {
+    pub fn point_velocity(&self, g: &'g Scope, point: PointId) -> Vec3<'g> {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
         let local = self.geometry.local(g, link, point);
@@ -94,8 +94,8 @@ impl JointStates<'_> {
     }
 
     /// A formula over the state.
-    pub fn lower(&self, g: &Scope, formula: &Formula) -> ExprId {
-        self.geometry.inputs.lower_with(g, formula, &mut |g, term| match term {
+    pub fn lower(&self, g: &'g Scope, formula: &Formula) -> Expr<'g> {
+        self.geometry.inputs.lower_with(formula, &|term| match term {
             Term::JointPosition(joint, c) => self.coordinates(g, *joint).position[*c],
             Term::JointSpeed(joint, c) => self.coordinates(g, *joint).speed[*c],
             Term::PointPosition(point, i) => self.point(g, *point)[*i],

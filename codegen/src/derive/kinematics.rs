@@ -2,7 +2,7 @@
 //! In: a [`Linkage`], coordinates and speeds. Out: expressions in each link's own frame.
 //! Never knows forces. Twists are (omega, v of the link's origin); docs/notation.md.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3, transpose};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::frame::Frame;
 use super::linkage::{Freedom, LinkIndex, Linkage};
@@ -10,72 +10,69 @@ use super::node::{NodeMotion, NodePose};
 
 /// Relative pose of a link to its parent link.
 #[derive(Clone, Copy, Debug)]
-pub struct Pose {
+pub struct Pose<'g> {
     /// Takes components in this link's frame to the parent's.
-    pub rotation: Mat3,
+    pub rotation: Mat3<'g>,
     /// Position of the origin from the parent's origin, in the parent's frame [m].
-    pub offset: Vec3,
+    pub offset: Vec3<'g>,
 }
 
 /// Twist of a link, in its own frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Twist {
+pub struct Twist<'g> {
     /// Angular velocity [rad/s].
-    pub omega: Vec3,
+    pub omega: Vec3<'g>,
     /// Velocity of the origin [m/s].
-    pub origin: Vec3,
+    pub origin: Vec3<'g>,
 }
 
 /// Inertial acceleration of a link, in its own frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Acceleration {
+pub struct Acceleration<'g> {
     /// `skew(omega_dot) + skew(omega)²` [1/s²]: acceleration of the point r is `origin + spin r`.
-    pub spin: Mat3,
+    pub spin: Mat3<'g>,
     /// Angular acceleration [rad/s²].
-    pub alpha: Vec3,
+    pub alpha: Vec3<'g>,
     /// Acceleration of the origin [m/s²].
-    pub origin: Vec3,
+    pub origin: Vec3<'g>,
 }
 
 /// Poses of all links for given coordinates.
 #[derive(Clone, Debug)]
-pub struct Poses {
+pub struct Poses<'g> {
     /// Relative to the parent link.
-    pub relative: Vec<Pose>,
+    pub relative: Vec<Pose<'g>>,
     /// Relative to W.
-    pub world: Vec<Pose>,
+    pub world: Vec<Pose<'g>>,
     /// Of floating frames and node links: the node's motion relative to the floating frame.
-    pub nodes: Vec<Option<NodePose>>,
+    pub nodes: Vec<Option<NodePose<'g>>>,
 }
 
 /// Rotation matrix of a unit quaternion, scalar first.
-pub fn rotation_of_quaternion(g: &Scope, [w, x, y, z]: [ExprId; 4]) -> Mat3 {
-    let (one, two) = (g.one(), g.constant(2.0));
-    let [x2, y2, z2] = [x, y, z].map(|c| g.mul(two, c));
-    let [xx, yy, zz] = [(x, x2), (y, y2), (z, z2)].map(|(a, b)| g.mul(a, b));
-    let [xy, xz, yz] = [(x, y2), (x, z2), (y, z2)].map(|(a, b)| g.mul(a, b));
-    let [wx, wy, wz] = [x2, y2, z2].map(|c| g.mul(w, c));
-    let diagonal = [(yy, zz), (xx, zz), (xx, yy)].map(|(a, b)| {
-        let sum = g.add(a, b);
-        g.sub(one, sum)
-    });
-    [
-        [diagonal[0], g.sub(xy, wz), g.add(xz, wy)],
-        [g.add(xy, wz), diagonal[1], g.sub(yz, wx)],
-        [g.sub(xz, wy), g.add(yz, wx), diagonal[2]],
-    ]
+pub fn rotation_of_quaternion<'g>([w, x, y, z]: [Expr<'g>; 4]) -> Mat3<'g> {
+    let (one, two) = (w.scope().number(1.0), w.scope().number(2.0));
+    let [x2, y2, z2] = [x, y, z].map(|c| two * c);
+    let [xx, yy, zz] = [x * x2, y * y2, z * z2];
+    let [xy, xz, yz] = [x * y2, x * z2, y * z2];
+    let [wx, wy, wz] = [w * x2, w * y2, w * z2];
+    let diagonal = [one - (yy + zz), one - (xx + zz), one - (xx + yy)];
+    Mat3([
+        Vec3([diagonal[0], xy - wz, xz + wy]),
+        Vec3([xy + wz, diagonal[1], yz - wx]),
+        Vec3([xz - wy, yz + wx, diagonal[2]]),
+    ])
 }
 
 /// Rotation about e_z by an angle, [CS (2)] for a screw through the origin.
-fn rotation_about_z(g: &Scope, angle: ExprId) -> Mat3 {
+fn rotation_about_z<'g>(g: &'g Scope, angle: Expr<'g>) -> Mat3<'g> {
     let (s, c) = (g.sin(angle), g.cos(angle));
     let (zero, one, minus) = (g.zero(), g.one(), g.neg(s));
-    [[c, minus, zero], [s, c, zero], [zero, zero, one]]
+    Mat3([Vec3([c, minus, zero]), Vec3([s, c, zero]), Vec3([zero, zero, one])])
 }
 
-impl Poses {
+impl<'g> Poses<'g> {
     /// All poses. `mounts` are the positions of the joints in their parent links' frames.
-    pub fn new(g: &Scope, linkage: &Linkage, mounts: &[Vec3], q: &[ExprId]) -> Self {
+    pub fn new(g: &'g Scope, linkage: &Linkage, mounts: &[Vec3<'g>], q: &[Expr<'g>]) -> Self {
         let mut poses = Self { relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
         for (at, link) in linkage.links.iter().enumerate() {
             let own = &q[link.coordinates()];
@@ -99,10 +96,16 @@ impl Poses {
     }
 
     /// A ball or free link: its orientation (and position) is a coordinate itself.
-    fn absolute(&self, g: &Scope, parent: LinkIndex, mount: Vec3, q: &[ExprId]) -> (Pose, Pose) {
-        let rotation = rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
+    fn absolute(
+        &self,
+        g: &'g Scope,
+        parent: LinkIndex,
+        mount: Vec3<'g>,
+        q: &[Expr<'g>],
+    ) -> (Pose<'g>, Pose<'g>) {
+        let rotation = rotation_of_quaternion([q[0], q[1], q[2], q[3]]);
         if q.len() == 7 {
-            let pose = Pose { rotation, offset: [q[4], q[5], q[6]] };
+            let pose = Pose { rotation, offset: Vec3::first_of(&q[4..]) };
             return (pose, pose);
         }
         let Some(parent) = parent else {
@@ -110,13 +113,13 @@ impl Poses {
             return (pose, pose);
         };
         let outer = self.world[parent];
-        let relative = Pose { rotation: g.mul_mat3(transpose(outer.rotation), rotation), offset: mount };
+        let relative = Pose { rotation: g.mul_mat3(outer.rotation.transpose(), rotation), offset: mount };
         let carried = g.mul_vec3(outer.rotation, mount);
         let world = Pose { rotation, offset: g.add3(outer.offset, carried) };
         (relative, world)
     }
 
-    fn compose(&self, g: &Scope, parent: LinkIndex, relative: Pose) -> Pose {
+    fn compose(&self, g: &'g Scope, parent: LinkIndex, relative: Pose<'g>) -> Pose<'g> {
         let Some(parent) = parent else { return relative };
         let outer = self.world[parent];
         let carried = g.mul_vec3(outer.rotation, relative.offset);
@@ -127,7 +130,7 @@ impl Poses {
     }
 
     /// World pose; identity for the ground.
-    pub fn world_of(&self, g: &Scope, link: LinkIndex) -> Pose {
+    pub fn world_of(&self, g: &'g Scope, link: LinkIndex) -> Pose<'g> {
         match link {
             Some(at) => self.world[at],
             None => Pose { rotation: g.matrix(Frame::IDENTITY.0), offset: g.zero_vector() },
@@ -135,15 +138,21 @@ impl Poses {
     }
 
     /// Takes components in the frame of `from` to the frame of `to`, along the tree.
-    pub fn rotation_between(&self, g: &Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
+    pub fn rotation_between(
+        &self,
+        g: &'g Scope,
+        linkage: &Linkage,
+        from: LinkIndex,
+        to: LinkIndex,
+    ) -> Mat3<'g> {
         let top = linkage.common_ancestor(from, to);
         let down = self.rotation_up(g, linkage, from, top);
         let up = self.rotation_up(g, linkage, to, top);
-        g.mul_mat3(transpose(up), down)
+        g.mul_mat3(up.transpose(), down)
     }
 
     /// Takes components in the frame of `from` to that of its ancestor `to`.
-    fn rotation_up(&self, g: &Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3 {
+    fn rotation_up(&self, g: &'g Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3<'g> {
         if to.is_none() {
             return self.world_of(g, from).rotation;
         }
@@ -158,14 +167,20 @@ impl Poses {
     }
 
     /// Position in W of a point given in a link's frame [m].
-    pub fn position(&self, g: &Scope, link: LinkIndex, point: Vec3) -> Vec3 {
+    pub fn position(&self, g: &'g Scope, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
         let Some(at) = link else { return point };
         let carried = g.mul_vec3(self.world[at].rotation, point);
         g.add3(self.world[at].offset, carried)
     }
 }
 
-fn local_pose(g: &Scope, freedom: Freedom, mount: &Frame, origin: Vec3, q: &[ExprId]) -> Pose {
+fn local_pose<'g>(
+    g: &'g Scope,
+    freedom: Freedom,
+    mount: &Frame,
+    origin: Vec3<'g>,
+    q: &[Expr<'g>],
+) -> Pose<'g> {
     match freedom {
         Freedom::Rotation { offset, advance } => {
             let offset_angle = g.constant(offset);
@@ -189,41 +204,41 @@ fn local_pose(g: &Scope, freedom: Freedom, mount: &Frame, origin: Vec3, q: &[Exp
 }
 
 /// Pose of a node in its floating frame, or of the floating frame behind its inboard node.
-fn node_pose(g: &Scope, freedom: Freedom, mount: &Frame, node: &NodePose) -> Pose {
+fn node_pose<'g>(g: &'g Scope, freedom: Freedom, mount: &Frame, node: &NodePose<'g>) -> Pose<'g> {
     let identity = g.matrix(Frame::IDENTITY.0);
     let rotation = node.rotation.unwrap_or(identity);
     if freedom == Freedom::Node {
         return Pose { rotation, offset: node.place };
     }
     let mount = g.matrix(mount.0);
-    let rotation = g.mul_mat3(mount, transpose(rotation));
+    let rotation = g.mul_mat3(mount, rotation.transpose());
     let carried = g.mul_vec3(rotation, node.place);
     Pose { rotation, offset: g.neg3(carried) }
 }
 
 /// Velocity of a point of a link, in the link's frame.
-pub fn point_velocity(g: &Scope, twist: &Twist, point: Vec3) -> Vec3 {
+pub fn point_velocity<'g>(g: &'g Scope, twist: &Twist<'g>, point: Vec3<'g>) -> Vec3<'g> {
     let turned = g.cross3(twist.omega, point);
     g.add3(twist.origin, turned)
 }
 
 /// Acceleration of a point of a link, in the link's frame.
-pub fn point_acceleration(g: &Scope, acceleration: &Acceleration, point: Vec3) -> Vec3 {
+pub fn point_acceleration<'g>(g: &'g Scope, acceleration: &Acceleration<'g>, point: Vec3<'g>) -> Vec3<'g> {
     let turned = g.mul_vec3(acceleration.spin, point);
     g.add3(acceleration.origin, turned)
 }
 
 /// Twists of all links for given speeds.
-pub fn twists(g: &Scope, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> Vec<Twist> {
-    let mut twists: Vec<Twist> = Vec::new();
+pub fn twists<'g>(g: &'g Scope, linkage: &Linkage, poses: &Poses<'g>, v: &[Expr<'g>]) -> Vec<Twist<'g>> {
+    let mut twists: Vec<Twist<'g>> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
         let own = &v[link.speeds()];
         let twist = if link.freedom == Freedom::Free {
-            Twist { omega: [own[0], own[1], own[2]], origin: [own[3], own[4], own[5]] }
+            Twist { omega: Vec3::first_of(own), origin: Vec3::first_of(&own[3..]) }
         } else {
             let carried = carried_twist(g, link.parent.map(|p| twists[p]), &poses.relative[at]);
             match link.freedom {
-                Freedom::Ball => Twist { omega: [own[0], own[1], own[2]], origin: carried.origin },
+                Freedom::Ball => Twist { omega: Vec3::first_of(own), origin: carried.origin },
                 Freedom::Rotation { advance, .. } => {
                     let rate = g.constant(advance);
                     let slide = g.mul(rate, own[0]);
@@ -250,7 +265,13 @@ pub fn twists(g: &Scope, linkage: &Linkage, poses: &Poses, v: &[ExprId]) -> Vec<
 }
 
 /// Twist of a node, or of a floating frame behind its inboard node, from what it would be without modal speeds.
-fn deformed_twist(g: &Scope, freedom: Freedom, carried: Twist, node: &NodePose, v: &[ExprId]) -> Twist {
+fn deformed_twist<'g>(
+    g: &'g Scope,
+    freedom: Freedom,
+    carried: Twist<'g>,
+    node: &NodePose<'g>,
+    v: &[Expr<'g>],
+) -> Twist<'g> {
     let rate = node.velocity(g, v);
     if freedom == Freedom::Node {
         let (turn, slide) = (node.to_section(g, rate.turn), node.to_section(g, rate.slide));
@@ -262,7 +283,7 @@ fn deformed_twist(g: &Scope, freedom: Freedom, carried: Twist, node: &NodePose, 
 }
 
 /// Twist that a link would have if it were fixed to its parent.
-pub fn carried_twist(g: &Scope, parent: Option<Twist>, pose: &Pose) -> Twist {
+pub fn carried_twist<'g>(g: &'g Scope, parent: Option<Twist<'g>>, pose: &Pose<'g>) -> Twist<'g> {
     let Some(parent) = parent else {
         let zero = g.zero_vector();
         return Twist { omega: zero, origin: zero };
@@ -275,7 +296,7 @@ pub fn carried_twist(g: &Scope, parent: Option<Twist>, pose: &Pose) -> Twist {
 }
 
 /// `skew(alpha) + skew(omega)²`.
-pub fn spin(g: &Scope, omega: Vec3, alpha: Vec3) -> Mat3 {
+pub fn spin<'g>(g: &'g Scope, omega: Vec3<'g>, alpha: Vec3<'g>) -> Mat3<'g> {
     let squares = omega.map(|c| g.square(c));
     let mut matrix = g.matrix([[0.0; 3]; 3]);
     for i in 0..3 {
@@ -291,15 +312,15 @@ pub fn spin(g: &Scope, omega: Vec3, alpha: Vec3) -> Mat3 {
 
 /// Accelerations of all links for given speeds and speed derivatives. `ground` is the acceleration of
 /// the ground: minus gravity, so that weight is carried along.
-pub fn accelerations(
-    g: &Scope,
+pub fn accelerations<'g>(
+    g: &'g Scope,
     linkage: &Linkage,
-    poses: &Poses,
-    twists: &[Twist],
-    (v, v_dot): (&[ExprId], &[ExprId]),
-    ground: Vec3,
-) -> Vec<Acceleration> {
-    let mut list: Vec<Acceleration> = Vec::new();
+    poses: &Poses<'g>,
+    twists: &[Twist<'g>],
+    (v, v_dot): (&[Expr<'g>], &[Expr<'g>]),
+    ground: Vec3<'g>,
+) -> Vec<Acceleration<'g>> {
+    let mut list: Vec<Acceleration<'g>> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
         let (speed, rate) = (&v[link.speeds()], &v_dot[link.speeds()]);
         let twist = twists[at];
@@ -318,8 +339,8 @@ pub fn accelerations(
             let turned = g.cross3(twist.omega, twist.origin);
             // Speeds are true velocities; the ground's share of gravity is added in this frame.
             let weight = g.transpose_mul_vec3(poses.world[at].rotation, ground);
-            let moved = g.add3([rate[3], rate[4], rate[5]], turned);
-            ([rate[0], rate[1], rate[2]], g.add3(moved, weight))
+            let moved = g.add3(Vec3::first_of(&rate[3..]), turned);
+            (Vec3::first_of(rate), g.add3(moved, weight))
         } else {
             let parent = link.parent.map(|p| (twists[p], list[p]));
             relative_acceleration(g, link.freedom, &poses.relative[at], parent, ground, (speed, rate))
@@ -331,13 +352,13 @@ pub fn accelerations(
 }
 
 /// Angular acceleration of a section and acceleration of its node, in the section's frame.
-fn node_acceleration(
-    g: &Scope,
-    node: &NodePose,
-    (twist, floating): (Twist, Acceleration),
-    velocity: NodeMotion,
-    moved: NodeMotion,
-) -> (Vec3, Vec3) {
+fn node_acceleration<'g>(
+    g: &'g Scope,
+    node: &NodePose<'g>,
+    (twist, floating): (Twist<'g>, Acceleration<'g>),
+    velocity: NodeMotion<'g>,
+    moved: NodeMotion<'g>,
+) -> (Vec3<'g>, Vec3<'g>) {
     let carried = point_acceleration(g, &floating, node.place);
     let two = g.constant(2.0);
     let turning = sliding_acceleration(g, carried, twist.omega, velocity.slide, two);
@@ -350,14 +371,14 @@ fn node_acceleration(
 
 /// Angular acceleration of a floating frame and acceleration of its origin, in its frame, from those of the
 /// link that holds its inboard node.
-fn floating_acceleration(
-    g: &Scope,
-    node: &NodePose,
-    (pose, twist): (&Pose, Twist),
-    holder: Acceleration,
-    velocity: NodeMotion,
-    moved: NodeMotion,
-) -> (Vec3, Vec3) {
+fn floating_acceleration<'g>(
+    g: &'g Scope,
+    node: &NodePose<'g>,
+    (pose, twist): (&Pose<'g>, Twist<'g>),
+    holder: Acceleration<'g>,
+    velocity: NodeMotion<'g>,
+    moved: NodeMotion<'g>,
+) -> (Vec3<'g>, Vec3<'g>) {
     let outer = g.transpose_mul_vec3(pose.rotation, holder.alpha);
     let swung = g.cross3(twist.omega, velocity.turn);
     let relative = g.add3(swung, moved.turn);
@@ -372,14 +393,14 @@ fn floating_acceleration(
 }
 
 /// Angular acceleration and acceleration of the origin of a jointed link, in its frame.
-fn relative_acceleration(
-    g: &Scope,
+fn relative_acceleration<'g>(
+    g: &'g Scope,
     freedom: Freedom,
-    pose: &Pose,
-    parent: Option<(Twist, Acceleration)>,
-    ground: Vec3,
-    (speed, rate): (&[ExprId], &[ExprId]),
-) -> (Vec3, Vec3) {
+    pose: &Pose<'g>,
+    parent: Option<(Twist<'g>, Acceleration<'g>)>,
+    ground: Vec3<'g>,
+    (speed, rate): (&[Expr<'g>], &[Expr<'g>]),
+) -> (Vec3<'g>, Vec3<'g>) {
     let zero = g.zero_vector();
     let (outer_omega, outer_alpha, at_joint) = match parent {
         Some((twist, acceleration)) => {
@@ -392,9 +413,9 @@ fn relative_acceleration(
     let carried = g.transpose_mul_vec3(pose.rotation, at_joint);
     let two = g.constant(2.0);
     match freedom {
-        Freedom::Ball => ([rate[0], rate[1], rate[2]], carried),
+        Freedom::Ball => (Vec3::first_of(rate), carried),
         Freedom::Rotation { advance, .. } => {
-            let own = [zero[0], zero[0], speed[0]];
+            let own = Vec3([zero[0], zero[0], speed[0]]);
             let turned = g.cross3(outer_omega, own);
             let mut alpha = g.add3(outer_alpha, turned);
             alpha[2] = g.add(alpha[2], rate[0]);
@@ -417,7 +438,13 @@ fn relative_acceleration(
 }
 
 /// Coriolis acceleration of a relative velocity `slide` added to the carried acceleration.
-fn sliding_acceleration(g: &Scope, carried: Vec3, omega: Vec3, slide: Vec3, two: ExprId) -> Vec3 {
+fn sliding_acceleration<'g>(
+    g: &'g Scope,
+    carried: Vec3<'g>,
+    omega: Vec3<'g>,
+    slide: Vec3<'g>,
+    two: Expr<'g>,
+) -> Vec3<'g> {
     let turned = g.cross3(omega, slide);
     let coriolis = g.scale3(two, turned);
     g.add3(carried, coriolis)

@@ -7,7 +7,7 @@
 //!   B = d(A)[rho] = skew(rho)/2 + b (skew(phi) skew(rho) + skew(rho) skew(phi)) + 2 b' (phi.rho) skew(phi)².
 //! b(x) and its derivatives are series-safe intrinsics.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::across::{Across, Sides, weld_axes};
 use super::closure::Row;
@@ -24,15 +24,21 @@ const NAMES: [&str; 6] = [
 
 /// The six rows of a split end body; `across` is in the frame of the copy (branch a). Without `exact`
 /// the Jacobian is that of closed positions, where `J_r^-1` is the identity.
-pub fn log_rows(g: &Scope, geometry: &Geometry<'_>, across: &Across, sides: Sides, exact: bool) -> Vec<Row> {
+pub fn log_rows<'g>(
+    g: &'g Scope,
+    geometry: &Geometry<'g>,
+    across: &Across<'g>,
+    sides: Sides,
+    exact: bool,
+) -> Vec<Row<'g>> {
     let axes = weld_axes(geometry, sides);
     let rotation = across.rotation(g, &axes);
     let logarithm = Logarithm::new(g, rotation, across.distance);
     let zero = g.zero_vector();
     let identity = g.matrix(super::frame::Frame::IDENTITY.0);
-    let (a, b) = if exact { logarithm.inverse_jacobian(g) } else { (identity, [zero; 3]) };
+    let (a, b) = if exact { logarithm.inverse_jacobian(g) } else { (identity, Mat3([zero; 3])) };
     // Spatial acceleration of the relative twist in the frame of a, for V = 0: Phi_ddot = J_r^-1 V_dot.
-    let residual: Vec<ExprId> = logarithm.phi.into_iter().chain(logarithm.rho).collect();
+    let residual: Vec<Expr<'g>> = logarithm.phi.into_iter().chain(logarithm.rho).collect();
     (0..6)
         .map(|i| {
             let (moment, force) = if i < 3 { (a[i], zero) } else { (b[i - 3], a[i - 3]) };
@@ -54,17 +60,17 @@ pub fn log_rows(g: &Scope, geometry: &Geometry<'_>, across: &Across, sides: Side
 }
 
 /// Log of a pose and what its Jacobian needs.
-struct Logarithm {
-    phi: Vec3,
-    rho: Vec3,
-    square: ExprId,
+struct Logarithm<'g> {
+    phi: Vec3<'g>,
+    rho: Vec3<'g>,
+    square: Expr<'g>,
 }
 
-impl Logarithm {
+impl<'g> Logarithm<'g> {
     /// `distance` is the position of a from b in the frame of a.
-    fn new(g: &Scope, rotation: Mat3, distance: Vec3) -> Self {
+    fn new(g: &'g Scope, rotation: Mat3<'g>, distance: Vec3<'g>) -> Self {
         let half = g.constant(0.5);
-        let sine: Vec3 = core::array::from_fn(|i| {
+        let sine = Vec3::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
             let difference = g.sub(rotation[k][j], rotation[j][k]);
             g.mul(half, difference)
@@ -86,20 +92,20 @@ impl Logarithm {
     }
 
     /// A = 1 + skew(phi)/2 + b skew(phi)².
-    fn half_jacobian(&self, g: &Scope) -> Mat3 {
+    fn half_jacobian(&self, g: &'g Scope) -> Mat3<'g> {
         let b = g.log_coefficient(0, self.square);
         let half = g.constant(0.5);
         let skew = g.skew3(self.phi);
         let squared = g.mul_mat3(skew, skew);
         let identity = g.matrix(super::frame::Frame::IDENTITY.0);
-        let first = skew.map(|row| g.scale3(half, row));
-        let second = squared.map(|row| g.scale3(b, row));
+        let first = half * skew;
+        let second = b * squared;
         let sum = g.add_mat3(identity, first);
         g.add_mat3(sum, second)
     }
 
     /// The blocks A and B of the inverse right Jacobian.
-    fn inverse_jacobian(&self, g: &Scope) -> (Mat3, Mat3) {
+    fn inverse_jacobian(&self, g: &'g Scope) -> (Mat3<'g>, Mat3<'g>) {
         let a = self.half_jacobian(g);
         let (b, slope) = (g.log_coefficient(0, self.square), g.log_coefficient(1, self.square));
         let (half, two) = (g.constant(0.5), g.constant(2.0));
@@ -110,9 +116,9 @@ impl Logarithm {
         let along = g.dot3(self.phi, self.rho);
         let doubled = g.mul(two, slope);
         let weight = g.mul(doubled, along);
-        let first = rho.map(|row| g.scale3(half, row));
-        let second = mixed.map(|row| g.scale3(b, row));
-        let third = squared.map(|row| g.scale3(weight, row));
+        let first = half * rho;
+        let second = b * mixed;
+        let third = weight * squared;
         let sum = g.add_mat3(first, second);
         (a, g.add_mat3(sum, third))
     }

@@ -80,8 +80,14 @@ pub struct Block {
 impl Block {
     /// A column vector.
     #[must_use]
-    pub fn vector(name: &str, doc: &str, citation: &str, entries: Vec<ExprId>) -> Self {
-        Self::matrix(name, doc, citation, entries.len(), 1, entries)
+    pub fn vector(
+        name: &str,
+        doc: &str,
+        citation: &str,
+        entries: impl IntoIterator<Item = impl Into<ExprId>>,
+    ) -> Self {
+        let entries: Vec<ExprId> = entries.into_iter().map(Into::into).collect();
+        Self::matrix(name, doc, citation, (entries.len(), 1), entries)
     }
 
     /// A matrix, row major.
@@ -90,10 +96,10 @@ impl Block {
         name: &str,
         doc: &str,
         citation: &str,
-        rows: usize,
-        columns: usize,
-        entries: Vec<ExprId>,
+        (rows, columns): (usize, usize),
+        entries: impl IntoIterator<Item = impl Into<ExprId>>,
     ) -> Self {
+        let entries: Vec<ExprId> = entries.into_iter().map(Into::into).collect();
         debug_assert_eq!(rows * columns, entries.len());
         Self {
             name: name.to_owned(),

@@ -6,7 +6,7 @@
 //! `theta` it is taken as the Gibbs vector `g = theta / 2`, which needs no branch and no sine:
 //!   R = 1 + tau (skew(g) + skew(g)²),  omega = tau (g_dot + g x g_dot),  tau = 2 / (1 + g.g).
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::Node;
 
 use super::frame::Frame;
@@ -48,55 +48,42 @@ impl NodeShape {
 
 /// A node for given modal coordinates, in the floating frame.
 #[derive(Clone, Debug)]
-pub struct NodePose {
+pub struct NodePose<'g> {
     /// Place from the frame's origin [m].
-    pub place: Vec3,
+    pub place: Vec3<'g>,
     /// Takes components in the section's frame to the floating frame; nothing if it does not turn.
-    pub rotation: Option<Mat3>,
+    pub rotation: Option<Mat3<'g>>,
     /// Velocity of the node per unit of each modal speed.
-    pub slide: Vec<Vec3>,
+    pub slide: Vec<Vec3<'g>>,
     /// Angular velocity of the section per unit of each modal speed.
-    pub turn: Vec<Vec3>,
-    gibbs: Vec3,
-    tau: ExprId,
+    pub turn: Vec<Vec3<'g>>,
+    gibbs: Vec3<'g>,
+    tau: Expr<'g>,
 }
 
 /// Velocity or acceleration of a node relative to its floating frame, in that frame.
 #[derive(Clone, Copy, Debug)]
-pub struct NodeMotion {
+pub struct NodeMotion<'g> {
     /// Of the node [m/s, m/s²].
-    pub slide: Vec3,
+    pub slide: Vec3<'g>,
     /// Of the section's orientation [rad/s, rad/s²].
-    pub turn: Vec3,
+    pub turn: Vec3<'g>,
 }
 
-/// `sum weight_k vector_k` of constant vectors.
-fn weighted(g: &Scope, vectors: &[[f64; 3]], weights: &[ExprId]) -> Vec3 {
-    core::array::from_fn(|i| {
-        let terms: Vec<(ExprId, ExprId)> =
-            vectors.iter().zip(weights).map(|(vector, weight)| (g.constant(vector[i]), *weight)).collect();
-        g.dot(&terms)
-    })
+/// `sum weight_k vector_k`.
+fn combined<'g>(g: &'g Scope, vectors: &[Vec3<'g>], weights: &[Expr<'g>]) -> Vec3<'g> {
+    Vec3::from_fn(|i| g.sum(vectors.iter().zip(weights).map(|(vector, weight)| vector[i] * *weight)))
 }
 
-/// `sum weight_k vector_k` of vectors of expressions.
-fn combined(g: &Scope, vectors: &[Vec3], weights: &[ExprId]) -> Vec3 {
-    core::array::from_fn(|i| {
-        let terms: Vec<(ExprId, ExprId)> =
-            vectors.iter().zip(weights).map(|(vector, weight)| (vector[i], *weight)).collect();
-        g.dot(&terms)
-    })
-}
-
-impl NodePose {
+impl<'g> NodePose<'g> {
     /// The node for modal coordinates `q`.
-    pub fn new(g: &Scope, shape: &NodeShape, q: &[ExprId]) -> Self {
-        let slide: Vec<Vec3> = (0..q.len())
+    pub fn new(g: &'g Scope, shape: &NodeShape, q: &[Expr<'g>]) -> Self {
+        let slide: Vec<Vec3<'g>> = (0..q.len())
             .map(|k| {
                 let first = g.vector(shape.displacement[k]);
                 match shape.second.get(k) {
                     Some(row) => {
-                        let second = weighted(g, row, q);
+                        let second = g.weighted_vectors(row, q);
                         g.add3(first, second)
                     }
                     None => first,
@@ -104,10 +91,10 @@ impl NodePose {
             })
             .collect();
         let rest = g.vector(shape.position);
-        let linear = weighted(g, &shape.displacement, q);
+        let linear = g.weighted_vectors(&shape.displacement, q);
         let mut place = g.add3(rest, linear);
         if !shape.second.is_empty() {
-            let rows: Vec<Vec3> = shape.second.iter().map(|row| weighted(g, row, q)).collect();
+            let rows: Vec<Vec3<'g>> = shape.second.iter().map(|row| g.weighted_vectors(row, q)).collect();
             let double = combined(g, &rows, q);
             let half = g.constant(0.5);
             let second = g.scale3(half, double);
@@ -121,9 +108,9 @@ impl NodePose {
         pose
     }
 
-    fn turned(&mut self, g: &Scope, shape: &NodeShape, q: &[ExprId]) {
+    fn turned(&mut self, g: &'g Scope, shape: &NodeShape, q: &[Expr<'g>]) {
         let halves: Vec<[f64; 3]> = shape.rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect();
-        self.gibbs = weighted(g, &halves, q);
+        self.gibbs = g.weighted_vectors(&halves, q);
         let (one, two) = (g.one(), g.constant(2.0));
         let square = g.dot3(self.gibbs, self.gibbs);
         let denominator = g.add(one, square);
@@ -131,7 +118,7 @@ impl NodePose {
         let skew = g.skew3(self.gibbs);
         let squared = g.mul_mat3(skew, skew);
         let sum = g.add_mat3(skew, squared);
-        let scaled = sum.map(|row| g.scale3(self.tau, row));
+        let scaled = self.tau * sum;
         let identity = g.matrix(Frame::IDENTITY.0);
         self.rotation = Some(g.add_mat3(identity, scaled));
         self.turn = halves
@@ -146,7 +133,7 @@ impl NodePose {
     }
 
     /// Orientation of the section as a unit quaternion, scalar first.
-    pub fn quaternion(&self, g: &Scope) -> [ExprId; 4] {
+    pub fn quaternion(&self, g: &'g Scope) -> [Expr<'g>; 4] {
         let (one, half, zero) = (g.one(), g.constant(0.5), g.zero());
         if self.rotation.is_none() {
             return [one, zero, zero, zero];
@@ -154,12 +141,12 @@ impl NodePose {
         // 1 / sqrt(1 + g.g) = sqrt(tau / 2).
         let square = g.mul(half, self.tau);
         let scalar = g.sqrt(square);
-        let [x, y, z] = g.scale3(scalar, self.gibbs);
+        let Vec3([x, y, z]) = g.scale3(scalar, self.gibbs);
         [scalar, x, y, z]
     }
 
     /// Components in the section's frame of a vector in the floating frame.
-    pub fn to_section(&self, g: &Scope, vector: Vec3) -> Vec3 {
+    pub fn to_section(&self, g: &'g Scope, vector: Vec3<'g>) -> Vec3<'g> {
         match self.rotation {
             Some(rotation) => g.transpose_mul_vec3(rotation, vector),
             None => vector,
@@ -167,7 +154,7 @@ impl NodePose {
     }
 
     /// Components in the floating frame of a vector in the section's frame.
-    pub fn to_floating(&self, g: &Scope, vector: Vec3) -> Vec3 {
+    pub fn to_floating(&self, g: &'g Scope, vector: Vec3<'g>) -> Vec3<'g> {
         match self.rotation {
             Some(rotation) => g.mul_vec3(rotation, vector),
             None => vector,
@@ -175,15 +162,21 @@ impl NodePose {
     }
 
     /// Velocity relative to the floating frame.
-    pub fn velocity(&self, g: &Scope, v: &[ExprId]) -> NodeMotion {
+    pub fn velocity(&self, g: &'g Scope, v: &[Expr<'g>]) -> NodeMotion<'g> {
         NodeMotion { slide: combined(g, &self.slide, v), turn: combined(g, &self.turn, v) }
     }
 
     /// Second derivative of place and orientation relative to the floating frame.
-    pub fn acceleration(&self, g: &Scope, shape: &NodeShape, v: &[ExprId], v_dot: &[ExprId]) -> NodeMotion {
+    pub fn acceleration(
+        &self,
+        g: &'g Scope,
+        shape: &NodeShape,
+        v: &[Expr<'g>],
+        v_dot: &[Expr<'g>],
+    ) -> NodeMotion<'g> {
         let mut slide = combined(g, &self.slide, v_dot);
         if !shape.second.is_empty() {
-            let rows: Vec<Vec3> = shape.second.iter().map(|row| weighted(g, row, v)).collect();
+            let rows: Vec<Vec3<'g>> = shape.second.iter().map(|row| g.weighted_vectors(row, v)).collect();
             let bias = combined(g, &rows, v);
             slide = g.add3(slide, bias);
         }
@@ -191,7 +184,7 @@ impl NodePose {
         if self.rotation.is_some() {
             // omega_dot = tau (g_ddot + g x g_ddot) - tau (g . g_dot) omega.
             let halves: Vec<[f64; 3]> = shape.rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect();
-            let rate = weighted(g, &halves, v);
+            let rate = g.weighted_vectors(&halves, v);
             let along = g.dot3(self.gibbs, rate);
             let weight = g.mul(self.tau, along);
             let omega = combined(g, &self.turn, v);
@@ -202,7 +195,7 @@ impl NodePose {
     }
 
     /// Power per unit of each modal speed of a wrench on the node: moment about the node, floating frame.
-    pub fn generalised(&self, g: &Scope, moment: Vec3, force: Vec3) -> Vec<ExprId> {
+    pub fn generalised(&self, g: &'g Scope, moment: Vec3<'g>, force: Vec3<'g>) -> Vec<Expr<'g>> {
         (0..self.slide.len())
             .map(|k| {
                 let slid = g.dot3(self.slide[k], force);
@@ -219,7 +212,7 @@ impl NodePose {
 
     /// Twist of the section's frame relative to the floating frame per unit of modal speed `k`:
     /// angular velocity, velocity of the node; floating frame.
-    pub fn screw(&self, g: &Scope, k: usize) -> [Vec3; 2] {
+    pub fn screw(&self, g: &'g Scope, k: usize) -> [Vec3<'g>; 2] {
         let turn = self.turn.get(k).copied();
         [turn.unwrap_or_else(|| g.zero_vector()), self.slide[k]]
     }
@@ -252,10 +245,10 @@ mod tests {
         let pose = NodePose::new(&g, &shape, &q);
         let rate = pose.velocity(&g, &v);
         let acceleration = pose.acceleration(&g, &shape, &v, &v_dot);
-        let number = |x: ExprId| g.as_constant(x).expect("functions of numbers fold");
-        let rotation = pose.rotation.expect("the node turns").map(|row| row.map(number));
+        let number = |x: Expr<'_>| x.as_number().expect("functions of numbers fold");
+        let rotation = pose.rotation.expect("the node turns").0.map(|row| row.0.map(number));
         let rates = [rate.slide, rate.turn, acceleration.slide, acceleration.turn];
-        (rotation, pose.place.map(number), rates.map(|v| v.map(number)))
+        (rotation, pose.place.0.map(number), rates.map(|v| v.0.map(number)))
     }
 
     #[test]

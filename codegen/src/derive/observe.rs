@@ -4,7 +4,7 @@
 
 use linkwear_runtime::Channel;
 
-use crate::expr::{ExprId, Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
 use crate::model::{Flexible, JointKind};
@@ -19,42 +19,42 @@ use super::node::{NodePose, NodeShape};
 use super::wrench::Wrench;
 
 /// All channels with their expressions.
-pub struct Channels {
+pub struct Channels<'g> {
     /// Descriptions.
     pub channels: Vec<Channel>,
     /// Values.
-    pub values: Vec<ExprId>,
+    pub values: Vec<Expr<'g>>,
 }
 
 /// What the columns are made from.
-pub struct Observed<'a> {
+pub struct Observed<'a, 'g> {
     /// Joint and point state.
-    pub state: &'a JointStates<'a>,
+    pub state: &'a JointStates<'g>,
     /// Mass properties of the links.
-    pub masses: &'a [LinkMass],
+    pub masses: &'a [LinkMass<'g>],
     /// Applied loads.
-    pub loads: &'a Loads,
+    pub loads: &'a Loads<'g>,
     /// Cuts with all their rows.
-    pub cuts: &'a [CutRows],
+    pub cuts: &'a [CutRows<'g>],
     /// Multiplier of every row, zero for dropped ones; flat over all cuts.
-    pub multipliers: &'a [ExprId],
+    pub multipliers: &'a [Expr<'g>],
     /// Whether each row is kept; flat over all cuts.
     pub keep: &'a [bool],
     /// Drive force of every driver: (joint, coordinate, force).
-    pub drives: &'a [(JointId, usize, ExprId)],
+    pub drives: &'a [(JointId, usize, Expr<'g>)],
     /// Kinetic and potential energy [J].
-    pub energy: [ExprId; 2],
+    pub energy: [Expr<'g>; 2],
 }
 
 const XYZ: [&str; 3] = ["x", "y", "z"];
 
-impl Channels {
-    fn push(&mut self, name: String, unit: &'static str, wraps: bool, value: ExprId) {
+impl<'g> Channels<'g> {
+    fn push(&mut self, name: String, unit: &'static str, wraps: bool, value: Expr<'g>) {
         self.channels.push(Channel { name: name.into(), unit: unit.into(), wraps });
         self.values.push(value);
     }
 
-    fn vector(&mut self, name: &str, prefix: &str, unit: &'static str, value: Vec3) {
+    fn vector(&mut self, name: &str, prefix: &str, unit: &'static str, value: Vec3<'g>) {
         for (axis, component) in XYZ.iter().zip(value) {
             self.push(format!("{name}.{prefix}{axis}"), unit, false, component);
         }
@@ -62,7 +62,7 @@ impl Channels {
 }
 
 /// Derives all columns.
-pub fn channels(g: &Scope, observed: &Observed<'_>) -> Channels {
+pub fn channels<'g>(g: &'g Scope, observed: &Observed<'_, 'g>) -> Channels<'g> {
     let mut list = Channels { channels: Vec::new(), values: Vec::new() };
     let mechanism = observed.state.geometry.mechanism;
     for index in 0..mechanism.joints.len() {
@@ -91,7 +91,7 @@ pub fn channels(g: &Scope, observed: &Observed<'_>) -> Channels {
     list
 }
 
-fn joint_coordinates(g: &Scope, observed: &Observed<'_>, list: &mut Channels, joint: JointId) {
+fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'g>, joint: JointId) {
     let data = observed.state.geometry.mechanism.joint(joint);
     let name = &data.name;
     g.begin_section(format!("coordinates of {name}"));
@@ -108,18 +108,18 @@ fn joint_coordinates(g: &Scope, observed: &Observed<'_>, list: &mut Channels, jo
         list.push(format!("{name}.a{suffix}"), units[2], false, all.acceleration[coordinate]);
     }
     if matches!(data.kind, JointKind::Spherical | JointKind::Socket | JointKind::Free) {
-        let sides = super::across::sides_of(observed.state.geometry, joint);
+        let sides = super::across::sides_of(&observed.state.geometry, joint);
         let parent = displacement(g, observed, sides.parent);
         let child = displacement(g, observed, sides.child);
-        let inverse = conjugate(g, parent);
-        let relative = quaternion_product(g, inverse, child);
+        let inverse = conjugate(parent);
+        let relative = quaternion_product(inverse, child);
         for (index, component) in relative.into_iter().enumerate() {
             list.push(format!("{name}.q{index}"), "1", false, component);
         }
     }
     if data.kind == JointKind::Free {
         let across = observed.state.across(g, joint);
-        let sides = super::across::sides_of(observed.state.geometry, joint);
+        let sides = super::across::sides_of(&observed.state.geometry, joint);
         let rotation = observed.state.motion.poses.world_of(g, sides.beside()).rotation;
         let place = g.mul_vec3(rotation, across.distance);
         list.vector(name, "", "m", place);
@@ -128,7 +128,7 @@ fn joint_coordinates(g: &Scope, observed: &Observed<'_>, list: &mut Channels, jo
     }
 }
 
-fn bodies(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
+fn bodies<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'g>) {
     let geometry = observed.state.geometry;
     for (index, body) in geometry.mechanism.bodies.iter().enumerate() {
         g.begin_section(format!("angular velocity of {}", body.name));
@@ -143,10 +143,10 @@ fn bodies(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
 }
 
 /// Modal coordinates, displacement and bending stress at the stations, energy of the modes.
-fn modes(
-    g: &Scope,
-    observed: &Observed<'_>,
-    list: &mut Channels,
+fn modes<'g>(
+    g: &'g Scope,
+    observed: &Observed<'_, 'g>,
+    list: &mut Channels<'g>,
     name: &str,
     flexible: &Flexible,
     at: usize,
@@ -170,7 +170,7 @@ fn modes(
         }
         if let Some(stress) = &station.stress {
             for (side, axis) in ["y", "z"].iter().enumerate() {
-                let terms: Vec<(ExprId, ExprId)> =
+                let terms: Vec<(Expr<'g>, Expr<'g>)> =
                     stress.iter().zip(&state.q).map(|(per, eta)| (g.constant(per[side]), *eta)).collect();
                 let value = g.dot(&terms);
                 list.push(format!("{name}.stress_{axis}{suffix}"), "Pa", false, value);
@@ -184,11 +184,11 @@ fn modes(
 }
 
 /// Strain energy and kinetic energy of the deformation relative to the floating frame [J].
-fn modal_energy(g: &Scope, data: &ModalData, q: &[ExprId], v: &[ExprId]) -> ExprId {
+fn modal_energy<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>], v: &[Expr<'g>]) -> Expr<'g> {
     let mut sum = g.zero();
     for (matrix, x) in [(&data.stiffness, q), (&data.mass_matrix, v)] {
         for (row, own) in matrix.iter().zip(x) {
-            let terms: Vec<(ExprId, ExprId)> =
+            let terms: Vec<(Expr<'g>, Expr<'g>)> =
                 row.iter().zip(x).map(|(entry, other)| (g.constant(*entry), *other)).collect();
             let part = g.dot(&terms);
             let part = g.mul(*own, part);
@@ -199,7 +199,7 @@ fn modal_energy(g: &Scope, data: &ModalData, q: &[ExprId], v: &[ExprId]) -> Expr
     g.mul(half, sum)
 }
 
-fn multipliers(observed: &Observed<'_>, list: &mut Channels) {
+fn multipliers<'g>(observed: &Observed<'_, 'g>, list: &mut Channels<'g>) {
     let mut index = 0;
     for cut in observed.cuts {
         let name = &observed.state.geometry.mechanism.joint(cut.cut.joint).name;
@@ -216,7 +216,7 @@ fn multipliers(observed: &Observed<'_>, list: &mut Channels) {
 }
 
 /// Sum of a cut's constraint wrenches on the child at its joint point, in the common frame.
-fn constraint_wrench(g: &Scope, cut: &CutRows, multipliers: &[ExprId]) -> [Vec3; 2] {
+fn constraint_wrench<'g>(g: &'g Scope, cut: &CutRows<'g>, multipliers: &[Expr<'g>]) -> [Vec3<'g>; 2] {
     let mut sum = [g.zero_vector(), g.zero_vector()];
     for (row, multiplier) in cut.rows.iter().zip(multipliers) {
         let parts = [row.moment, row.force].map(|part| g.scale3(*multiplier, part));
@@ -225,7 +225,7 @@ fn constraint_wrench(g: &Scope, cut: &CutRows, multipliers: &[ExprId]) -> [Vec3;
     sum
 }
 
-fn wrenches(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
+fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'g>) {
     let state = observed.state;
     let linkage = state.geometry.linkage;
     g.begin_section("constraint forces of the loops");
@@ -245,7 +245,7 @@ fn wrenches(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
         }
     }
     g.begin_section("joint wrenches, from the leaves of the tree to its root");
-    let transmitted = joint_wrenches(g, linkage, state.motion, observed.masses, &external);
+    let transmitted = joint_wrenches(g, linkage, &state.motion, observed.masses, &external);
     for (index, joint) in state.geometry.mechanism.joints.iter().enumerate() {
         let id = JointId::new(index);
         g.begin_section(format!("wrench at {}", joint.name));
@@ -263,7 +263,13 @@ fn wrenches(g: &Scope, observed: &Observed<'_>, list: &mut Channels) {
 }
 
 /// Wrench by parent on child in W at the child's joint point, without the drives.
-fn tree_wrench(g: &Scope, observed: &Observed<'_>, joint: JointId, at: usize, total: Wrench) -> [Vec3; 2] {
+fn tree_wrench<'g>(
+    g: &'g Scope,
+    observed: &Observed<'_, 'g>,
+    joint: JointId,
+    at: usize,
+    total: Wrench<'g>,
+) -> [Vec3<'g>; 2] {
     let state = observed.state;
     let linkage = state.geometry.linkage;
     let pose = state.motion.poses.world[at];
@@ -312,7 +318,12 @@ fn slides(kind: &JointKind) -> bool {
     )
 }
 
-fn cut_wrench(g: &Scope, observed: &Observed<'_>, cut: &CutRows, constraint: [Vec3; 2]) -> [Vec3; 2] {
+fn cut_wrench<'g>(
+    g: &'g Scope,
+    observed: &Observed<'_, 'g>,
+    cut: &CutRows<'g>,
+    constraint: [Vec3<'g>; 2],
+) -> [Vec3<'g>; 2] {
     let [mut moment, mut force] = constraint;
     for (joint, own_moment, own_force) in &observed.loads.in_cuts {
         if *joint == cut.cut.joint {
@@ -325,45 +336,49 @@ fn cut_wrench(g: &Scope, observed: &Observed<'_>, cut: &CutRows, constraint: [Ve
 }
 
 /// A unit quaternion, scalar first.
-pub type Quaternion = [ExprId; 4];
+pub type Quaternion<'g> = [Expr<'g>; 4];
 
 /// Product of quaternions: first `b`, then `a`.
-pub fn quaternion_product(g: &Scope, a: Quaternion, b: Quaternion) -> Quaternion {
-    let minus = |g: &Scope, x: ExprId| g.neg(x);
-    let m = [minus(g, a[1]), minus(g, a[2]), minus(g, a[3])];
+pub fn quaternion_product<'g>(a: Quaternion<'g>, b: Quaternion<'g>) -> Quaternion<'g> {
+    let [_, x, y, z] = conjugate(a);
     [
-        g.dot(&[(a[0], b[0]), (m[0], b[1]), (m[1], b[2]), (m[2], b[3])]),
-        g.dot(&[(a[0], b[1]), (a[1], b[0]), (a[2], b[3]), (m[2], b[2])]),
-        g.dot(&[(a[0], b[2]), (m[0], b[3]), (a[2], b[0]), (a[3], b[1])]),
-        g.dot(&[(a[0], b[3]), (a[1], b[2]), (m[1], b[1]), (a[3], b[0])]),
+        a[0] * b[0] + x * b[1] + y * b[2] + z * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] + z * b[2],
+        a[0] * b[2] + x * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] + y * b[1] + a[3] * b[0],
     ]
 }
 
 /// Inverse of a unit quaternion.
-pub fn conjugate(g: &Scope, a: Quaternion) -> Quaternion {
-    [a[0], g.neg(a[1]), g.neg(a[2]), g.neg(a[3])]
+pub fn conjugate<'g>([scalar, x, y, z]: Quaternion<'g>) -> Quaternion<'g> {
+    [scalar, -x, -y, -z]
 }
 
 /// Rotation of a link's body from its reference pose, as a quaternion in W.
-fn displacement(g: &Scope, observed: &Observed<'_>, link: Option<usize>) -> Quaternion {
+fn displacement<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, link: Option<usize>) -> Quaternion<'g> {
     let linkage = observed.state.geometry.linkage;
-    link_displacement(g, linkage, observed.state.q, link)
+    link_displacement(g, linkage, &observed.state.q, link)
 }
 
 /// Rotation of a link's body from its reference pose for given coordinates.
-pub fn link_displacement(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
+pub fn link_displacement<'g>(
+    g: &'g Scope,
+    linkage: &Linkage,
+    q: &[Expr<'g>],
+    link: Option<usize>,
+) -> Quaternion<'g> {
     let Some(at) = link else {
         let (one, zero) = (g.one(), g.zero());
         return [one, zero, zero, zero];
     };
     let orientation = orientation(g, linkage, q, link);
     let frame = linkage.links[at].frame.quaternion().map(|x| g.constant(x));
-    let inverse = conjugate(g, frame);
-    quaternion_product(g, orientation, inverse)
+    let inverse = conjugate(frame);
+    quaternion_product(orientation, inverse)
 }
 
 /// Orientation of a link's frame in W as a quaternion.
-fn orientation(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) -> Quaternion {
+fn orientation<'g>(g: &'g Scope, linkage: &Linkage, q: &[Expr<'g>], link: Option<usize>) -> Quaternion<'g> {
     let Some(at) = link else {
         let (one, zero) = (g.one(), g.zero());
         return [one, zero, zero, zero];
@@ -375,14 +390,14 @@ fn orientation(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) 
     }
     let outer = orientation(g, linkage, q, own.parent);
     let mount = own.mount.quaternion().map(|x| g.constant(x));
-    let mounted = quaternion_product(g, outer, mount);
+    let mounted = quaternion_product(outer, mount);
     if let Some(shape) = &own.node {
         let section = NodePose::new(g, shape, &q[own.coordinates()]).quaternion(g);
         return match own.freedom {
-            Freedom::Node => quaternion_product(g, mounted, section),
+            Freedom::Node => quaternion_product(mounted, section),
             _ => {
-                let back = conjugate(g, section);
-                quaternion_product(g, mounted, back)
+                let back = conjugate(section);
+                quaternion_product(mounted, back)
             }
         };
     }
@@ -391,5 +406,5 @@ fn orientation(g: &Scope, linkage: &Linkage, q: &[ExprId], link: Option<usize>) 
     let angle = g.add(q[first], offset);
     let angle = g.mul(half, angle);
     let (sine, cosine, zero) = (g.sin(angle), g.cos(angle), g.zero());
-    quaternion_product(g, mounted, [cosine, zero, zero, sine])
+    quaternion_product(mounted, [cosine, zero, zero, sine])
 }

@@ -7,27 +7,27 @@
 //! L D Lᵀ without pivoting, speeds from the leaves of the tree to its root (no fill-in), then the loop
 //! rows, whose Schur complement J M⁻¹ Jᵀ is eliminated in order of least fill. One reciprocal a pivot.
 
-use crate::expr::{ExprId, Scope};
+use crate::expr::{Expr, Scope};
 
 /// The solution and the pivots of the loop rows.
-pub struct Solution {
+pub struct Solution<'g> {
     /// Accelerations of the given speeds.
-    pub accelerations: Vec<ExprId>,
+    pub accelerations: Vec<Expr<'g>>,
     /// Multipliers, one per row.
-    pub multipliers: Vec<ExprId>,
+    pub multipliers: Vec<Expr<'g>>,
     /// Diagonal of D for the loop rows, positive in regular positions.
-    pub pivots: Vec<ExprId>,
+    pub pivots: Vec<Expr<'g>>,
 }
 
 /// Solves for accelerations and multipliers. `mass` and `jacobian` are over the same speeds, ordered root to
 /// leaves; `names` label the pivots.
-pub fn solve(
-    g: &Scope,
-    mass: &[Vec<ExprId>],
-    jacobian: &[Vec<ExprId>],
-    force: &[ExprId],
-    target: &[ExprId],
-) -> Solution {
+pub fn solve<'g>(
+    g: &'g Scope,
+    mass: &[Vec<Expr<'g>>],
+    jacobian: &[Vec<Expr<'g>>],
+    force: &[Expr<'g>],
+    target: &[Expr<'g>],
+) -> Solution<'g> {
     let (n, m) = (mass.len(), jacobian.len());
     let zero = g.zero();
     let mut matrix = vec![vec![zero; n + m]; n + m];
@@ -38,7 +38,7 @@ pub fn solve(
             matrix[i][n + r] = jacobian[r][i];
         }
     }
-    let mut right: Vec<ExprId> = force.iter().chain(target).copied().collect();
+    let mut right: Vec<Expr<'g>> = force.iter().chain(target).copied().collect();
     let mut system = Elimination { matrix, reciprocal: vec![zero; n + m], order: Vec::new() };
     let mut left: Vec<usize> = (0..n + m).collect();
     g.begin_section("elimination of speeds, from the leaves of the tree to its root");
@@ -57,15 +57,15 @@ pub fn solve(
     Solution { accelerations: solution[..n].to_vec(), multipliers, pivots }
 }
 
-struct Elimination {
-    matrix: Vec<Vec<ExprId>>,
-    reciprocal: Vec<ExprId>,
+struct Elimination<'g> {
+    matrix: Vec<Vec<Expr<'g>>>,
+    reciprocal: Vec<Expr<'g>>,
     order: Vec<usize>,
 }
 
-impl Elimination {
+impl<'g> Elimination<'g> {
     /// Takes unknown `k` out: updates the block of those left and the right-hand side.
-    fn eliminate(&mut self, g: &Scope, k: usize, left: &mut Vec<usize>, right: &mut [ExprId]) {
+    fn eliminate(&mut self, g: &'g Scope, k: usize, left: &mut Vec<usize>, right: &mut [Expr<'g>]) {
         left.retain(|other| *other != k);
         self.order.push(k);
         self.reciprocal[k] = g.reciprocal(self.matrix[k][k]);
@@ -85,7 +85,7 @@ impl Elimination {
     }
 
     /// Solves from the last eliminated unknown to the first.
-    fn substitute(&self, g: &Scope, right: &[ExprId]) -> Vec<ExprId> {
+    fn substitute(&self, g: &'g Scope, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut solution = vec![g.zero(); right.len()];
         for (position, &k) in self.order.iter().enumerate().rev() {
             let mut sum = right[k];
@@ -99,7 +99,7 @@ impl Elimination {
     }
 
     /// The row with the fewest neighbours among those left; the first among equals.
-    fn least_fill(&self, g: &Scope, left: &[usize]) -> usize {
+    fn least_fill(&self, g: &'g Scope, left: &[usize]) -> usize {
         let degree = |k: usize| left.iter().filter(|i| **i != k && !g.is_zero(self.matrix[**i][k])).count();
         left.iter().copied().min_by_key(|k| degree(*k)).expect("there are rows left")
     }

@@ -1,7 +1,7 @@
 //! Wrenches on links: how they pass inwards and what the speeds feel of them.
 //! In: poses, freedoms. Out: expressions. Never knows where a wrench comes from.
 
-use crate::expr::{ExprId, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::kinematics::Pose;
 use super::linkage::Freedom;
@@ -9,31 +9,31 @@ use super::node::NodePose;
 
 /// A wrench in a link's frame: force, and moment about the link's origin.
 #[derive(Clone, Copy, Debug)]
-pub struct Wrench {
+pub struct Wrench<'g> {
     /// Moment [N m].
-    pub moment: Vec3,
+    pub moment: Vec3<'g>,
     /// Force [N].
-    pub force: Vec3,
+    pub force: Vec3<'g>,
 }
 
-impl Wrench {
+impl<'g> Wrench<'g> {
     /// No wrench.
-    pub fn zero(g: &Scope) -> Self {
+    pub fn zero(g: &'g Scope) -> Self {
         Self { moment: g.zero_vector(), force: g.zero_vector() }
     }
 
     /// Sum.
-    pub fn plus(self, g: &Scope, other: Self) -> Self {
+    pub fn plus(self, g: &'g Scope, other: Self) -> Self {
         Self { moment: g.add3(self.moment, other.moment), force: g.add3(self.force, other.force) }
     }
 
     /// Opposite.
-    pub fn negated(self, g: &Scope) -> Self {
+    pub fn negated(self, g: &'g Scope) -> Self {
         Self { moment: g.neg3(self.moment), force: g.neg3(self.force) }
     }
 
     /// The same wrench seen from the parent link.
-    pub fn on_parent(self, g: &Scope, pose: &Pose) -> Self {
+    pub fn on_parent(self, g: &'g Scope, pose: &Pose<'g>) -> Self {
         let force = g.mul_vec3(pose.rotation, self.force);
         let turned = g.mul_vec3(pose.rotation, self.moment);
         let lever = g.cross3(pose.offset, force);
@@ -41,7 +41,7 @@ impl Wrench {
     }
 
     /// What the speeds inboard of the link feel of it: a ball link passes no moment, a free link nothing.
-    pub fn passed_inwards(self, g: &Scope, freedom: Freedom, pose: &Pose) -> Self {
+    pub fn passed_inwards(self, g: &'g Scope, freedom: Freedom, pose: &Pose<'g>) -> Self {
         match freedom {
             Freedom::Free => Self::zero(g),
             Freedom::Ball => {
@@ -54,7 +54,7 @@ impl Wrench {
 
     /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame
     /// and nodes only what their motion takes, not what deforms the body.
-    pub fn generalised(self, g: &Scope, freedom: Freedom, node: Option<&NodePose>) -> Vec<ExprId> {
+    pub fn generalised(self, g: &'g Scope, freedom: Freedom, node: Option<&NodePose<'g>>) -> Vec<Expr<'g>> {
         if let Some(node) = node {
             return self.on_node(g, freedom, node);
         }
@@ -68,13 +68,13 @@ impl Wrench {
                 let axis = g.vector(axis);
                 vec![g.dot3(axis, self.force)]
             }
-            Freedom::Ball => self.moment.to_vec(),
-            Freedom::Free => [self.moment, self.force].concat(),
+            Freedom::Ball => self.moment.0.to_vec(),
+            Freedom::Free => [self.moment.0, self.force.0].concat(),
             Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
         }
     }
 
-    fn on_node(self, g: &Scope, freedom: Freedom, node: &NodePose) -> Vec<ExprId> {
+    fn on_node(self, g: &'g Scope, freedom: Freedom, node: &NodePose<'g>) -> Vec<Expr<'g>> {
         if freedom == Freedom::Node {
             let (moment, force) = (node.to_floating(g, self.moment), node.to_floating(g, self.force));
             return node.generalised(g, moment, force);
@@ -87,10 +87,10 @@ impl Wrench {
 
     /// Momentum of a body (mass, first moment, inertia about the origin) per unit of a twist.
     pub fn momentum(
-        g: &Scope,
-        (mass, first, inertia): (ExprId, Vec3, Mat3),
-        omega: Vec3,
-        origin: Vec3,
+        g: &'g Scope,
+        (mass, first, inertia): (Expr<'g>, Vec3<'g>, Mat3<'g>),
+        omega: Vec3<'g>,
+        origin: Vec3<'g>,
     ) -> Self {
         let (spun, carried) = (g.mul_vec3(inertia, omega), g.cross3(first, origin));
         let (moved, turned) = (g.scale3(mass, origin), g.cross3(omega, first));
@@ -98,7 +98,7 @@ impl Wrench {
     }
 
     /// Power on a twist.
-    pub fn power(self, g: &Scope, omega: Vec3, origin: Vec3) -> ExprId {
+    pub fn power(self, g: &'g Scope, omega: Vec3<'g>, origin: Vec3<'g>) -> Expr<'g> {
         let (turned, moved) = (g.dot3(self.moment, omega), g.dot3(self.force, origin));
         g.add(turned, moved)
     }

@@ -3,16 +3,17 @@
 //!
 //! Children are always created before their parents, so node order is a topological order.
 
+mod algebra;
 mod build;
 mod diff;
 mod eval;
-mod matrix;
+mod forward;
 mod scope;
 
 use std::collections::HashMap;
 
 pub use crate::id::{ExprId, SectionId, SymbolId};
-pub use matrix::{Mat3, Vec3, transpose};
+pub use algebra::{Expr, Mat3, Vec3};
 pub use scope::Scope;
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.

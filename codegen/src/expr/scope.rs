@@ -1,11 +1,12 @@
-//! Where expressions are made: a graph behind a shared reference, so that formulas need no `&mut`.
-//! Out: a finished [`Graph`]. Never knows what is computed.
+//! Where expressions are made: a graph behind a shared reference. Out: [`Expr`]s, then the finished [`Graph`].
+//! Never knows what is computed.
 
 use std::cell::RefCell;
 
-use super::{ExprId, Graph, Mat3, Vec3};
+use super::algebra::{Expr, Mat3, Vec3};
+use super::{ExprId, Graph};
 
-/// A graph under construction. Nodes are made in the order in which formulas are written.
+/// A graph under construction. Nodes are made in the order in which Rust evaluates the operands of a formula.
 #[derive(Debug, Default)]
 pub struct Scope(RefCell<Graph>);
 
@@ -22,141 +23,73 @@ impl Scope {
         self.0.into_inner()
     }
 
+    /// What `build` makes of the graph.
+    pub(super) fn make<R>(&self, build: impl FnOnce(&mut Graph) -> R) -> R {
+        build(&mut self.0.borrow_mut())
+    }
+
+    /// The expression of a node.
+    const fn expr(&self, id: ExprId) -> Expr<'_> {
+        Expr::new(self, id)
+    }
+
     /// A new input, `name` as it reads in generated code.
-    pub fn symbol(&self, name: impl Into<String>) -> ExprId {
-        self.0.borrow_mut().symbol(name)
+    pub fn symbol(&self, name: impl Into<String>) -> Expr<'_> {
+        self.expr(self.make(|g| g.symbol(name)))
     }
 
     /// Starts a section: nodes first made from here on belong to it.
     pub fn begin_section(&self, title: impl Into<String>) {
-        self.0.borrow_mut().begin_section(title);
+        self.make(|g| g.begin_section(title));
     }
 
-    /// Gives a node a readable name, unless it is a constant, an input or named already.
-    pub fn label(&self, id: ExprId, name: impl Into<String>) {
-        self.0.borrow_mut().label(id, name);
+    /// A number.
+    pub fn number(&self, value: f64) -> Expr<'_> {
+        self.expr(self.make(|g| g.constant(value)))
     }
 
-    /// The number behind a node, if it is one.
-    pub fn as_constant(&self, id: ExprId) -> Option<f64> {
-        self.0.borrow().as_constant(id)
+    /// A vector of numbers.
+    pub fn vector(&self, components: [f64; 3]) -> Vec3<'_> {
+        Vec3(components.map(|component| self.number(component)))
     }
 
-    /// Whether the node is the number zero.
-    pub fn is_zero(&self, id: ExprId) -> bool {
-        self.0.borrow().is_zero(id)
+    /// A matrix of numbers, row by row.
+    pub fn matrix(&self, rows: [[f64; 3]; 3]) -> Mat3<'_> {
+        Mat3(rows.map(|row| self.vector(row)))
     }
-}
 
-// The builders of the graph under the same names.
-#[allow(missing_docs, reason = "documented at the graph's builders")]
-impl Scope {
-    pub fn constant(&self, value: f64) -> ExprId {
-        self.0.borrow_mut().constant(value)
+    /// Zero.
+    pub fn zero(&self) -> Expr<'_> {
+        self.number(0.0)
     }
-    pub fn zero(&self) -> ExprId {
-        self.0.borrow_mut().zero()
+
+    /// The zero vector.
+    pub fn zero_vector(&self) -> Vec3<'_> {
+        self.vector([0.0; 3])
     }
-    pub fn one(&self) -> ExprId {
-        self.0.borrow_mut().one()
+
+    /// The identity matrix.
+    pub fn identity(&self) -> Mat3<'_> {
+        self.matrix([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
     }
-    pub fn add(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().add(a, b)
+
+    /// Sum of any number of terms.
+    pub fn sum<'g>(&'g self, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
+        terms.into_iter().fold(self.zero(), |sum, term| sum + term)
     }
-    pub fn sub(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().sub(a, b)
+
+    /// `sum weight_k number_k`.
+    pub fn weighted<'g>(&'g self, numbers: impl IntoIterator<Item = f64>, weights: &[Expr<'g>]) -> Expr<'g> {
+        self.sum(numbers.into_iter().zip(weights).map(|(number, weight)| number * *weight))
     }
-    pub fn mul(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().mul(a, b)
+
+    /// `sum weight_k vector_k` of constant vectors.
+    pub fn weighted_vectors<'g>(&'g self, vectors: &[[f64; 3]], weights: &[Expr<'g>]) -> Vec3<'g> {
+        Vec3::from_fn(|i| self.weighted(vectors.iter().map(|vector| vector[i]), weights))
     }
-    pub fn div(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().div(a, b)
-    }
-    pub fn atan2(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().atan2(a, b)
-    }
-    pub fn angle_over_sine(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().angle_over_sine(a, b)
-    }
-    pub fn derivative(&self, a: ExprId, b: ExprId) -> ExprId {
-        self.0.borrow_mut().derivative(a, b)
-    }
-    pub fn neg(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().neg(a)
-    }
-    pub fn reciprocal(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().reciprocal(a)
-    }
-    pub fn square(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().square(a)
-    }
-    pub fn sqrt(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().sqrt(a)
-    }
-    pub fn sin(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().sin(a)
-    }
-    pub fn cos(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().cos(a)
-    }
-    pub fn exp(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().exp(a)
-    }
-    pub fn ln(&self, a: ExprId) -> ExprId {
-        self.0.borrow_mut().ln(a)
-    }
-    pub fn power(&self, a: ExprId, n: i32) -> ExprId {
-        self.0.borrow_mut().power(a, n)
-    }
-    pub fn log_coefficient(&self, rank: u8, theta_squared: ExprId) -> ExprId {
-        self.0.borrow_mut().log_coefficient(rank, theta_squared)
-    }
-    pub fn dot(&self, pairs: &[(ExprId, ExprId)]) -> ExprId {
-        self.0.borrow_mut().dot(pairs)
-    }
-    pub fn derivative_along(&self, a: ExprId, seeds: &[(ExprId, ExprId)]) -> ExprId {
-        self.0.borrow_mut().derivative_along(a, seeds)
-    }
-    pub fn vector(&self, values: [f64; 3]) -> Vec3 {
-        self.0.borrow_mut().vector(values)
-    }
-    pub fn zero_vector(&self) -> Vec3 {
-        self.0.borrow_mut().zero_vector()
-    }
-    pub fn matrix(&self, rows: [[f64; 3]; 3]) -> Mat3 {
-        self.0.borrow_mut().matrix(rows)
-    }
-    pub fn add3(&self, a: Vec3, b: Vec3) -> Vec3 {
-        self.0.borrow_mut().add3(a, b)
-    }
-    pub fn sub3(&self, a: Vec3, b: Vec3) -> Vec3 {
-        self.0.borrow_mut().sub3(a, b)
-    }
-    pub fn cross3(&self, a: Vec3, b: Vec3) -> Vec3 {
-        self.0.borrow_mut().cross3(a, b)
-    }
-    pub fn neg3(&self, a: Vec3) -> Vec3 {
-        self.0.borrow_mut().neg3(a)
-    }
-    pub fn scale3(&self, factor: ExprId, a: Vec3) -> Vec3 {
-        self.0.borrow_mut().scale3(factor, a)
-    }
-    pub fn dot3(&self, a: Vec3, b: Vec3) -> ExprId {
-        self.0.borrow_mut().dot3(a, b)
-    }
-    pub fn mul_vec3(&self, m: Mat3, a: Vec3) -> Vec3 {
-        self.0.borrow_mut().mul_vec3(m, a)
-    }
-    pub fn transpose_mul_vec3(&self, m: Mat3, a: Vec3) -> Vec3 {
-        self.0.borrow_mut().transpose_mul_vec3(m, a)
-    }
-    pub fn mul_mat3(&self, a: Mat3, b: Mat3) -> Mat3 {
-        self.0.borrow_mut().mul_mat3(a, b)
-    }
-    pub fn skew3(&self, a: Vec3) -> Mat3 {
-        self.0.borrow_mut().skew3(a)
-    }
-    pub fn add_mat3(&self, a: Mat3, b: Mat3) -> Mat3 {
-        self.0.borrow_mut().add_mat3(a, b)
+
+    /// `sum weight_k matrix_k` of constant matrices.
+    pub fn weighted_matrices<'g>(&'g self, matrices: &[[[f64; 3]; 3]], weights: &[Expr<'g>]) -> Mat3<'g> {
+        Mat3::from_fn(|i, j| self.weighted(matrices.iter().map(|matrix| matrix[i][j]), weights))
     }
 }

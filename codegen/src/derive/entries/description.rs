@@ -2,16 +2,20 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    ContactInfo, Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes, VariableInfo,
+    Channel, ContactInfo, Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes,
+    VariableInfo,
 };
 
 use super::Deriver;
+use crate::derive::closure::CutRows;
+use crate::derive::inertia::Geometry;
 use crate::derive::joint_state::{coordinate_count, is_angle};
 use crate::derive::linkage::{Freedom, Linkage};
+use crate::derive::start::StartValues;
 use crate::model::{JointKind, Mechanism};
 
 impl Deriver<'_> {
-    pub(super) fn sizes(&self) -> Sizes {
+    pub(super) fn sizes(&self, channels: usize) -> Sizes {
         Sizes {
             parameters: self.parameters.len(),
             coordinates: self.free_q.len(),
@@ -22,14 +26,19 @@ impl Deriver<'_> {
             all_rows: self.keep.len(),
             drivers: self.drivers.len(),
             contacts: self.contacts.len(),
-            channels: self.channels.len(),
+            channels,
             workspace: 0,
         }
     }
 
-    pub(super) fn description(&self) -> Description {
-        let names = variable_names(self.mechanism, self.linkage);
-        let start = self.start.as_ref().expect("start values are derived before the description");
+    pub(super) fn description(
+        &self,
+        start: &StartValues<'_>,
+        rows: Vec<RowInfo>,
+        channels: Vec<Channel>,
+    ) -> Description {
+        let Geometry { mechanism, linkage, .. } = self.geometry;
+        let names = variable_names(mechanism, linkage);
         let pick = |names: &[(String, &'static str)], free: &[usize], held: &[bool]| {
             free.iter()
                 .map(|i| VariableInfo {
@@ -39,22 +48,8 @@ impl Deriver<'_> {
                 })
                 .collect::<Vec<_>>()
         };
-        let mut kept = 0;
-        let rows: Vec<RowInfo> = self
-            .row_info
-            .iter()
-            .zip(&self.keep)
-            .map(|((joint, meaning, angular), keep)| RowInfo {
-                joint: self.mechanism.joint(*joint).name.clone().into(),
-                meaning: meaning.clone().into(),
-                angular: *angular,
-                kept: keep.then(|| {
-                    kept += 1;
-                    kept - 1
-                }),
-            })
-            .collect();
         let parameters: Vec<ParameterInfo> = self
+            .geometry
             .mechanism
             .parameters
             .iter()
@@ -69,16 +64,16 @@ impl Deriver<'_> {
             .drivers
             .iter()
             .map(|driver| DriverInfo {
-                joint: self.mechanism.joint(driver.joint).name.clone().into(),
-                angular: is_angle(&self.mechanism.joint(driver.joint).kind, driver.joint_coordinate),
+                joint: mechanism.joint(driver.joint).name.clone().into(),
+                angular: is_angle(&mechanism.joint(driver.joint).kind, driver.joint_coordinate),
             })
             .collect();
         let turn_driver = self.drivers.iter().position(|driver| {
-            let kind = &self.mechanism.joint(driver.joint).kind;
+            let kind = &mechanism.joint(driver.joint).kind;
             matches!(kind, JointKind::Revolute(_) | JointKind::Journal { .. })
         });
         Description {
-            name: self.mechanism.name.clone().into(),
+            name: mechanism.name.clone().into(),
             parameters: parameters.into(),
             coordinates: pick(&names.0, &self.free_q, &start.held_q).into(),
             speeds: pick(&names.1, &self.partition.free, &start.held_v).into(),
@@ -86,19 +81,38 @@ impl Deriver<'_> {
             quaternions: self.quaternions().into(),
             rows: rows.into(),
             drivers: drivers.into(),
-            channels: self.channels.clone().into(),
+            channels: channels.into(),
             turn_driver,
             contacts: self.contact_infos().into(),
         }
     }
 
+    /// What the rows of all cuts forbid, and which of them are kept, by index among the kept ones.
+    pub(super) fn row_infos(&self, cuts: &[CutRows<'_>]) -> Vec<RowInfo> {
+        let mut kept = 0;
+        cuts.iter()
+            .flat_map(|cut| cut.rows.iter().map(move |row| (cut.cut.joint, row)))
+            .zip(&self.keep)
+            .map(|((joint, row), keep)| RowInfo {
+                joint: self.geometry.mechanism.joint(joint).name.clone().into(),
+                meaning: row.meaning.clone().into(),
+                angular: row.angular,
+                kept: keep.then(|| {
+                    kept += 1;
+                    kept - 1
+                }),
+            })
+            .collect()
+    }
+
     fn contact_infos(&self) -> Vec<ContactInfo> {
-        let joints = self.contacts.iter().map(|contact| self.mechanism.joint(contact.joint));
+        let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
         joints.filter_map(|joint| joint.clearance.as_ref()).map(|clearance| clearance.laws.clone()).collect()
     }
 
     fn motions(&self) -> Vec<MotionInfo> {
-        self.linkage
+        self.geometry
+            .linkage
             .links
             .iter()
             .flat_map(|link| match link.freedom {
@@ -115,7 +129,8 @@ impl Deriver<'_> {
 
     /// First index among the free coordinates of every quaternion.
     fn quaternions(&self) -> Vec<usize> {
-        self.linkage
+        self.geometry
+            .linkage
             .links
             .iter()
             .filter(|link| matches!(link.freedom, Freedom::Ball | Freedom::Free))

@@ -1,36 +1,48 @@
 //! The blocks of every entry point.
 //! In: the deriver's symbols, link motion. Out: [`Function`]s in the order of [`Entry::ALL`].
 
-use linkwear_runtime::Entry;
+use linkwear_runtime::{Channel, Entry, RowInfo};
 
 use super::{Deriver, Instant};
 use crate::derive::composite::mass_matrix;
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
 use crate::derive::inertia::LinkMass;
-use crate::derive::joint_state::JointStates;
+use crate::derive::kinematics::rotation_of_quaternion;
 use crate::derive::linkage::Freedom;
-use crate::derive::observe::{Observed, channels};
-use crate::derive::start::start_values;
+use crate::derive::observe::{Observed, channels, quaternion_product};
+use crate::derive::start::{StartValues, start_values};
 use crate::derive::{Block, Function};
-use crate::expr::{ExprId, Scope};
+use crate::expr::{Expr, Vec3};
 use crate::id::JointId;
 
-impl Deriver<'_> {
+impl<'g> Deriver<'g> {
     fn base_inputs(&self) -> Vec<Block> {
         vec![
-            Block::vector("parameters", "Tunable parameters, SI.", "", self.parameters.clone()),
-            Block::vector("t", "Time [s].", "", vec![self.inputs.time]),
+            Block::vector("parameters", "Tunable parameters, SI.", "", self.parameters.iter().copied()),
+            Block::vector("t", "Time [s].", "", [self.geometry.inputs.time]),
         ]
     }
 
     fn state_inputs(&self) -> Vec<Block> {
-        let q = self.free_q.iter().map(|i| self.q_all[*i]).collect();
-        let v = self.partition.free.iter().map(|i| self.v_all[*i]).collect();
+        let q = self.free_q.iter().map(|i| self.q_all[*i]);
+        let v = self.partition.free.iter().map(|i| self.v_all[*i]);
         let mut blocks = self.base_inputs();
         blocks.push(Block::vector("q", "Free coordinates [rad, m, quaternions].", "", q));
         blocks.push(Block::vector("v", "Free speeds [rad/s, m/s].", "", v));
         blocks
+    }
+
+    fn drive_input(&self) -> Block {
+        Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.iter().copied())
+    }
+
+    fn contact_input(&self) -> Block {
+        let entries =
+            self.contacts.iter().flat_map(|contact| contact.force.into_iter().chain(contact.moment));
+        let doc =
+            "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
+        Block::vector("contact", doc, "[CS (17)]", entries)
     }
 
     pub(super) fn function(
@@ -44,38 +56,37 @@ impl Deriver<'_> {
     }
 
     pub(super) fn prescribed(&self) -> Function {
-        let entries = self.drivers.iter().flat_map(|driver| driver.law).collect();
+        let entries = self.drivers.iter().flat_map(|driver| driver.law);
         let doc =
             "Position, speed and acceleration of every driver, driver by driver [rad or m, per s, per s²].";
-        let outputs = vec![Block::matrix("prescribed", doc, "", self.drivers.len(), 3, entries)];
+        let outputs = vec![Block::matrix("prescribed", doc, "", (self.drivers.len(), 3), entries)];
         self.function(Entry::Prescribed, "Motion that the drivers prescribe.", self.base_inputs(), outputs)
     }
 
-    pub(super) fn start(&mut self) -> Function {
-        let driven: Vec<(usize, usize, [ExprId; 2])> = self
+    pub(super) fn start(&self) -> (Function, StartValues<'g>) {
+        let driven: Vec<(usize, usize, [Expr<'g>; 2])> = self
             .drivers
             .iter()
             .map(|driver| (driver.coordinate, driver.speed, [driver.law[0], driver.law[1]]))
             .collect();
-        let g = self.g;
-        g.begin_section("start values");
-        let values = start_values(g, &self.geometry(), &driven);
-        let q = self.free_q.iter().map(|i| values.q[*i]).collect();
-        let v = self.partition.free.iter().map(|i| values.v[*i]).collect();
-        self.start = Some(values);
+        self.g.begin_section("start values");
+        let values = start_values(self.g, &self.geometry, &driven);
+        let q = self.free_q.iter().map(|i| values.q[*i]);
+        let v = self.partition.free.iter().map(|i| values.v[*i]);
         let outputs = vec![
             Block::vector("q", "Start values of the free coordinates, before the loops are closed.", "", q),
             Block::vector("v", "Wishes for the free speeds.", "", v),
         ];
-        self.function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs)
+        let function =
+            self.function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs);
+        (function, values)
     }
 
-    pub(super) fn forward_dynamics(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
-        let g = self.g;
+    pub(super) fn forward_dynamics(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
+        let (g, linkage, motion) = (self.g, self.geometry.linkage, &instant.state.motion);
         g.begin_section("loop Jacobian");
-        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &self.keep);
-        let result =
-            forward(g, self.linkage, &instant.motion, masses, &instant.loads, (&rows, &self.partition));
+        let rows = kept_rows(g, linkage, motion, &instant.cuts, &self.keep);
+        let result = forward(g, linkage, motion, masses, &instant.loads, (&rows, &self.partition));
         let outputs = vec![
             Block::vector(
                 "v_dot",
@@ -108,48 +119,37 @@ impl Deriver<'_> {
         self.function(Entry::ForwardDynamics, doc, inputs, outputs)
     }
 
-    pub(super) fn rates(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
-        let drive = self.drive.clone();
-        let g = self.g;
-        g.begin_section("rates of the coordinates");
+    pub(super) fn rates(&self, instant: &Instant<'g>) -> Function {
+        let (q, v) = (&instant.state.q, &instant.state.v);
+        self.g.begin_section("rates of the coordinates");
         let mut q_dot = Vec::new();
-        for link in &self.linkage.links {
+        for link in &self.geometry.linkage.links {
             let (first, speed) = (link.first_coordinate, link.first_speed);
-            let q = &q[first..first + link.freedom.coordinates()];
-            let v = &v[speed..speed + link.freedom.speeds()];
-            q_dot.extend(coordinate_rates(g, link.freedom, q, v));
+            let (q, v) = (&q[first..][..link.freedom.coordinates()], &v[speed..][..link.freedom.speeds()]);
+            q_dot.extend(coordinate_rates(link.freedom, q, v));
         }
-        g.begin_section("power");
+        self.g.begin_section("power");
         let mut supplied = instant.loads.supplied;
-        for (driver, force) in self.drivers.iter().zip(&drive) {
-            let power = g.mul(*force, driver.law[1]);
-            supplied = g.add(supplied, power);
+        for (driver, force) in self.drivers.iter().zip(&self.drive) {
+            supplied += *force * driver.law[1];
         }
-        let q_dot = self.free_q.iter().map(|i| q_dot[*i]).collect();
+        let q_dot = self.free_q.iter().map(|i| q_dot[*i]);
         let mut inputs = self.state_inputs();
-        inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", drive));
+        inputs.push(self.drive_input());
         let outputs = vec![
             Block::vector("q_dot", "Rates of the free coordinates.", "", q_dot),
-            Block::vector("supplied", "Power of drivers and applied forces [W].", "", vec![supplied]),
-            Block::vector("dissipated", "Power lost in dampers [W].", "", vec![instant.loads.dissipated]),
+            Block::vector("supplied", "Power of drivers and applied forces [W].", "", [supplied]),
+            Block::vector("dissipated", "Power lost in dampers [W].", "", [instant.loads.dissipated]),
         ];
         self.function(Entry::Rates, "Rates of the coordinates, power in and power lost.", inputs, outputs)
     }
 
-    pub(super) fn closure(&mut self, q: &[ExprId], v: &[ExprId], v_dot: &[ExprId]) -> Function {
-        let g = self.g;
-        let instant = self.instant(q, v, v_dot, true);
-        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &self.keep);
-        let cuts = instant.cuts;
-        self.row_info = cuts
-            .iter()
-            .flat_map(|cut| cut.rows.iter().map(move |row| (cut.cut.joint, row.meaning.clone(), row.angular)))
-            .collect();
-        let all: Vec<ExprId> = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual)).collect();
-        let rates: Vec<ExprId> = rows.iter().map(|row| row.rate).collect();
+    pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
+        let Instant { state, cuts, .. } = self.instant(self.driven_state(&[]), true);
+        let rows = kept_rows(self.g, self.geometry.linkage, &state.motion, &cuts, &self.keep);
+        let all = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual));
         let free = &self.partition.free;
-        let jacobian: Vec<ExprId> =
-            rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
+        let jacobian = rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]));
         let outputs = vec![
             Block::vector(
                 "phi",
@@ -157,141 +157,137 @@ impl Deriver<'_> {
                 "[CS (3)]",
                 all,
             ),
-            Block::vector("phi_dot", "Velocity residuals of the kept rows [rad/s, m/s].", "[CS (3)]", rates),
+            Block::vector(
+                "phi_dot",
+                "Velocity residuals of the kept rows [rad/s, m/s].",
+                "[CS (3)]",
+                rows.iter().map(|row| row.rate),
+            ),
             Block::matrix(
                 "phi_q",
                 "Jacobian of the kept rows by the free speeds.",
                 "[CS (3)]",
-                rows.len(),
-                free.len(),
+                (rows.len(), free.len()),
                 jacobian,
             ),
         ];
         let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        self.function(Entry::Closure, doc, self.state_inputs(), outputs)
+        (self.function(Entry::Closure, doc, self.state_inputs(), outputs), self.row_infos(&cuts))
     }
 
-    fn energies(&self, instant: &Instant, masses: &[LinkMass]) -> [ExprId; 2] {
-        let g = self.g;
+    fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
+        let (g, motion) = (self.g, &instant.state.motion);
         g.begin_section("energies");
-        let kinetic = kinetic_energy(g, masses, &instant.motion);
-        let gravity = self.gravity();
-        let weight = weight_energy(g, self.linkage, &instant.motion, masses, gravity);
-        [kinetic, g.add(weight, instant.loads.potential)]
+        let kinetic = kinetic_energy(g, masses, motion);
+        let weight = weight_energy(g, motion, masses, self.gravity());
+        [kinetic, weight + instant.loads.potential]
     }
 
-    pub(super) fn energy(&mut self, instant: &Instant, masses: &[LinkMass]) -> Function {
+    pub(super) fn energy(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
         let [kinetic, potential] = self.energies(instant, masses);
         let outputs = vec![
-            Block::vector("kinetic", "Kinetic energy [J].", "", vec![kinetic]),
-            Block::vector("potential", "Energy of weight and springs [J].", "", vec![potential]),
+            Block::vector("kinetic", "Kinetic energy [J].", "", [kinetic]),
+            Block::vector("potential", "Energy of weight and springs [J].", "", [potential]),
         ];
         self.function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs(), outputs)
     }
 
-    pub(super) fn observe(&mut self, q: &[ExprId], v: &[ExprId], masses: &[LinkMass]) -> Function {
-        let mut v_dot = vec![self.g.zero(); v.len()];
-        for (position, speed) in self.partition.free.iter().enumerate() {
-            v_dot[*speed] = self.v_dot[position];
-        }
-        for driver in &self.drivers {
-            v_dot[driver.speed] = driver.law[2];
-        }
-        let g = self.g;
-        let instant = self.instant(q, v, &v_dot, false);
+    pub(super) fn observe(&self, masses: &[LinkMass<'g>]) -> (Function, Vec<Channel>) {
+        let instant = self.instant(self.driven_state(&self.v_dot), false);
         let energy = self.energies(&instant, masses);
-        let geometry = self.geometry();
-        let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
-        let drives: Vec<(JointId, usize, ExprId)> = self
+        let drives: Vec<(JointId, usize, Expr<'g>)> = self
             .drivers
             .iter()
             .zip(&self.drive)
             .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
             .collect();
-        let observed = Observed {
-            state: &state,
-            masses,
-            loads: &instant.loads,
-            cuts: &instant.cuts,
-            multipliers: &self.lambda,
-            keep: &self.keep,
-            drives: &drives,
-            energy,
-        };
-        let list = channels(g, &observed);
-        self.channels = list.channels;
+        let list = channels(
+            self.g,
+            &Observed {
+                state: &instant.state,
+                masses,
+                loads: &instant.loads,
+                cuts: &instant.cuts,
+                multipliers: &self.lambda,
+                keep: &self.keep,
+                drives: &drives,
+                energy,
+            },
+        );
         let mut inputs = self.state_inputs();
-        inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", self.v_dot.clone()));
+        let rates = self.v_dot.iter().copied();
+        inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", rates));
         inputs.push(Block::vector(
             "lambda",
             "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
             "",
-            self.lambda.clone(),
+            self.lambda.iter().copied(),
         ));
-        inputs.push(Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.clone()));
+        inputs.push(self.drive_input());
         inputs.push(self.contact_input());
-        let names = self.channels.iter().map(|channel| channel.name.to_string()).collect();
+        let names = list.channels.iter().map(|channel| channel.name.to_string()).collect();
         let doc = "One value per output column, SI, components in W.";
         let outputs = vec![Block::vector("channels", doc, "", list.values).named(names)];
-        self.function(Entry::Observe, "Everything a user may want to see or record.", inputs, outputs)
+        let doc = "Everything a user may want to see or record.";
+        (self.function(Entry::Observe, doc, inputs, outputs), list.channels)
     }
 
-    fn contact_input(&self) -> Block {
-        let entries = self.contacts.iter().flat_map(|contact| [contact.force, contact.moment].concat());
-        let doc =
-            "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
-        Block::vector("contact", doc, "[CS (17)]", entries.collect())
-    }
-
-    pub(super) fn contacts(&mut self, q: &[ExprId], v: &[ExprId], instant: &Instant) -> Function {
-        let joints: Vec<JointId> = self.contacts.iter().map(|contact| contact.joint).collect();
-        let g = self.g;
-        let geometry = self.geometry();
-        let v_dot = vec![g.zero(); v.len()];
-        let state = JointStates { geometry: &geometry, motion: &instant.motion, q, v, v_dot: &v_dot };
+    pub(super) fn contacts(&self, instant: &Instant<'g>) -> Function {
         let mut entries = Vec::new();
-        for joint in &joints {
-            g.begin_section(format!("motion in the clearance of {}", self.mechanism.joint(*joint).name));
-            entries.extend(contact_motion(g, &state, *joint));
+        for contact in &self.contacts {
+            let name = &self.geometry.mechanism.joint(contact.joint).name;
+            self.g.begin_section(format!("motion in the clearance of {name}"));
+            entries.extend(contact_motion(self.g, &instant.state, contact.joint));
         }
         let doc = "Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.";
-        let outputs = vec![Block::matrix("contacts", doc, "[CS (7)-(12)]", joints.len(), 10, entries)];
+        let shape = (self.contacts.len(), 10);
+        let outputs = vec![Block::matrix("contacts", doc, "[CS (7)-(12)]", shape, entries)];
         let doc = "How the journals of joints with clearance lie and move in their bearings.";
         self.function(Entry::Contacts, doc, self.state_inputs(), outputs)
     }
 
-    pub(super) fn equations_of_motion(&mut self, masses: &[LinkMass]) -> Function {
+    pub(super) fn equations_of_motion(&self, masses: &[LinkMass<'g>]) -> Function {
+        let (g, linkage) = (self.g, self.geometry.linkage);
         let (q, v) = (self.q_all.clone(), self.v_all.clone());
         let n = v.len();
-        let zeros = vec![self.g.zero(); n];
-        let g = self.g;
-        let instant = self.instant(&q, &v, &zeros, false);
-        let h = bias_forces(g, self.linkage, &instant.motion, masses, &instant.loads);
+        let instant = self.instant([q, v, vec![g.zero(); n]], false);
+        let motion = &instant.state.motion;
+        let h = bias_forces(g, linkage, motion, masses, &instant.loads);
         g.begin_section("mass matrix by composite bodies");
-        let mass = mass_matrix(g, self.linkage, &instant.motion.poses, masses);
+        let mass = mass_matrix(g, linkage, &motion.poses, masses);
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
-        let all = vec![true; self.keep.len()];
-        let rows = kept_rows(g, self.linkage, &instant.motion, &instant.cuts, &all);
-        let triangle: Vec<ExprId> = (0..n).flat_map(|i| mass[i][i..].to_vec()).collect();
-        let residuals = rows.iter().map(|row| row.residual).collect();
-        let gamma = rows.iter().map(|row| g.neg(row.bias)).collect();
-        let jacobian: Vec<ExprId> = rows.iter().flat_map(|row| row.jacobian.clone()).collect();
+        let rows = kept_rows(g, linkage, motion, &instant.cuts, &vec![true; self.keep.len()]);
         let outputs = vec![
-            Block::vector("mass", "Upper triangle of M, row by row [kg m², kg m, kg].", "[CS (6)]", triangle),
+            Block::vector(
+                "mass",
+                "Upper triangle of M, row by row [kg m², kg m, kg].",
+                "[CS (6)]",
+                (0..n).flat_map(|i| mass[i][i..].to_vec()),
+            ),
             Block::vector("h", "Left side besides M v̇: inertia, weight, springs, damping.", "[CS (6)]", h),
-            Block::vector("phi", "Position residuals of all rows [rad, m].", "[CS (3)]", residuals),
+            Block::vector(
+                "phi",
+                "Position residuals of all rows [rad, m].",
+                "[CS (3)]",
+                rows.iter().map(|row| row.residual),
+            ),
             Block::matrix(
                 "phi_q",
                 "Jacobian of all rows by all speeds.",
                 "[CS (3)]",
-                rows.len(),
-                n,
-                jacobian,
+                (rows.len(), n),
+                rows.iter().flat_map(|row| row.jacobian.iter().copied()),
             ),
-            Block::vector("gamma", "Right side of phi_q v̇ = gamma.", "[CS (6)]", gamma),
+            Block::vector(
+                "gamma",
+                "Right side of phi_q v̇ = gamma.",
+                "[CS (6)]",
+                rows.iter().map(|row| -row.bias),
+            ),
         ];
         let mut inputs = self.base_inputs();
+        let (q, v) = (instant.state.q, instant.state.v);
         inputs.push(Block::vector("q", "All coordinates, driven ones included.", "", q));
         inputs.push(Block::vector("v", "All speeds, driven ones included.", "", v));
         inputs.push(self.contact_input());
@@ -301,19 +297,16 @@ impl Deriver<'_> {
 }
 
 /// `q̇` of one link from its speeds.
-fn coordinate_rates(g: &Scope, freedom: Freedom, q: &[ExprId], v: &[ExprId]) -> Vec<ExprId> {
+fn coordinate_rates<'g>(freedom: Freedom, q: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
     if !matches!(freedom, Freedom::Ball | Freedom::Free) {
         return v.to_vec();
     }
     // q̇ = q ∘ (0, omega) / 2 with omega in the link's own frame.
-    let zero = g.zero();
-    let turned =
-        crate::derive::observe::quaternion_product(g, [q[0], q[1], q[2], q[3]], [zero, v[0], v[1], v[2]]);
-    let half = g.constant(0.5);
-    let mut rates: Vec<ExprId> = turned.into_iter().map(|x| g.mul(half, x)).collect();
+    let orientation = [q[0], q[1], q[2], q[3]];
+    let turned = quaternion_product(orientation, [q[0].scope().zero(), v[0], v[1], v[2]]);
+    let mut rates = turned.map(|x| 0.5 * x).to_vec();
     if freedom == Freedom::Free {
-        let rotation = crate::derive::kinematics::rotation_of_quaternion(g, [q[0], q[1], q[2], q[3]]);
-        rates.extend(g.mul_vec3(rotation, [v[3], v[4], v[5]]));
+        rates.extend(rotation_of_quaternion(orientation) * Vec3::first_of(&v[3..]));
     }
     rates
 }
