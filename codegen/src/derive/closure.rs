@@ -9,31 +9,15 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::{Closure, JointKind};
 
-use super::across::{Across, Motion, Place, Sides, joint_axes};
-use super::inertia::Geometry;
+use super::across::{Across, Place, Sides, joint_axes};
+use super::geometry::Geometry;
 use super::joint_rows::RowMaker;
 use super::kinematics::Poses;
 use super::linkage::{Cut, LinkIndex, Linkage};
 use super::log_closure::log_rows;
+use super::motion::Motion;
+use super::row::Row;
 use super::wrench::Wrench;
-
-/// One scalar constraint of a cut.
-pub struct Row<'g> {
-    /// What it forbids, for people.
-    pub meaning: String,
-    /// Residual in rad (else in m).
-    pub angular: bool,
-    /// Position residual.
-    pub residual: Expr<'g>,
-    /// Moment of the unit wrench on the child about its joint point, common frame.
-    pub moment: Vec3<'g>,
-    /// Force of the unit wrench on the child, common frame.
-    pub force: Vec3<'g>,
-    /// Velocity residual.
-    pub rate: Expr<'g>,
-    /// Acceleration residual for the accelerations that `Motion` was built with.
-    pub bias: Expr<'g>,
-}
 
 /// All rows of one cut with the relative motion they were made from.
 pub struct CutRows<'g> {

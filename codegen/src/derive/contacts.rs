@@ -11,8 +11,8 @@ use crate::id::JointId;
 use crate::model::JointKind;
 
 use super::across::{joint_axes, sides_of};
-use super::forces::Loads;
 use super::joint_state::JointStates;
+use super::loads::Loads;
 use super::wrench::Wrench;
 
 /// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.

@@ -14,9 +14,9 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::ModalData;
 
-use super::across::ModalState;
 use super::inertia::MassProperties;
 use super::kinematics::{Acceleration, Twist};
+use super::motion::ModalState;
 use super::wrench::Wrench;
 
 /// What the modes of one body feel, for given modal coordinates.

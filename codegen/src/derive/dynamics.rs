@@ -9,13 +9,13 @@
 
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::across::Motion;
 use super::closure::CutRows;
 use super::composite::mass_matrix;
-use super::forces::Loads;
 use super::inertia::{LinkMass, MassProperties};
 use super::kinematics::Acceleration;
 use super::linkage::Linkage;
+use super::loads::Loads;
+use super::motion::Motion;
 use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 

@@ -1,18 +1,15 @@
-//! Places of points and mass properties of bodies in the frames of their links.
-//! In: [`Mechanism`], [`Linkage`]. Out: expressions, constant wherever no tunable parameter occurs.
+//! Mass properties of bodies in the frames of their links.
+//! In: [`Geometry`]. Out: expressions, constant wherever no tunable parameter occurs.
 //! Never knows coordinates.
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::id::PointId;
-use crate::model::{Amount, Carrier, Inertia, Mechanism};
+use crate::model::{Amount, Inertia};
 
 use super::deformation::{ModalMass, deformed};
 use super::frame::Frame;
-use super::linkage::{Freedom, Linkage};
-use super::lower::Inputs;
-
-/// Entries smaller than this share of the largest are rounding dust of frame changes.
-const DUST: f64 = 1e-14;
+use super::geometry::{Geometry, matrix_without_dust, without_dust};
+use super::linkage::Freedom;
 
 /// Mass of a link: as a rigid body in its present shape, and what modes feel of it.
 #[derive(Clone, Debug)]
@@ -34,54 +31,7 @@ pub struct MassProperties<'g> {
     pub second: Mat3<'g>,
 }
 
-/// Where points of bodies are in the frames of their links.
-#[derive(Clone, Copy)]
-pub struct Geometry<'g> {
-    /// The mechanism.
-    pub mechanism: &'g Mechanism,
-    /// Its links.
-    pub linkage: &'g Linkage,
-    /// Parameters and time.
-    pub inputs: &'g Inputs<'g>,
-}
-
 impl<'g> Geometry<'g> {
-    /// Position of a point as `carrier`'s branch describes it, in W at the reference pose [m].
-    pub fn described(&self, point: PointId, carrier: Carrier) -> Vec3<'g> {
-        self.inputs.lower3(self.mechanism.point(point).position_for(carrier))
-    }
-
-    /// A point of a link's body in the link's frame [m]; for the ground in W.
-    pub fn local(&self, g: &'g Scope, link: Option<usize>, point: PointId) -> Vec3<'g> {
-        let Some(at) = link else { return self.described(point, Carrier::Ground) };
-        let link = &self.linkage.links[at];
-        let carrier = Carrier::Body(link.body);
-        let place = self.described(point, carrier);
-        let origin = self.described(link.origin, carrier);
-        let arm = g.sub3(place, origin);
-        let components = self.turn(g, &link.frame, arm);
-        without_dust(components)
-    }
-
-    /// Position of a link's inboard joint in the parent link's frame [m].
-    pub fn mount(&self, g: &'g Scope, at: usize) -> Vec3<'g> {
-        let link = &self.linkage.links[at];
-        if link.node.is_some() {
-            return g.zero_vector();
-        }
-        let first_of_chain = link.parent.is_none_or(|parent| self.linkage.links[parent].joint != link.joint);
-        if !first_of_chain {
-            return g.zero_vector();
-        }
-        self.local(g, link.parent, self.mechanism.joint(link.joint).at)
-    }
-
-    /// Components in a link's frame of a vector in W at the reference pose.
-    pub fn turn(&self, g: &'g Scope, frame: &Frame, vector: Vec3<'g>) -> Vec3<'g> {
-        let matrix = g.matrix(frame.0);
-        g.transpose_mul_vec3(matrix, vector)
-    }
-
     /// Mass properties of every link, for given coordinates, of which those of modes matter.
     pub fn masses(&self, g: &'g Scope, q: &[Expr<'g>]) -> Vec<LinkMass<'g>> {
         (0..self.linkage.links.len())
@@ -254,28 +204,6 @@ fn axial<'g>(g: &'g Scope, u: Vec3<'g>, along: Expr<'g>, across: Expr<'g>) -> Ma
 pub fn rotated<'g>(g: &'g Scope, turn: Mat3<'g>, m: Mat3<'g>) -> Mat3<'g> {
     let half = g.mul_mat3(turn, m);
     g.mul_mat3(half, turn.transpose())
-}
-
-/// Sets constants that are dust next to the largest constant to zero.
-fn without_dust<'g>(v: Vec3<'g>) -> Vec3<'g> {
-    let size = largest(v);
-    v.map(|x| clean(x, size))
-}
-
-fn matrix_without_dust<'g>(m: Mat3<'g>) -> Mat3<'g> {
-    let size = m.into_iter().map(largest).fold(0.0, f64::max);
-    Mat3(m.0.map(|row| row.map(|x| clean(x, size))))
-}
-
-fn largest(v: Vec3<'_>) -> f64 {
-    v.into_iter().filter_map(Expr::as_number).fold(0.0, |size, x| size.max(x.abs()))
-}
-
-fn clean(x: Expr<'_>, size: f64) -> Expr<'_> {
-    match x.as_number() {
-        Some(value) if value.abs() < DUST * size => x.scope().zero(),
-        _ => x,
-    }
 }
 
 /// `tr(P) 1 - P`: inertia tensor from the second moment.

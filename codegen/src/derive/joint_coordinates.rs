@@ -6,7 +6,7 @@ use crate::model::{Axis, JointKind};
 
 use super::across::{Across, JointAxes, Sides, joint_axes};
 use super::frame::{Frame, cross, dot, scale, sub};
-use super::inertia::Geometry;
+use super::geometry::Geometry;
 
 /// Coordinates of a joint with their first and second derivatives, recomputed from the motion across it.
 pub struct JointCoordinates<'g> {

@@ -5,8 +5,8 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::JointKind;
 
 use super::across::{Across, JointAxes, Sides};
-use super::closure::Row;
-use super::inertia::Geometry;
+use super::geometry::Geometry;
+use super::row::Row;
 
 /// Makes the rows of one cut.
 pub struct RowMaker<'a, 'g> {

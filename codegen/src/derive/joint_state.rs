@@ -5,9 +5,10 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Formula, JointKind, Term};
 
-use super::across::{Across, Motion, Place, sides_of};
-use super::inertia::Geometry;
+use super::across::{Across, Place, sides_of};
+use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
+use super::motion::Motion;
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {

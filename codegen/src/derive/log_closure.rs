@@ -10,8 +10,8 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::across::{Across, Sides, weld_axes};
-use super::closure::Row;
-use super::inertia::Geometry;
+use super::geometry::Geometry;
+use super::row::Row;
 
 const NAMES: [&str; 6] = [
     "rotation about x of the end body",

@@ -11,10 +11,10 @@ use crate::model::{Flexible, JointKind};
 
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
-use super::forces::Loads;
 use super::inertia::LinkMass;
 use super::joint_state::{JointStates, is_angle};
 use super::linkage::{Freedom, Linkage};
+use super::loads::Loads;
 use super::node::{NodePose, NodeShape};
 use super::wrench::Wrench;
 

@@ -5,7 +5,7 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::{Formula, Mechanism, Start};
 
-use super::inertia::Geometry;
+use super::geometry::Geometry;
 use super::kinematics::{Poses, carried_twist, twists};
 use super::linkage::Freedom;
 use super::observe::{Quaternion, link_displacement, quaternion_product};

@@ -3,18 +3,20 @@
 //!
 //! Children are always created before their parents, so node order is a topological order.
 
-mod algebra;
 mod build;
 mod diff;
 mod eval;
+mod expression;
 mod forward;
 mod scope;
+mod vector;
 
 use std::collections::HashMap;
 
 pub use crate::id::{ExprId, SectionId, SymbolId};
-pub use algebra::{Expr, Mat3, Vec3};
+pub use expression::Expr;
 pub use scope::Scope;
+pub use vector::{Mat3, Vec3};
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

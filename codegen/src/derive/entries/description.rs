@@ -8,7 +8,7 @@ use linkwear_runtime::{
 
 use super::Deriver;
 use crate::derive::closure::CutRows;
-use crate::derive::inertia::Geometry;
+use crate::derive::geometry::Geometry;
 use crate::derive::joint_state::{coordinate_count, is_angle};
 use crate::derive::linkage::{Freedom, Linkage};
 use crate::derive::start::StartValues;

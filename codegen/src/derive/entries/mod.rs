@@ -12,17 +12,19 @@ use crate::id::JointId;
 use crate::model::{Mechanism, Topology};
 
 use super::{Equations, Function};
-use crate::derive::across::{ModalState, Motion};
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
 use crate::derive::dynamics::Partition;
-use crate::derive::forces::{Loads, loads};
-use crate::derive::inertia::{Geometry, LinkMass};
+use crate::derive::forces::loads;
+use crate::derive::geometry::Geometry;
+use crate::derive::inertia::LinkMass;
 use crate::derive::joint_state::JointStates;
 use crate::derive::kinematics::{Poses, accelerations, twists};
 use crate::derive::linkage::{Freedom, Link, Linkage};
 use crate::derive::linkage_build::linkage;
+use crate::derive::loads::Loads;
 use crate::derive::lower::Inputs;
+use crate::derive::motion::{ModalState, Motion};
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
