@@ -13,8 +13,9 @@ use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::id::JointId;
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
+use linkwear_oracle::Kind;
 use linkwear_oracle::Oracle;
-use linkwear_oracle::random::{Kind, Recipe};
+use linkwear_oracle::random::Recipe;
 use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
 use support::{compile_source, shipped};
 

@@ -4,7 +4,7 @@ use linkwear_codegen::diagnostic::{Code, Diagnostics};
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{
-    Amount, Axis, Carrier, Closure, Force, ForceKind, Function, Inertia, Joint, JointKind, Mechanism,
+    Amount, Axis, Carrier, Closure, Force, ForceKind, Function, Inertia, Joint, JointModel, Mechanism,
     Overrides, Passive, Position, Term, resolve,
 };
 use linkwear_codegen::source::SourceFile;
@@ -81,23 +81,23 @@ fn all_joints() -> Mechanism {
 #[test]
 fn every_joint_kind_is_read_with_unit_axes() {
     let m = all_joints();
-    assert_eq!(joint(&m, "R").kind, JointKind::Revolute(both(Z)));
-    let JointKind::Prismatic(axis) = &joint(&m, "P").kind else { panic!() };
+    assert_eq!(joint(&m, "R").model, JointModel::new("revolute", &[both(Z)]));
+    let axis = joint(&m, "P").model.axes[0];
     let half = 0.5f64.sqrt();
     // One rounding in each of the norm and the division.
     assert!((axis.parent[0] - half).abs() < 2e-16 && (axis.parent[2] + half).abs() < 2e-16);
-    assert_eq!(joint(&m, "C").kind, JointKind::Cylindrical(both(Z)));
-    assert_eq!(joint(&m, "H").kind, JointKind::Screw(both(X), -0.004));
-    assert_eq!(joint(&m, "Y").kind, JointKind::Universal(both(X), both(Y)));
-    assert_eq!(joint(&m, "S").kind, JointKind::Spherical);
-    let JointKind::Planar { normal, first } = &joint(&m, "E").kind else { panic!() };
-    assert_eq!(*normal, both(Z));
+    assert_eq!(joint(&m, "C").model, JointModel::new("cylindrical", &[both(Z)]));
+    assert_eq!(joint(&m, "H").model, JointModel { lead: -0.004, ..JointModel::new("screw", &[both(X)]) });
+    assert_eq!(joint(&m, "Y").model, JointModel::new("universal", &[both(X), both(Y)]));
+    assert_eq!(joint(&m, "S").model, JointModel::new("spherical", &[]));
+    let [normal, first] = joint(&m, "E").model.axes[..] else { panic!() };
+    assert_eq!(normal, both(Z));
     assert!(
         (first.parent[0] - half).abs() < 2e-16 && first.parent[2].abs() < 2e-16,
         "made to lie in the plane"
     );
-    assert_eq!(joint(&m, "W").kind, JointKind::Fixed);
-    assert_eq!(joint(&m, "F").kind, JointKind::Free);
+    assert_eq!(joint(&m, "W").model, JointModel::new("fixed", &[]));
+    assert_eq!(joint(&m, "F").model, JointModel::new("free", &[]));
     assert_eq!((joint(&m, "H").parent, joint(&m, "H").child), (body(0), body(3)));
     assert!(m.joints.iter().all(|joint| joint.at == PointId::new(0) && !joint.cut));
 }
@@ -451,7 +451,7 @@ R3 = { revolute = ["coupler", "rocker"], at = "B", axis = [0, 0, 1] }
 R4 = { revolute = ["ground", "rocker"], at = "D", axis = [0, 0, 1] }
 "#,
     );
-    assert_eq!(joint(&m, "R2").kind, JointKind::Revolute(Axis { parent: Z, child: Y }));
+    assert_eq!(joint(&m, "R2").model, JointModel::new("revolute", &[Axis { parent: Z, child: Y }]));
     assert_eq!(cut_of(&m), ["R2"]);
 }
 

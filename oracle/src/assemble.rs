@@ -2,7 +2,7 @@
 //! speeds. In: guesses and wishes. Out: states of all bodies. Never knows forces.
 
 use linkwear_codegen::id::JointId;
-use linkwear_codegen::model::{Carrier, JointKind};
+use linkwear_codegen::model::Carrier;
 use nalgebra::{DVector, Vector3};
 use thiserror::Error;
 
@@ -217,8 +217,9 @@ impl Oracle {
 
     /// Start values of one joint; zero where the file says nothing.
     fn start_motion(&self, joint: JointId, states: &[BodyState]) -> JointMotion {
-        let round = matches!(self.joints[joint.index()].kind, JointKind::Spherical | JointKind::Free);
-        let count = if round { 6 } else { self.joints[joint.index()].scalars() };
+        let geometry = &self.joints[joint.index()];
+        let first = geometry.scalars();
+        let count = first + if geometry.kind.is_round() { 6 } else { 0 };
         let (mut position, mut speed) = (vec![0.0; count], vec![0.0; count]);
         for start in self.mechanism.starts.iter().filter(|start| start.joint == joint) {
             if let Some(formula) = &start.position {
@@ -233,13 +234,13 @@ impl Oracle {
             position[drive.coordinate] = law.value;
             speed[drive.coordinate] = law.first;
         }
-        if round {
-            let turn = Vector3::new(position[0], position[1], position[2]);
+        if geometry.kind.is_round() {
+            let turn = Vector3::from_column_slice(&position[first..first + 3]);
             let half = 0.5 * turn.norm();
             // sin(x) / x at 0 is 1.
             let share = if half == 0.0 { 0.5 } else { 0.5 * half.sin() / half };
             let quaternion = [half.cos(), share * turn.x, share * turn.y, share * turn.z];
-            position.splice(0..3, quaternion);
+            position.splice(first..first + 3, quaternion);
         }
         JointMotion { position, speed }
     }

@@ -2,11 +2,12 @@
 //! In: a look-up by name. Out: states of all bodies. Never knows how the numbers were made.
 
 use linkwear_codegen::id::JointId;
-use linkwear_codegen::model::{Carrier, JointKind};
+use linkwear_codegen::model::Carrier;
 use nalgebra::Vector3;
 
 use crate::frame::BodyState;
 use crate::joint::JointMotion;
+use crate::kind::Kind;
 use crate::model::Oracle;
 
 impl Oracle {
@@ -45,13 +46,14 @@ impl Oracle {
         let geometry = &self.joints[joint.index()];
         let name = &self.mechanism.joint(joint).name;
         let column = |suffix: &str| value(&format!("{name}.{suffix}"));
-        if !matches!(geometry.kind, JointKind::Spherical | JointKind::Free) {
-            let count = geometry.scalars();
-            let suffix = |k: usize| if count > 1 { (k + 1).to_string() } else { String::new() };
-            let all = |letter: &str| -> Option<Vec<f64>> {
-                (0..count).map(|k| column(&format!("{letter}{}", suffix(k)))).collect()
-            };
-            return Some(JointMotion { position: all("q")?, speed: all("v")? });
+        let count = geometry.scalars();
+        let suffix = |k: usize| if count > 1 { (k + 1).to_string() } else { String::new() };
+        let all = |letter: &str| -> Option<Vec<f64>> {
+            (0..count).map(|k| column(&format!("{letter}{}", suffix(k)))).collect()
+        };
+        let (mut position, mut speed) = (all("q")?, all("v")?);
+        if !geometry.kind.is_round() {
+            return Some(JointMotion { position, speed });
         }
         let omega = |carrier: Carrier| -> Option<Vector3<f64>> {
             let Carrier::Body(_) = carrier else { return Some(Vector3::zeros()) };
@@ -59,10 +61,11 @@ impl Oracle {
             let [x, y, z] = ["wx", "wy", "wz"].map(|axis| value(&format!("{body}.{axis}")));
             Some(Vector3::new(x?, y?, z?))
         };
-        let mut position: Vec<f64> = (0..4).map(|k| column(&format!("q{k}"))).collect::<Option<_>>()?;
-        let relative = omega(geometry.child)? - omega(geometry.parent)?;
-        let mut speed: Vec<f64> = relative.iter().copied().collect();
-        if geometry.kind == JointKind::Free {
+        for k in 0..4 {
+            position.push(column(&format!("q{k}"))?);
+        }
+        speed.extend((omega(geometry.child)? - omega(geometry.parent)?).iter());
+        if geometry.kind == Kind::Free {
             for axis in ["x", "y", "z"] {
                 position.push(column(axis)?);
                 speed.push(column(&format!("v{axis}"))?);

@@ -2,11 +2,12 @@
 //! coordinate acts on one that exists. In: a mechanism. Out: nothing, or an error. Never knows numbers.
 
 use linkwear_codegen::model::{
-    Amount, Body, ForceKind, Formula, Inertia, Joint, JointKind, Mechanism, Passive, Position,
+    Amount, Body, ForceKind, Formula, Inertia, Joint, Mechanism, Passive, Position,
 };
 
 use crate::error::OracleError;
 use crate::joint::JointGeometry;
+use crate::kind::Kind;
 
 /// Everything but motion laws, actuators and components of forces must have a value without a state.
 pub(crate) fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Result<(), OracleError> {
@@ -68,7 +69,7 @@ fn of_joint(joint: &Joint) -> Vec<&Formula> {
 /// spherical joint acts on its angular velocity.
 pub(crate) fn check_coordinates(mechanism: &Mechanism, joints: &[JointGeometry]) -> Result<(), OracleError> {
     for (joint, geometry) in mechanism.joints.iter().zip(joints) {
-        let round = matches!(geometry.kind, JointKind::Spherical);
+        let round = geometry.kind == Kind::Spherical;
         let drives = joint.drives.iter().map(|drive| drive.coordinate);
         let passive = joint.passive.iter().filter_map(|passive| match passive {
             Passive::Damping { coordinate, .. } if round && *coordinate == 0 => None,

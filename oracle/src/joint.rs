@@ -3,10 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use linkwear_codegen::model::{Axis, Carrier, Joint, JointKind};
+use linkwear_codegen::model::{Axis, Carrier, Joint};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::frame::{across, angle_about, rotation_about};
+use crate::kind::Kind;
 use crate::row::{Pair, Row};
 
 /// Coordinates and speeds of one joint, child relative to parent.
@@ -31,7 +32,11 @@ pub struct JointMotion {
 pub(crate) struct JointGeometry {
     pub parent: Carrier,
     pub child: Carrier,
-    pub kind: JointKind,
+    pub kind: Kind,
+    /// Its directions, as described.
+    pub axes: Vec<Axis>,
+    /// Advance of a screw per turn [m].
+    pub lead: f64,
     /// Joint point at the reference pose, on the parent's branch and on the child's [m].
     pub points: [Vector3<f64>; 2],
     /// Columns: the same right-handed triad as the parent's and as the child's branch describe it. The
@@ -39,28 +44,26 @@ pub(crate) struct JointGeometry {
     pub triads: [Matrix3<f64>; 2],
 }
 
-/// Clearance and contact are outside this model.
-pub const IDEAL_ONLY: &str = "the oracle knows ideal joints only";
-
 impl JointGeometry {
     pub fn new(joint: &Joint, points: [Vector3<f64>; 2]) -> Self {
-        let triads = match &joint.kind {
-            JointKind::Revolute(axis)
-            | JointKind::Prismatic(axis)
-            | JointKind::Cylindrical(axis)
-            | JointKind::Screw(axis, _) => triads_about(axis),
-            JointKind::Universal(first, second) => [
-                triad(&Vector3::from(second.parent), &Vector3::from(first.parent)),
-                triad(&Vector3::from(second.child), &Vector3::from(first.child)),
+        let model = &joint.model;
+        let triads = match model.axes[..] {
+            [] => [Matrix3::identity(); 2],
+            [axis] => triads_about(&axis),
+            [axis, first, ..] => [
+                triad(&Vector3::from(first.parent), &Vector3::from(axis.parent)),
+                triad(&Vector3::from(first.child), &Vector3::from(axis.child)),
             ],
-            JointKind::Planar { normal, first } => [
-                triad(&Vector3::from(first.parent), &Vector3::from(normal.parent)),
-                triad(&Vector3::from(first.child), &Vector3::from(normal.child)),
-            ],
-            JointKind::Spherical | JointKind::Fixed | JointKind::Free => [Matrix3::identity(); 2],
-            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
         };
-        Self { parent: joint.parent, child: joint.child, kind: joint.kind.clone(), points, triads }
+        Self {
+            parent: joint.parent,
+            child: joint.child,
+            kind: Kind::of(model),
+            axes: model.axes.clone(),
+            lead: model.lead,
+            points,
+            triads,
+        }
     }
 
     pub fn parent_axis(&self, k: usize) -> Vector3<f64> {
@@ -73,13 +76,7 @@ impl JointGeometry {
 
     /// Number of scalar coordinates that may be driven, sprung and damped.
     pub fn scalars(&self) -> usize {
-        match self.kind {
-            JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
-            JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
-            JointKind::Planar { .. } => 3,
-            JointKind::Spherical | JointKind::Fixed | JointKind::Free => 0,
-            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
-        }
+        self.kind.coordinates().len()
     }
 
     /// What the joint forbids.
@@ -92,31 +89,31 @@ impl JointGeometry {
             vec![cosine(1, 2), cosine(2, 0), cosine(0, 1)]
         };
         let together = || pair.together().to_vec();
-        match &self.kind {
-            JointKind::Revolute(_) => [together(), upright()].concat(),
-            JointKind::Prismatic(_) => [slides(&[0, 1]), locked()].concat(),
-            JointKind::Cylindrical(_) => [slides(&[0, 1]), upright()].concat(),
-            JointKind::Screw(_, lead) => {
+        match self.kind {
+            Kind::Revolute => [together(), upright()].concat(),
+            Kind::Prismatic => [slides(&[0, 1]), locked()].concat(),
+            Kind::Cylindrical => [slides(&[0, 1]), upright()].concat(),
+            Kind::Screw => {
                 let mut rows = [slides(&[0, 1]), upright()].concat();
                 let along = pair.slide(&self.parent_axis(2));
                 let mut turn = self.turn_about_axis(pair);
                 // The angle is known up to whole turns; the slide says which.
-                let turns = (along.residual / lead - turn.residual / TAU).round();
+                let turns = (along.residual / self.lead - turn.residual / TAU).round();
                 turn.residual += TAU * turns;
-                rows.push(along.plus(-lead / TAU, &turn));
+                rows.push(along.plus(-self.lead / TAU, &turn));
                 rows
             }
-            JointKind::Universal(first, second) => {
+            Kind::Universal => {
+                let [first, second] = self.two_axes();
                 let (a, b) = (Vector3::from(first.parent), Vector3::from(second.parent));
                 let mut rows = together();
                 rows.push(pair.cosine(&a, &Vector3::from(second.child), a.dot(&b)));
                 rows
             }
-            JointKind::Spherical => together(),
-            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{IDEAL_ONLY}"),
-            JointKind::Planar { .. } => [slides(&[2]), upright()].concat(),
-            JointKind::Fixed => [together(), locked()].concat(),
-            JointKind::Free => Vec::new(),
+            Kind::Spherical => together(),
+            Kind::Planar => [slides(&[2]), upright()].concat(),
+            Kind::Fixed => [together(), locked()].concat(),
+            Kind::Free => Vec::new(),
         }
     }
 
@@ -129,47 +126,48 @@ impl JointGeometry {
 
     /// Scalar coordinate `k` as a row: its value, its rate and what moves it.
     pub fn coordinate(&self, k: usize, pair: &Pair) -> Row {
-        match (&self.kind, k) {
-            (JointKind::Revolute(_), 0) | (JointKind::Cylindrical(_), 0) | (JointKind::Planar { .. }, 2) => {
-                self.turn_about_axis(pair)
-            }
-            (JointKind::Prismatic(_), 0) | (JointKind::Cylindrical(_), 1) => pair.slide(&self.parent_axis(2)),
-            (JointKind::Planar { .. }, _) => pair.slide(&self.parent_axis(k)),
-            (JointKind::Screw(_, lead), 0) => {
+        match (self.kind, k) {
+            (Kind::Revolute, 0) | (Kind::Cylindrical, 0) | (Kind::Planar, 2) => self.turn_about_axis(pair),
+            (Kind::Prismatic, 0) | (Kind::Cylindrical, 1) => pair.slide(&self.parent_axis(2)),
+            (Kind::Planar, _) => pair.slide(&self.parent_axis(k)),
+            (Kind::Screw, 0) => {
                 let mut turn = self.turn_about_axis(pair);
-                turn.residual = pair.slide(&self.parent_axis(2)).residual * TAU / lead;
+                turn.residual = pair.slide(&self.parent_axis(2)).residual * TAU / self.lead;
                 turn
             }
-            (JointKind::Universal(first, second), _) => universal(first, second, k, pair),
+            (Kind::Universal, _) => universal(self.two_axes(), k, pair),
             _ => unreachable!("`scalars` says how many coordinates there are"),
         }
     }
 
     /// Coordinates and speeds of the joint.
     pub fn motion(&self, pair: &Pair) -> JointMotion {
-        if matches!(self.kind, JointKind::Spherical | JointKind::Free) {
+        let rows: Vec<Row> = (0..self.scalars()).map(|k| self.coordinate(k, pair)).collect();
+        let mut position: Vec<f64> = rows.iter().map(|row| row.residual).collect();
+        let mut speed: Vec<f64> = rows.iter().map(|row| row.rate).collect();
+        if self.kind.is_round() {
             let rotation = pair.parent.state.rotation.transpose() * pair.child.state.rotation;
             let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
-            let mut position = vec![q.w, q.i, q.j, q.k];
-            let mut speed: Vec<f64> = pair.relative_omega().iter().copied().collect();
-            if self.kind == JointKind::Free {
-                let (p, c) = (&pair.parent_point, &pair.child_point);
-                position.extend((c.position - p.position).iter());
-                speed.extend((c.velocity - pair.parent.velocity_at(&c.position)).iter());
-            }
-            return JointMotion { position, speed };
+            position.extend([q.w, q.i, q.j, q.k]);
+            speed.extend(pair.relative_omega().iter());
         }
-        let rows: Vec<Row> = (0..self.scalars()).map(|k| self.coordinate(k, pair)).collect();
-        JointMotion {
-            position: rows.iter().map(|row| row.residual).collect(),
-            speed: rows.iter().map(|row| row.rate).collect(),
+        if self.kind == Kind::Free {
+            let (p, c) = (&pair.parent_point, &pair.child_point);
+            position.extend((c.position - p.position).iter());
+            speed.extend((c.velocity - pair.parent.velocity_at(&c.position)).iter());
         }
+        JointMotion { position, speed }
+    }
+
+    /// The two axes of a universal joint.
+    pub fn two_axes(&self) -> [Axis; 2] {
+        [self.axes[0], self.axes[1]]
     }
 }
 
 /// Angle `k` of a universal joint. With `omega = a q1' + b q2'`, a and b at a constant angle, the rate of
 /// one is found by a direction at right angles to the other axis.
-fn universal(first: &Axis, second: &Axis, k: usize, pair: &Pair) -> Row {
+fn universal([first, second]: [Axis; 2], k: usize, pair: &Pair) -> Row {
     let parent = |v: &[f64; 3]| pair.parent.direction(&Vector3::from(*v));
     let child = |v: &[f64; 3]| pair.child.direction(&Vector3::from(*v));
     let [a, a_rate, _] = parent(&first.parent);
@@ -210,34 +208,35 @@ fn triads_about(axis: &Axis) -> [Matrix3<f64>; 2] {
 #[cfg(test)]
 mod tests {
     use linkwear_codegen::id::PointId;
+    use linkwear_codegen::model::JointModel;
     use linkwear_codegen::source::Span;
 
     use super::*;
     use crate::frame::{BodyState, Frame, rotation_by};
 
-    fn kinds() -> Vec<JointKind> {
+    fn kinds() -> Vec<JointModel> {
         let axis = |v: [f64; 3]| {
             let unit: [f64; 3] = Vector3::from(v).normalize().into();
             Axis { parent: unit, child: unit }
         };
         let main = axis([0.3, -0.5, 0.8]);
         vec![
-            JointKind::Revolute(main),
-            JointKind::Prismatic(main),
-            JointKind::Cylindrical(main),
-            JointKind::Screw(main, 0.3),
-            JointKind::Universal(main, axis([0.9, 0.4, -0.2])),
-            JointKind::Spherical,
-            JointKind::Planar { normal: main, first: axis([0.8, 0.0, -0.3]) },
-            JointKind::Fixed,
-            JointKind::Free,
+            JointModel::new("revolute", &[main]),
+            JointModel::new("prismatic", &[main]),
+            JointModel::new("cylindrical", &[main]),
+            JointModel { lead: 0.3, ..JointModel::new("screw", &[main]) },
+            JointModel::new("universal", &[main, axis([0.9, 0.4, -0.2])]),
+            JointModel::new("spherical", &[]),
+            JointModel::new("planar", &[main, axis([0.8, 0.0, -0.3])]),
+            JointModel::new("fixed", &[]),
+            JointModel::new("free", &[]),
         ]
     }
 
-    fn geometry(kind: JointKind) -> JointGeometry {
+    fn geometry(model: JointModel) -> JointGeometry {
         let joint = Joint {
             name: String::new(),
-            kind,
+            model,
             parent: Carrier::Ground,
             child: Carrier::Ground,
             at: PointId::new(0),
@@ -282,7 +281,7 @@ mod tests {
                 let by_coefficients = dot(&row.parent, &pair.parent) + dot(&row.child, &pair.child);
                 assert!((by_coefficients - row.rate).abs() < 1e-14, "{:?} {k}", joint.kind);
                 // A screw's angle is one only where its axes are parallel; see the next test.
-                if matches!(joint.kind, JointKind::Screw(..)) && k == 4 {
+                if joint.kind == Kind::Screw && k == 4 {
                     continue;
                 }
                 // Central differences of numbers of order 1: h² and rounding / h, both about 1e-10.
@@ -300,7 +299,7 @@ mod tests {
         let (q, v, a) = ([0.4, -0.7, 0.9], [1.3, 0.6, -0.8], [-0.5, 2.0, 0.7]);
         for kind in kinds() {
             let joint = geometry(kind);
-            if matches!(joint.kind, JointKind::Spherical | JointKind::Free) {
+            if joint.kind.is_round() {
                 continue;
             }
             let placed = |t: f64| {
@@ -336,13 +335,13 @@ mod tests {
             let joint = geometry(kind);
             let known = drifting(0.7, 0.3);
             let reference = Vector3::new(0.5, -0.2, 0.3);
-            let round = matches!(joint.kind, JointKind::Spherical | JointKind::Free);
+            let round = joint.kind.is_round();
             let (mut position, mut speed) = (vec![0.4, -0.7, 0.9], vec![1.3, 0.6, -0.8]);
             if round {
                 let q = UnitQuaternion::new(Vector3::new(0.4, -0.7, 0.9));
                 position = vec![q.w, q.i, q.j, q.k, 0.3, 0.2, -0.5];
                 speed.extend([0.4, 1.2, -0.3]);
-                if joint.kind == JointKind::Spherical {
+                if joint.kind == Kind::Spherical {
                     position.truncate(4);
                     speed.truncate(3);
                 }

@@ -3,7 +3,7 @@
 //! Never knows how accelerations are solved for.
 
 use linkwear_codegen::id::{BodyId, JointId, PointId};
-use linkwear_codegen::model::{Carrier, Formula, JointKind, Mechanism};
+use linkwear_codegen::model::{Carrier, Formula, Mechanism};
 use nalgebra::Vector3;
 
 use crate::check::{check_constants, check_coordinates};
@@ -11,6 +11,7 @@ use crate::error::OracleError;
 use crate::frame::{BodyState, Frame};
 use crate::jet::{Jet, State, evaluate};
 use crate::joint::{JointGeometry, JointMotion};
+use crate::kind::Kind;
 use crate::mass::MassProperties;
 use crate::row::{Pair, Row};
 
@@ -168,10 +169,8 @@ impl Oracle {
     /// Whether a coordinate is an angle known only up to whole turns.
     fn wraps(&self, joint: JointId, k: usize) -> bool {
         matches!(
-            (&self.joints[joint.index()].kind, k),
-            (JointKind::Revolute(_) | JointKind::Universal(..), _)
-                | (JointKind::Cylindrical(_), 0)
-                | (JointKind::Planar { .. }, 2)
+            (self.joints[joint.index()].kind, k),
+            (Kind::Revolute | Kind::Universal, _) | (Kind::Cylindrical, 0) | (Kind::Planar, 2)
         )
     }
 

@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use linkwear_codegen::model::JointKind;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::frame::{BodyState, Frame, rotation_about};
 use crate::joint::{JointGeometry, JointMotion};
+use crate::kind::Kind;
 
 impl JointGeometry {
     /// State of the child (`outward`), or of the parent, that gives the joint this motion when the other
@@ -25,7 +25,7 @@ impl JointGeometry {
         let rotation = k.rotation * if outward { turn } else { turn.transpose() };
         let parent_rotation = if outward { k.rotation } else { rotation };
         // A free joint's displacement is in W already.
-        let d = if self.kind == JointKind::Free { shift } else { parent_rotation * shift };
+        let d = if self.kind == Kind::Free { shift } else { parent_rotation * shift };
         let point = known.point(&self.points[near]).position + if outward { d } else { -d };
         let centre = point - rotation * (self.points[1 - near] - reference);
         // Joint's relative twist at the child's point, in W.
@@ -44,22 +44,21 @@ impl JointGeometry {
         let axis = self.parent_axis(2);
         let align = self.triads[0] * self.triads[1].transpose();
         let none = Vector3::zeros();
-        match &self.kind {
-            JointKind::Revolute(_) => (rotation_about(&axis, q[0]) * align, none),
-            JointKind::Prismatic(_) => (align, q[0] * axis),
-            JointKind::Cylindrical(_) => (rotation_about(&axis, q[0]) * align, q[1] * axis),
-            JointKind::Screw(_, lead) => (rotation_about(&axis, q[0]) * align, lead / TAU * q[0] * axis),
-            JointKind::Universal(first, second) => {
-                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+        match self.kind {
+            Kind::Revolute => (rotation_about(&axis, q[0]) * align, none),
+            Kind::Prismatic => (align, q[0] * axis),
+            Kind::Cylindrical => (rotation_about(&axis, q[0]) * align, q[1] * axis),
+            Kind::Screw => (rotation_about(&axis, q[0]) * align, self.lead / TAU * q[0] * axis),
+            Kind::Universal => {
+                let [a, b] = self.two_axes().map(|axis| Vector3::from(axis.parent));
                 (rotation_about(&a, q[0]) * rotation_about(&b, q[1]) * align, none)
             }
-            JointKind::Planar { .. } => {
+            Kind::Planar => {
                 let shift = q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1);
                 (rotation_about(&axis, q[2]) * align, shift)
             }
-            JointKind::Fixed => (align, none),
-            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{}", super::joint::IDEAL_ONLY),
-            JointKind::Spherical | JointKind::Free => {
+            Kind::Fixed => (align, none),
+            Kind::Spherical | Kind::Free => {
                 let q4 = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
                 let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
                 (q4.to_rotation_matrix().into_inner(), shift)
@@ -71,23 +70,22 @@ impl JointGeometry {
         let v = &motion.speed;
         let axis = parent * self.parent_axis(2);
         let none = Vector3::zeros();
-        match &self.kind {
-            JointKind::Revolute(_) => (v[0] * axis, none),
-            JointKind::Prismatic(_) => (none, v[0] * axis),
-            JointKind::Cylindrical(_) => (v[0] * axis, v[1] * axis),
-            JointKind::Screw(_, lead) => (v[0] * axis, lead / TAU * v[0] * axis),
-            JointKind::Universal(first, second) => {
-                let [a, b] = [first, second].map(|axis| Vector3::from(axis.parent));
+        match self.kind {
+            Kind::Revolute => (v[0] * axis, none),
+            Kind::Prismatic => (none, v[0] * axis),
+            Kind::Cylindrical => (v[0] * axis, v[1] * axis),
+            Kind::Screw => (v[0] * axis, self.lead / TAU * v[0] * axis),
+            Kind::Universal => {
+                let [a, b] = self.two_axes().map(|axis| Vector3::from(axis.parent));
                 let b_now = parent * rotation_about(&a, motion.position[0]) * b;
                 (v[0] * axis + v[1] * b_now, none)
             }
-            JointKind::Planar { .. } => {
+            Kind::Planar => {
                 let slip = parent * (v[0] * self.parent_axis(0) + v[1] * self.parent_axis(1));
                 (v[2] * axis, slip)
             }
-            JointKind::Fixed => (none, none),
-            JointKind::Journal { .. } | JointKind::Socket => unreachable!("{}", super::joint::IDEAL_ONLY),
-            JointKind::Spherical | JointKind::Free => {
+            Kind::Fixed => (none, none),
+            Kind::Spherical | Kind::Free => {
                 let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);
                 (Vector3::from_column_slice(&v[..3]), slip)
             }

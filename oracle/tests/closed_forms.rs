@@ -3,7 +3,7 @@
 mod sketch;
 
 use linkwear_codegen::id::JointId;
-use linkwear_codegen::model::{Carrier, JointKind};
+use linkwear_codegen::model::{Carrier, JointModel};
 use linkwear_oracle::closed_form::{FourBar, Motion, NFourBar, Pendulum, SliderCrank};
 use linkwear_oracle::{BodyState, JointMotion, Oracle, Tolerance};
 use nalgebra::{Matrix2, Vector2, Vector3};
@@ -25,7 +25,7 @@ fn oracle(sketch: &Sketch) -> Oracle {
 fn pendulum() -> (Oracle, JointId) {
     let mut s = Sketch::new(UP);
     let bob = s.body(2.0, [0.0, -0.7, 0.0], [0.02, 0.03, 0.04]);
-    let pivot = s.joint(JointKind::Revolute(axis(Z)), Carrier::Ground, bob, [0.0; 3]);
+    let pivot = s.joint(JointModel::new("revolute", &[axis(Z)]), Carrier::Ground, bob, [0.0; 3]);
     (oracle(&s), pivot)
 }
 
@@ -93,8 +93,8 @@ fn double_pendulum_accelerates_as_in_the_textbook() {
     let tiny = [1e-12; 3];
     let first = s.body(m1, [0.0, -l1, 0.0], tiny);
     let second = s.body(m2, [0.0, -l1 - l2, 0.0], tiny);
-    let a = s.joint(JointKind::Revolute(axis(Z)), Carrier::Ground, first, [0.0; 3]);
-    let b = s.joint(JointKind::Revolute(axis(Z)), first, second, [0.0, -l1, 0.0]);
+    let a = s.joint(JointModel::new("revolute", &[axis(Z)]), Carrier::Ground, first, [0.0; 3]);
+    let b = s.joint(JointModel::new("revolute", &[axis(Z)]), first, second, [0.0, -l1, 0.0]);
     let oracle = oracle(&s);
     let (q1, q2, w1, w2) = (0.5_f64, -0.9_f64, 1.1, -2.3);
     let states = oracle.place(&[(a, scalar(q1, w1)), (b, scalar(q2 - q1, w2 - w1))]);
@@ -121,10 +121,10 @@ fn slider_crank_follows_its_closed_form() {
     let pin = [0.1 + reach, 0.03, 0.0];
     let rod = s.body(0.9, [0.1 + 0.5 * reach, 0.015, 0.0], [1e-4, 9e-3, 9e-3]);
     let slider = s.body(1.1, pin, [1e-3; 3]);
-    let a = s.joint(JointKind::Revolute(axis(Z)), Carrier::Ground, crank, [0.0; 3]);
-    s.joint(JointKind::Revolute(axis(Z)), crank, rod, [0.1, 0.0, 0.0]);
-    s.joint(JointKind::Revolute(axis(Z)), rod, slider, pin);
-    let d = s.joint(JointKind::Prismatic(axis([1.0, 0.0, 0.0])), Carrier::Ground, slider, pin);
+    let a = s.joint(JointModel::new("revolute", &[axis(Z)]), Carrier::Ground, crank, [0.0; 3]);
+    s.joint(JointModel::new("revolute", &[axis(Z)]), crank, rod, [0.1, 0.0, 0.0]);
+    s.joint(JointModel::new("revolute", &[axis(Z)]), rod, slider, pin);
+    let d = s.joint(JointModel::new("prismatic", &[axis([1.0, 0.0, 0.0])]), Carrier::Ground, slider, pin);
     s.drive(a, 0, law(0.2, 3.0, 0.4));
     let oracle = oracle(&s);
     let t = 0.9_f64;
@@ -166,7 +166,7 @@ fn four_bar_follows_freudenstein() {
     let crank = s.body(0.2, middle([0.0; 3], a), [1e-4; 3]);
     let coupler = s.body(0.5, middle(a, b), [1e-3; 3]);
     let rocker = s.body(0.4, middle(b, [0.4, 0.0, 0.0]), [1e-3; 3]);
-    let turn = || JointKind::Revolute(axis(Z));
+    let turn = || JointModel::new("revolute", &[axis(Z)]);
     let o = s.joint(turn(), Carrier::Ground, crank, [0.0; 3]);
     s.joint(turn(), crank, coupler, a);
     s.joint(turn(), coupler, rocker, b);
@@ -198,7 +198,7 @@ fn two_cell_four_bar_swings_along_its_regular_branch() {
     let upright: Vec<_> = (0..3).map(|k| s.body(1.0, [f64::from(k), 0.5, 0.0], [bar, 1e-3, bar])).collect();
     let across: Vec<_> =
         (0..2).map(|k| s.body(1.0, [f64::from(k) + 0.5, 1.0, 0.0], [1e-3, bar, bar])).collect();
-    let turn = || JointKind::Revolute(axis(Z));
+    let turn = || JointModel::new("revolute", &[axis(Z)]);
     let feet: Vec<_> = (0_u8..3)
         .map(|k| s.joint(turn(), Carrier::Ground, upright[usize::from(k)], [f64::from(k), 0.0, 0.0]))
         .collect();

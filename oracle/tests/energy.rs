@@ -3,47 +3,38 @@
 
 mod sketch;
 
-use linkwear_codegen::model::{Carrier, ForceKind, Function, JointKind, Passive, Term};
+use linkwear_codegen::model::{Carrier, ForceKind, Function, JointModel, Passive, Term};
 use linkwear_oracle::{BodyState, Oracle};
 use nalgebra::Vector3;
 use sketch::{Sketch, axis, formula, law, number};
 
 /// All joint kinds, oblique axes.
-fn kinds() -> Vec<JointKind> {
+fn kinds() -> Vec<JointModel> {
     let main = axis([0.3, -0.5, 0.8]);
     vec![
-        JointKind::Revolute(main),
-        JointKind::Prismatic(main),
-        JointKind::Cylindrical(main),
-        JointKind::Screw(main, 0.7),
-        JointKind::Universal(main, axis([0.9, 0.4, -0.2])),
-        JointKind::Spherical,
-        JointKind::Planar { normal: main, first: axis([0.8, 0.0, -0.3]) },
-        JointKind::Fixed,
-        JointKind::Free,
+        JointModel::new("revolute", &[main]),
+        JointModel::new("prismatic", &[main]),
+        JointModel::new("cylindrical", &[main]),
+        JointModel { lead: 0.7, ..JointModel::new("screw", &[main]) },
+        JointModel::new("universal", &[main, axis([0.9, 0.4, -0.2])]),
+        JointModel::new("spherical", &[]),
+        JointModel::new("planar", &[main, axis([0.8, 0.0, -0.3])]),
+        JointModel::new("fixed", &[]),
+        JointModel::new("free", &[]),
     ]
 }
 
-fn scalars(kind: &JointKind) -> usize {
-    match kind {
-        JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..) => 1,
-        JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
-        JointKind::Planar { .. } => 3,
-        _ => 0,
-    }
-}
-
 /// Ground - spherical - body - `kind` - body, everything applied at once.
-fn two_bodies(kind: JointKind) -> Oracle {
+fn two_bodies(model: JointModel) -> Oracle {
     let mut s = Sketch::new([0.4, -9.0, 1.0]);
     let a = s.body(1.2, [0.2, -0.1, 0.3], [0.03, 0.05, 0.04]);
     let b = s.body(0.7, [0.6, 0.1, 0.2], [0.02, 0.01, 0.025]);
-    let ball = s.joint(JointKind::Spherical, Carrier::Ground, a, [0.0; 3]);
+    let ball = s.joint(JointModel::new("spherical", &[]), Carrier::Ground, a, [0.0; 3]);
     s.passive(ball, Passive::Damping { coordinate: 0, coefficient: number(0.05) });
-    let count = scalars(&kind);
-    let round = kind == JointKind::Spherical;
+    let count = model.coordinates().len();
+    let round = model.is_ball();
     let at = [0.4, 0.0, 0.25];
-    let joint = s.joint(kind, a, b, at);
+    let joint = s.joint(model, a, b, at);
     for k in 0..count {
         let k64 = k as f64;
         s.passive(joint, Passive::Damping { coordinate: k, coefficient: number(0.1 + 0.02 * k64) });
@@ -132,9 +123,10 @@ fn power_is_balanced_for_every_joint_kind() {
 
 #[test]
 fn joints_move_as_drives_say_and_drives_pay_for_it() {
-    for kind in kinds().into_iter().filter(|kind| scalars(kind) > 0) {
+    for kind in kinds().into_iter().filter(|kind| !kind.coordinates().is_empty()) {
         let mut sketch = two_bodies(kind.clone()).mechanism;
-        for k in 0..scalars(&kind) {
+        let count = kind.coordinates().len();
+        for k in 0..count {
             let law = law(0.0, 0.3, 0.2 + 0.1 * k as f64);
             sketch.joints[1].drives.push(linkwear_codegen::model::Drive { coordinate: k, law });
         }
@@ -144,7 +136,7 @@ fn joints_move_as_drives_say_and_drives_pay_for_it() {
         // As above.
         assert!(off.abs() < 1e-9, "{kind:?}: {off} W");
         let solution = oracle.accelerations(0.0, &states);
-        assert_eq!(solution.drives.len(), scalars(&kind));
+        assert_eq!(solution.drives.len(), count);
         assert_eq!(solution.rank, solution.rows, "{kind:?}");
     }
 }

@@ -3,7 +3,7 @@
 mod sketch;
 
 use linkwear_codegen::id::{BodyId, JointId, PointId};
-use linkwear_codegen::model::{Amount, Body, Carrier, Inertia, JointKind, Passive, Position, Start};
+use linkwear_codegen::model::{Amount, Body, Carrier, Inertia, JointModel, Passive, Position, Start};
 use linkwear_codegen::source::Span;
 use linkwear_oracle::{BodyState, Oracle, Tolerance};
 use nalgebra::Vector3;
@@ -36,10 +36,10 @@ fn rssr(turns_per_second: f64) -> Oracle {
         s.0.joints[id.index()].at = at;
         id
     };
-    let r1 = joint(JointKind::Revolute(axis([0.0, 0.0, 1.0])), Carrier::Ground, crank, o);
-    let s2 = joint(JointKind::Spherical, crank, coupler, a);
-    let r4 = joint(JointKind::Revolute(axis([0.0, 1.0, 0.0])), Carrier::Ground, rocker, p4);
-    let s3 = joint(JointKind::Spherical, coupler, rocker, b);
+    let r1 = joint(JointModel::new("revolute", &[axis([0.0, 0.0, 1.0])]), Carrier::Ground, crank, o);
+    let s2 = joint(JointModel::new("spherical", &[]), crank, coupler, a);
+    let r4 = joint(JointModel::new("revolute", &[axis([0.0, 1.0, 0.0])]), Carrier::Ground, rocker, p4);
+    let s3 = joint(JointModel::new("spherical", &[]), coupler, rocker, b);
     s.drive(r1, 0, law(0.0, std::f64::consts::TAU * turns_per_second, 0.0));
     s.passive(r4, Passive::Damping { coordinate: 0, coefficient: number(2.0) });
     for ball in [s2, s3] {

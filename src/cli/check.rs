@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
-use linkwear_codegen::model::{Body, Flexible, Joint, JointKind, Parameter};
+use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
 use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
@@ -214,26 +214,15 @@ fn list(text: &mut String, title: &str, items: &[String]) {
 fn joint_row(compiled: &Compiled, joint: &Joint) -> Vec<String> {
     let mechanism = &compiled.mechanism;
     let is_cut = compiled.topology.cuts.iter().any(|id| mechanism.joint(*id).name == joint.name);
-    let kind = match joint.kind {
-        JointKind::Revolute(_) => "revolute",
-        JointKind::Prismatic(_) => "prismatic",
-        JointKind::Cylindrical(_) => "cylindrical",
-        JointKind::Screw(..) => "screw",
-        JointKind::Universal(..) => "universal",
-        JointKind::Spherical => "spherical",
-        JointKind::Planar { .. } => "planar",
-        JointKind::Journal { .. } => "revolute, clearance",
-        JointKind::Socket => "spherical, clearance",
-        JointKind::Fixed => "fixed",
-        JointKind::Free => "free",
-    };
+    let clearance = if joint.model.clearance { ", clearance" } else { "" };
+    let kind = format!("{}{clearance}", joint.model.kind.name);
     let note = match (is_cut, joint.drives.is_empty()) {
         (true, _) => "closes a loop",
         (false, false) => "driven",
         (false, true) => "",
     };
     let carrier = |carrier| mechanism.carrier_name(carrier).to_owned();
-    vec![joint.name.clone(), kind.into(), carrier(joint.parent), carrier(joint.child), note.into()]
+    vec![joint.name.clone(), kind, carrier(joint.parent), carrier(joint.child), note.into()]
 }
 
 fn parameter_row(parameter: &Parameter) -> Vec<String> {

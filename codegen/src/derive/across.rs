@@ -3,7 +3,7 @@
 
 use crate::expr::{Mat3, Scope, Vec3};
 use crate::id::JointId;
-use crate::model::{Axis, Carrier, JointKind};
+use crate::model::{Axis, Carrier};
 
 use super::frame::{Frame, canonical_frame};
 use super::geometry::Geometry;
@@ -206,22 +206,15 @@ pub fn joint_axes<'g>(geometry: &Geometry<'g>, sides: Sides) -> JointAxes {
     let linkage = geometry.linkage;
     let frame = |link: LinkIndex| link.map_or(Frame::IDENTITY, |at| linkage.links[at].frame);
     let (parent, child) = (frame(sides.parent), frame(sides.child));
-    let (outer_parent, outer_child) = match &geometry.mechanism.joint(sides.joint).kind {
-        JointKind::Revolute(axis)
-        | JointKind::Prismatic(axis)
-        | JointKind::Cylindrical(axis)
-        | JointKind::Screw(axis, _) => both(*axis, &parent, &child, sides.in_child),
-        JointKind::Planar { normal: axis, first } | JointKind::Journal { axis, first } => {
-            let own = Frame::with_z_and_x(axis.parent, first.parent);
-            (own, Frame::between(axis.parent, axis.child).times(&own))
-        }
-        JointKind::Universal(first, second) => {
-            let own = Frame::with_z_and_x(first.parent, second.parent);
-            (own, Frame::between(first.parent, first.child).times(&own))
-        }
-        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {
+    let (outer_parent, outer_child) = match geometry.mechanism.joint(sides.joint).model.axes[..] {
+        [] => {
             let own = if sides.in_child { child } else { parent };
             (own, own)
+        }
+        [axis] => both(axis, &parent, &child, sides.in_child),
+        [axis, second, ..] => {
+            let own = Frame::with_z_and_x(axis.parent, second.parent);
+            (own, Frame::between(axis.parent, axis.child).times(&own))
         }
     };
     JointAxes {
@@ -257,7 +250,7 @@ fn both(axis: Axis, parent: &Frame, child: &Frame, in_child: bool) -> (Frame, Fr
 pub fn sides_of<'g>(geometry: &Geometry<'g>, joint: JointId) -> Sides {
     let linkage = geometry.linkage;
     let data = geometry.mechanism.joint(joint);
-    let turns = data.kind.holds_orientation();
+    let turns = !data.model.turns_freely();
     let mut parent = linkage.link_at(data.parent, data.at, turns);
     let mut child = linkage.link_at(data.child, data.at, turns);
     if let Some(last) = linkage.link_of_joint[joint.index()] {

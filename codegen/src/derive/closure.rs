@@ -7,7 +7,7 @@
 //! acceleration for zero `v̇` of the free speeds, by the velocity-product recursion.
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
-use crate::model::{Closure, JointKind};
+use crate::model::{Closure, JointModel};
 
 use super::across::{Across, Place, Sides, joint_axes};
 use super::geometry::Geometry;
@@ -31,15 +31,12 @@ pub struct CutRows<'g> {
     pub rows: Vec<Row<'g>>,
 }
 
-/// Number of rows that a cut joint takes away, and whether each is angular, without deriving them.
+/// Number of rows of a cut, without deriving them.
 #[must_use]
-pub fn row_count(kind: &JointKind, closure: Closure) -> usize {
-    match (closure, kind) {
-        (Closure::Log, _) | (_, JointKind::Fixed) => 6,
-        (_, JointKind::Revolute(_) | JointKind::Prismatic(_) | JointKind::Screw(..)) => 5,
-        (_, JointKind::Cylindrical(_) | JointKind::Universal(..)) => 4,
-        (_, JointKind::Spherical | JointKind::Planar { .. } | JointKind::Journal { .. }) => 3,
-        (_, JointKind::Free | JointKind::Socket) => 0,
+pub fn row_count(joint: &JointModel, closure: Closure) -> usize {
+    match closure {
+        Closure::Log => 6,
+        Closure::Joint => joint.rows(),
     }
 }
 
@@ -69,15 +66,8 @@ fn rows_of<'g>(
         return CutRows { cut, sides, across, rows };
     }
     let sides = Sides::choose(geometry.linkage, cut.joint, cut.parent, cut.child);
-    let kind = &geometry.mechanism.joint(cut.joint).kind;
-    let slides = matches!(
-        kind,
-        JointKind::Prismatic(_)
-            | JointKind::Cylindrical(_)
-            | JointKind::Screw(..)
-            | JointKind::Planar { .. }
-            | JointKind::Journal { .. }
-    );
+    let joint = &geometry.mechanism.joint(cut.joint).model;
+    let slides = joint.rows() > 0 && joint.slides();
     let place = match (exact, slides) {
         (false, false) => Place::Own,
         // Directions that turn with the child measure its distance exactly at the parent's point.
@@ -86,7 +76,7 @@ fn rows_of<'g>(
     };
     let across = Across::new(g, geometry, motion, sides, place);
     let axes = joint_axes(geometry, sides);
-    let rows = RowMaker::new(g, &across, sides, axes, exact).joint(geometry, kind);
+    let rows = RowMaker::new(g, &across, sides, axes, exact).joint(geometry, joint);
     CutRows { cut, sides, across, rows }
 }
 

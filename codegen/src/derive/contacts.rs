@@ -8,7 +8,6 @@
 
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
-use crate::model::JointKind;
 
 use super::across::{joint_axes, sides_of};
 use super::joint_state::JointStates;
@@ -26,24 +25,15 @@ pub struct ContactWrench<'g> {
     pub moment: Vec3<'g>,
 }
 
-/// Coordinates of a joint that are its offset.
-fn offsets(kind: &JointKind) -> &'static [usize] {
-    match kind {
-        JointKind::Journal { .. } => &[1, 2],
-        JointKind::Socket => &[3, 4, 5],
-        _ => &[],
-    }
-}
-
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
 pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec<Expr<'g>> {
     let linkage = state.geometry.linkage;
     let data = state.geometry.mechanism.joint(joint);
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
     if linkage.link_of_joint[joint.index()].is_some() {
-        for (axis, coordinate) in offsets(&data.kind).iter().enumerate() {
+        for (axis, coordinate) in data.model.offsets().enumerate() {
             let link =
-                linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
+                linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
             offset[axis] = state.q[linkage.links[link].first_coordinate];
             rate[axis] = state.v[linkage.links[link].first_speed];
         }
@@ -61,7 +51,7 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
     } else {
         let across = state.across(g, joint);
         let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
-        let journal = matches!(data.kind, JointKind::Journal { .. });
+        let journal = !data.model.is_ball();
         for j in 0..3 {
             let axis = across.parent_axis(g, &axes, j);
             if journal && j == 2 {
@@ -91,11 +81,11 @@ pub fn contact_forces<'g>(
 ) {
     let linkage = state.geometry.linkage;
     let joint = contact.joint;
-    let kind = &state.geometry.mechanism.joint(joint).kind;
+    let model = &state.geometry.mechanism.joint(joint).model;
     if linkage.link_of_joint[joint.index()].is_none() {
         let across = state.across(g, joint);
         let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
-        let journal = matches!(kind, JointKind::Journal { .. });
+        let journal = !model.is_ball();
         let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
         for j in 0..3 {
             let axis = across.parent_axis(g, &axes, j);
@@ -110,8 +100,8 @@ pub fn contact_forces<'g>(
         }
         return loads.pair(g, state, joint, &across, moment, force);
     }
-    for (axis, coordinate) in offsets(kind).iter().enumerate() {
-        let link = linkage.link_of_coordinate(joint, *coordinate).expect("a tree joint has its coordinates");
+    for (axis, coordinate) in model.offsets().enumerate() {
+        let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
         let speed = linkage.links[link].first_speed;
         loads.joint[speed] = g.add(loads.joint[speed], contact.force[axis]);
     }

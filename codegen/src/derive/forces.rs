@@ -3,7 +3,7 @@
 
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
-use crate::model::{Carrier, ForceKind, JointKind, Passive};
+use crate::model::{Carrier, ForceKind, Passive};
 
 use super::contacts::{ContactWrench, contact_forces};
 use super::joint_state::JointStates;
@@ -61,10 +61,8 @@ impl<'g> Loads<'g> {
     }
 
     fn joint_force(&mut self, g: &'g Scope, state: &JointStates<'g>, joint: JointId, passive: &Passive) {
-        let kind = &state.geometry.mechanism.joint(joint).kind;
-        if let (JointKind::Spherical | JointKind::Socket, Passive::Damping { coefficient, .. }) =
-            (kind, passive)
-        {
+        let ball = state.geometry.mechanism.joint(joint).model.is_ball();
+        if let (true, Passive::Damping { coefficient, .. }) = (ball, passive) {
             let coefficient = state.lower(g, coefficient);
             return self.spherical_damping(g, state, joint, coefficient);
         }

@@ -2,7 +2,7 @@
 //! In: [`Across`]. Out: positions, speeds, accelerations, and the wrench per unit of each coordinate's force.
 
 use crate::expr::{Expr, Scope, Vec3};
-use crate::model::{Axis, JointKind};
+use crate::model::{Axis, Direction, Primitive};
 
 use super::across::{Across, JointAxes, Sides, joint_axes};
 use super::frame::{Frame, cross, dot, scale, sub};
@@ -29,7 +29,7 @@ pub fn joint_coordinates<'g>(
     across: &Across<'g>,
     sides: Sides,
 ) -> JointCoordinates<'g> {
-    let kind = geometry.mechanism.joint(sides.joint).kind.clone();
+    let joint = &geometry.mechanism.joint(sides.joint).model;
     let axes = joint_axes(geometry, sides);
     let z = across.parent_axis(g, &axes, 2);
     let mut list = JointCoordinates {
@@ -39,27 +39,20 @@ pub fn joint_coordinates<'g>(
         wraps: Vec::new(),
         duals: Vec::new(),
     };
-    match kind {
-        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Journal { .. } => {
-            turn(g, &mut list, across, &axes, z)
-        }
-        JointKind::Prismatic(_) => slide(g, &mut list, across, z),
-        JointKind::Cylindrical(_) => {
-            turn(g, &mut list, across, &axes, z);
-            slide(g, &mut list, across, z);
-        }
-        JointKind::Planar { .. } => {
-            for j in 0..2 {
-                let direction = across.parent_axis(g, &axes, j);
+    if let [_, Direction::X] = joint.turns()[..] {
+        let own = UniversalAxes::new(geometry, sides, joint.axes[0], joint.axes[1]);
+        universal(g, &mut list, across, &axes, &own);
+        return list;
+    }
+    for primitive in joint.kind.primitives {
+        match primitive {
+            Primitive::Turn(_) | Primitive::Thread => turn(g, &mut list, across, &axes, z),
+            Primitive::Slide(direction) => {
+                let direction = across.parent_axis(g, &axes, direction.frame_axis());
                 slide(g, &mut list, across, direction);
             }
-            turn(g, &mut list, across, &axes, z);
+            Primitive::Ball | Primitive::Shift | Primitive::Pose => {}
         }
-        JointKind::Universal(first, second) => {
-            let own = UniversalAxes::new(geometry, sides, first, second);
-            universal(g, &mut list, across, &axes, &own);
-        }
-        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {}
     }
     list
 }

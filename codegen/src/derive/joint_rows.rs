@@ -2,7 +2,7 @@
 //! In: relative motion across the cut. Out: [`Row`]s. Never knows the tree.
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
-use crate::model::JointKind;
+use crate::model::JointModel;
 
 use super::across::{Across, JointAxes, Sides};
 use super::geometry::Geometry;
@@ -26,45 +26,24 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         Self { g, across, sides, axes, exact, rows: Vec::new() }
     }
 
-    /// The rows of a joint kind.
-    pub fn joint(mut self, geometry: &Geometry<'g>, kind: &JointKind) -> Vec<Row<'g>> {
-        let beside = match self.sides.beside() {
-            None => "ground".to_owned(),
-            Some(at) => geometry.mechanism.body(geometry.linkage.links[at].body).name.clone(),
-        };
+    /// The rows of a joint: no translation along axes that nothing slides along; no rotation but about the axes
+    /// that something turns about; a thread ties both.
+    pub fn joint(mut self, geometry: &Geometry<'g>, joint: &JointModel) -> Vec<Row<'g>> {
         let own = self.own_axes();
-        match kind {
-            JointKind::Spherical => self.translations(&[0, 1, 2], own, &beside),
-            JointKind::Revolute(_) => {
-                self.translations(&[0, 1, 2], own, "the joint");
-                self.tilts(own);
-            }
-            JointKind::Universal(_, second) => {
-                self.translations(&[0, 1, 2], own, "the joint");
-                self.cross(geometry, second.child);
-            }
-            JointKind::Cylindrical(_) => {
-                self.translations(&[0, 1], own, "the joint");
-                self.tilts(own);
-            }
-            JointKind::Prismatic(_) => {
-                self.translations(&[0, 1], own, "the joint");
-                self.rotations(own);
-            }
-            JointKind::Screw(_, lead) => {
-                self.translations(&[0, 1], own, "the joint");
-                self.tilts(own);
-                self.thread(own[2], lead / std::f64::consts::TAU);
-            }
-            JointKind::Planar { .. } | JointKind::Journal { .. } => {
-                self.translations(&[2], own, "the joint");
-                self.tilts(own);
-            }
-            JointKind::Fixed => {
-                self.translations(&[0, 1, 2], own, &beside);
-                self.rotations(own);
-            }
-            JointKind::Free | JointKind::Socket => {}
+        let frame = match (joint.axes.is_empty(), self.sides.beside()) {
+            (false, _) => "the joint",
+            (true, None) => "ground",
+            (true, Some(at)) => &geometry.mechanism.body(geometry.linkage.links[at].body).name,
+        };
+        self.translations(&joint.held_axes(), own, frame);
+        match joint.turns().len() {
+            _ if joint.turns_freely() => {}
+            0 => self.rotations(own),
+            1 => self.tilts(own),
+            _ => self.cross(geometry, joint.axes[1].child),
+        }
+        if let Some(advance) = joint.thread() {
+            self.thread(own[2], advance);
         }
         self.rows
     }

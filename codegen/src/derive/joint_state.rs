@@ -3,7 +3,7 @@
 
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
-use crate::model::{Formula, JointKind, Term};
+use crate::model::{Formula, Term};
 
 use super::across::{Across, Place, sides_of};
 use super::geometry::Geometry;
@@ -24,38 +24,12 @@ pub struct JointStates<'g> {
     pub v_dot: Vec<Expr<'g>>,
 }
 
-/// Number of scalar coordinates `q` of a joint kind, as columns and formulas name them.
-#[must_use]
-pub fn coordinate_count(kind: &JointKind) -> usize {
-    match kind {
-        JointKind::Revolute(_)
-        | JointKind::Prismatic(_)
-        | JointKind::Screw(..)
-        | JointKind::Journal { .. } => 1,
-        JointKind::Cylindrical(_) | JointKind::Universal(..) => 2,
-        JointKind::Planar { .. } => 3,
-        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => 0,
-    }
-}
-
-/// Whether a coordinate of a joint is an angle.
-#[must_use]
-pub fn is_angle(kind: &JointKind, coordinate: usize) -> bool {
-    match kind {
-        JointKind::Revolute(_) | JointKind::Screw(..) | JointKind::Universal(..) => true,
-        JointKind::Cylindrical(_) | JointKind::Journal { .. } => coordinate == 0,
-        JointKind::Planar { .. } => coordinate == 2,
-        _ => false,
-    }
-}
-
 impl<'g> JointStates<'g> {
     /// Coordinates of a joint; for tree joints read from the state, else recomputed.
     pub fn coordinates(&self, g: &'g Scope, joint: JointId) -> JointCoordinates<'g> {
-        let kind = &self.geometry.mechanism.joint(joint).kind;
+        let count = self.geometry.mechanism.joint(joint).model.coordinates().len();
         let linkage = self.geometry.linkage;
-        let links: Vec<Option<usize>> =
-            (0..coordinate_count(kind)).map(|c| linkage.link_of_coordinate(joint, c)).collect();
+        let links: Vec<Option<usize>> = (0..count).map(|c| linkage.link_of_coordinate(joint, c)).collect();
         if links.iter().all(Option::is_some) {
             let links: Vec<usize> = links.into_iter().flatten().collect();
             let pick = |values: &[Expr<'g>], first: fn(&super::linkage::Link) -> usize| {

@@ -2,7 +2,7 @@
 //! In: [`Mechanism`], [`Topology`]. Out: [`Linkage`].
 
 use crate::id::{BodyId, JointId};
-use crate::model::{Axis, Carrier, Closure, Flexible, JointKind, Mechanism, Topology, TreeJoint};
+use crate::model::{Axis, Carrier, Closure, Direction, Flexible, Mechanism, Primitive, Topology, TreeJoint};
 
 use super::frame::{Frame, canonical_frame, cross, dot, reduce};
 use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage, NodeLink};
@@ -45,114 +45,62 @@ struct Builder<'a> {
     linkage: Linkage,
 }
 
-/// Rotation in W from the inboard to the outboard description of a joint's first axis (the smallest one).
-fn joint_turn(kind: &JointKind, reversed: bool) -> Frame {
-    let axis = match kind {
-        JointKind::Revolute(axis)
-        | JointKind::Prismatic(axis)
-        | JointKind::Cylindrical(axis)
-        | JointKind::Screw(axis, _)
-        | JointKind::Universal(axis, _)
-        | JointKind::Planar { normal: axis, .. }
-        | JointKind::Journal { axis, .. } => axis,
-        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => {
-            return Frame::IDENTITY;
-        }
-    };
-    if reversed { Frame::between(axis.child, axis.parent) } else { Frame::between(axis.parent, axis.child) }
-}
-
 /// Axes of a flexible body's floating frame in W at the reference pose.
 fn floating_frame(flexible: &Flexible) -> Frame {
     let [x, y, z] = flexible.axes;
     Frame::from_axes(x, y, z)
 }
 
-/// An elementary motion of a joint: about or along a direction in W at the reference pose.
-enum Motion {
-    Turn([f64; 3], f64),
-    Slide([f64; 3]),
-}
-
 impl Builder<'_> {
-    /// Adds the links of one joint and returns the last.
+    /// Adds the links of one joint, those of its primitives, and returns the last.
     fn chain(&mut self, step: TreeJoint, inboard: LinkIndex) -> usize {
-        let kind = self.mechanism.joint(step.joint).kind.clone();
-        let inner = |axis: Axis| if step.reversed { axis.child } else { axis.parent };
-        let mut motions: Vec<(usize, Motion)> = match kind {
-            JointKind::Revolute(axis) => vec![(0, Motion::Turn(inner(axis), 0.0))],
-            JointKind::Prismatic(axis) => vec![(0, Motion::Slide(inner(axis)))],
-            JointKind::Cylindrical(axis) => {
-                vec![(0, Motion::Turn(inner(axis), 0.0)), (1, Motion::Slide(inner(axis)))]
-            }
-            JointKind::Screw(axis, lead) => {
-                vec![(0, Motion::Turn(inner(axis), lead / std::f64::consts::TAU))]
-            }
-            JointKind::Universal(first, second) => {
-                vec![(0, Motion::Turn(inner(first), 0.0)), (1, Motion::Turn(inner(second), 0.0))]
-            }
-            JointKind::Planar { normal, first } => {
-                let second = cross(inner(normal), inner(first));
-                vec![
-                    (0, Motion::Slide(inner(first))),
-                    (1, Motion::Slide(second)),
-                    (2, Motion::Turn(inner(normal), 0.0)),
-                ]
-            }
-            JointKind::Journal { axis, first } => {
-                let second = cross(inner(axis), inner(first));
-                vec![
-                    (1, Motion::Slide(inner(first))),
-                    (2, Motion::Slide(second)),
-                    (0, Motion::Turn(inner(axis), 0.0)),
-                ]
-            }
-            JointKind::Socket => return self.socket(step, inboard),
-            JointKind::Fixed => return self.single(step, inboard, Freedom::Weld),
-            JointKind::Spherical => return self.single(step, inboard, Freedom::Ball),
-            JointKind::Free => return self.single(step, None, Freedom::Free),
-        };
+        let joint = &self.mechanism.joint(step.joint).model;
+        let mut primitives = joint.primitives();
         // Seen from the other side, the joint runs backwards: opposite axes in opposite order.
-        if step.reversed {
-            motions.reverse();
-        }
         let sign = if step.reversed { -1.0 } else { 1.0 };
-        let mut parent = inboard;
-        for (coordinate, motion) in motions {
-            parent = Some(match motion {
-                Motion::Turn(axis, advance) => {
-                    self.turn(step, parent, coordinate, axis.map(|x| sign * x), advance)
-                }
-                Motion::Slide(axis) => self.slide(step, parent, coordinate, axis.map(|x| sign * x)),
-            });
-        }
-        let last = parent.expect("every moving joint has at least one motion");
-        // Where the branches are described open, the body's own description sees other axes.
-        let turn = joint_turn(&kind, step.reversed);
-        let frame = self.linkage.links[last].frame;
-        self.linkage.links[last].frame = turn.times(&frame).snapped();
-        last
-    }
-
-    /// A ball that clearance lets move along axes of its socket.
-    fn socket(&mut self, step: TreeJoint, inboard: LinkIndex) -> usize {
-        let slides = |own: &mut Self, mut parent: LinkIndex, sign: f64| {
-            for index in 0..3 {
-                let axis = own.parent_frame(parent).axis(index).map(|x| sign * x);
-                parent = Some(own.slide(step, parent, 3 + index, axis));
-            }
-            parent
-        };
         if step.reversed {
-            // Seen from the ball, the socket turns about it and then slides along its own axes.
-            let ball = self.single(step, inboard, Freedom::Ball);
-            self.linkage.links[ball].joint_coordinate = usize::MAX;
-            return slides(self, Some(ball), -1.0).expect("three slides were added");
+            primitives.reverse();
         }
-        let last = slides(self, inboard, 1.0);
-        let ball = self.single(step, last, Freedom::Ball);
-        self.linkage.links[ball].joint_coordinate = usize::MAX;
-        ball
+        let inner = |axis: &Axis| if step.reversed { axis.child } else { axis.parent };
+        let along = |direction: Direction| {
+            let axis = match direction {
+                Direction::Z => inner(&joint.axes[0]),
+                Direction::X => inner(&joint.axes[1]),
+                Direction::Y => cross(inner(&joint.axes[0]), inner(&joint.axes[1])),
+            };
+            axis.map(|x| sign * x)
+        };
+        let mut parent = inboard;
+        for (coordinate, primitive) in primitives {
+            parent = match primitive {
+                Primitive::Turn(direction) => {
+                    Some(self.turn(step, parent, coordinate, along(direction), 0.0))
+                }
+                Primitive::Thread => {
+                    let advance = joint.lead / std::f64::consts::TAU;
+                    Some(self.turn(step, parent, coordinate, along(Direction::Z), advance))
+                }
+                Primitive::Slide(direction) => Some(self.slide(step, parent, coordinate, along(direction))),
+                Primitive::Ball => Some(self.single(step, parent, coordinate, Freedom::Ball)),
+                Primitive::Pose => Some(self.single(step, None, coordinate, Freedom::Free)),
+                Primitive::Shift => (0..3).fold(parent, |parent, index| {
+                    let axis = self.parent_frame(parent).axis(index).map(|x| sign * x);
+                    Some(self.slide(step, parent, coordinate + index, axis))
+                }),
+            };
+        }
+        let Some(last) = parent.filter(|_| !joint.primitives().is_empty()) else {
+            return self.single(step, inboard, 0, Freedom::Weld);
+        };
+        if let Some(axis) = joint.axes.first() {
+            // Where the branches are described open, the body's own description sees other axes: turned by the
+            // smallest rotation from the inboard to the outboard description of the first.
+            let [from, to] =
+                if step.reversed { [axis.child, axis.parent] } else { [axis.parent, axis.child] };
+            let frame = self.linkage.links[last].frame;
+            self.linkage.links[last].frame = Frame::between(from, to).times(&frame).snapped();
+        }
+        last
     }
 
     fn parent_frame(&self, parent: LinkIndex) -> Frame {
@@ -181,7 +129,7 @@ impl Builder<'_> {
     }
 
     /// A chain of one link whose orientation is free to choose (ball, free) or the parent's (weld).
-    fn single(&mut self, step: TreeJoint, parent: LinkIndex, freedom: Freedom) -> usize {
+    fn single(&mut self, step: TreeJoint, parent: LinkIndex, coordinate: usize, freedom: Freedom) -> usize {
         let outer = self.parent_frame(parent);
         let frame = match freedom {
             Freedom::Weld => outer,
@@ -190,7 +138,7 @@ impl Builder<'_> {
                 None => self.target(step).map_or(Frame::IDENTITY, Frame::with_x_along),
             },
         };
-        self.push(step, parent, 0, freedom, Frame::IDENTITY, frame)
+        self.push(step, parent, coordinate, freedom, Frame::IDENTITY, frame)
     }
 
     fn push(
@@ -224,7 +172,7 @@ impl Builder<'_> {
     /// The link of a joint's inboard side.
     fn held(&self, joint: JointId, carrier: Carrier) -> LinkIndex {
         let joint = self.mechanism.joint(joint);
-        self.linkage.link_at(carrier, joint.at, joint.kind.holds_orientation())
+        self.linkage.link_at(carrier, joint.at, !joint.model.turns_freely())
     }
 
     /// Adds the floating frame of a flexible body behind its inboard joint, and its nodes. Returns the link
@@ -239,7 +187,7 @@ impl Builder<'_> {
         let own = self.push(step, Some(last), usize::MAX, freedom, mount, frame);
         let inboard = flexible.node_at(joint.at);
         // A ball or free joint fixes no direction, so the floating frame's own serves.
-        self.linkage.links[own].node = Some(NodeShape::new(inboard, joint.kind.holds_orientation()));
+        self.linkage.links[own].node = Some(NodeShape::new(inboard, !joint.model.turns_freely()));
         self.linkage.links[own].origin = flexible.origin;
         for (point, _) in &flexible.nodes {
             for turns in [false, true] {

@@ -7,12 +7,12 @@ use linkwear_runtime::Channel;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
-use crate::model::{Flexible, JointKind};
+use crate::model::{Coordinate, Flexible};
 
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
 use super::inertia::LinkMass;
-use super::joint_state::{JointStates, is_angle};
+use super::joint_state::JointStates;
 use super::linkage::{Freedom, Linkage};
 use super::loads::Loads;
 use super::node::{NodePose, NodeShape};
@@ -80,9 +80,9 @@ pub fn channels<'g>(g: &'g Scope, observed: &Observed<'_, 'g>) -> Channels<'g> {
     wrenches(g, observed, &mut list);
     for (joint, coordinate, force) in observed.drives {
         let data = mechanism.joint(*joint);
-        let unit = if is_angle(&data.kind, *coordinate) { "N m" } else { "N" };
-        let several = super::joint_state::coordinate_count(&data.kind) > 1;
-        let suffix = if several { (coordinate + 1).to_string() } else { String::new() };
+        let coordinates = data.model.coordinates();
+        let unit = if coordinates[*coordinate] == Coordinate::Angle { "N m" } else { "N" };
+        let suffix = if coordinates.len() > 1 { (coordinate + 1).to_string() } else { String::new() };
         list.push(format!("{}.drive{suffix}", data.name), unit, false, *force);
     }
     multipliers(observed, &mut list);
@@ -98,7 +98,7 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
     let all = observed.state.coordinates(g, joint);
     for coordinate in 0..all.position.len() {
         let suffix = if all.position.len() > 1 { (coordinate + 1).to_string() } else { String::new() };
-        let units = if is_angle(&data.kind, coordinate) {
+        let units = if data.model.coordinates()[coordinate] == Coordinate::Angle {
             ["rad", "rad/s", "rad/s^2"]
         } else {
             ["m", "m/s", "m/s^2"]
@@ -107,7 +107,7 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
         list.push(format!("{name}.v{suffix}"), units[1], false, all.speed[coordinate]);
         list.push(format!("{name}.a{suffix}"), units[2], false, all.acceleration[coordinate]);
     }
-    if matches!(data.kind, JointKind::Spherical | JointKind::Socket | JointKind::Free) {
+    if data.model.turns_freely() {
         let sides = super::across::sides_of(&observed.state.geometry, joint);
         let parent = displacement(g, observed, sides.parent);
         let child = displacement(g, observed, sides.child);
@@ -117,7 +117,7 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
             list.push(format!("{name}.q{index}"), "1", false, component);
         }
     }
-    if data.kind == JointKind::Free {
+    if data.model.is_free() {
         let across = observed.state.across(g, joint);
         let sides = super::across::sides_of(&observed.state.geometry, joint);
         let rotation = observed.state.motion.poses.world_of(g, sides.beside()).rotation;
@@ -277,7 +277,7 @@ fn tree_wrench<'g>(
     let mut force = g.mul_vec3(pose.rotation, total.force);
     let reversed = linkage.reversed[joint.index()];
     let data = state.geometry.mechanism.joint(joint);
-    if reversed && slides(&data.kind) {
+    if reversed && data.model.slides() {
         // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
         let link = linkage.link_at(data.child, data.at, true);
         let local = state.geometry.local(g, link, data.at);
@@ -304,18 +304,6 @@ fn tree_wrench<'g>(
     }
     // The child of a reversed joint feels the opposite.
     if reversed { [g.neg3(moment), g.neg3(force)] } else { [moment, force] }
-}
-
-fn slides(kind: &JointKind) -> bool {
-    matches!(
-        kind,
-        JointKind::Prismatic(_)
-            | JointKind::Cylindrical(_)
-            | JointKind::Screw(..)
-            | JointKind::Planar { .. }
-            | JointKind::Journal { .. }
-            | JointKind::Socket
-    )
 }
 
 fn cut_wrench<'g>(

@@ -97,7 +97,7 @@ impl<'g> StartValues<'g> {
         if !matches!(link.freedom, Freedom::Ball | Freedom::Free) {
             return;
         }
-        let starts = [0, 1, 2].map(|i| find(geometry.mechanism, link.joint, i));
+        let starts = [0, 1, 2].map(|i| find(geometry.mechanism, link.joint, link.joint_coordinate + i));
         let vector = Vec3(starts.map(|start| number(g, geometry, start.and_then(|s| s.position.as_ref()))));
         // The file gives the child's rotation relative to the parent; seen from a reversed joint it is undone.
         let vector = if geometry.linkage.reversed[link.joint.index()] { g.neg3(vector) } else { vector };
@@ -115,7 +115,7 @@ impl<'g> StartValues<'g> {
             let origin = geometry
                 .described(geometry.mechanism.joint(link.joint).at, crate::model::Carrier::Body(link.body));
             for (i, origin) in origin.into_iter().enumerate() {
-                let start = find(geometry.mechanism, link.joint, 3 + i);
+                let start = find(geometry.mechanism, link.joint, link.joint_coordinate + 3 + i);
                 let moved = number(g, geometry, start.and_then(|s| s.position.as_ref()));
                 self.q[link.first_coordinate + 4 + i] = g.add(origin, moved);
                 self.held_q[link.first_coordinate + 4 + i] =
@@ -146,8 +146,9 @@ impl<'g> StartValues<'g> {
             if !matches!(link.freedom, Freedom::Ball | Freedom::Free) {
                 continue;
             }
+            let numbers = link.joint_coordinate..link.joint_coordinate + link.freedom.speeds();
             let starts: Vec<Option<&Start>> =
-                (0..link.freedom.speeds()).map(|i| find(geometry.mechanism, link.joint, i)).collect();
+                numbers.map(|number| find(geometry.mechanism, link.joint, number)).collect();
             let wished: Vec<Expr<'g>> = starts
                 .iter()
                 .map(|start| number(g, geometry, start.and_then(|s| s.speed.as_ref())))

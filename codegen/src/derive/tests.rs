@@ -27,10 +27,10 @@ fn rod(name: &str, a: usize, b: usize) -> Body {
     Body { name: name.into(), inertia, flexible: None, span: Span::default() }
 }
 
-fn joint(name: &str, kind: JointKind, parent: Carrier, child: usize, at: usize) -> Joint {
+fn joint(name: &str, model: JointModel, parent: Carrier, child: usize, at: usize) -> Joint {
     Joint {
         name: name.into(),
-        kind,
+        model,
         parent,
         child: Carrier::Body(BodyId::new(child)),
         at: PointId::new(at),
@@ -56,14 +56,14 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
     b.carrier = body(1);
     let mut a = point("A", [0.12, 0.0, 0.0]);
     a.carrier = body(0);
-    let mut r1 = joint("R1", JointKind::Revolute(axis([0.0, 0.0, 1.0])), Carrier::Ground, 0, 0);
+    let mut r1 = joint("R1", JointModel::new("revolute", &[axis([0.0, 0.0, 1.0])]), Carrier::Ground, 0, 0);
     let law = Term::Mul(Box::new(Term::Number(4.0 * std::f64::consts::PI)), Box::new(Term::Time));
     r1.drives.push(Drive { coordinate: 0, law: Formula { term: law, ..f(0.0) } });
-    let mut s2 = joint("S2", JointKind::Spherical, body(0), 1, 1);
+    let mut s2 = joint("S2", JointModel::new("spherical", &[]), body(0), 1, 1);
     s2.passive.push(damping(1e-4));
-    let mut r4 = joint("R4", JointKind::Revolute(axis([0.0, 1.0, 0.0])), Carrier::Ground, 2, 2);
+    let mut r4 = joint("R4", JointModel::new("revolute", &[axis([0.0, 1.0, 0.0])]), Carrier::Ground, 2, 2);
     r4.passive.push(damping(2.0));
-    let mut s3 = joint("S3", JointKind::Spherical, body(1), 2, 3);
+    let mut s3 = joint("S3", JointModel::new("spherical", &[]), body(1), 2, 3);
     s3.passive.push(damping(1e-4));
     let start = Start {
         joint: JointId::new(2),
@@ -183,7 +183,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         points.push(point(&format!("A{i}"), [i as f64, 0.0, 0.0]));
         points.push(point(&format!("B{i}"), [i as f64, 1.0, 0.0]));
         bodies.push(rod(&format!("u{i}"), 2 * i, 2 * i + 1));
-        joints.push(joint(&format!("G{i}"), JointKind::Revolute(z), Carrier::Ground, i, 2 * i));
+        joints.push(joint(&format!("G{i}"), JointModel::new("revolute", &[z]), Carrier::Ground, i, 2 * i));
         tree.push(TreeJoint {
             joint: JointId::new(i),
             inboard: Carrier::Ground,
@@ -194,14 +194,26 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
     for i in 0..n {
         bodies.push(rod(&format!("c{i}"), 2 * i + 1, 2 * i + 3));
         let id = joints.len();
-        joints.push(joint(&format!("L{i}"), JointKind::Revolute(z), body(i), n + 1 + i, 2 * i + 1));
+        joints.push(joint(
+            &format!("L{i}"),
+            JointModel::new("revolute", &[z]),
+            body(i),
+            n + 1 + i,
+            2 * i + 1,
+        ));
         tree.push(TreeJoint {
             joint: JointId::new(id),
             inboard: body(i),
             outboard: BodyId::new(n + 1 + i),
             reversed: false,
         });
-        joints.push(joint(&format!("R{i}"), JointKind::Revolute(z), body(n + 1 + i), i + 1, 2 * i + 3));
+        joints.push(joint(
+            &format!("R{i}"),
+            JointModel::new("revolute", &[z]),
+            body(n + 1 + i),
+            i + 1,
+            2 * i + 3,
+        ));
         cuts.push(JointId::new(id + 1));
     }
     let mechanism = Mechanism {

@@ -11,12 +11,14 @@ use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::Span;
 use crate::spec::Dimension;
 
+mod coordinate;
 mod formula;
-mod kind;
+mod joint_kind;
 mod resolve;
 pub mod topology;
+pub use coordinate::Coordinate;
 pub use formula::{Formula, Function, Term};
-pub use kind::Coordinate;
+pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Primitive};
 pub use resolve::{OverrideError, Overrides, resolve};
 
 /// A body or the ground.
@@ -222,61 +224,13 @@ pub enum Amount {
     Mass(Formula),
 }
 
-/// What relative motion a joint leaves. Axes are unit vectors in W at the reference pose,
-/// one as seen on the parent's branch and one as seen on the child's.
-#[derive(Clone, Debug, PartialEq)]
-pub enum JointKind {
-    /// Rotation about an axis.
-    Revolute(Axis),
-    /// Translation along an axis.
-    Prismatic(Axis),
-    /// Rotation about and translation along an axis, in this order: `q1` [rad], `q2` [m].
-    Cylindrical(Axis),
-    /// Rotation with proportional translation; `lead` [m] per turn, positive for a right-hand thread.
-    Screw(Axis, f64),
-    /// Two rotations: `q1` about an axis fixed in the parent, `q2` about an axis fixed in the child.
-    Universal(Axis, Axis),
-    /// Free rotation about a point.
-    Spherical,
-    /// Two translations `q1`, `q2` [m] along axes of the parent and a rotation `q3` about the normal.
-    Planar {
-        /// Normal of the plane.
-        normal: Axis,
-        /// Direction of `q1`, at right angles to the normal.
-        first: Axis,
-    },
-    /// Rotation about an axis, and what clearance allows across it. The rotation `q` is coordinate 0; the
-    /// journal's offset along axes of the bearing follows as coordinates 1 and 2.
-    Journal {
-        /// Axis of the bearing.
-        axis: Axis,
-        /// Direction in which the offset's first component is measured.
-        first: Axis,
-    },
-    /// Free rotation, and what clearance allows of translation: coordinates 3 to 5.
-    Socket,
-    /// No relative motion.
-    Fixed,
-    /// No constraint.
-    Free,
-}
-
-/// A unit direction in W at the reference pose, as each side's branch describes it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axis {
-    /// As the parent's branch describes it.
-    pub parent: [f64; 3],
-    /// As the child's branch describes it.
-    pub child: [f64; 3],
-}
-
 /// A joint between two bodies; the parent is the first in the file.
 #[derive(Clone, Debug)]
 pub struct Joint {
     /// Name in the file.
     pub name: String,
-    /// Kind and axes.
-    pub kind: JointKind,
+    /// Kind and axes: the relative motion that it leaves.
+    pub model: JointModel,
     /// First body.
     pub parent: Carrier,
     /// Second body.

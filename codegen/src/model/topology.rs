@@ -6,10 +6,7 @@
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
 
-use super::{
-    Axis, Carrier, ForceKind, Formula, Joint, JointKind, Mechanism, Passive, Position, Term, Topology,
-    TreeJoint,
-};
+use super::{Carrier, ForceKind, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::id::{BodyId, JointId};
 
@@ -85,7 +82,7 @@ fn classes(mechanism: &Mechanism) -> Vec<Class> {
         (
             joint.drives.is_empty() && joint.clearance.is_none(),
             !started[position],
-            6 - joint.kind.rows(),
+            6 - joint.model.rows(),
             !passive,
         )
     };
@@ -122,18 +119,7 @@ fn must_cut(mechanism: &Mechanism, joint: &Joint) -> bool {
 
 /// Whether the branches on the two sides of the joint are described open.
 fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
-    let differs = |axis: &Axis| axis.parent != axis.child;
-    let axes = match &joint.kind {
-        JointKind::Revolute(axis)
-        | JointKind::Prismatic(axis)
-        | JointKind::Cylindrical(axis)
-        | JointKind::Screw(axis, _) => differs(axis),
-        JointKind::Universal(first, second) => differs(first) || differs(second),
-        JointKind::Planar { normal: axis, first } | JointKind::Journal { axis, first } => {
-            differs(axis) || differs(first)
-        }
-        JointKind::Spherical | JointKind::Socket | JointKind::Fixed | JointKind::Free => false,
-    };
+    let axes = joint.model.axes.iter().any(|axis| axis.parent != axis.child);
     let point = match &mechanism.point(joint.at).position {
         Position::Shared(_) => false,
         Position::PerBody(list) => {

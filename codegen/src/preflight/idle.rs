@@ -5,7 +5,7 @@ use linkwear_runtime::Entry;
 use nalgebra::{DMatrix, DVector};
 
 use crate::id::JointId;
-use crate::model::{Carrier, JointKind, Mechanism};
+use crate::model::{Carrier, Joint, Mechanism};
 
 use super::Case;
 use super::samples::{ClosedPositions, evaluate, null_space};
@@ -48,6 +48,11 @@ impl Group {
     }
 }
 
+/// A ball that clearance lets move holds nothing.
+fn is_ball(joint: &Joint) -> bool {
+    joint.model.is_ball() && joint.clearance.is_none()
+}
+
 fn groups(mechanism: &Mechanism) -> Vec<Group> {
     let count = mechanism.bodies.len();
     // Ground is the last entry.
@@ -57,7 +62,7 @@ fn groups(mechanism: &Mechanism) -> Vec<Group> {
         Carrier::Body(body) => body.index(),
     };
     for joint in &mechanism.joints {
-        if joint.kind == JointKind::Spherical {
+        if is_ball(joint) {
             continue;
         }
         let (a, b) = (label[place(joint.parent)], label[place(joint.child)]);
@@ -77,7 +82,7 @@ fn groups(mechanism: &Mechanism) -> Vec<Group> {
         let ball_joints: Vec<usize> = (0..mechanism.joints.len())
             .filter(|j| {
                 let joint = &mechanism.joints[*j];
-                joint.kind == JointKind::Spherical && touches(joint.parent) != touches(joint.child)
+                is_ball(joint) && touches(joint.parent) != touches(joint.child)
             })
             .collect();
         if ball_joints.len() >= 2 {

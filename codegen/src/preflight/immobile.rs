@@ -42,7 +42,7 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     // A joint that closes a loop of joints at rest rests too.
     let cuts = case.topology.cuts.iter().copied().filter(|cut| {
         let loop_joints = loop_of(case, *cut);
-        let could = row_count(&case.mechanism.joint(*cut).kind, Closure::Joint) < 6;
+        let could = row_count(&case.mechanism.joint(*cut).model, Closure::Joint) < 6;
         could && loop_joints.iter().any(|joint| rigid.contains(joint)) && loop_joints.into_iter().all(still)
     });
     let cuts: Vec<JointId> = cuts.collect();

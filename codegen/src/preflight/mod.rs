@@ -230,7 +230,7 @@ fn grubler(mechanism: &Mechanism) -> i64 {
     let taken: usize = mechanism
         .joints
         .iter()
-        .map(|joint| crate::derive::row_count(&joint.kind, crate::model::Closure::Joint))
+        .map(|joint| crate::derive::row_count(&joint.model, crate::model::Closure::Joint))
         .sum();
     6 * mechanism.bodies.len() as i64 - taken as i64
 }

@@ -8,10 +8,11 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::file::{
-    ByCoordinate, Centre, EachCoordinate, Parameter, ParameterTable, Places, PointSpec, StartSpec,
-    StartTable, Widths,
-};
+use super::body::{Centre, Widths};
+use super::file::{Parameter, ParameterTable, PointSpec};
+use super::force::Places;
+use super::joint::{ByCoordinate, EachCoordinate};
+use super::start::{StartSpec, StartTable};
 use super::written::{At, ByForm, Form, Literal, Name, PerBody, Triple, read_by_form, value_of};
 
 impl<'de> ByForm<'de> for Parameter {

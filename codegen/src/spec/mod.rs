@@ -1,26 +1,34 @@
 //! The file as written: places kept, names unresolved, quantities still text.
 //! In: a [`crate::source::SourceFile`]. Out: [`Spec`]. Never knows mechanics or ids.
 
+mod body;
 mod dimension;
+mod doc;
 mod failure;
 mod file;
+mod force;
 mod forms;
+mod joint;
 mod parse;
 mod read;
 mod repeat;
 mod schema;
+mod start;
 mod syntax;
+mod texts;
 mod unit;
 mod written;
 
-pub use dimension::Dimension;
-pub use file::{
-    BodySpec, ByCoordinate, Centre, ClearanceSpec, ClosureSpec, EachCoordinate, File, FlexibleSpec,
-    ForceSpec, HeldSpec, JointSpec, Parameter, Places, PointMassSpec, PointSpec, RepeatSpec, SectionSpec,
-    SpringPart, SpringSpec, StartSpec, StartTable, StepSpec, TheorySpec, WearSpec, Widths,
+pub use body::{
+    BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
+pub use dimension::Dimension;
+pub use file::{ClearanceSpec, ClosureSpec, File, Parameter, PointSpec, RepeatSpec, WearSpec};
+pub use force::{ForceSpec, Places};
+pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};
 pub use repeat::{expand, group_spans};
 pub use schema::json_schema;
+pub use start::{StartSpec, StartTable};
 pub use syntax::{Expression, Form, Operator, SyntaxError, parse_expression};
 pub use written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

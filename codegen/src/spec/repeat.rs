@@ -4,13 +4,10 @@
 
 use std::collections::HashMap;
 
-use super::file::{
-    BodySpec, ByCoordinate, Centre, EachCoordinate, File, FlexibleSpec, ForceSpec, JointSpec, Places,
-    PointMassSpec, PointSpec, RepeatSpec, SectionSpec, SpringPart, SpringSpec, StartSpec, StartTable,
-    StepSpec, Widths,
-};
+use super::file::{File, PointSpec, RepeatSpec};
 use super::syntax::{Form, Operator, parse_expression};
-use super::written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};
+use super::texts::{Texts as _, texts_of};
+use super::written::{Name, Quantity, Table};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -166,111 +163,9 @@ fn number(inner: &str, index: &str, cell: i64) -> Option<i64> {
     value(&parse_expression(inner, &|name| name == index).ok()?.form, index, cell)
 }
 
-type Change<'a> = &'a mut dyn FnMut(&mut String, Span);
-
-/// Everything with texts in it.
-trait Texts {
-    /// Calls `change` for every text with its place.
-    fn each(&mut self, span: Span, change: Change<'_>);
-}
-
-impl Texts for String {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        change(self, span);
-    }
-}
-
-impl Texts for Literal {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        if let Self::Text(text) = self {
-            change(text, span);
-        }
-    }
-}
-
-impl<T: Texts> Texts for At<T> {
-    fn each(&mut self, _: Span, change: Change<'_>) {
-        self.value.each(self.span, change);
-    }
-}
-
-impl<T: Texts> Texts for Option<T> {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        self.iter_mut().for_each(|value| value.each(span, change));
-    }
-}
-
-impl<T: Texts> Texts for Vec<T> {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        self.iter_mut().for_each(|value| value.each(span, change));
-    }
-}
-
-impl<T: Texts> Texts for Box<T> {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        self.as_mut().each(span, change);
-    }
-}
-
-impl<T: Texts> Texts for Table<T> {
-    fn each(&mut self, span: Span, change: Change<'_>) {
-        for (name, value) in &mut self.0 {
-            name.each(span, change);
-            value.each(span, change);
-        }
-    }
-}
-
-macro_rules! texts_of {
-    ($(struct $type:ident { $($field:tt),* })* $(enum $choice:ident { $($variant:ident),* })*) => {
-        $(impl Texts for $type {
-            fn each(&mut self, span: Span, change: Change<'_>) {
-                $(self.$field.each(span, change);)*
-            }
-        })*
-        $(impl Texts for $choice {
-            fn each(&mut self, span: Span, change: Change<'_>) {
-                match self {
-                    $(Self::$variant(value) => value.each(span, change),)*
-                }
-            }
-        })*
-    };
-}
-
 texts_of! {
-    struct Triple { 0 }
-    struct Pair { 0 }
-    struct Places { 0 }
     struct PointSpec { at, by_body, on }
-    struct BodySpec {
-        rod, tube, cuboid, radius, inner_radius, width, width_axis, density, mass, centre, inertia, axes,
-        flexible
-    }
-    struct FlexibleSpec {
-        modes, axial, torsion, young, poisson, damping, frequencies, shear_coefficient, section, steps, masses, stations, data,
-        origin, axes
-    }
-    struct SectionSpec { area, iy, iz, j, fibres, y_axis }
-    struct StepSpec { to, radius, inner_radius, width }
-    struct PointMassSpec { at, mass }
-    struct JointSpec {
-        revolute, prismatic, cylindrical, screw, universal, spherical, planar, fixed, free, at, axis, axes, first,
-        lead, drive, damping, friction, spring, force
-    }
-    struct EachCoordinate { q, q1, q2, q3 }
-    struct SpringSpec { stiffness, rest, q, q1, q2, q3 }
-    struct SpringPart { stiffness, rest }
-    struct ForceSpec {
-        spring, force, torque, at, stiffness, length, damping, preload, components, axes, reaction
-    }
-    struct StartTable { q, q1, q2, q3, q4, q5, q6, v, v1, v2, v3, v4, v5, v6, eta, eta_v }
     struct RepeatSpec { points, bodies, joints, forces, assembly, initial }
-    enum PerBody { Shared, Each }
-    enum Centre { Point, At }
-    enum Widths { Square, Rectangle }
-    enum ByCoordinate { One, Each }
-    enum StartSpec { One, List, Table }
 }
 
 #[cfg(test)]

@@ -5,13 +5,11 @@
 //! `write` turns the plan into text, one function per table.
 
 mod dice;
-mod kind;
 mod plan;
 mod recipe;
 mod write;
 
 pub use dice::Dice;
-pub use kind::Kind;
 pub use recipe::Recipe;
 
 impl Recipe {
@@ -27,6 +25,7 @@ impl Recipe {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kind::Kind;
 
     #[test]
     fn the_same_seed_gives_the_same_text_and_another_seed_another() {

@@ -2,8 +2,8 @@
 //! In: a recipe. Out: [`Plan`]. Never knows text.
 
 use super::dice::Dice;
-use super::kind::Kind;
 use super::recipe::Recipe;
+use crate::kind::Kind;
 
 /// A joint to be written.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! What a random mechanism is drawn from. Never knows how.
 
 use super::dice::Dice;
-use super::kind::Kind;
+use crate::kind::Kind;
 
 /// What kind of mechanism to draw.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,9 +4,9 @@
 use std::fmt::Write as _;
 
 use super::dice::Dice;
-use super::kind::Kind;
 use super::plan::{Plan, PlannedJoint};
 use super::recipe::Recipe;
+use crate::kind::Kind;
 
 /// Half the edge of the cube in which points are drawn [m].
 const ROOM: f64 = 0.6;

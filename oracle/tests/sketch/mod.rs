@@ -3,7 +3,7 @@
 
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::{
-    Axis, Body, Carrier, Closure, Drive, Force, ForceKind, Formula, Function, Inertia, Joint, JointKind,
+    Axis, Body, Carrier, Closure, Drive, Force, ForceKind, Formula, Function, Inertia, Joint, JointModel,
     Mechanism, Passive, Point, Position, Term,
 };
 use linkwear_codegen::source::Span;
@@ -83,12 +83,12 @@ impl Sketch {
         Carrier::Body(id)
     }
 
-    pub fn joint(&mut self, kind: JointKind, parent: Carrier, child: Carrier, at: [f64; 3]) -> JointId {
+    pub fn joint(&mut self, model: JointModel, parent: Carrier, child: Carrier, at: [f64; 3]) -> JointId {
         let id = JointId::new(self.0.joints.len());
         let at = self.point(at);
         self.0.joints.push(Joint {
             name: format!("j{}", id.index()),
-            kind,
+            model,
             parent,
             child,
             at,

@@ -9,10 +9,9 @@ use linkwear_runtime::{
 use super::Deriver;
 use crate::derive::closure::CutRows;
 use crate::derive::geometry::Geometry;
-use crate::derive::joint_state::{coordinate_count, is_angle};
 use crate::derive::linkage::{Freedom, Linkage};
 use crate::derive::start::StartValues;
-use crate::model::{JointKind, Mechanism};
+use crate::model::{Coordinate, Mechanism};
 
 impl Deriver<'_> {
     pub(super) fn sizes(&self, channels: usize) -> Sizes {
@@ -65,13 +64,12 @@ impl Deriver<'_> {
             .iter()
             .map(|driver| DriverInfo {
                 joint: mechanism.joint(driver.joint).name.clone().into(),
-                angular: is_angle(&mechanism.joint(driver.joint).kind, driver.joint_coordinate),
+                angular: mechanism.joint(driver.joint).model.coordinates()[driver.joint_coordinate]
+                    == Coordinate::Angle,
             })
             .collect();
-        let turn_driver = self.drivers.iter().position(|driver| {
-            let kind = &mechanism.joint(driver.joint).kind;
-            matches!(kind, JointKind::Revolute(_) | JointKind::Journal { .. })
-        });
+        let turn_driver =
+            self.drivers.iter().position(|driver| mechanism.joint(driver.joint).model.is_hinge());
         Description {
             name: mechanism.name.clone().into(),
             parameters: parameters.into(),
@@ -149,20 +147,23 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
         let name = &joint.name;
         match link.freedom {
             Freedom::Rotation { .. } | Freedom::Translation { .. } => {
-                let offset = match (&joint.kind, link.joint_coordinate) {
-                    (JointKind::Journal { .. }, coordinate @ (1 | 2)) => Some(coordinate - 1),
-                    (JointKind::Socket, coordinate) => Some(coordinate - 3),
-                    _ => None,
-                };
+                let offset = joint.model.offsets().position(|number| number == link.joint_coordinate);
                 if let Some(axis) = offset.map(|axis| ["x", "y", "z"][axis]) {
                     positions.push((format!("{name}.{axis}"), "m"));
                     speeds.push((format!("{name}.v{axis}"), "m/s"));
                     continue;
                 }
-                let several = coordinate_count(&joint.kind) > 1;
-                let suffix = if several { (link.joint_coordinate + 1).to_string() } else { String::new() };
-                let angle = is_angle(&joint.kind, link.joint_coordinate);
-                let units = if angle { ("rad", "rad/s") } else { ("m", "m/s") };
+                let coordinates = joint.model.coordinates();
+                let suffix = if coordinates.len() > 1 {
+                    (link.joint_coordinate + 1).to_string()
+                } else {
+                    String::new()
+                };
+                let units = if coordinates[link.joint_coordinate] == Coordinate::Angle {
+                    ("rad", "rad/s")
+                } else {
+                    ("m", "m/s")
+                };
                 positions.push((format!("{name}.q{suffix}"), units.0));
                 speeds.push((format!("{name}.v{suffix}"), units.1));
             }

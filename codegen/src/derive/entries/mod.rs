@@ -160,7 +160,7 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 impl<'g> Deriver<'g> {
     fn new(g: &'g Scope, geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
         let Geometry { mechanism, linkage, .. } = geometry;
-        let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).kind, cut.closure));
+        let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
         let keep = keep.map_or_else(|| vec![true; rows.sum()], <[bool]>::to_vec);
         let drivers = drivers(&geometry);
         let names = description::variable_names(mechanism, linkage);

@@ -7,7 +7,7 @@ use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 use super::quantity::Allowed;
 use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Axis, Clearance, Formula, Joint, JointKind};
+use crate::model::{Axis, Clearance, Formula, Joint};
 use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity, WearSpec};
 
 /// Speed below which friction is smoothed, unless the file says otherwise [m/s].
@@ -15,35 +15,23 @@ const FRICTION_SPEED: f64 = 1e-3;
 /// Stribeck speed, unless the file says otherwise [m/s].
 const STRIBECK_SPEED: f64 = 1e-2;
 
-/// The kind of a joint once it has clearance; nothing if such a joint cannot have it.
-fn loosened(kind: &JointKind) -> Option<JointKind> {
-    match kind {
-        JointKind::Revolute(axis) => {
-            // As near to e_x as the axis allows.
-            let first = Axis {
-                parent: inertia::any_perpendicular(axis.parent),
-                child: inertia::any_perpendicular(axis.child),
-            };
-            Some(JointKind::Journal { axis: *axis, first })
-        }
-        JointKind::Spherical => Some(JointKind::Socket),
-        _ => None,
-    }
-}
-
 impl Resolver<'_> {
     /// Gives the joints named in `[clearance]` their freedom.
-    pub(super) fn loosen(&mut self, file: &File) {
+    pub(super) fn add_clearance(&mut self, file: &File) {
         for (name, _) in &file.clearance.0 {
             let Some(id) = self.joint_named(name, "[clearance]") else { continue };
-            let Some(kind) = self.joint_kinds.get(id.index()) else { continue };
-            match loosened(kind) {
-                Some(kind) => self.joint_kinds[id.index()] = kind,
-                None => {
-                    let message = format!("the {} joint `{}` cannot have clearance", kind.name(), name.value);
-                    let fault = Diagnostic::new(Code::BadClearance, message).at(name.span, "");
-                    self.report(fault.help("revolute and spherical joints can"));
-                }
+            let Some(model) = self.joint_models.get_mut(id.index()) else { continue };
+            if model.kind.clearance.is_empty() {
+                let message = format!("the {} joint `{}` cannot have clearance", model.kind.name, name.value);
+                let fault = Diagnostic::new(Code::BadClearance, message).at(name.span, "");
+                self.report(fault.help("revolute and spherical joints can"));
+                continue;
+            }
+            model.clearance = true;
+            if let [axis] = model.axes[..] {
+                // The direction of the offset's first component, as near to e_x as the axis allows.
+                let [parent, child] = [axis.parent, axis.child].map(inertia::any_perpendicular);
+                model.axes.push(Axis { parent, child });
             }
         }
     }
@@ -51,7 +39,7 @@ impl Resolver<'_> {
     pub(super) fn resolve_clearances(&mut self, file: &File, joints: &mut [Joint]) {
         for (name, written) in &file.clearance.0 {
             let Some(joint) = joints.iter_mut().find(|joint| joint.name == name.value) else { continue };
-            let ball = joint.kind == JointKind::Socket;
+            let ball = joint.model.is_ball();
             let wear = file.wear.0.iter().find(|(other, _)| other.value == name.value);
             let radial = self.radial(name, written);
             let mut laws = self.laws(name, written, ball);

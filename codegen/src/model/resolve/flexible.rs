@@ -6,7 +6,7 @@ use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Flexible, Force, ForceKind, Joint, JointKind, Station};
+use crate::model::{Body, Carrier, Direction, Flexible, Force, ForceKind, Joint, Station};
 use crate::source::Span;
 use crate::spec::{At, BodySpec, Dimension, File, FlexibleSpec, Name, Quantity};
 
@@ -64,7 +64,7 @@ impl Resolver<'_> {
             None => uses.push(Use { point, held, turns }),
         };
         for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
-            add(joint.at, true, joint.kind.holds_orientation());
+            add(joint.at, true, !joint.model.turns_freely());
         }
         for force in forces {
             match &force.kind {
@@ -281,14 +281,8 @@ pub(super) fn hinges(carrier: Carrier, joints: &[Joint]) -> Vec<[f64; 3]> {
         if joint.parent != carrier && joint.child != carrier {
             continue;
         }
-        match &joint.kind {
-            JointKind::Revolute(axis) | JointKind::Cylindrical(axis) | JointKind::Screw(axis, _) => {
-                list.push(own(axis));
-            }
-            JointKind::Universal(first, second) => list.extend([own(first), own(second)]),
-            JointKind::Planar { normal: axis, .. } | JointKind::Journal { axis, .. } => list.push(own(axis)),
-            _ => {}
-        }
+        let turns = joint.model.turns().into_iter();
+        list.extend(turns.map(|direction| own(&joint.model.axes[usize::from(direction == Direction::X)])));
     }
     list
 }

@@ -1,19 +1,19 @@
 //! Joints: which bodies and point, motion laws, damping, springs and actuators.
 
 use super::quantity::Allowed;
-use super::{Resolver, joint_kind, place};
+use super::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::PointId;
-use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointKind, Passive};
+use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive};
 use crate::source::Span;
 use crate::spec::{At, ByCoordinate, JointSpec, Name, Pair, Quantity, SpringSpec, Table};
 
 impl Resolver<'_> {
     pub(super) fn resolve_joints(&mut self, table: &Table<JointSpec>) -> Vec<Joint> {
         let mut joints = Vec::with_capacity(table.0.len());
-        for ((name, joint), kind) in table.0.iter().zip(self.joint_kinds.clone()) {
+        for ((name, joint), model) in table.0.iter().zip(self.joint_models.clone()) {
             let spec = &joint.value;
-            let bodies = joint_kind::kinds(spec).next().map(|(_, pair)| self.bodies_of(name, pair));
+            let bodies = spec.kinds().next().map(|(_, pair)| self.bodies_of(name, pair));
             let sides = bodies.flatten();
             let at = self.joint_point(name, joint, sides);
             let (parent, child) = sides.map_or((Carrier::Ground, Carrier::Ground), |[(a, _), (b, _)]| (a, b));
@@ -23,10 +23,10 @@ impl Resolver<'_> {
                 child,
                 at: at.unwrap_or(PointId::new(0)),
                 cut: spec.cut.as_ref().is_some_and(|cut| cut.value),
-                drives: self.drives(name, spec, &kind),
-                passive: self.passive(name, spec, &kind),
+                drives: self.drives(name, spec, &model),
+                passive: self.passive(name, spec, &model),
                 clearance: None,
-                kind,
+                model,
                 span: name.span,
             });
         }
@@ -68,38 +68,36 @@ impl Resolver<'_> {
         Some(point)
     }
 
-    fn drives(&mut self, name: &Name, spec: &JointSpec, kind: &JointKind) -> Vec<Drive> {
+    fn drives(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Drive> {
         let what = place("drive", "joint", name);
-        let laws = self.by_coordinate(spec.drive.as_ref(), kind, &what);
+        let laws = self.by_coordinate(spec.drive.as_ref(), model, &what);
         laws.into_iter()
             .map(|(coordinate, law)| {
-                let dimension = kind.coordinates()[coordinate].dimension();
+                let dimension = model.coordinates()[coordinate].dimension();
                 Drive { coordinate, law: self.formula(law, Some(dimension), Allowed::TIME, &what) }
             })
             .collect()
     }
 
-    fn passive(&mut self, name: &Name, spec: &JointSpec, kind: &JointKind) -> Vec<Passive> {
+    fn passive(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Passive> {
         let mut passive = Vec::new();
         for (key, written) in [("damping", &spec.damping), ("friction", &spec.friction)] {
             let what = place(key, "joint", name);
-            if let (JointKind::Spherical | JointKind::Socket, Some(ByCoordinate::One(quantity))) =
-                (kind, written)
-            {
+            if let (true, Some(ByCoordinate::One(quantity))) = (model.is_ball(), written) {
                 // The one law that a joint without scalar coordinates can have: against the relative angular velocity.
                 passive.push(self.damping(0, Coordinate::Angle, quantity, &what));
                 continue;
             }
-            for (coordinate, quantity) in self.by_coordinate(written.as_ref(), kind, &what) {
-                passive.push(self.damping(coordinate, kind.coordinates()[coordinate], quantity, &what));
+            for (coordinate, quantity) in self.by_coordinate(written.as_ref(), model, &what) {
+                passive.push(self.damping(coordinate, model.coordinates()[coordinate], quantity, &what));
             }
         }
         if let Some(spring) = &spec.spring {
-            self.springs(name, spring, kind, &mut passive);
+            self.springs(name, spring, model, &mut passive);
         }
         let what = place("force", "joint", name);
-        for (coordinate, force) in self.by_coordinate(spec.force.as_ref(), kind, &what) {
-            let dimension = kind.coordinates()[coordinate].force();
+        for (coordinate, force) in self.by_coordinate(spec.force.as_ref(), model, &what) {
+            let dimension = model.coordinates()[coordinate].force();
             let force = self.formula(force, Some(dimension), Allowed::STATE, &what);
             passive.push(Passive::Actuator { coordinate, force });
         }
@@ -112,7 +110,7 @@ impl Resolver<'_> {
         Passive::Damping { coordinate, coefficient }
     }
 
-    fn springs(&mut self, name: &Name, spring: &SpringSpec, kind: &JointKind, passive: &mut Vec<Passive>) {
+    fn springs(&mut self, name: &Name, spring: &SpringSpec, model: &JointModel, passive: &mut Vec<Passive>) {
         let what = place("spring", "joint", name);
         let parts = [&spring.q, &spring.q1, &spring.q2, &spring.q3];
         let mut written: Vec<(&str, &Option<Quantity>, &Option<Quantity>, Span)> = ["q", "q1", "q2", "q3"]
@@ -126,8 +124,8 @@ impl Resolver<'_> {
             written.insert(0, ("", &spring.stiffness, &spring.rest, span));
         }
         for (key, stiffness, rest, span) in written {
-            let Some(coordinate) = self.coordinate(key, kind, span, &what) else { continue };
-            let is = kind.coordinates()[coordinate];
+            let Some(coordinate) = self.coordinate(key, model, span, &what) else { continue };
+            let is = model.coordinates()[coordinate];
             let Some(stiffness) = stiffness else {
                 let fault =
                     Diagnostic::new(Code::MissingKey, format!("{what} has no `stiffness`")).at(span, "");
@@ -150,7 +148,7 @@ impl Resolver<'_> {
     fn by_coordinate<'q>(
         &mut self,
         written: Option<&'q ByCoordinate>,
-        kind: &JointKind,
+        model: &JointModel,
         what: &str,
     ) -> Vec<(usize, &'q Quantity)> {
         let list: Vec<(&str, &Quantity)> = match written {
@@ -164,7 +162,7 @@ impl Resolver<'_> {
         };
         let mut found: Vec<(usize, &Quantity)> = Vec::new();
         for (key, quantity) in list {
-            let Some(coordinate) = self.coordinate(key, kind, quantity.span, what) else { continue };
+            let Some(coordinate) = self.coordinate(key, model, quantity.span, what) else { continue };
             if found.iter().any(|(earlier, _)| *earlier == coordinate) {
                 let message = format!("{what} is given twice for one coordinate");
                 self.report(Diagnostic::new(Code::ConflictingKeys, message).at(quantity.span, ""));
@@ -176,8 +174,8 @@ impl Resolver<'_> {
     }
 
     /// The coordinate that `key` names: none, `q`, or `q1` to `q3`.
-    fn coordinate(&mut self, key: &str, kind: &JointKind, span: Span, what: &str) -> Option<usize> {
-        let count = kind.coordinates().len();
+    fn coordinate(&mut self, key: &str, model: &JointModel, span: Span, what: &str) -> Option<usize> {
+        let count = model.coordinates().len();
         let number = key.strip_prefix('q').and_then(|number| number.parse::<usize>().ok());
         let found = match number {
             None if count == 1 => Some(0),
@@ -187,15 +185,14 @@ impl Resolver<'_> {
         if found.is_some() {
             return found;
         }
-        let kind_name = kind.name();
+        let kind_name = model.kind.name;
         let (message, help) = match (count, number) {
             (0, _) => (
                 format!("{what}: a {kind_name} joint has no coordinate for it"),
-                match kind {
-                    JointKind::Spherical => {
-                        "a spherical joint can have `damping`, one value; other torques go into [forces]"
-                    }
-                    _ => "forces between the bodies go into [forces]",
+                if model.is_ball() {
+                    "a spherical joint can have `damping`, one value; other torques go into [forces]"
+                } else {
+                    "forces between the bodies go into [forces]"
                 }
                 .to_owned(),
             ),

@@ -11,7 +11,7 @@ mod connect;
 mod flexible;
 mod forces;
 mod inertia;
-mod joint_kind;
+mod joint_model;
 mod joints;
 mod names;
 mod overrides;
@@ -28,7 +28,7 @@ use std::path::PathBuf;
 use self::flexible::ModalStart;
 use self::names::Names;
 use self::quantity::Allowed;
-use super::{Closure, Formula, JointKind, Mechanism, Parameter, Point, Term};
+use super::{Closure, Formula, JointModel, Mechanism, Parameter, Point, Term};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::source::{SourceFile, Span};
 use crate::spec::{ClosureSpec, Dimension, File, Name, Spec, Triple};
@@ -46,7 +46,7 @@ struct Resolver<'a> {
     written_out: Vec<Option<Term>>,
     used: Vec<bool>,
     points: Vec<Point>,
-    joint_kinds: Vec<JointKind>,
+    joint_models: Vec<JointModel>,
     modal_starts: Vec<ModalStart>,
     /// Other files that were read.
     attached: Vec<PathBuf>,
@@ -67,7 +67,7 @@ pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Dia
         written_out: Vec::new(),
         used: Vec::new(),
         points: Vec::new(),
-        joint_kinds: Vec::new(),
+        joint_models: Vec::new(),
         modal_starts: Vec::new(),
         attached: Vec::new(),
     };
@@ -94,9 +94,9 @@ impl Resolver<'_> {
         self.names.declare_all(&file, &mut self.diagnostics);
         let gravity = self.gravity(&file);
         self.resolve_points(&file);
-        let kinds = file.joints.0.iter().map(|(name, joint)| self.joint_kind(name, joint)).collect();
-        self.joint_kinds = kinds;
-        self.loosen(&file);
+        let models = file.joints.0.iter().map(|(name, joint)| self.joint_model(name, joint)).collect();
+        self.joint_models = models;
+        self.add_clearance(&file);
         let mut bodies = self.resolve_bodies(&file.bodies);
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);

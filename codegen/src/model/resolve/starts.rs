@@ -6,7 +6,7 @@ use super::quantity::Allowed;
 use super::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{BodyId, JointId};
-use crate::model::{Coordinate, Joint, JointKind, Start};
+use crate::model::{Coordinate, Joint, JointModel, Start};
 use crate::source::Span;
 use crate::spec::{At, Dimension, File, Literal, Name, Quantity, StartSpec, StartTable};
 
@@ -35,7 +35,7 @@ impl Resolver<'_> {
                 }
                 let Some(id) = self.joint_named(name, &what) else { continue };
                 let joint = &joints[id.index()];
-                for written in self.written(name, &value.value, &joint.kind, key) {
+                for written in self.written(name, &value.value, &joint.model, key) {
                     let start = self.start(id, joint, &written, held, &place(key, "joint", name));
                     self.check_start(joint, &start, &starts);
                     starts.push(start);
@@ -71,10 +71,10 @@ impl Resolver<'_> {
         &mut self,
         name: &Name,
         spec: &'a StartSpec,
-        kind: &JointKind,
+        model: &JointModel,
         key: &str,
     ) -> Vec<Written<'a>> {
-        let needed = kind.start_values().len();
+        let needed = model.start_values().len();
         let one = |index, quantity: &'a Quantity| Written {
             index,
             position: Some(quantity),
@@ -86,31 +86,34 @@ impl Resolver<'_> {
             StartSpec::List(list) => {
                 (list.value.iter().enumerate().map(|(at, q)| one(at, q)).collect(), list.span)
             }
-            StartSpec::Table(table) => return self.by_name(name, table, kind, key),
+            StartSpec::Table(table) => return self.by_name(name, table, model, key),
         };
         if list.len() == needed && needed > 0 {
             return list;
         }
-        let what = format!("a {} joint", kind.name());
+        let what = format!("a {} joint", model.kind.name);
         let message = match needed {
             0 => format!("{what} like `{}` has no coordinates, so it takes no start value", name.value),
             1 => format!("{what} like `{}` has one coordinate, not {}", name.value, list.len()),
             _ => format!("{what} like `{}` starts from {needed} values, not {}", name.value, list.len()),
         };
         let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
-        self.report(match (kind, needed) {
-            (JointKind::Spherical | JointKind::Socket, _) => fault.help(
-                "give the three components of the rotation vector: `[\"0 deg\", \"0 deg\", \"30 deg\"]`",
-            ),
-            (JointKind::Free, _) => {
-                fault.help("give a rotation vector and a displacement: three angles, three lengths")
-            }
-            (_, 0) => fault.help("take it away"),
-            _ => fault.help(format!(
-                "give {needed} values, or name them: `{{ q{} = ... }}`",
-                if needed == 1 { "" } else { "1" }
-            )),
-        });
+        let coordinates = model.coordinates().len();
+        self.report(
+            fault.help(match needed - coordinates {
+                0 if needed == 0 => "take it away".to_owned(),
+                0 => format!(
+                    "give {needed} values, or name them: `{{ q{} = ... }}`",
+                    if needed == 1 { "" } else { "1" }
+                ),
+                3 if coordinates == 0 => {
+                    "give the three components of the rotation vector: `[\"0 deg\", \"0 deg\", \"30 deg\"]`"
+                        .to_owned()
+                }
+                3 => format!("give {coordinates} coordinates and a rotation vector: three angles"),
+                _ => "give a rotation vector and a displacement: three angles, three lengths".to_owned(),
+            }),
+        );
         Vec::new()
     }
 
@@ -118,11 +121,11 @@ impl Resolver<'_> {
         &mut self,
         name: &Name,
         table: &'a At<StartTable>,
-        kind: &JointKind,
+        model: &JointModel,
         key: &str,
     ) -> Vec<Written<'a>> {
         let t = &table.value;
-        let needed = kind.start_values().len();
+        let needed = model.start_values().len();
         let numbered =
             [(&t.q1, &t.v1), (&t.q2, &t.v2), (&t.q3, &t.v3), (&t.q4, &t.v4), (&t.q5, &t.v5), (&t.q6, &t.v6)];
         let mut list: Vec<Written<'a>> = Vec::new();
@@ -134,8 +137,10 @@ impl Resolver<'_> {
             };
             let exists = if number == 0 { needed == 1 } else { number <= needed };
             if !exists || list.iter().any(|written| written.index == index) {
-                let message =
-                    format!("[{key}]: a {} joint like `{}` has no such coordinate", kind.name(), name.value);
+                let message = format!(
+                    "[{key}]: a {} joint like `{}` has no such coordinate",
+                    model.kind.name, name.value
+                );
                 let help = match needed {
                     0 => "it takes no start value".to_owned(),
                     1 => "its coordinate is `q`, its speed `v`".to_owned(),
@@ -150,7 +155,7 @@ impl Resolver<'_> {
     }
 
     fn start(&mut self, id: JointId, joint: &Joint, written: &Written<'_>, held: bool, what: &str) -> Start {
-        let is = joint.kind.start_values()[written.index];
+        let is = joint.model.start_values()[written.index];
         if let Some(speed) = written.speed {
             self.warn_frequency(speed, is, what);
         }

@@ -228,10 +228,10 @@ impl Resolver<'_> {
 
     fn joint_member(&self, id: JointId, member: &str) -> Result<(Term, Dimension), String> {
         // A joint whose kind is wrong has none here; it is reported there.
-        let Some(kind) = self.joint_kinds.get(id.index()) else {
+        let Some(model) = self.joint_models.get(id.index()) else {
             return Ok((Term::JointPosition(id, 0), Dimension::NONE));
         };
-        let coordinates = kind.coordinates();
+        let (kind, coordinates) = (model.kind.name, model.coordinates());
         let (letter, number) = member.split_at(usize::from(member.starts_with(['q', 'v'])));
         let position = match number.parse::<usize>() {
             Ok(number) if coordinates.len() > 1 => number.checked_sub(1),
@@ -243,12 +243,11 @@ impl Resolver<'_> {
             ("q", Some((at, coordinate))) => Ok((Term::JointPosition(id, at), coordinate.dimension())),
             ("v", Some((at, coordinate))) => Ok((Term::JointSpeed(id, at), coordinate.speed())),
             _ => Err(match coordinates.len() {
-                0 => format!("a {} joint has no scalar coordinates; use points", kind.name()),
-                1 => format!("a {} joint has the position `q` and the speed `v`", kind.name()),
-                n => format!(
-                    "a {} joint has the positions `q1` to `q{n}` and the speeds `v1` to `v{n}`",
-                    kind.name()
-                ),
+                0 => format!("a {kind} joint has no scalar coordinates; use points"),
+                1 => format!("a {kind} joint has the position `q` and the speed `v`"),
+                n => {
+                    format!("a {kind} joint has the positions `q1` to `q{n}` and the speeds `v1` to `v{n}`")
+                }
             }),
         }
     }

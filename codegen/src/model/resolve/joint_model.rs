@@ -3,85 +3,70 @@
 use super::quantity::Allowed;
 use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Axis, JointKind};
+use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel};
 use crate::source::Span;
-use crate::spec::{At, Dimension, JointSpec, Name, Pair, PerBody, Triple};
-
-/// The keys that name the kinds, and what is written there.
-pub(super) fn kinds(spec: &JointSpec) -> impl Iterator<Item = (&'static str, &Pair)> {
-    [
-        ("revolute", &spec.revolute),
-        ("prismatic", &spec.prismatic),
-        ("cylindrical", &spec.cylindrical),
-        ("screw", &spec.screw),
-        ("universal", &spec.universal),
-        ("spherical", &spec.spherical),
-        ("planar", &spec.planar),
-        ("fixed", &spec.fixed),
-        ("free", &spec.free),
-    ]
-    .into_iter()
-    .filter_map(|(key, pair)| pair.as_ref().map(|pair| (key, pair)))
-}
+use crate::spec::{At, Dimension, JointSpec, Name, PerBody, Triple};
 
 /// An axis in place of one that is wrong.
 const DUMMY: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl Resolver<'_> {
-    pub(super) fn joint_kind(&mut self, name: &Name, joint: &At<JointSpec>) -> JointKind {
+    pub(super) fn joint_model(&mut self, name: &Name, joint: &At<JointSpec>) -> JointModel {
         let spec = &joint.value;
-        let mut written = kinds(spec);
-        let Some((kind, _)) = written.next() else {
+        let mut written = spec.kinds();
+        let Some((key, _)) = written.next() else {
             self.missing(joint.span, name.span, || {
-                Diagnostic::new(Code::NoKind, format!("nothing says what kind of joint `{}` is", name.value)).help(
-                    "write for example `revolute = [\"ground\", \"crank\"]`; kinds are revolute, prismatic, cylindrical, \
-                     screw, universal, spherical, planar, fixed and free",
-                )
+                let message = format!("nothing says what kind of joint `{}` is", name.value);
+                Diagnostic::new(Code::NoKind, message).help(format!(
+                    "write for example `revolute = [\"ground\", \"crank\"]`; kinds are {}",
+                    all_kinds()
+                ))
             });
-            return JointKind::Free;
+            return JointModel::free();
         };
         if let Some((other, _)) = written.next() {
-            let message = format!("joint `{}` is both {kind} and {other}", name.value);
+            let message = format!("joint `{}` is both {key} and {other}", name.value);
             self.report(
                 Diagnostic::new(Code::ConflictingKeys, message)
                     .at(name.span, "")
                     .help("make two joints of it"),
             );
         }
-        self.check_stray_axes(name, kind, spec);
-        match kind {
-            "spherical" => JointKind::Spherical,
-            "fixed" => JointKind::Fixed,
-            "free" => JointKind::Free,
-            "universal" => self.universal(name, joint),
-            _ => {
-                let axis = self.main_axis(name, kind, joint);
-                match kind {
-                    "revolute" => JointKind::Revolute(axis),
-                    "prismatic" => JointKind::Prismatic(axis),
-                    "cylindrical" => JointKind::Cylindrical(axis),
-                    "screw" => JointKind::Screw(axis, self.lead(name, joint)),
-                    _ => JointKind::Planar { normal: axis, first: self.first_direction(name, joint, axis) },
-                }
+        let mut model = JointModel::new(key, &[]);
+        self.check_stray_axes(name, &model, spec);
+        model.axes = match model.kind.axes {
+            AxisKeys::None => Vec::new(),
+            AxisKeys::Axis => vec![self.main_axis(name, model.kind, joint)],
+            AxisKeys::AxisAndFirst => {
+                let normal = self.main_axis(name, model.kind, joint);
+                vec![normal, self.first_direction(name, joint, normal)]
             }
+            AxisKeys::Axes => self.two_axes(name, joint),
+        };
+        if model.thread().is_some() {
+            model.lead = self.lead(name, joint);
         }
+        model
     }
 
-    fn check_stray_axes(&mut self, name: &Name, kind: &str, spec: &JointSpec) {
-        let has_axis = !matches!(kind, "spherical" | "fixed" | "free" | "universal");
-        let keys = [
+    fn check_stray_axes(&mut self, name: &Name, model: &JointModel, spec: &JointSpec) {
+        let (kind, keys) = (model.kind.name, model.kind.axes);
+        let has_axis = matches!(keys, AxisKeys::Axis | AxisKeys::AxisAndFirst);
+        let written = [
             ("axis", spec.axis.as_ref().map(span_of), has_axis),
-            ("axes", spec.axes.as_ref().map(|axes| axes.span), kind == "universal"),
-            ("first", spec.first.as_ref().map(span_of), kind == "planar"),
-            ("lead", spec.lead.as_ref().map(|lead| lead.span), kind == "screw"),
+            ("axes", spec.axes.as_ref().map(|axes| axes.span), keys == AxisKeys::Axes),
+            ("first", spec.first.as_ref().map(span_of), keys == AxisKeys::AxisAndFirst),
+            ("lead", spec.lead.as_ref().map(|lead| lead.span), model.thread().is_some()),
         ];
-        for (key, span, fits) in keys {
+        for (key, span, fits) in written {
             if let (Some(span), false) = (span, fits) {
                 let message = format!("a {kind} joint has no `{key}`");
-                let help = match (key, kind) {
-                    ("axis", "universal") => "a universal joint has two: `axes = [[1, 0, 0], [0, 1, 0]]`",
-                    ("lead", _) => "a rotation with proportional translation is a `screw`",
-                    _ => "take it away",
+                let help = match (key, keys) {
+                    ("axis", AxisKeys::Axes) => {
+                        format!("a {kind} joint has two: `axes = [[1, 0, 0], [0, 1, 0]]`")
+                    }
+                    ("lead", _) => "a rotation with proportional translation is a `screw`".to_owned(),
+                    _ => "take it away".to_owned(),
                 };
                 let fault = Diagnostic::new(Code::ConflictingKeys, message)
                     .at(span, format!("in joint `{}`", name.value));
@@ -90,18 +75,18 @@ impl Resolver<'_> {
         }
     }
 
-    fn main_axis(&mut self, name: &Name, kind: &str, joint: &At<JointSpec>) -> Axis {
+    fn main_axis(&mut self, name: &Name, kind: &JointKind, joint: &At<JointSpec>) -> Axis {
         if let Some(axis) = &joint.value.axis {
             return self.axis(axis, &joint.value, &place("axis", "joint", name));
         }
         self.missing(joint.span, name.span, || {
-            let help = if kind == "planar" {
+            let help = if kind.axes == AxisKeys::AxisAndFirst {
                 "add `axis = [0, 0, 1]`, the normal of the plane"
             } else {
                 "add `axis = [0, 0, 1]`, its direction in the ground frame at the reference pose"
             };
-            Diagnostic::new(Code::MissingKey, format!("the {kind} joint `{}` has no `axis`", name.value))
-                .help(help)
+            let message = format!("the {} joint `{}` has no `axis`", kind.name, name.value);
+            Diagnostic::new(Code::MissingKey, message).help(help)
         });
         Axis { parent: DUMMY, child: DUMMY }
     }
@@ -114,7 +99,7 @@ impl Resolver<'_> {
                 Axis { parent: direction, child: direction }
             }
             PerBody::Each(table) => {
-                let bodies = kinds(spec).next().map(|(_, pair)| pair.0.value.as_slice()).unwrap_or_default();
+                let bodies = spec.kinds().next().map(|(_, pair)| pair.0.value.as_slice()).unwrap_or_default();
                 let mut found = [None, None];
                 for (body, triple) in &table.0 {
                     let direction = self.direction(&triple.value, what).unwrap_or(DUMMY);
@@ -181,22 +166,20 @@ impl Resolver<'_> {
         direction
     }
 
-    fn universal(&mut self, name: &Name, joint: &At<JointSpec>) -> JointKind {
-        let dummy = JointKind::Universal(
-            Axis { parent: [1.0, 0.0, 0.0], child: [1.0, 0.0, 0.0] },
-            Axis { parent: [0.0, 1.0, 0.0], child: [0.0, 1.0, 0.0] },
-        );
+    fn two_axes(&mut self, name: &Name, joint: &At<JointSpec>) -> Vec<Axis> {
+        let dummies =
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| Axis { parent: axis, child: axis }).to_vec();
         let what = place("axes", "joint", name);
         let Some(axes) = &joint.value.axes else {
             self.missing(joint.span, name.span, || {
                 Diagnostic::new(Code::MissingKey, format!("the universal joint `{}` has no `axes`", name.value))
                     .help("add `axes = [[1, 0, 0], [0, 1, 0]]`: the first is fixed in the parent, the second in the child")
             });
-            return dummy;
+            return dummies;
         };
         let [first, second] = axes.value.as_slice() else {
             self.wrong_count(axes.span, axes.value.len(), "2 directions", &what);
-            return dummy;
+            return dummies;
         };
         let (first, second) = (self.axis(first, &joint.value, &what), self.axis(second, &joint.value, &what));
         let sides = [(first.parent, second.parent), (first.child, second.child)];
@@ -207,7 +190,7 @@ impl Resolver<'_> {
                 "they are the two bars of the cross, usually at right angles; for one axis use `revolute`",
             ));
         }
-        JointKind::Universal(first, second)
+        vec![first, second]
     }
 
     fn lead(&mut self, name: &Name, joint: &At<JointSpec>) -> f64 {
@@ -268,4 +251,11 @@ fn span_of(written: &PerBody) -> Span {
         PerBody::Shared(triple) => triple.0.span,
         PerBody::Each(table) => table.0.first().map_or(Span::default(), |(name, _)| name.span),
     }
+}
+
+/// The keys of all kinds, as a list in a sentence.
+fn all_kinds() -> String {
+    let names: Vec<&str> = JOINT_KINDS.iter().map(|kind| kind.name).collect();
+    let (last, first) = names.split_last().expect("there are kinds of joints");
+    format!("{} and {last}", first.join(", "))
 }

@@ -1,4 +1,6 @@
-//! Kinds of joints as random mechanisms draw them. Never knows how they are chosen or written.
+//! The kinds of joints as the oracle knows them. Of a kind it takes from the description nothing but its name.
+
+use linkwear_codegen::model::JointModel;
 
 /// A joint kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +30,17 @@ impl Kind {
         Self::Fixed,
         Self::Free,
     ];
+
+    /// The kind of a described joint.
+    ///
+    /// # Panics
+    /// If the joint has clearance, or is of a kind that the oracle does not know.
+    #[must_use]
+    pub fn of(model: &JointModel) -> Self {
+        assert!(!model.clearance, "the oracle knows ideal joints only");
+        let known = Self::ALL.into_iter().find(|kind| kind.key() == model.kind.name);
+        known.unwrap_or_else(|| panic!("the oracle knows no {} joint", model.kind.name))
+    }
 
     /// Key in the file.
     #[must_use]
@@ -60,8 +73,15 @@ impl Kind {
         }
     }
 
+    /// Whether the child turns in space: its orientation is a quaternion.
+    #[must_use]
+    pub const fn is_round(self) -> bool {
+        self.freedoms()[0] == 3
+    }
+
     /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
-    pub(super) const fn is_wide(self) -> bool {
+    #[must_use]
+    pub const fn is_wide(self) -> bool {
         matches!(self, Self::Spherical | Self::Planar)
     }
 

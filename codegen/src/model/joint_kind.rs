@@ -1,0 +1,283 @@
+//! The kinds of joints as data: each is one row of [`JOINT_KINDS`], the primitives that it consists of in the order
+//! from parent to child. Constraint rows, coordinates, start values and the chain of links follow by rule.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use self::Coordinate::{Angle, Length};
+use self::Direction::{X, Y, Z};
+use self::Primitive::{Ball, Pose, Shift, Slide, Thread, Turn};
+use super::coordinate::Coordinate;
+
+/// A direction of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// The (first) axis.
+    Z,
+    /// The second direction: at right angles to the axis, but for a universal joint, whose second axis it is.
+    X,
+    /// At right angles to both.
+    Y,
+}
+
+impl Direction {
+    /// Which axis of the joint's frame lies on it: e_z on the first axis, e_x as near to the second as possible.
+    #[must_use]
+    pub const fn frame_axis(self) -> usize {
+        match self {
+            X => 0,
+            Y => 1,
+            Z => 2,
+        }
+    }
+}
+
+/// A joint primitive: an elementary relative motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Primitive {
+    /// Rotation about a direction.
+    Turn(Direction),
+    /// Translation along a direction.
+    Slide(Direction),
+    /// Rotation about the axis with proportional translation along it.
+    Thread,
+    /// Rotation about the joint's point.
+    Ball,
+    /// Translation in space, along three axes of the parent.
+    Shift,
+    /// Rotation and translation, relative to the ground where the joint is in the tree.
+    Pose,
+}
+
+impl Primitive {
+    /// What a start position of it consists of.
+    #[must_use]
+    pub const fn values(self) -> &'static [Coordinate] {
+        match self {
+            Turn(_) | Thread => &[Angle],
+            Slide(_) => &[Length],
+            Ball => &[Angle, Angle, Angle],
+            Shift => &[Length, Length, Length],
+            Pose => &[Angle, Angle, Angle, Length, Length, Length],
+        }
+    }
+}
+
+/// Which keys of a file describe the directions of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisKeys {
+    /// None.
+    None,
+    /// `axis`.
+    Axis,
+    /// `axis`, the normal of a plane, and `first`, a direction in it.
+    AxisAndFirst,
+    /// `axes`, two.
+    Axes,
+}
+
+/// A kind of joint.
+#[derive(Debug, PartialEq, Eq)]
+pub struct JointKind {
+    /// Key in a file.
+    pub name: &'static str,
+    /// How its directions are given.
+    pub axes: AxisKeys,
+    /// What it consists of, in the order from parent to child. Primitives with one coordinate come before [`Primitive::Ball`], so that
+    /// coordinates and start values are numbered alike.
+    pub primitives: &'static [Primitive],
+    /// What clearance adds before them; none if such a joint cannot have clearance.
+    pub clearance: &'static [Primitive],
+}
+
+const fn row(name: &'static str, axes: AxisKeys, primitives: &'static [Primitive]) -> JointKind {
+    JointKind { name, axes, primitives, clearance: &[] }
+}
+
+/// Every kind of joint.
+pub static JOINT_KINDS: [JointKind; 9] = [
+    JointKind { clearance: &[Slide(X), Slide(Y)], ..row("revolute", AxisKeys::Axis, &[Turn(Z)]) },
+    row("prismatic", AxisKeys::Axis, &[Slide(Z)]),
+    row("cylindrical", AxisKeys::Axis, &[Turn(Z), Slide(Z)]),
+    row("screw", AxisKeys::Axis, &[Thread]),
+    row("universal", AxisKeys::Axes, &[Turn(Z), Turn(X)]),
+    JointKind { clearance: &[Shift], ..row("spherical", AxisKeys::None, &[Ball]) },
+    row("planar", AxisKeys::AxisAndFirst, &[Slide(X), Slide(Y), Turn(Z)]),
+    row("fixed", AxisKeys::None, &[]),
+    row("free", AxisKeys::None, &[Pose]),
+];
+
+impl JointKind {
+    /// The kind with this key.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Self> {
+        JOINT_KINDS.iter().find(|kind| kind.name == name)
+    }
+}
+
+/// A unit direction in W at the reference pose, as each side's branch describes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axis {
+    /// As the parent's branch describes it.
+    pub parent: [f64; 3],
+    /// As the child's branch describes it.
+    pub child: [f64; 3],
+}
+
+/// The relative motion that one joint leaves: its kind, with directions in numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointModel {
+    /// Its kind.
+    pub kind: &'static JointKind,
+    /// Its first and its second direction, as far as it has them.
+    pub axes: Vec<Axis>,
+    /// Advance of a thread [m] per turn, positive for a right-hand thread; else zero.
+    pub lead: f64,
+    /// Whether clearance adds its primitives. They have the last coordinates.
+    pub clearance: bool,
+}
+
+impl JointModel {
+    /// A joint without clearance.
+    ///
+    /// # Panics
+    /// If no kind has this name.
+    #[must_use]
+    pub fn new(name: &str, axes: &[Axis]) -> Self {
+        let kind = JointKind::named(name).expect("the name of a kind of joint");
+        Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false }
+    }
+
+    /// A joint that takes nothing away.
+    #[must_use]
+    pub fn free() -> Self {
+        Self::new("free", &[])
+    }
+
+    /// Its primitives from parent to child, each with the number of its first coordinate.
+    #[must_use]
+    pub fn primitives(&self) -> Vec<(usize, Primitive)> {
+        let play: &[Primitive] = if self.clearance { self.kind.clearance } else { &[] };
+        let number = |list: &[Primitive], mut first: usize| -> Vec<(usize, Primitive)> {
+            let mut numbered = Vec::new();
+            for primitive in list {
+                numbered.push((first, *primitive));
+                first += primitive.values().len();
+            }
+            numbered
+        };
+        [number(play, self.start_values().len()), number(self.kind.primitives, 0)].concat()
+    }
+
+    /// The scalar coordinates; none for spherical and free joints, whose position is no list of scalars.
+    #[must_use]
+    pub fn coordinates(&self) -> Vec<Coordinate> {
+        let scalars = self.kind.primitives.iter().filter(|primitive| primitive.values().len() == 1);
+        scalars.flat_map(|primitive| primitive.values()).copied().collect()
+    }
+
+    /// The values that a start position consists of: the coordinates, and for a rotation about a point a rotation
+    /// vector; for a free joint a rotation vector and the displacement of the joint's point.
+    #[must_use]
+    pub fn start_values(&self) -> Vec<Coordinate> {
+        self.kind.primitives.iter().flat_map(|primitive| primitive.values()).copied().collect()
+    }
+
+    /// Numbers of the coordinates that clearance adds: the journal's offset.
+    #[must_use]
+    pub fn offsets(&self) -> Range<usize> {
+        let first = self.start_values().len();
+        let play: usize = self.kind.clearance.iter().map(|primitive| primitive.values().len()).sum();
+        first..first + if self.clearance { play } else { 0 }
+    }
+
+    fn any(&self, wanted: impl Fn(Primitive) -> bool) -> bool {
+        self.primitives().iter().any(|(_, primitive)| wanted(*primitive))
+    }
+
+    /// Whether the child can turn about any axis, its orientation being no list of scalars.
+    #[must_use]
+    pub fn turns_freely(&self) -> bool {
+        self.any(|primitive| matches!(primitive, Ball | Pose))
+    }
+
+    /// Whether the joint takes nothing away.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        self.any(|primitive| primitive == Pose)
+    }
+
+    /// Whether the joint is a ball in a socket.
+    #[must_use]
+    pub fn is_ball(&self) -> bool {
+        self.kind.primitives == [Ball]
+    }
+
+    /// Whether the joint's only coordinate is a plain angle.
+    #[must_use]
+    pub fn is_hinge(&self) -> bool {
+        matches!(self.kind.primitives, [Turn(_)])
+    }
+
+    /// Whether the child's point leaves that of the parent by a coordinate.
+    #[must_use]
+    pub fn slides(&self) -> bool {
+        self.any(|primitive| matches!(primitive, Slide(_) | Thread | Shift))
+    }
+
+    /// The directions about which the child turns.
+    #[must_use]
+    pub fn turns(&self) -> Vec<Direction> {
+        let turn = |(_, primitive)| match primitive {
+            Turn(direction) => Some(direction),
+            Thread => Some(Z),
+            Slide(_) | Ball | Shift | Pose => None,
+        };
+        self.primitives().into_iter().filter_map(turn).collect()
+    }
+
+    /// Advance of a thread per angle [m/rad]; nothing if the joint has none.
+    #[must_use]
+    pub fn thread(&self) -> Option<f64> {
+        self.any(|primitive| primitive == Thread).then_some(self.lead / TAU)
+    }
+
+    /// Axes of the joint's frame along which nothing moves freely.
+    #[must_use]
+    pub fn held_axes(&self) -> Vec<usize> {
+        let moves = |axis: usize| {
+            self.any(|primitive| match primitive {
+                Slide(direction) => direction.frame_axis() == axis,
+                Thread => Z.frame_axis() == axis,
+                Shift | Pose => true,
+                Turn(_) | Ball => false,
+            })
+        };
+        (0..3).filter(|axis| !moves(*axis)).collect()
+    }
+
+    /// Number of constraint rows of the joint when it is cut.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        let turned = if self.turns_freely() { 3 } else { self.turns().len() };
+        self.held_axes().len() + 3 - turned + usize::from(self.thread().is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_and_freedoms_are_six_together_and_coordinates_come_first() {
+        for kind in &JOINT_KINDS {
+            for clearance in [false, !kind.clearance.is_empty()] {
+                let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance };
+                let freedoms = model.start_values().len() + model.offsets().len();
+                assert_eq!(model.rows() + freedoms, 6, "{}", kind.name);
+                let coordinates = model.coordinates();
+                assert_eq!(coordinates, model.start_values()[..coordinates.len()], "{}", kind.name);
+            }
+        }
+    }
+}

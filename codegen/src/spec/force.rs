@@ -1,0 +1,50 @@
+//! Springs, forces and torques as written.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::doc::Doc;
+use super::texts::{tables, texts_of};
+use super::written::{At, Name, Pair, Quantity, Triple};
+
+tables! {
+    /// A force element: exactly one of `spring`, `force`, `torque`.
+    #[schemars(extend("oneOf" = [
+        { "required": ["spring", "at"] }, { "required": ["force", "at", "components"] },
+        { "required": ["torque", "components"] }
+    ]))]
+    pub struct ForceSpec {
+        /// Spring and damper between two bodies.
+        pub spring: Option<Pair>,
+        /// Body that is pushed.
+        pub force: Option<Name>,
+        /// Body that is turned.
+        pub torque: Option<Name>,
+        /// Point of a force, or the two points of a spring.
+        pub at: Option<Places>,
+        /// Stiffness of a spring.
+        pub stiffness: Option<Quantity>,
+        /// Unloaded length of a spring.
+        pub length: Option<Quantity>,
+        /// Damping of a spring along its line.
+        pub damping: Option<Quantity>,
+        /// Constant pull of a spring.
+        pub preload: Option<Quantity>,
+        /// Components of a force or torque.
+        pub components: Option<Triple>,
+        /// Axes of the components: "ground" (default) or a body they turn with.
+        pub axes: Option<Name>,
+        /// Body that takes the reaction; "ground" by default.
+        pub reaction: Option<Name>,
+        /// Our own assumption.
+        pub assumed: bool,
+        /// What it is.
+        pub doc: Option<Doc>,
+    }
+}
+
+/// One point or several.
+#[derive(Clone, Debug)]
+pub struct Places(pub At<Vec<Name>>);
+
+texts_of! { struct Places { 0 } }

@@ -1,0 +1,45 @@
+//! Start values as written.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::texts::{tables, texts_of};
+use super::written::{At, Quantity};
+
+/// Start values of a joint.
+#[derive(Clone, Debug)]
+pub enum StartSpec {
+    /// Position of the only coordinate.
+    One(Quantity),
+    /// Positions in order.
+    List(At<Vec<Quantity>>),
+    /// Positions and speeds by name.
+    Table(Box<At<StartTable>>),
+}
+
+tables! {
+    /// Start positions (`q`, or `q1`, `q2` ...) and speeds (`v`, or `v1`, `v2` ...).
+    #[allow(missing_docs, reason = "one line above says all")]
+    pub struct StartTable {
+        pub q: Option<Quantity>,
+        pub q1: Option<Quantity>,
+        pub q2: Option<Quantity>,
+        pub q3: Option<Quantity>,
+        pub q4: Option<Quantity>,
+        pub q5: Option<Quantity>,
+        pub q6: Option<Quantity>,
+        pub v: Option<Quantity>,
+        pub v1: Option<Quantity>,
+        pub v2: Option<Quantity>,
+        pub v3: Option<Quantity>,
+        pub v4: Option<Quantity>,
+        pub v5: Option<Quantity>,
+        pub v6: Option<Quantity>,
+        /// Modal coordinates of a flexible body.
+        pub eta: Option<At<Vec<Quantity>>>,
+        /// Modal speeds of a flexible body.
+        pub eta_v: Option<At<Vec<Quantity>>>,
+    }
+}
+
+texts_of! { enum StartSpec { One, List, Table } }
