@@ -15,7 +15,7 @@ use crate::row::{Pair, Row};
 /// Revolute `[angle]`, prismatic `[distance]`, cylindrical `[angle, distance]`, screw `[angle]`,
 /// universal `[angle about the parent's axis, angle about the child's axis]`, planar
 /// `[first, second, angle]`: position and speed of equal length, rad and m. Spherical: quaternion of the
-/// relative rotation (scalar first) and relative angular velocity in W. Free: the same, followed by the
+/// relative rotation (scalar first) and relative angular velocity in W; inline: after the distance. Free: the same, followed by the
 /// child's point relative to the parent's in W [m], and by the velocity, in W, of the child's point
 /// relative to the parent's material there [m/s].
 /// Angles are in (-pi, pi], except a screw's, which its slide makes unique.
@@ -111,6 +111,7 @@ impl JointGeometry {
                 rows
             }
             Kind::Spherical => together(),
+            Kind::Inline => slides(&[0, 1]),
             Kind::Planar => [slides(&[2]), upright()].concat(),
             Kind::Fixed => [together(), locked()].concat(),
             Kind::Free => Vec::new(),
@@ -128,7 +129,7 @@ impl JointGeometry {
     pub fn coordinate(&self, k: usize, pair: &Pair) -> Row {
         match (self.kind, k) {
             (Kind::Revolute, 0) | (Kind::Cylindrical, 0) | (Kind::Planar, 2) => self.turn_about_axis(pair),
-            (Kind::Prismatic, 0) | (Kind::Cylindrical, 1) => pair.slide(&self.parent_axis(2)),
+            (Kind::Prismatic | Kind::Inline, 0) | (Kind::Cylindrical, 1) => pair.slide(&self.parent_axis(2)),
             (Kind::Planar, _) => pair.slide(&self.parent_axis(k)),
             (Kind::Screw, 0) => {
                 let mut turn = self.turn_about_axis(pair);
@@ -227,6 +228,7 @@ mod tests {
             JointModel { lead: 0.3, ..JointModel::new("screw", &[main]) },
             JointModel::new("universal", &[main, axis([0.9, 0.4, -0.2])]),
             JointModel::new("spherical", &[]),
+            JointModel::new("inline", &[main]),
             JointModel::new("planar", &[main, axis([0.8, 0.0, -0.3])]),
             JointModel::new("fixed", &[]),
             JointModel::new("free", &[]),
@@ -335,19 +337,17 @@ mod tests {
             let joint = geometry(kind);
             let known = drifting(0.7, 0.3);
             let reference = Vector3::new(0.5, -0.2, 0.3);
-            let round = joint.kind.is_round();
-            let (mut position, mut speed) = (vec![0.4, -0.7, 0.9], vec![1.3, 0.6, -0.8]);
-            if round {
+            let scalars = joint.scalars();
+            let (mut position, mut speed) =
+                ([0.4, -0.7, 0.9][..scalars].to_vec(), [1.3, 0.6, -0.8][..scalars].to_vec());
+            if joint.kind.is_round() {
                 let q = UnitQuaternion::new(Vector3::new(0.4, -0.7, 0.9));
-                position = vec![q.w, q.i, q.j, q.k, 0.3, 0.2, -0.5];
+                position.extend([q.w, q.i, q.j, q.k]);
+                speed.extend([1.3, 0.6, -0.8]);
+            }
+            if joint.kind == Kind::Free {
+                position.extend([0.3, 0.2, -0.5]);
                 speed.extend([0.4, 1.2, -0.3]);
-                if joint.kind == Kind::Spherical {
-                    position.truncate(4);
-                    speed.truncate(3);
-                }
-            } else {
-                position.truncate(joint.scalars());
-                speed.truncate(joint.scalars());
             }
             let asked = JointMotion { position, speed };
             for outward in [true, false] {

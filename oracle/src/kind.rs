@@ -12,6 +12,7 @@ pub enum Kind {
     Screw,
     Universal,
     Spherical,
+    Inline,
     Planar,
     Fixed,
     Free,
@@ -19,13 +20,14 @@ pub enum Kind {
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Revolute,
         Self::Prismatic,
         Self::Cylindrical,
         Self::Screw,
         Self::Universal,
         Self::Spherical,
+        Self::Inline,
         Self::Planar,
         Self::Fixed,
         Self::Free,
@@ -52,6 +54,7 @@ impl Kind {
             Self::Screw => "screw",
             Self::Universal => "universal",
             Self::Spherical => "spherical",
+            Self::Inline => "inline",
             Self::Planar => "planar",
             Self::Fixed => "fixed",
             Self::Free => "free",
@@ -67,6 +70,7 @@ impl Kind {
             Self::Cylindrical => [1, 1],
             Self::Universal => [2, 0],
             Self::Spherical => [3, 0],
+            Self::Inline => [3, 1],
             Self::Planar => [1, 2],
             Self::Fixed => [0, 0],
             Self::Free => [3, 3],
@@ -82,7 +86,7 @@ impl Kind {
     /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
     #[must_use]
     pub const fn is_wide(self) -> bool {
-        matches!(self, Self::Spherical | Self::Planar)
+        matches!(self, Self::Spherical | Self::Inline | Self::Planar)
     }
 
     /// Scalar coordinates that can be driven, sprung and damped; true for an angle.
@@ -90,7 +94,7 @@ impl Kind {
     pub const fn coordinates(self) -> &'static [bool] {
         match self {
             Self::Revolute | Self::Screw => &[true],
-            Self::Prismatic => &[false],
+            Self::Prismatic | Self::Inline => &[false],
             Self::Cylindrical => &[true, false],
             Self::Universal => &[true, true],
             Self::Planar => &[false, false, true],

@@ -58,10 +58,10 @@ impl JointGeometry {
                 (rotation_about(&axis, q[2]) * align, shift)
             }
             Kind::Fixed => (align, none),
+            Kind::Inline => (rotation_by_quaternion(&q[1..5]), q[0] * axis),
             Kind::Spherical | Kind::Free => {
-                let q4 = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
                 let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
-                (q4.to_rotation_matrix().into_inner(), shift)
+                (rotation_by_quaternion(&q[..4]), shift)
             }
         }
     }
@@ -85,10 +85,17 @@ impl JointGeometry {
                 (v[2] * axis, slip)
             }
             Kind::Fixed => (none, none),
+            Kind::Inline => (Vector3::from_column_slice(&v[1..4]), v[0] * axis),
             Kind::Spherical | Kind::Free => {
                 let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);
                 (Vector3::from_column_slice(&v[..3]), slip)
             }
         }
     }
+}
+
+/// Rotation matrix of a quaternion, scalar first.
+fn rotation_by_quaternion(q: &[f64]) -> Matrix3<f64> {
+    let q = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+    q.to_rotation_matrix().into_inner()
 }

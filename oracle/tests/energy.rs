@@ -18,6 +18,7 @@ fn kinds() -> Vec<JointModel> {
         JointModel { lead: 0.7, ..JointModel::new("screw", &[main]) },
         JointModel::new("universal", &[main, axis([0.9, 0.4, -0.2])]),
         JointModel::new("spherical", &[]),
+        JointModel::new("inline", &[main]),
         JointModel::new("planar", &[main, axis([0.8, 0.0, -0.3])]),
         JointModel::new("fixed", &[]),
         JointModel::new("free", &[]),

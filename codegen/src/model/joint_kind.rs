@@ -95,13 +95,14 @@ const fn row(name: &'static str, axes: AxisKeys, primitives: &'static [Primitive
 }
 
 /// Every kind of joint.
-pub static JOINT_KINDS: [JointKind; 9] = [
+pub static JOINT_KINDS: &[JointKind] = &[
     JointKind { clearance: &[Slide(X), Slide(Y)], ..row("revolute", AxisKeys::Axis, &[Turn(Z)]) },
     row("prismatic", AxisKeys::Axis, &[Slide(Z)]),
     row("cylindrical", AxisKeys::Axis, &[Turn(Z), Slide(Z)]),
     row("screw", AxisKeys::Axis, &[Thread]),
     row("universal", AxisKeys::Axes, &[Turn(Z), Turn(X)]),
     JointKind { clearance: &[Shift], ..row("spherical", AxisKeys::None, &[Ball]) },
+    row("inline", AxisKeys::Axis, &[Slide(Z), Ball]),
     row("planar", AxisKeys::AxisAndFirst, &[Slide(X), Slide(Y), Turn(Z)]),
     row("fixed", AxisKeys::None, &[]),
     row("free", AxisKeys::None, &[Pose]),
@@ -270,7 +271,7 @@ mod tests {
 
     #[test]
     fn rows_and_freedoms_are_six_together_and_coordinates_come_first() {
-        for kind in &JOINT_KINDS {
+        for kind in JOINT_KINDS {
             for clearance in [false, !kind.clearance.is_empty()] {
                 let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance };
                 let freedoms = model.start_values().len() + model.offsets().len();

@@ -48,9 +48,9 @@ impl Group {
     }
 }
 
-/// A ball that clearance lets move holds nothing.
+/// Whether the joint holds a point of its child, and nothing but that. A ball that clearance lets move holds nothing.
 fn is_ball(joint: &Joint) -> bool {
-    joint.model.is_ball() && joint.clearance.is_none()
+    joint.model.turns_freely() && !joint.model.is_free() && joint.clearance.is_none()
 }
 
 fn groups(mechanism: &Mechanism) -> Vec<Group> {

@@ -12,7 +12,7 @@ tables! {
     #[schemars(extend("oneOf" = [
         { "required": ["revolute"] }, { "required": ["prismatic"] }, { "required": ["cylindrical"] },
         { "required": ["screw"] }, { "required": ["universal"] }, { "required": ["spherical"] },
-        { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
+        { "required": ["inline"] }, { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
     ], "required" = ["at"]))]
     pub struct JointSpec {
         /// Rotation about `axis`.
@@ -27,6 +27,8 @@ tables! {
         pub universal: Option<Pair>,
         /// Rotation about a point.
         pub spherical: Option<Pair>,
+        /// Rotation about a point that slides along `axis`.
+        pub inline: Option<Pair>,
         /// Motion in the plane with normal `axis`.
         pub planar: Option<Pair>,
         /// No relative motion.
@@ -109,6 +111,7 @@ impl JointSpec {
             ("screw", &self.screw),
             ("universal", &self.universal),
             ("spherical", &self.spherical),
+            ("inline", &self.inline),
             ("planar", &self.planar),
             ("fixed", &self.fixed),
             ("free", &self.free),

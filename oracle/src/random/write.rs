@@ -164,7 +164,9 @@ fn geometry(kind: Kind, spare: &mut Vec<usize>, dice: &mut Dice) -> String {
     }
     let main = random_axis(spare, dice);
     match kind {
-        Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => format!(", axis = {}", direction(main)),
+        Kind::Revolute | Kind::Prismatic | Kind::Cylindrical | Kind::Inline => {
+            format!(", axis = {}", direction(main))
+        }
         Kind::Screw => {
             let lead = short(dice.between(40.0, 200.0)) * if dice.chance(0.5) { 1.0 } else { -1.0 };
             format!(", axis = {}, lead = \"{lead:?} mm\"", direction(main))
