@@ -112,8 +112,8 @@ impl<'g> Across<'g> {
     ) -> Self {
         let linkage = geometry.linkage;
         let at = geometry.mechanism.joint(sides.joint).at;
-        let mut child_point = geometry.local(g, sides.child, at);
-        let mut parent_point = geometry.local(g, sides.parent, at);
+        let mut child_point = geometry.local(sides.child, at);
+        let mut parent_point = geometry.local(sides.parent, at);
         let identity = g.matrix(Frame::IDENTITY.0);
         let (from_parent, from_child) = if sides.in_child {
             (motion.poses.rotation_between(g, linkage, sides.parent, sides.child), identity)
@@ -132,11 +132,11 @@ impl<'g> Across<'g> {
                 child_point = g.sub3(child_point, arm);
             }
         }
-        let [parent_omega, parent_velocity] = motion.velocity(g, sides.parent, parent_point, from_parent);
-        let [child_omega, child_velocity] = motion.velocity(g, sides.child, child_point, from_child);
+        let [parent_omega, parent_velocity] = motion.velocity(sides.parent, parent_point, from_parent);
+        let [child_omega, child_velocity] = motion.velocity(sides.child, child_point, from_child);
         let [parent_alpha, parent_acceleration] =
-            motion.acceleration(g, sides.parent, parent_point, from_parent);
-        let [child_alpha, child_acceleration] = motion.acceleration(g, sides.child, child_point, from_child);
+            motion.acceleration(sides.parent, parent_point, from_parent);
+        let [child_alpha, child_acceleration] = motion.acceleration(sides.child, child_point, from_child);
         Self {
             from_parent,
             from_child,

@@ -104,7 +104,7 @@ impl<'g> CutRows<'g> {
         let (other, parent_lost) = carrier.carry(g, parent, self.sides.parent, top);
         if child_lost || parent_lost {
             // The pair's forces cancel at the common ancestor; a moment stays because a ball link passed none.
-            sum = sum.plus(g, other);
+            sum = sum + other;
             sum.force = g.zero_vector();
             carrier.carry(g, sum, top, None);
         }
@@ -127,7 +127,7 @@ pub fn link_wrenches<'g>(
     };
     let child = side(across.from_child, across.child_point);
     let parent = side(across.from_parent, across.parent_point);
-    [child, parent.negated(g)]
+    [child, -parent]
 }
 
 struct Carrier<'a, 'g> {
@@ -152,12 +152,12 @@ impl<'g> Carrier<'_, 'g> {
             let index = at.expect("the ancestor lies on the path to the ground");
             let link = &self.linkage.links[index];
             let node = self.poses.nodes[index].as_ref();
-            for (offset, entry) in carried.generalised(g, link.freedom, node).into_iter().enumerate() {
+            for (offset, entry) in carried.generalised(link.freedom, node).into_iter().enumerate() {
                 let column = &mut self.columns[link.first_speed + offset];
                 *column = g.add(*column, entry);
             }
             lost |= matches!(link.freedom, Freedom::Ball | Freedom::Free);
-            carried = carried.passed_inwards(g, link.freedom, &self.poses.relative[index]);
+            carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);
             at = link.parent;
         }
         (carried, lost)

@@ -38,7 +38,7 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
             rate[axis] = state.v[linkage.links[link].first_speed];
         }
         if let Some(ball) = linkage.ball_of(joint) {
-            let relative = state.motion.relative_omega(g, linkage, ball);
+            let relative = state.motion.relative_omega(linkage, ball);
             turn = if linkage.reversed[joint.index()] {
                 g.neg3(relative)
             } else {
@@ -125,6 +125,6 @@ pub fn contact_forces<'g>(
     if let Some(parent) = linkage.links[ball].parent {
         let force = g.zero_vector();
         let reaction = Wrench { moment: reaction, force };
-        loads.reactions[parent] = loads.reactions[parent].plus(g, reaction);
+        loads.reactions[parent] = loads.reactions[parent] + reaction;
     }
 }

@@ -14,8 +14,8 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::ModalData;
 
-use super::inertia::MassProperties;
 use super::kinematics::{Acceleration, Twist};
+use super::mass_properties::MassProperties;
 use super::motion::ModalState;
 use super::wrench::Wrench;
 
@@ -51,159 +51,125 @@ fn axial<'g>(m: Mat3<'g>) -> Vec3<'g> {
 
 /// `tr(a b)`.
 fn trace_of_product<'g>(a: Mat3<'g>, b: Mat3<'g>) -> Expr<'g> {
-    let columns = b.transpose();
-    let terms = a.into_iter().zip(columns).flat_map(|(row, column)| row.into_iter().zip(column));
-    a[0][0].scope().sum(terms.map(|(x, y)| x * y))
+    let pairs = a.into_iter().zip(b.transpose()).flat_map(|(row, column)| row.into_iter().zip(column));
+    a[0].scope().sum(pairs.map(|(x, y)| x * y))
 }
 
 /// Mass properties of the deformed body and what its modes feel.
 pub fn deformed<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>]) -> (MassProperties<'g>, ModalMass<'g>) {
     let n = q.len();
-    let second = data.second_order.as_ref();
-    let (gamma2, moment2) =
-        second.map_or((Vec::new(), Vec::new()), |order| (order.gamma.clone(), order.moment.clone()));
-    let transposed = |l: usize, k: usize| data.coupling[l][k];
-    let mut own = ModalMass {
+    let (gamma2, moment2) = data
+        .second_order
+        .as_ref()
+        .map_or((Vec::new(), Vec::new()), |order| (order.gamma.clone(), order.moment.clone()));
+    let gyroscopic = |l: usize| (0..n).map(|k| axial_of_numbers(data.coupling[l][k])).collect();
+    let mut modal = ModalMass {
         gamma: data.gamma.iter().map(|gamma| g.vector(*gamma)).collect(),
         moment: data.moment.iter().map(|moment| g.matrix(*moment)).collect(),
-        gyroscopic: (0..n).map(|l| (0..n).map(|k| axial_of_numbers(transposed(l, k))).collect()).collect(),
+        gyroscopic: (0..n).map(gyroscopic).collect(),
         matrix: data.mass_matrix.clone(),
         gamma2,
         moment2,
     };
-    let properties = mass_properties(g, data, &own, q);
+    let properties = mass_properties(g, data, &modal, q);
     for k in 0..n {
-        let column: Vec<[[f64; 3]; 3]> = (0..n).map(|l| transposed(l, k)).collect();
-        let linear = g.weighted_matrices(&column, q);
-        own.moment[k] = g.add_mat3(own.moment[k], linear);
-        if let Some(row) = own.moment2.get(k).cloned() {
-            let bent = g.weighted_matrices(&row, q);
-            own.moment[k] = g.add_mat3(own.moment[k], bent);
+        let column: Vec<[[f64; 3]; 3]> = (0..n).map(|l| data.coupling[l][k]).collect();
+        modal.moment[k] += g.weighted_matrices(&column, q);
+        if let Some(row) = modal.moment2.get(k) {
+            modal.moment[k] += g.weighted_matrices(row, q);
         }
-        if let Some(row) = own.gamma2.get(k).cloned() {
-            let bent = g.weighted_vectors(&row, q);
-            own.gamma[k] = g.add3(own.gamma[k], bent);
+        if let Some(row) = modal.gamma2.get(k) {
+            modal.gamma[k] += g.weighted_vectors(row, q);
         }
     }
-    (properties, own)
+    (properties, modal)
 }
 
 /// m, s(q), P(q).
 fn mass_properties<'g>(
     g: &'g Scope,
     data: &ModalData,
-    own: &ModalMass<'g>,
+    modal: &ModalMass<'g>,
     q: &[Expr<'g>],
 ) -> MassProperties<'g> {
     let n = q.len();
-    let rest = g.vector(data.first_moment);
-    let linear = g.weighted_vectors(&data.gamma, q);
-    let mut first = g.add3(rest, linear);
+    let mut first = g.vector(data.first_moment) + g.weighted_vectors(&data.gamma, q);
     let both: Vec<[[f64; 3]; 3]> = data
         .moment
         .iter()
         .map(|c| core::array::from_fn(|i| core::array::from_fn(|j| c[i][j] + c[j][i])))
         .collect();
-    let rest = g.matrix(data.second_moment);
-    let linear = g.weighted_matrices(&both, q);
-    let mut second = g.add_mat3(rest, linear);
+    let mut second = g.matrix(data.second_moment) + g.weighted_matrices(&both, q);
     for k in 0..n {
         for l in k..n {
             // Coefficient of q_k q_l, which stands twice in the double sum unless k = l.
             let factor = if k == l { 0.5 } else { 1.0 };
             let coupling = (&data.coupling[k][l], &data.coupling[l][k]);
-            let bent = own.moment2.get(k).map_or([[0.0; 3]; 3], |row| row[l]);
+            let bent = modal.moment2.get(k).map_or([[0.0; 3]; 3], |row| row[l]);
             let coefficient: [[f64; 3]; 3] = core::array::from_fn(|i| {
                 core::array::from_fn(|j| {
                     factor * (coupling.0[i][j] + coupling.1[i][j] + bent[i][j] + bent[j][i])
                 })
             });
-            let product = g.mul(q[k], q[l]);
-            let term = g.weighted_matrices(&[coefficient], &[product]);
-            second = g.add_mat3(second, term);
-            if let Some(row) = own.gamma2.get(k) {
-                let term = g.weighted_vectors(&[row[l].map(|x| factor * x)], &[product]);
-                first = g.add3(first, term);
+            let product = q[k] * q[l];
+            second += g.weighted_matrices(&[coefficient], &[product]);
+            if let Some(row) = modal.gamma2.get(k) {
+                first += g.weighted_vectors(&[row[l].map(|x| factor * x)], &[product]);
             }
         }
     }
     // One triangle, mirrored, so that P is symmetric to the bit.
-    let upper = second;
-    let second = Mat3::from_fn(|i, j| upper[i.min(j)][i.max(j)]);
-    MassProperties { mass: g.constant(data.mass), first, second }
+    let second = Mat3::from_fn(|i, j| second[i.min(j)][i.max(j)]);
+    MassProperties { mass: g.number(data.mass), first, second }
 }
 
 impl<'g> ModalMass<'g> {
     /// Inertial wrench about the origin of the body's deformation, in its frame.
-    pub fn wrench(&self, g: &'g Scope, twist: &Twist<'g>, modes: &ModalState<'g>) -> Wrench<'g> {
-        let (n, two) = (modes.v.len(), g.constant(2.0));
-        let (mut drift, mut force) = (g.zero_vector(), g.zero_vector());
+    pub fn wrench(&self, twist: &Twist<'g>, modes: &ModalState<'g>) -> Wrench<'g> {
+        let g = twist.omega.scope();
+        let two = g.number(2.0);
+        let (mut drift, mut force, mut moment) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
         let mut rate = g.matrix([[0.0; 3]; 3]);
-        let mut moment = g.zero_vector();
-        for k in 0..n {
-            let moved = g.scale3(modes.v[k], self.gamma[k]);
-            drift = g.add3(drift, moved);
-            let pushed = g.scale3(modes.v_dot[k], self.gamma[k]);
-            force = g.add3(force, pushed);
-            let turning = modes.v[k] * self.moment[k];
-            rate = g.add_mat3(rate, turning);
-            let axial = axial(self.moment[k]);
-            let spun = g.scale3(modes.v_dot[k], axial);
-            moment = g.add3(moment, spun);
+        for (k, (v, v_dot)) in modes.v.iter().zip(&modes.v_dot).enumerate() {
+            drift += *v * self.gamma[k];
+            force += *v_dot * self.gamma[k];
+            rate += *v * self.moment[k];
+            moment += *v_dot * axial(self.moment[k]);
             if !self.gamma2.is_empty() {
-                let bent = g.weighted_vectors(&self.gamma2[k], &modes.v);
-                let bent = g.scale3(modes.v[k], bent);
-                force = g.add3(force, bent);
+                force += *v * g.weighted_vectors(&self.gamma2[k], &modes.v);
                 let row: Vec<[f64; 3]> = self.moment2[k].iter().map(|m| axial_of_numbers(*m)).collect();
-                let bent = g.weighted_vectors(&row, &modes.v);
-                let bent = g.scale3(modes.v[k], bent);
-                moment = g.add3(moment, bent);
+                moment += *v * g.weighted_vectors(&row, &modes.v);
             }
         }
-        let turned = g.cross3(twist.omega, drift);
-        let coriolis = g.scale3(two, turned);
-        let trace = {
-            let partial = g.add(rate[0][0], rate[1][1]);
-            g.add(partial, rate[2][2])
-        };
-        let along = g.scale3(trace, twist.omega);
-        let across = g.transpose_mul_vec3(rate, twist.omega);
-        let difference = g.sub3(along, across);
-        let swung = g.scale3(two, difference);
-        Wrench { moment: g.add3(moment, swung), force: g.add3(force, coriolis) }
+        let coriolis = two * twist.omega.cross(drift);
+        let swung = two * (rate.trace() * twist.omega - rate.transpose() * twist.omega);
+        Wrench { moment: moment + swung, force: force + coriolis }
     }
 
     /// Inertial force of every mode.
     pub fn modal_forces(
         &self,
-        g: &'g Scope,
         twist: &Twist<'g>,
         acceleration: &Acceleration<'g>,
         modes: &ModalState<'g>,
     ) -> Vec<Expr<'g>> {
-        let n = modes.v.len();
-        let two = g.constant(2.0);
-        (0..n)
+        let g = twist.omega.scope();
+        let two = g.number(2.0);
+        (0..modes.v.len())
             .map(|k| {
-                let carried = g.dot3(self.gamma[k], acceleration.origin);
+                let carried = self.gamma[k].dot(acceleration.origin);
                 let turned = trace_of_product(acceleration.spin, self.moment[k]);
-                let row: Vec<[f64; 3]> = (0..n).map(|l| self.gyroscopic[l][k]).collect();
-                let gyroscopic = g.weighted_vectors(&row, &modes.v);
-                let half = g.dot3(twist.omega, gyroscopic);
-                let coriolis = g.mul(two, half);
-                let own = self.own(g, k, &modes.v_dot);
-                let sum = g.add(carried, turned);
-                let sum = g.add(sum, coriolis);
-                g.add(sum, own)
+                let row: Vec<[f64; 3]> = self.gyroscopic.iter().map(|row| row[k]).collect();
+                let coriolis = two * twist.omega.dot(g.weighted_vectors(&row, &modes.v));
+                let deforming = self.momentum(k, &modes.v_dot);
+                carried + turned + coriolis + deforming
             })
             .collect()
     }
 
     /// `sum_l M_kl x_l`.
-    fn own(&self, g: &'g Scope, k: usize, x: &[Expr<'g>]) -> Expr<'g> {
-        let terms: Vec<(Expr<'g>, Expr<'g>)> =
-            self.matrix[k].iter().zip(x).map(|(m, x)| (g.constant(*m), *x)).collect();
-        g.dot(&terms)
+    fn momentum(&self, k: usize, x: &[Expr<'g>]) -> Expr<'g> {
+        x[k].scope().weighted(self.matrix[k].iter().copied(), x)
     }
 
     /// Momentum of the body per unit of modal speed `k`.
@@ -211,18 +177,12 @@ impl<'g> ModalMass<'g> {
         Wrench { moment: axial(self.moment[k]), force: self.gamma[k] }
     }
 
-    /// Twice the kinetic energy of deformation: what modal speeds add to that of the frozen body [J].
-    pub fn double_energy(&self, g: &'g Scope, twist: &Twist<'g>, v: &[Expr<'g>]) -> Expr<'g> {
-        let two = g.constant(2.0);
-        let mut sum = g.zero();
-        for k in 0..v.len() {
-            let momentum = self.column(k).power(g, twist.omega, twist.origin);
-            let mixed = g.mul(two, momentum);
-            let own = self.own(g, k, v);
-            let both = g.add(mixed, own);
-            let part = g.mul(v[k], both);
-            sum = g.add(sum, part);
-        }
-        sum
+    /// Twice the kinetic energy of deformation: what modal speeds add to that of the rigid body [J].
+    pub fn double_energy(&self, twist: &Twist<'g>, v: &[Expr<'g>]) -> Expr<'g> {
+        let g = twist.omega.scope();
+        let two = g.number(2.0);
+        g.sum(v.iter().enumerate().map(|(k, speed)| {
+            *speed * (two * self.column(k).power(twist.omega, twist.origin) + self.momentum(k, v))
+        }))
     }
 }

@@ -10,33 +10,31 @@
 use crate::expr::{Expr, Scope, Vec3};
 
 use super::closure::CutRows;
-use super::composite::mass_matrix;
-use super::inertia::{LinkMass, MassProperties};
 use super::kinematics::Acceleration;
-use super::linkage::Linkage;
+use super::link_mass::LinkMass;
+use super::linkage::{Freedom, Linkage};
 use super::loads::Loads;
+use super::mass_matrix::mass_matrix;
+use super::mass_properties::MassProperties;
 use super::motion::Motion;
 use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
 /// Inertial wrench of a link about its origin, in its frame.
-fn inertial_wrench<'g>(g: &'g Scope, motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
-    let frozen = frozen_wrench(g, &masses[at].frozen, &motion.accelerations[at]);
+fn inertial_wrench<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
+    let rigid = rigid_wrench(&masses[at].rigid, &motion.accelerations[at]);
     match &masses[at].modal {
-        Some(modal) => {
-            let deforming = modal.wrench(g, &motion.twists[at], &motion.modes[at]);
-            frozen.plus(g, deforming)
-        }
-        None => frozen,
+        Some(modal) => rigid + modal.wrench(&motion.twists[at], &motion.modes[at]),
+        None => rigid,
     }
 }
 
-/// Inertial wrench of a link frozen in its present shape.
-fn frozen_wrench<'g>(g: &'g Scope, own: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wrench<'g> {
-    let (weight, turned) = (g.scale3(own.mass, motion.origin), g.mul_vec3(motion.spin, own.first));
-    let product = g.mul_mat3(motion.spin, own.second);
-    let (lever, axial) = (g.cross3(own.first, motion.origin), product.axial());
-    Wrench { moment: g.add3(lever, axial), force: g.add3(weight, turned) }
+/// Inertial wrench of a link that keeps its present shape.
+fn rigid_wrench<'g>(mass: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wrench<'g> {
+    let (moved, turned) = (mass.mass * motion.origin, motion.spin * mass.first);
+    let product = motion.spin * mass.second;
+    let moment = mass.first.cross(motion.origin) + product.axial();
+    Wrench { moment, force: moved + turned }
 }
 
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
@@ -49,30 +47,25 @@ pub fn bias_forces<'g>(
     loads: &Loads<'g>,
 ) -> Vec<Expr<'g>> {
     let mut forces = vec![g.zero(); linkage.speeds()];
-    let none = Wrench::zero(g);
-    let mut carried = vec![none; linkage.links.len()];
+    let mut carried = vec![Wrench::zero(g); linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
         g.begin_section(format!("inertia, weight and loads of {}", link.name));
-        let inertial = inertial_wrench(g, motion, masses, at);
-        let applied = loads.external[at].plus(g, loads.reactions[at]);
-        let applied = applied.negated(g);
-        let sum = inertial.plus(g, applied);
-        let total = sum.plus(g, carried[at]);
-        let node = motion.poses.nodes[at].as_ref();
-        let mut felt = total.generalised(g, link.freedom, node);
+        let inertial = inertial_wrench(motion, masses, at);
+        let total = inertial + -(loads.external[at] + loads.reactions[at]) + carried[at];
+        let mut felt = total.generalised(link.freedom, motion.poses.nodes[at].as_ref());
         if let Some(modal) = &masses[at].modal {
-            let own = modal.modal_forces(g, &motion.twists[at], &motion.accelerations[at], &motion.modes[at]);
-            felt = felt.into_iter().zip(own).map(|(held, own)| g.add(own, held)).collect();
+            let deforming =
+                modal.modal_forces(&motion.twists[at], &motion.accelerations[at], &motion.modes[at]);
+            felt = felt.into_iter().zip(deforming).map(|(held, deforming)| deforming + held).collect();
         }
         for (speed, force) in link.speeds().zip(felt) {
-            forces[speed] = g.add(forces[speed], force);
+            forces[speed] += force;
         }
         if let Some(parent) = link.parent {
-            let passed = total.passed_inwards(g, link.freedom, &motion.poses.relative[at]);
-            carried[parent] = carried[parent].plus(g, passed);
+            carried[parent] += total.passed_inwards(link.freedom, &motion.poses.relative[at]);
         }
     }
-    forces.into_iter().zip(&loads.joint).map(|(force, joint)| g.sub(force, *joint)).collect()
+    forces.into_iter().zip(&loads.joint).map(|(force, joint)| force - *joint).collect()
 }
 
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
@@ -84,16 +77,12 @@ pub fn joint_wrenches<'g>(
     masses: &[LinkMass<'g>],
     external: &[Wrench<'g>],
 ) -> Vec<Wrench<'g>> {
-    let none = Wrench::zero(g);
-    let mut totals = vec![none; linkage.links.len()];
+    let mut totals = vec![Wrench::zero(g); linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
-        let inertial = inertial_wrench(g, motion, masses, at);
-        let applied = external[at].negated(g);
-        let sum = inertial.plus(g, applied);
-        totals[at] = totals[at].plus(g, sum);
-        if let (Some(parent), false) = (link.parent, link.freedom == super::linkage::Freedom::Free) {
-            let passed = totals[at].on_parent(g, &motion.poses.relative[at]);
-            totals[parent] = totals[parent].plus(g, passed);
+        totals[at] += inertial_wrench(motion, masses, at) + -external[at];
+        if let (Some(parent), false) = (link.parent, link.freedom == Freedom::Free) {
+            let passed = totals[at].on_parent(&motion.poses.relative[at]);
+            totals[parent] += passed;
         }
     }
     totals
@@ -101,28 +90,22 @@ pub fn joint_wrenches<'g>(
 
 /// Kinetic energy [J].
 pub fn kinetic_energy<'g>(g: &'g Scope, masses: &[LinkMass<'g>], motion: &Motion<'g>) -> Expr<'g> {
-    let half = g.constant(0.5);
+    let half = g.number(0.5);
     let mut sum = g.zero();
     for (at, (mass, twist)) in masses.iter().zip(&motion.twists).enumerate() {
-        let own = &mass.frozen;
-        let square = g.dot3(twist.origin, twist.origin);
-        let translation = g.mul(own.mass, square);
-        let turned = g.cross3(twist.omega, own.first);
-        let mixed = g.dot3(twist.origin, turned);
-        let two = g.constant(2.0);
-        let mixed = g.mul(two, mixed);
-        let inertia = super::inertia::inertia_of_second_moment(g, own.second);
-        let momentum = g.mul_vec3(inertia, twist.omega);
-        let rotation = g.dot3(twist.omega, momentum);
+        let MassProperties { mass: m, first, .. } = mass.rigid;
+        let (omega, v) = (twist.omega, twist.origin);
+        let translation = m * v.dot(v);
+        let mixed = 2.0 * v.dot(omega.cross(first));
+        let rotation = omega.dot(mass.rigid.inertia() * omega);
         for term in [translation, mixed, rotation] {
-            sum = g.add(sum, term);
+            sum += term;
         }
         if let Some(modal) = &mass.modal {
-            let deforming = modal.double_energy(g, twist, &motion.modes[at].v);
-            sum = g.add(sum, deforming);
+            sum += modal.double_energy(twist, &motion.modes[at].v);
         }
     }
-    g.mul(half, sum)
+    half * sum
 }
 
 /// Potential energy of weight [J], zero at the origin of W.
@@ -132,9 +115,8 @@ pub fn weight_energy<'g>(
     masses: &[LinkMass<'g>],
     gravity: Vec3<'g>,
 ) -> Expr<'g> {
-    masses.iter().zip(&motion.poses.world).fold(g.zero(), |sum, (mass, pose)| {
-        let own = &mass.frozen;
-        sum - gravity.dot(own.mass * pose.offset + pose.rotation * own.first)
+    masses.iter().zip(&motion.poses.world).fold(g.zero(), |sum, (LinkMass { rigid, .. }, pose)| {
+        sum - gravity.dot(rigid.mass * pose.offset + pose.rotation * rigid.first)
     })
 }
 
@@ -175,18 +157,16 @@ pub fn kept_rows<'g>(
     cuts: &[CutRows<'g>],
     keep: &[bool],
 ) -> Vec<KeptRow<'g>> {
-    let mut kept = Vec::new();
-    let mut index = 0;
-    for cut in cuts {
-        for row in &cut.rows {
-            if keep[index] {
-                let jacobian = cut.jacobian(g, linkage, &motion.poses, row);
-                kept.push(KeptRow { jacobian, bias: row.bias, residual: row.residual, rate: row.rate });
-            }
-            index += 1;
-        }
-    }
-    kept
+    let rows = cuts.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
+    rows.zip(keep)
+        .filter(|(_, keep)| **keep)
+        .map(|((cut, row), _)| KeptRow {
+            jacobian: cut.jacobian(g, linkage, &motion.poses, row),
+            bias: row.bias,
+            residual: row.residual,
+            rate: row.rate,
+        })
+        .collect()
 }
 
 /// Forward dynamics by the structured elimination of [`solve`].
@@ -201,13 +181,11 @@ pub fn forward<'g>(
     let h = bias_forces(g, linkage, motion, masses, loads);
     g.begin_section("mass matrix by composite bodies");
     let mass = mass_matrix(g, linkage, &motion.poses, masses);
-    let free = &partition.free;
-    let block: Vec<Vec<Expr<'g>>> =
-        free.iter().map(|i| free.iter().map(|j| mass[*i][*j]).collect()).collect();
-    let jacobian: Vec<Vec<Expr<'g>>> =
-        rows.iter().map(|row| free.iter().map(|j| row.jacobian[*j]).collect()).collect();
-    let force: Vec<Expr<'g>> = free.iter().map(|i| g.neg(h[*i])).collect();
-    let target: Vec<Expr<'g>> = rows.iter().map(|row| g.neg(row.bias)).collect();
+    let pick = |row: &[Expr<'g>]| -> Vec<Expr<'g>> { partition.free.iter().map(|j| row[*j]).collect() };
+    let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| pick(&mass[*i])).collect();
+    let jacobian: Vec<Vec<Expr<'g>>> = rows.iter().map(|row| pick(&row.jacobian)).collect();
+    let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
+    let target: Vec<Expr<'g>> = rows.iter().map(|row| -row.bias).collect();
     let solution = solve(g, &block, &jacobian, &force, &target);
     g.begin_section("drive forces");
     let drive = partition
@@ -215,13 +193,11 @@ pub fn forward<'g>(
         .iter()
         .map(|d| {
             let mut sum = h[*d];
-            for (position, j) in free.iter().enumerate() {
-                let product = g.mul(mass[*d][*j], solution.accelerations[position]);
-                sum = g.add(sum, product);
+            for (entry, acceleration) in pick(&mass[*d]).into_iter().zip(&solution.accelerations) {
+                sum += entry * *acceleration;
             }
             for (row, multiplier) in rows.iter().zip(&solution.multipliers) {
-                let product = g.mul(row.jacobian[*d], *multiplier);
-                sum = g.sub(sum, product);
+                sum -= row.jacobian[*d] * *multiplier;
             }
             sum
         })

@@ -110,7 +110,7 @@ impl<'g> Loads<'g> {
         let sections = Sections::new(state, joint);
         if let Some(at) = linkage.ball_of(joint) {
             let rotation = state.motion.poses.relative[at].rotation;
-            let mut omega = state.motion.relative_omega(g, linkage, at);
+            let mut omega = state.motion.relative_omega(linkage, at);
             let outer = sections.rate(g, state, Side::Outboard);
             omega = g.add3(omega, outer);
             let inner = sections.rate(g, state, Side::Inboard);
@@ -129,7 +129,7 @@ impl<'g> Loads<'g> {
             if let Some(parent) = linkage.links[at].parent {
                 let force = g.zero_vector();
                 let reaction = Wrench { moment: turned, force };
-                self.reactions[parent] = self.reactions[parent].plus(g, reaction);
+                self.reactions[parent] += reaction;
             }
         } else {
             let across = state.across(g, joint);
@@ -177,8 +177,8 @@ impl<'g> Loads<'g> {
                 let force = directed(g, state, components, *axes);
                 let links =
                     [*body, *reaction].map(|carrier| state.geometry.linkage.link_at(carrier, *at, false));
-                let local = state.geometry.local(g, links[0], *at);
-                let place = state.motion.poses.position(g, links[0], local);
+                let local = state.geometry.local(links[0], *at);
+                let place = state.motion.poses.position(links[0], local);
                 let zero = g.zero_vector();
                 self.world_pair(g, state, links, place, [zero, force]);
             }
@@ -201,9 +201,9 @@ impl<'g> Loads<'g> {
         [stiffness, rest, damping, preload]: [Expr<'g>; 4],
     ) {
         let links = [0, 1].map(|i| state.geometry.linkage.link_at(bodies[i], at[i], false));
-        let locals = [0, 1].map(|i| state.geometry.local(g, links[i], at[i]));
-        let places = [0, 1].map(|i| state.motion.poses.position(g, links[i], locals[i]));
-        let velocities = [0, 1].map(|i| state.motion.point_velocity_w(g, links[i], locals[i]));
+        let locals = [0, 1].map(|i| state.geometry.local(links[i], at[i]));
+        let places = [0, 1].map(|i| state.motion.poses.position(links[i], locals[i]));
+        let velocities = [0, 1].map(|i| state.motion.point_velocity_w(links[i], locals[i]));
         let (apart, rate) = (g.sub3(places[1], places[0]), g.sub3(velocities[1], velocities[0]));
         let square = g.dot3(apart, apart);
         let length = g.sqrt(square);
@@ -228,7 +228,7 @@ impl<'g> Loads<'g> {
             let rotation = state.motion.poses.world_of(g, links[i]).rotation;
             let force = g.transpose_mul_vec3(rotation, own);
             let moment = g.cross3(locals[i], force);
-            self.push(g, links[i], Wrench { moment, force });
+            self.push(links[i], Wrench { moment, force });
         }
     }
 
@@ -252,12 +252,12 @@ impl<'g> Loads<'g> {
                 moment: g.transpose_mul_vec3(pose.rotation, total),
                 force: g.transpose_mul_vec3(pose.rotation, force),
             };
-            let wrench = if i == 0 { wrench } else { wrench.negated(g) };
+            let wrench = if i == 0 { wrench } else { -wrench };
             let twist = state.motion.twists[at];
             let (turning, moving) = (g.dot3(wrench.moment, twist.omega), g.dot3(wrench.force, twist.origin));
             let power = g.add(turning, moving);
             self.supplied = g.add(self.supplied, power);
-            self.push(g, Some(at), wrench);
+            self.push(Some(at), wrench);
         }
     }
 }
@@ -271,7 +271,7 @@ fn directed<'g>(
 ) -> Vec3<'g> {
     let components = Vec3::from_fn(|i| state.lower(g, &components[i]));
     let Some(at) = state.geometry.linkage.link(axes) else { return components };
-    let local = state.geometry.turn(g, &state.geometry.linkage.links[at].frame, components);
+    let local = state.geometry.turn(&state.geometry.linkage.links[at].frame, components);
     g.mul_vec3(state.motion.poses.world[at].rotation, local)
 }
 

@@ -6,9 +6,9 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::id::PointId;
 use crate::model::{Carrier, Mechanism};
 
+use super::formula_to_expr::Inputs;
 use super::frame::Frame;
-use super::linkage::Linkage;
-use super::lower::Inputs;
+use super::linkage::{LinkIndex, Linkage};
 
 /// Entries smaller than this share of the largest are rounding dust of frame changes.
 const DUST: f64 = 1e-14;
@@ -16,6 +16,8 @@ const DUST: f64 = 1e-14;
 /// Where points of bodies are in the frames of their links.
 #[derive(Clone, Copy)]
 pub struct Geometry<'g> {
+    /// The graph that all expressions go to.
+    pub g: &'g Scope,
     /// The mechanism.
     pub mechanism: &'g Mechanism,
     /// Its links.
@@ -31,34 +33,29 @@ impl<'g> Geometry<'g> {
     }
 
     /// A point of a link's body in the link's frame [m]; for the ground in W.
-    pub fn local(&self, g: &'g Scope, link: Option<usize>, point: PointId) -> Vec3<'g> {
+    pub fn local(&self, link: LinkIndex, point: PointId) -> Vec3<'g> {
         let Some(at) = link else { return self.described(point, Carrier::Ground) };
         let link = &self.linkage.links[at];
         let carrier = Carrier::Body(link.body);
         let place = self.described(point, carrier);
-        let origin = self.described(link.origin, carrier);
-        let arm = g.sub3(place, origin);
-        let components = self.turn(g, &link.frame, arm);
-        without_dust(components)
+        let arm = place - self.described(link.origin, carrier);
+        without_dust(self.turn(&link.frame, arm))
     }
 
     /// Position of a link's inboard joint in the parent link's frame [m].
-    pub fn mount(&self, g: &'g Scope, at: usize) -> Vec3<'g> {
-        let link = &self.linkage.links[at];
-        if link.node.is_some() {
-            return g.zero_vector();
+    pub fn mount(&self, at: usize) -> Vec3<'g> {
+        let links = &self.linkage.links;
+        let link = &links[at];
+        let first_of_chain = link.parent.is_none_or(|parent| links[parent].joint != link.joint);
+        if link.node.is_some() || !first_of_chain {
+            return self.g.zero_vector();
         }
-        let first_of_chain = link.parent.is_none_or(|parent| self.linkage.links[parent].joint != link.joint);
-        if !first_of_chain {
-            return g.zero_vector();
-        }
-        self.local(g, link.parent, self.mechanism.joint(link.joint).at)
+        self.local(link.parent, self.mechanism.joint(link.joint).at)
     }
 
     /// Components in a link's frame of a vector in W at the reference pose.
-    pub fn turn(&self, g: &'g Scope, frame: &Frame, vector: Vec3<'g>) -> Vec3<'g> {
-        let matrix = g.matrix(frame.0);
-        g.transpose_mul_vec3(matrix, vector)
+    pub fn turn(&self, frame: &Frame, vector: Vec3<'g>) -> Vec3<'g> {
+        self.g.matrix(frame.0).transpose() * vector
     }
 }
 

@@ -53,19 +53,19 @@ impl<'g> JointStates<'g> {
     }
 
     /// Position of a named point in W [m].
-    pub fn point(&self, g: &'g Scope, point: PointId) -> Vec3<'g> {
+    pub fn point(&self, point: PointId) -> Vec3<'g> {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
-        let local = self.geometry.local(g, link, point);
-        self.motion.poses.position(g, link, local)
+        let local = self.geometry.local(link, point);
+        self.motion.poses.position(link, local)
     }
 
     /// Velocity of a named point in W [m/s].
-    pub fn point_velocity(&self, g: &'g Scope, point: PointId) -> Vec3<'g> {
+    pub fn point_velocity(&self, point: PointId) -> Vec3<'g> {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
-        let local = self.geometry.local(g, link, point);
-        self.motion.point_velocity_w(g, link, local)
+        let local = self.geometry.local(link, point);
+        self.motion.point_velocity_w(link, local)
     }
 
     /// A formula over the state.
@@ -73,8 +73,8 @@ impl<'g> JointStates<'g> {
         self.geometry.inputs.lower_with(formula, &|term| match term {
             Term::JointPosition(joint, c) => self.coordinates(g, *joint).position[*c],
             Term::JointSpeed(joint, c) => self.coordinates(g, *joint).speed[*c],
-            Term::PointPosition(point, i) => self.point(g, *point)[*i],
-            Term::PointSpeed(point, i) => self.point_velocity(g, *point)[*i],
+            Term::PointPosition(point, i) => self.point(*point)[*i],
+            Term::PointSpeed(point, i) => self.point_velocity(*point)[*i],
             _ => g.zero(),
         })
     }

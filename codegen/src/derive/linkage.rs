@@ -10,8 +10,8 @@ use std::ops::Range;
 use crate::id::{BodyId, JointId, PointId};
 use crate::model::{Carrier, Closure};
 
+use super::attachment::NodeShape;
 use super::frame::Frame;
-use super::node::NodeShape;
 
 /// Index of a link; `None` stands for the ground.
 pub type LinkIndex = Option<usize>;

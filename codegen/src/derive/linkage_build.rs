@@ -4,9 +4,9 @@
 use crate::id::{BodyId, JointId};
 use crate::model::{Axis, Carrier, Closure, Direction, Flexible, Mechanism, Primitive, Topology, TreeJoint};
 
+use super::attachment::NodeShape;
 use super::frame::{Frame, canonical_frame, cross, dot, reduce};
 use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage, NodeLink};
-use super::node::NodeShape;
 
 /// Builds the tree of links. `parameters` are the default values, which only steer the choice of frames.
 #[must_use]

@@ -57,14 +57,14 @@ impl<'g> Loads<'g> {
         let sides = sides_of(&state.geometry, joint);
         self.in_cuts.push((joint, moment, force));
         let [child, parent] = link_wrenches(g, across, moment, force);
-        self.push(g, sides.child, child);
-        self.push(g, sides.parent, parent);
+        self.push(sides.child, child);
+        self.push(sides.parent, parent);
     }
 
     /// Adds a wrench on a link; the ground takes any.
-    pub fn push(&mut self, g: &'g Scope, link: LinkIndex, wrench: Wrench<'g>) {
+    pub fn push(&mut self, link: LinkIndex, wrench: Wrench<'g>) {
         if let Some(at) = link {
-            self.external[at] = self.external[at].plus(g, wrench);
+            self.external[at] += wrench;
         }
     }
 }

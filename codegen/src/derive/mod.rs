@@ -5,28 +5,31 @@
 //! `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
 
 mod across;
+mod attachment;
 mod closure;
-mod composite;
 mod contacts;
 mod deformation;
 mod dynamics;
 mod entries;
 mod forces;
+mod formula_to_expr;
 mod frame;
 mod geometry;
-mod inertia;
 mod joint_coordinates;
 mod joint_rows;
 mod joint_state;
 mod kinematics;
+mod link_mass;
 mod linkage;
 mod linkage_build;
 mod loads;
 mod log_closure;
-mod lower;
+mod mass_matrix;
+mod mass_properties;
 mod motion;
-mod node;
 mod observe;
+mod orientation;
+mod rigid_part;
 mod row;
 mod solve;
 mod start;

@@ -1,9 +1,9 @@
 //! Motion of all links at one instant, and of their points.
 //! In: poses, twists, accelerations. Out: expressions. Never knows joints.
 
-use crate::expr::{Expr, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Mat3, Vec3};
 
-use super::kinematics::{Acceleration, Poses, Twist, carried_twist, point_acceleration, point_velocity};
+use super::kinematics::{Acceleration, Poses, Twist, carried_twist};
 use super::linkage::{LinkIndex, Linkage};
 
 /// Kinematics of all links at one instant.
@@ -33,50 +33,31 @@ pub struct ModalState<'g> {
 
 impl<'g> Motion<'g> {
     /// Angular velocity of a link and velocity of a point of it, turned by `rotation`.
-    pub fn velocity(
-        &self,
-        g: &'g Scope,
-        link: LinkIndex,
-        point: Vec3<'g>,
-        rotation: Mat3<'g>,
-    ) -> [Vec3<'g>; 2] {
-        match link {
-            None => [g.zero_vector(); 2],
-            Some(at) => {
-                let velocity = point_velocity(g, &self.twists[at], point);
-                [self.twists[at].omega, velocity].map(|v| g.mul_vec3(rotation, v))
-            }
-        }
+    pub fn velocity(&self, link: LinkIndex, point: Vec3<'g>, rotation: Mat3<'g>) -> [Vec3<'g>; 2] {
+        let Some(at) = link else { return [self.ground.scope().zero_vector(); 2] };
+        let velocity = self.twists[at].at(point);
+        [self.twists[at].omega, velocity].map(|v| rotation * v)
     }
 
     /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
-    pub fn acceleration(
-        &self,
-        g: &'g Scope,
-        link: LinkIndex,
-        point: Vec3<'g>,
-        rotation: Mat3<'g>,
-    ) -> [Vec3<'g>; 2] {
-        let (alpha, origin) = match link {
-            None => (g.zero_vector(), self.ground),
-            Some(at) => {
-                let acceleration = &self.accelerations[at];
-                (acceleration.alpha, point_acceleration(g, acceleration, point))
-            }
+    pub fn acceleration(&self, link: LinkIndex, point: Vec3<'g>, rotation: Mat3<'g>) -> [Vec3<'g>; 2] {
+        let (alpha, of_point) = match link {
+            None => (self.ground.scope().zero_vector(), self.ground),
+            Some(at) => (self.accelerations[at].alpha, self.accelerations[at].at(point)),
         };
-        [alpha, origin].map(|v| g.mul_vec3(rotation, v))
+        [alpha, of_point].map(|v| rotation * v)
     }
 
     /// Velocity in W of a point of a link.
-    pub fn point_velocity_w(&self, g: &'g Scope, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
-        let rotation = self.poses.world_of(g, link).rotation;
-        self.velocity(g, link, point, rotation)[1]
+    pub fn point_velocity_w(&self, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
+        let rotation = self.poses.world_of(self.ground.scope(), link).rotation;
+        self.velocity(link, point, rotation)[1]
     }
 
     /// Angular velocity of a ball link relative to its parent, in the ball link's frame.
-    pub fn relative_omega(&self, g: &'g Scope, linkage: &Linkage, at: usize) -> Vec3<'g> {
+    pub fn relative_omega(&self, linkage: &Linkage, at: usize) -> Vec3<'g> {
         let parent = linkage.links[at].parent.map(|p| self.twists[p]);
-        let carried = carried_twist(g, parent, &self.poses.relative[at]);
-        g.sub3(self.twists[at].omega, carried.omega)
+        let carried = carried_twist(self.ground.scope(), parent, &self.poses.relative[at]);
+        self.twists[at].omega - carried.omega
     }
 }

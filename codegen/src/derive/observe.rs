@@ -9,13 +9,14 @@ use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
 use crate::model::{Coordinate, Flexible};
 
+use super::attachment::{NodePose, NodeShape};
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
-use super::inertia::LinkMass;
 use super::joint_state::JointStates;
-use super::linkage::{Freedom, Linkage};
+use super::link_mass::LinkMass;
+use super::linkage::Freedom;
 use super::loads::Loads;
-use super::node::{NodePose, NodeShape};
+use super::orientation::{conjugate, link_displacement, quaternion_product};
 use super::wrench::Wrench;
 
 /// All channels with their expressions.
@@ -72,9 +73,9 @@ pub fn channels<'g>(g: &'g Scope, observed: &Observed<'_, 'g>) -> Channels<'g> {
     for (index, point) in mechanism.points.iter().enumerate() {
         g.begin_section(format!("point {}", point.name));
         let id = PointId::new(index);
-        let position = observed.state.point(g, id);
+        let position = observed.state.point(id);
         list.vector(&point.name, "", "m", position);
-        let velocity = observed.state.point_velocity(g, id);
+        let velocity = observed.state.point_velocity(id);
         list.vector(&point.name, "v", "m/s", velocity);
     }
     wrenches(g, observed, &mut list);
@@ -109,10 +110,9 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
     }
     if data.model.turns_freely() {
         let sides = super::across::sides_of(&observed.state.geometry, joint);
-        let parent = displacement(g, observed, sides.parent);
-        let child = displacement(g, observed, sides.child);
-        let inverse = conjugate(parent);
-        let relative = quaternion_product(inverse, child);
+        let turned = |link| link_displacement(g, observed.state.geometry.linkage, &observed.state.q, link);
+        let (parent, child) = (turned(sides.parent), turned(sides.child));
+        let relative = quaternion_product(conjugate(parent), child);
         for (index, component) in relative.into_iter().enumerate() {
             list.push(format!("{name}.q{index}"), "1", false, component);
         }
@@ -121,9 +121,9 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
         let across = observed.state.across(g, joint);
         let sides = super::across::sides_of(&observed.state.geometry, joint);
         let rotation = observed.state.motion.poses.world_of(g, sides.beside()).rotation;
-        let place = g.mul_vec3(rotation, across.distance);
+        let place = rotation * across.distance;
         list.vector(name, "", "m", place);
-        let velocity = g.mul_vec3(rotation, across.slide);
+        let velocity = rotation * across.slide;
         list.vector(name, "v", "m/s", velocity);
     }
 }
@@ -134,7 +134,7 @@ fn bodies<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'g>
         g.begin_section(format!("angular velocity of {}", body.name));
         let at = geometry.linkage.link_of_body[index];
         let rotation = observed.state.motion.poses.world[at].rotation;
-        let omega = g.mul_vec3(rotation, observed.state.motion.twists[at].omega);
+        let omega = rotation * observed.state.motion.twists[at].omega;
         list.vector(&body.name, "w", "rad/s", omega);
         if let Some(flexible) = &body.flexible {
             modes(g, observed, list, &body.name, flexible, at);
@@ -160,19 +160,17 @@ fn modes<'g>(
         let shape = NodeShape::new(&flexible.data.nodes[station.node], false);
         let rest = g.vector(shape.position);
         let place = NodePose::new(g, &shape, &state.q).place;
-        let moved = g.sub3(place, rest);
+        let moved = place - rest;
         let suffix = if station.name.is_empty() { String::new() } else { format!("_{}", station.name) };
         for (axis, component) in XYZ.iter().zip(moved) {
             // A linear beam does not move along itself.
-            if *axis != "x" || !g.is_zero(component) {
+            if *axis != "x" || !component.is_zero() {
                 list.push(format!("{name}.u{axis}{suffix}"), "m", false, component);
             }
         }
         if let Some(stress) = &station.stress {
             for (side, axis) in ["y", "z"].iter().enumerate() {
-                let terms: Vec<(Expr<'g>, Expr<'g>)> =
-                    stress.iter().zip(&state.q).map(|(per, eta)| (g.constant(per[side]), *eta)).collect();
-                let value = g.dot(&terms);
+                let value = g.weighted(stress.iter().map(|per| per[side]), &state.q);
                 list.push(format!("{name}.stress_{axis}{suffix}"), "Pa", false, value);
             }
         }
@@ -185,18 +183,11 @@ fn modes<'g>(
 
 /// Strain energy and kinetic energy of the deformation relative to the floating frame [J].
 fn modal_energy<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>], v: &[Expr<'g>]) -> Expr<'g> {
-    let mut sum = g.zero();
-    for (matrix, x) in [(&data.stiffness, q), (&data.mass_matrix, v)] {
-        for (row, own) in matrix.iter().zip(x) {
-            let terms: Vec<(Expr<'g>, Expr<'g>)> =
-                row.iter().zip(x).map(|(entry, other)| (g.constant(*entry), *other)).collect();
-            let part = g.dot(&terms);
-            let part = g.mul(*own, part);
-            sum = g.add(sum, part);
-        }
-    }
-    let half = g.constant(0.5);
-    g.mul(half, sum)
+    let parts = [(&data.stiffness, q), (&data.mass_matrix, v)];
+    let terms = parts.into_iter().flat_map(|(matrix, x)| {
+        matrix.iter().zip(x).map(move |(row, one)| *one * g.weighted(row.iter().copied(), x))
+    });
+    0.5 * g.sum(terms)
 }
 
 fn multipliers<'g>(observed: &Observed<'_, 'g>, list: &mut Channels<'g>) {
@@ -215,12 +206,12 @@ fn multipliers<'g>(observed: &Observed<'_, 'g>, list: &mut Channels<'g>) {
     }
 }
 
-/// Sum of a cut's constraint wrenches on the child at its joint point, in the common frame.
+/// Sum of a cut's constraint wrenches on the child at its joint point, in the common frame: moment, force.
 fn constraint_wrench<'g>(g: &'g Scope, cut: &CutRows<'g>, multipliers: &[Expr<'g>]) -> [Vec3<'g>; 2] {
     let mut sum = [g.zero_vector(), g.zero_vector()];
     for (row, multiplier) in cut.rows.iter().zip(multipliers) {
-        let parts = [row.moment, row.force].map(|part| g.scale3(*multiplier, part));
-        sum = [g.add3(sum[0], parts[0]), g.add3(sum[1], parts[1])];
+        let parts = [row.moment, row.force].map(|part| *multiplier * part);
+        sum = [sum[0] + parts[0], sum[1] + parts[1]];
     }
     sum
 }
@@ -240,7 +231,7 @@ fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'
         let [child, parent] = cut.link_wrenches(g, moment, force);
         for (link, wrench) in [(cut.sides.child, child), (cut.sides.parent, parent)] {
             if let Some(at) = link {
-                external[at] = external[at].plus(g, wrench);
+                external[at] = external[at] + wrench;
             }
         }
     }
@@ -250,7 +241,7 @@ fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'
         let id = JointId::new(index);
         g.begin_section(format!("wrench at {}", joint.name));
         let [moment, force] = match linkage.link_of_joint[index] {
-            Some(at) => tree_wrench(g, observed, id, at, transmitted[at]),
+            Some(at) => tree_wrench(observed, id, at, transmitted[at]),
             None => {
                 let position = observed.cuts.iter().position(|cut| cut.cut.joint == id);
                 let position = position.expect("a joint is in the tree or a cut");
@@ -264,7 +255,6 @@ fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'
 
 /// Wrench by parent on child in W at the child's joint point, without the drives.
 fn tree_wrench<'g>(
-    g: &'g Scope,
     observed: &Observed<'_, 'g>,
     joint: JointId,
     at: usize,
@@ -273,37 +263,27 @@ fn tree_wrench<'g>(
     let state = observed.state;
     let linkage = state.geometry.linkage;
     let pose = state.motion.poses.world[at];
-    let mut moment = g.mul_vec3(pose.rotation, total.moment);
-    let mut force = g.mul_vec3(pose.rotation, total.force);
+    let mut moment = pose.rotation * total.moment;
+    let mut force = pose.rotation * total.force;
     let reversed = linkage.reversed[joint.index()];
     let data = state.geometry.mechanism.joint(joint);
     if reversed && data.model.slides() {
         // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
         let link = linkage.link_at(data.child, data.at, true);
-        let local = state.geometry.local(g, link, data.at);
-        let place = state.motion.poses.position(g, link, local);
-        let arm = g.sub3(pose.offset, place);
-        let lever = g.cross3(arm, force);
-        moment = g.add3(moment, lever);
+        let place = state.motion.poses.position(link, state.geometry.local(link, data.at));
+        moment += (pose.offset - place).cross(force);
     }
     for (driven, coordinate, drive) in observed.drives.iter().filter(|(driven, ..)| *driven == joint) {
         let Some(link) = linkage.link_of_coordinate(*driven, *coordinate) else { continue };
         let rotation = state.motion.poses.world[link].rotation;
-        let (axis, is_force) = match linkage.links[link].freedom {
-            Freedom::Translation { axis } => (axis, true),
-            _ => ([0.0, 0.0, 1.0], false),
-        };
-        let axis = g.vector(axis);
-        let axis = g.mul_vec3(rotation, axis);
-        let own = g.scale3(*drive, axis);
-        if is_force {
-            force = g.sub3(force, own);
-        } else {
-            moment = g.sub3(moment, own);
+        let along = |axis: [f64; 3]| *drive * (rotation * state.geometry.g.vector(axis));
+        match linkage.links[link].freedom {
+            Freedom::Translation { axis } => force -= along(axis),
+            _ => moment -= along([0.0, 0.0, 1.0]),
         }
     }
     // The child of a reversed joint feels the opposite.
-    if reversed { [g.neg3(moment), g.neg3(force)] } else { [moment, force] }
+    if reversed { [-moment, -force] } else { [moment, force] }
 }
 
 fn cut_wrench<'g>(
@@ -315,84 +295,10 @@ fn cut_wrench<'g>(
     let [mut moment, mut force] = constraint;
     for (joint, own_moment, own_force) in &observed.loads.in_cuts {
         if *joint == cut.cut.joint {
-            moment = g.add3(moment, *own_moment);
-            force = g.add3(force, *own_force);
+            moment += *own_moment;
+            force += *own_force;
         }
     }
     let rotation = observed.state.motion.poses.world_of(g, cut.sides.beside()).rotation;
-    [moment, force].map(|part| g.mul_vec3(rotation, part))
-}
-
-/// A unit quaternion, scalar first.
-pub type Quaternion<'g> = [Expr<'g>; 4];
-
-/// Product of quaternions: first `b`, then `a`.
-pub fn quaternion_product<'g>(a: Quaternion<'g>, b: Quaternion<'g>) -> Quaternion<'g> {
-    let [_, x, y, z] = conjugate(a);
-    [
-        a[0] * b[0] + x * b[1] + y * b[2] + z * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] + z * b[2],
-        a[0] * b[2] + x * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] + y * b[1] + a[3] * b[0],
-    ]
-}
-
-/// Inverse of a unit quaternion.
-pub fn conjugate<'g>([scalar, x, y, z]: Quaternion<'g>) -> Quaternion<'g> {
-    [scalar, -x, -y, -z]
-}
-
-/// Rotation of a link's body from its reference pose, as a quaternion in W.
-fn displacement<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, link: Option<usize>) -> Quaternion<'g> {
-    let linkage = observed.state.geometry.linkage;
-    link_displacement(g, linkage, &observed.state.q, link)
-}
-
-/// Rotation of a link's body from its reference pose for given coordinates.
-pub fn link_displacement<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
-    q: &[Expr<'g>],
-    link: Option<usize>,
-) -> Quaternion<'g> {
-    let Some(at) = link else {
-        let (one, zero) = (g.one(), g.zero());
-        return [one, zero, zero, zero];
-    };
-    let orientation = orientation(g, linkage, q, link);
-    let frame = linkage.links[at].frame.quaternion().map(|x| g.constant(x));
-    let inverse = conjugate(frame);
-    quaternion_product(orientation, inverse)
-}
-
-/// Orientation of a link's frame in W as a quaternion.
-fn orientation<'g>(g: &'g Scope, linkage: &Linkage, q: &[Expr<'g>], link: Option<usize>) -> Quaternion<'g> {
-    let Some(at) = link else {
-        let (one, zero) = (g.one(), g.zero());
-        return [one, zero, zero, zero];
-    };
-    let own = &linkage.links[at];
-    let first = own.first_coordinate;
-    if matches!(own.freedom, Freedom::Ball | Freedom::Free) {
-        return [q[first], q[first + 1], q[first + 2], q[first + 3]];
-    }
-    let outer = orientation(g, linkage, q, own.parent);
-    let mount = own.mount.quaternion().map(|x| g.constant(x));
-    let mounted = quaternion_product(outer, mount);
-    if let Some(shape) = &own.node {
-        let section = NodePose::new(g, shape, &q[own.coordinates()]).quaternion(g);
-        return match own.freedom {
-            Freedom::Node => quaternion_product(mounted, section),
-            _ => {
-                let back = conjugate(section);
-                quaternion_product(mounted, back)
-            }
-        };
-    }
-    let Freedom::Rotation { offset, .. } = own.freedom else { return mounted };
-    let (half, offset) = (g.constant(0.5), g.constant(offset));
-    let angle = g.add(q[first], offset);
-    let angle = g.mul(half, angle);
-    let (sine, cosine, zero) = (g.sin(angle), g.cos(angle), g.zero());
-    quaternion_product(mounted, [cosine, zero, zero, sine])
+    [moment, force].map(|part| rotation * part)
 }

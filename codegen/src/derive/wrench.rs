@@ -1,11 +1,13 @@
 //! Wrenches on links: how they pass inwards and what the speeds feel of them.
 //! In: poses, freedoms. Out: expressions. Never knows where a wrench comes from.
 
+use std::ops::{Add, AddAssign, Neg};
+
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
+use super::attachment::NodePose;
 use super::kinematics::Pose;
 use super::linkage::Freedom;
-use super::node::NodePose;
 
 /// A wrench in a link's frame: force, and moment about the link's origin.
 #[derive(Clone, Copy, Debug)]
@@ -16,90 +18,85 @@ pub struct Wrench<'g> {
     pub force: Vec3<'g>,
 }
 
+impl Add for Wrench<'_> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self { moment: self.moment + other.moment, force: self.force + other.force }
+    }
+}
+
+impl AddAssign for Wrench<'_> {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Neg for Wrench<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { moment: -self.moment, force: -self.force }
+    }
+}
+
 impl<'g> Wrench<'g> {
     /// No wrench.
     pub fn zero(g: &'g Scope) -> Self {
         Self { moment: g.zero_vector(), force: g.zero_vector() }
     }
 
-    /// Sum.
-    pub fn plus(self, g: &'g Scope, other: Self) -> Self {
-        Self { moment: g.add3(self.moment, other.moment), force: g.add3(self.force, other.force) }
-    }
-
-    /// Opposite.
-    pub fn negated(self, g: &'g Scope) -> Self {
-        Self { moment: g.neg3(self.moment), force: g.neg3(self.force) }
-    }
-
     /// The same wrench seen from the parent link.
-    pub fn on_parent(self, g: &'g Scope, pose: &Pose<'g>) -> Self {
-        let force = g.mul_vec3(pose.rotation, self.force);
-        let turned = g.mul_vec3(pose.rotation, self.moment);
-        let lever = g.cross3(pose.offset, force);
-        Self { moment: g.add3(turned, lever), force }
+    pub fn on_parent(self, pose: &Pose<'g>) -> Self {
+        let force = pose.rotation * self.force;
+        Self { moment: pose.rotation * self.moment + pose.offset.cross(force), force }
     }
 
     /// What the speeds inboard of the link feel of it: a ball link passes no moment, a free link nothing.
-    pub fn passed_inwards(self, g: &'g Scope, freedom: Freedom, pose: &Pose<'g>) -> Self {
+    pub fn passed_inwards(self, freedom: Freedom, pose: &Pose<'g>) -> Self {
+        let zero = self.force.scope().zero_vector();
         match freedom {
-            Freedom::Free => Self::zero(g),
-            Freedom::Ball => {
-                let moment = g.zero_vector();
-                Self { moment, force: self.force }.on_parent(g, pose)
-            }
-            _ => self.on_parent(g, pose),
+            Freedom::Free => Self { moment: zero, force: zero },
+            Freedom::Ball => Self { moment: zero, force: self.force }.on_parent(pose),
+            _ => self.on_parent(pose),
         }
     }
 
     /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame
     /// and nodes only what their motion takes, not what deforms the body.
-    pub fn generalised(self, g: &'g Scope, freedom: Freedom, node: Option<&NodePose<'g>>) -> Vec<Expr<'g>> {
+    pub fn generalised(self, freedom: Freedom, node: Option<&NodePose<'g>>) -> Vec<Expr<'g>> {
         if let Some(node) = node {
-            return self.on_node(g, freedom, node);
+            return self.on_node(freedom, node);
         }
         match freedom {
-            Freedom::Rotation { advance, .. } => {
-                let rate = g.constant(advance);
-                let along = g.mul(rate, self.force[2]);
-                vec![g.add(self.moment[2], along)]
-            }
-            Freedom::Translation { axis } => {
-                let axis = g.vector(axis);
-                vec![g.dot3(axis, self.force)]
-            }
+            Freedom::Rotation { advance, .. } => vec![self.moment[2] + advance * self.force[2]],
+            Freedom::Translation { axis } => vec![self.force.scope().vector(axis).dot(self.force)],
             Freedom::Ball => self.moment.0.to_vec(),
             Freedom::Free => [self.moment.0, self.force.0].concat(),
             Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
         }
     }
 
-    fn on_node(self, g: &'g Scope, freedom: Freedom, node: &NodePose<'g>) -> Vec<Expr<'g>> {
+    fn on_node(self, freedom: Freedom, node: &NodePose<'g>) -> Vec<Expr<'g>> {
         if freedom == Freedom::Node {
-            let (moment, force) = (node.to_floating(g, self.moment), node.to_floating(g, self.force));
-            return node.generalised(g, moment, force);
+            return node.generalised(node.to_floating(self.moment), node.to_floating(self.force));
         }
         // The floating frame moves against its inboard node.
-        let lever = g.cross3(node.place, self.force);
-        let moment = g.sub3(self.moment, lever);
-        node.generalised(g, moment, self.force).into_iter().map(|x| g.neg(x)).collect()
+        let moment = self.moment - node.place.cross(self.force);
+        node.generalised(moment, self.force).into_iter().map(Neg::neg).collect()
     }
 
     /// Momentum of a body (mass, first moment, inertia about the origin) per unit of a twist.
     pub fn momentum(
-        g: &'g Scope,
         (mass, first, inertia): (Expr<'g>, Vec3<'g>, Mat3<'g>),
         omega: Vec3<'g>,
         origin: Vec3<'g>,
     ) -> Self {
-        let (spun, carried) = (g.mul_vec3(inertia, omega), g.cross3(first, origin));
-        let (moved, turned) = (g.scale3(mass, origin), g.cross3(omega, first));
-        Self { moment: g.add3(spun, carried), force: g.add3(moved, turned) }
+        let (spun, carried) = (inertia * omega, first.cross(origin));
+        let (moved, turned) = (mass * origin, omega.cross(first));
+        Self { moment: spun + carried, force: moved + turned }
     }
 
     /// Power on a twist.
-    pub fn power(self, g: &'g Scope, omega: Vec3<'g>, origin: Vec3<'g>) -> Expr<'g> {
-        let (turned, moved) = (g.dot3(self.moment, omega), g.dot3(self.force, origin));
-        g.add(turned, moved)
+    pub fn power(self, omega: Vec3<'g>, origin: Vec3<'g>) -> Expr<'g> {
+        self.moment.dot(omega) + self.force.dot(origin)
     }
 }

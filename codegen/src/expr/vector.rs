@@ -92,6 +92,13 @@ impl Neg for Vec3<'_> {
     }
 }
 
+impl Neg for Mat3<'_> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(self.0.map(|row| -row))
+    }
+}
+
 impl<'g> Vec3<'g> {
     /// From its components by index.
     #[must_use]
@@ -106,6 +113,12 @@ impl<'g> Vec3<'g> {
     #[must_use]
     pub fn first_of(list: &[Expr<'g>]) -> Self {
         Self::from_fn(|i| list[i])
+    }
+
+    /// The graph under construction.
+    #[must_use]
+    pub const fn scope(self) -> &'g Scope {
+        self.0[0].scope()
     }
 
     /// With a function applied to every component.
@@ -132,7 +145,7 @@ impl<'g> Vec3<'g> {
     /// The matrix with `a.skew() * b = a.cross(b)`.
     #[must_use]
     pub fn skew(self) -> Mat3<'g> {
-        let (zero, minus) = (self[0].scope().zero(), -self);
+        let (zero, minus) = (self.scope().zero(), -self);
         Mat3([
             Vec3([zero, minus[2], self[1]]),
             Vec3([self[2], zero, minus[0]]),
@@ -152,6 +165,12 @@ impl<'g> Mat3<'g> {
     #[must_use]
     pub fn transpose(self) -> Self {
         Self::from_fn(|i, j| self[j][i])
+    }
+
+    /// `turn m turnᵀ`.
+    #[must_use]
+    pub fn turned_by(self, turn: Self) -> Self {
+        turn * self * turn.transpose()
     }
 
     /// Sum of the diagonal.

@@ -4,13 +4,14 @@
 use linkwear_runtime::{Channel, Entry, RowInfo};
 
 use super::{Deriver, Instant};
-use crate::derive::composite::mass_matrix;
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
-use crate::derive::inertia::LinkMass;
-use crate::derive::kinematics::rotation_of_quaternion;
+use crate::derive::geometry::Geometry;
+use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
-use crate::derive::observe::{Observed, channels, quaternion_product};
+use crate::derive::mass_matrix::mass_matrix;
+use crate::derive::observe::{Observed, channels};
+use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
 use crate::derive::start::{StartValues, start_values};
 use crate::derive::{Block, Function};
 use crate::expr::{Expr, Vec3};
@@ -69,8 +70,8 @@ impl<'g> Deriver<'g> {
             .iter()
             .map(|driver| (driver.coordinate, driver.speed, [driver.law[0], driver.law[1]]))
             .collect();
-        self.g.begin_section("start values");
-        let values = start_values(self.g, &self.geometry, &driven);
+        self.geometry.g.begin_section("start values");
+        let values = start_values(&self.geometry, &driven);
         let q = self.free_q.iter().map(|i| values.q[*i]);
         let v = self.partition.free.iter().map(|i| values.v[*i]);
         let outputs = vec![
@@ -83,7 +84,8 @@ impl<'g> Deriver<'g> {
     }
 
     pub(super) fn forward_dynamics(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
-        let (g, linkage, motion) = (self.g, self.geometry.linkage, &instant.state.motion);
+        let Geometry { g, linkage, .. } = self.geometry;
+        let motion = &instant.state.motion;
         g.begin_section("loop Jacobian");
         let rows = kept_rows(g, linkage, motion, &instant.cuts, &self.keep);
         let result = forward(g, linkage, motion, masses, &instant.loads, (&rows, &self.partition));
@@ -121,14 +123,14 @@ impl<'g> Deriver<'g> {
 
     pub(super) fn rates(&self, instant: &Instant<'g>) -> Function {
         let (q, v) = (&instant.state.q, &instant.state.v);
-        self.g.begin_section("rates of the coordinates");
+        self.geometry.g.begin_section("rates of the coordinates");
         let mut q_dot = Vec::new();
         for link in &self.geometry.linkage.links {
             let (first, speed) = (link.first_coordinate, link.first_speed);
             let (q, v) = (&q[first..][..link.freedom.coordinates()], &v[speed..][..link.freedom.speeds()]);
             q_dot.extend(coordinate_rates(link.freedom, q, v));
         }
-        self.g.begin_section("power");
+        self.geometry.g.begin_section("power");
         let mut supplied = instant.loads.supplied;
         for (driver, force) in self.drivers.iter().zip(&self.drive) {
             supplied += *force * driver.law[1];
@@ -146,7 +148,7 @@ impl<'g> Deriver<'g> {
 
     pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
         let Instant { state, cuts, .. } = self.instant(self.driven_state(&[]), true);
-        let rows = kept_rows(self.g, self.geometry.linkage, &state.motion, &cuts, &self.keep);
+        let rows = kept_rows(self.geometry.g, self.geometry.linkage, &state.motion, &cuts, &self.keep);
         let all = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual));
         let free = &self.partition.free;
         let jacobian = rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]));
@@ -176,7 +178,7 @@ impl<'g> Deriver<'g> {
     }
 
     fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
-        let (g, motion) = (self.g, &instant.state.motion);
+        let (g, motion) = (self.geometry.g, &instant.state.motion);
         g.begin_section("energies");
         let kinetic = kinetic_energy(g, masses, motion);
         let weight = weight_energy(g, motion, masses, self.gravity());
@@ -202,7 +204,7 @@ impl<'g> Deriver<'g> {
             .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
             .collect();
         let list = channels(
-            self.g,
+            self.geometry.g,
             &Observed {
                 state: &instant.state,
                 masses,
@@ -236,8 +238,8 @@ impl<'g> Deriver<'g> {
         let mut entries = Vec::new();
         for contact in &self.contacts {
             let name = &self.geometry.mechanism.joint(contact.joint).name;
-            self.g.begin_section(format!("motion in the clearance of {name}"));
-            entries.extend(contact_motion(self.g, &instant.state, contact.joint));
+            self.geometry.g.begin_section(format!("motion in the clearance of {name}"));
+            entries.extend(contact_motion(self.geometry.g, &instant.state, contact.joint));
         }
         let doc = "Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.";
         let shape = (self.contacts.len(), 10);
@@ -247,7 +249,7 @@ impl<'g> Deriver<'g> {
     }
 
     pub(super) fn equations_of_motion(&self, masses: &[LinkMass<'g>]) -> Function {
-        let (g, linkage) = (self.g, self.geometry.linkage);
+        let Geometry { g, linkage, .. } = self.geometry;
         let (q, v) = (self.q_all.clone(), self.v_all.clone());
         let n = v.len();
         let instant = self.instant([q, v, vec![g.zero(); n]], false);

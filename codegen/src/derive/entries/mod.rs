@@ -16,14 +16,14 @@ use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
 use crate::derive::dynamics::Partition;
 use crate::derive::forces::loads;
+use crate::derive::formula_to_expr::Inputs;
 use crate::derive::geometry::Geometry;
-use crate::derive::inertia::LinkMass;
 use crate::derive::joint_state::JointStates;
 use crate::derive::kinematics::{Poses, accelerations, twists};
+use crate::derive::link_mass::{LinkMass, link_masses};
 use crate::derive::linkage::{Freedom, Link, Linkage};
 use crate::derive::linkage_build::linkage;
 use crate::derive::loads::Loads;
-use crate::derive::lower::Inputs;
 use crate::derive::motion::{ModalState, Motion};
 
 /// The result: equations, their layout, and what they are called.
@@ -63,8 +63,8 @@ pub fn derive(
     let (functions, sizes, description) = {
         scope.begin_section("prescribed motion");
         let (inputs, parameters) = inputs(&scope, mechanism);
-        let geometry = Geometry { mechanism, linkage: &linkage, inputs: &inputs };
-        Deriver::new(&scope, geometry, parameters, keep).results(purpose)
+        let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
+        Deriver::new(geometry, parameters, keep).results(purpose)
     };
     Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
 }
@@ -98,7 +98,6 @@ struct Driver<'g> {
 }
 
 struct Deriver<'g> {
-    g: &'g Scope,
     geometry: Geometry<'g>,
     /// Symbols of the tunable parameters.
     parameters: Vec<Expr<'g>>,
@@ -158,8 +157,8 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 }
 
 impl<'g> Deriver<'g> {
-    fn new(g: &'g Scope, geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
-        let Geometry { mechanism, linkage, .. } = geometry;
+    fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
+        let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
         let keep = keep.map_or_else(|| vec![true; rows.sum()], <[bool]>::to_vec);
         let drivers = drivers(&geometry);
@@ -195,7 +194,6 @@ impl<'g> Deriver<'g> {
             })
             .collect();
         Self {
-            g,
             geometry,
             parameters,
             free_q: (0..q_all.len())
@@ -216,7 +214,7 @@ impl<'g> Deriver<'g> {
     /// Coordinates, speeds and accelerations with the drivers' laws inserted; `v_dot` of the free speeds.
     fn driven_state(&self, v_dot: &[Expr<'g>]) -> [Vec<Expr<'g>>; 3] {
         let (mut q, mut v) = (self.q_all.clone(), self.v_all.clone());
-        let mut rates = vec![self.g.zero(); v.len()];
+        let mut rates = vec![self.geometry.g.zero(); v.len()];
         for (speed, rate) in self.partition.free.iter().zip(v_dot) {
             rates[*speed] = *rate;
         }
@@ -231,24 +229,24 @@ impl<'g> Deriver<'g> {
     }
 
     fn masses(&self) -> Vec<LinkMass<'g>> {
-        self.g.begin_section("mass properties");
+        self.geometry.g.begin_section("mass properties");
         // Modes are never driven: the symbols of all coordinates are those of the free ones.
-        self.geometry.masses(self.g, &self.q_all)
+        link_masses(&self.geometry, &self.q_all)
     }
 
     /// Link motion, loads and closure rows for the given coordinates, speeds and accelerations.
     fn instant(&self, [q, v, v_dot]: [Vec<Expr<'g>>; 3], exact: bool) -> Instant<'g> {
-        let (g, geometry) = (self.g, self.geometry);
-        let linkage = geometry.linkage;
+        let geometry = self.geometry;
+        let Geometry { g, linkage, .. } = geometry;
         g.begin_section("poses of the links, [CS (2)]");
-        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(g, at)).collect();
+        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
         let poses = Poses::new(g, linkage, &mounts, &q);
         self.label_poses(&poses, &q);
         g.begin_section("twists of the links, [CS (5)]");
         let twists = twists(g, linkage, &poses, &v);
         g.begin_section("accelerations of the links");
         let ground = -self.gravity();
-        let accelerations = accelerations(g, linkage, &poses, &twists, (&v, &v_dot), ground);
+        let accelerations = accelerations(linkage, &poses, &twists, (&v, &v_dot), ground);
         for (link, (twist, acceleration)) in linkage.links.iter().zip(twists.iter().zip(&accelerations)) {
             for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
                 twist.omega[i].label(format!("{}_w{axis}", link.name));

@@ -1,4 +1,4 @@
-//! Motion of a node of a flexible body relative to its floating frame, [CS (4), (5)].
+//! Where something is attached to a flexible body: motion of a node relative to its floating frame, [CS (4), (5)].
 //! In: shapes at the node, modal coordinates. Out: place, orientation, and how the modes move them.
 //! Never knows mass.
 //!
@@ -8,8 +8,6 @@
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::Node;
-
-use super::frame::Frame;
 
 /// Shapes of all modes at one node, in the floating frame.
 #[derive(Clone, Debug)]
@@ -75,146 +73,115 @@ fn combined<'g>(g: &'g Scope, vectors: &[Vec3<'g>], weights: &[Expr<'g>]) -> Vec
     Vec3::from_fn(|i| g.sum(vectors.iter().zip(weights).map(|(vector, weight)| vector[i] * *weight)))
 }
 
+/// `sum weight_k weight_l vector_kl` of constant vectors.
+fn quadratic<'g>(g: &'g Scope, vectors: &[Vec<[f64; 3]>], weights: &[Expr<'g>]) -> Vec3<'g> {
+    let rows: Vec<Vec3<'g>> = vectors.iter().map(|row| g.weighted_vectors(row, weights)).collect();
+    combined(g, &rows, weights)
+}
+
+/// Half the rotation vector per unit of each modal coordinate: the Gibbs vector's derivatives.
+fn halves(rotation: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect()
+}
+
 impl<'g> NodePose<'g> {
     /// The node for modal coordinates `q`.
     pub fn new(g: &'g Scope, shape: &NodeShape, q: &[Expr<'g>]) -> Self {
         let slide: Vec<Vec3<'g>> = (0..q.len())
             .map(|k| {
                 let first = g.vector(shape.displacement[k]);
-                match shape.second.get(k) {
-                    Some(row) => {
-                        let second = g.weighted_vectors(row, q);
-                        g.add3(first, second)
-                    }
-                    None => first,
-                }
+                shape.second.get(k).map_or(first, |row| first + g.weighted_vectors(row, q))
             })
             .collect();
-        let rest = g.vector(shape.position);
-        let linear = g.weighted_vectors(&shape.displacement, q);
-        let mut place = g.add3(rest, linear);
+        let mut place = g.vector(shape.position) + g.weighted_vectors(&shape.displacement, q);
         if !shape.second.is_empty() {
-            let rows: Vec<Vec3<'g>> = shape.second.iter().map(|row| g.weighted_vectors(row, q)).collect();
-            let double = combined(g, &rows, q);
-            let half = g.constant(0.5);
-            let second = g.scale3(half, double);
-            place = g.add3(place, second);
+            place += 0.5 * quadratic(g, &shape.second, q);
         }
         let mut pose =
             Self { place, rotation: None, slide, turn: Vec::new(), gibbs: g.zero_vector(), tau: g.zero() };
         if !shape.rotation.is_empty() {
-            pose.turned(g, shape, q);
+            pose.turned(g, &halves(&shape.rotation), q);
         }
         pose
     }
 
-    fn turned(&mut self, g: &'g Scope, shape: &NodeShape, q: &[Expr<'g>]) {
-        let halves: Vec<[f64; 3]> = shape.rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect();
-        self.gibbs = g.weighted_vectors(&halves, q);
-        let (one, two) = (g.one(), g.constant(2.0));
-        let square = g.dot3(self.gibbs, self.gibbs);
-        let denominator = g.add(one, square);
-        self.tau = g.div(two, denominator);
-        let skew = g.skew3(self.gibbs);
-        let squared = g.mul_mat3(skew, skew);
-        let sum = g.add_mat3(skew, squared);
-        let scaled = self.tau * sum;
-        let identity = g.matrix(Frame::IDENTITY.0);
-        self.rotation = Some(g.add_mat3(identity, scaled));
+    fn turned(&mut self, g: &'g Scope, halves: &[[f64; 3]], q: &[Expr<'g>]) {
+        let gibbs = g.weighted_vectors(halves, q);
+        let (one, two) = (g.number(1.0), g.number(2.0));
+        let tau = two / (one + gibbs.dot(gibbs));
+        let skew = gibbs.skew();
+        let turned = tau * (skew + skew * skew);
+        self.rotation = Some(g.identity() + turned);
         self.turn = halves
             .iter()
             .map(|half| {
                 let half = g.vector(*half);
-                let across = g.cross3(self.gibbs, half);
-                let sum = g.add3(half, across);
-                g.scale3(self.tau, sum)
+                tau * (half + gibbs.cross(half))
             })
             .collect();
+        (self.gibbs, self.tau) = (gibbs, tau);
     }
 
     /// Orientation of the section as a unit quaternion, scalar first.
-    pub fn quaternion(&self, g: &'g Scope) -> [Expr<'g>; 4] {
-        let (one, half, zero) = (g.one(), g.constant(0.5), g.zero());
+    pub fn quaternion(&self) -> [Expr<'g>; 4] {
+        let g = self.tau.scope();
+        let (one, half, zero) = (g.number(1.0), g.number(0.5), g.zero());
         if self.rotation.is_none() {
             return [one, zero, zero, zero];
         }
         // 1 / sqrt(1 + g.g) = sqrt(tau / 2).
-        let square = g.mul(half, self.tau);
-        let scalar = g.sqrt(square);
-        let Vec3([x, y, z]) = g.scale3(scalar, self.gibbs);
+        let scalar = (half * self.tau).sqrt();
+        let Vec3([x, y, z]) = scalar * self.gibbs;
         [scalar, x, y, z]
     }
 
     /// Components in the section's frame of a vector in the floating frame.
-    pub fn to_section(&self, g: &'g Scope, vector: Vec3<'g>) -> Vec3<'g> {
-        match self.rotation {
-            Some(rotation) => g.transpose_mul_vec3(rotation, vector),
-            None => vector,
-        }
+    pub fn to_section(&self, vector: Vec3<'g>) -> Vec3<'g> {
+        self.rotation.map_or(vector, |rotation| rotation.transpose() * vector)
     }
 
     /// Components in the floating frame of a vector in the section's frame.
-    pub fn to_floating(&self, g: &'g Scope, vector: Vec3<'g>) -> Vec3<'g> {
-        match self.rotation {
-            Some(rotation) => g.mul_vec3(rotation, vector),
-            None => vector,
-        }
+    pub fn to_floating(&self, vector: Vec3<'g>) -> Vec3<'g> {
+        self.rotation.map_or(vector, |rotation| rotation * vector)
     }
 
     /// Velocity relative to the floating frame.
-    pub fn velocity(&self, g: &'g Scope, v: &[Expr<'g>]) -> NodeMotion<'g> {
+    pub fn velocity(&self, v: &[Expr<'g>]) -> NodeMotion<'g> {
+        let g = self.tau.scope();
         NodeMotion { slide: combined(g, &self.slide, v), turn: combined(g, &self.turn, v) }
     }
 
     /// Second derivative of place and orientation relative to the floating frame.
-    pub fn acceleration(
-        &self,
-        g: &'g Scope,
-        shape: &NodeShape,
-        v: &[Expr<'g>],
-        v_dot: &[Expr<'g>],
-    ) -> NodeMotion<'g> {
+    pub fn acceleration(&self, shape: &NodeShape, v: &[Expr<'g>], v_dot: &[Expr<'g>]) -> NodeMotion<'g> {
+        let g = self.tau.scope();
         let mut slide = combined(g, &self.slide, v_dot);
         if !shape.second.is_empty() {
-            let rows: Vec<Vec3<'g>> = shape.second.iter().map(|row| g.weighted_vectors(row, v)).collect();
-            let bias = combined(g, &rows, v);
-            slide = g.add3(slide, bias);
+            slide += quadratic(g, &shape.second, v);
         }
         let mut turn = combined(g, &self.turn, v_dot);
         if self.rotation.is_some() {
             // omega_dot = tau (g_ddot + g x g_ddot) - tau (g . g_dot) omega.
-            let halves: Vec<[f64; 3]> = shape.rotation.iter().map(|psi| psi.map(|x| 0.5 * x)).collect();
-            let rate = g.weighted_vectors(&halves, v);
-            let along = g.dot3(self.gibbs, rate);
-            let weight = g.mul(self.tau, along);
-            let omega = combined(g, &self.turn, v);
-            let lost = g.scale3(weight, omega);
-            turn = g.sub3(turn, lost);
+            let rate = g.weighted_vectors(&halves(&shape.rotation), v);
+            turn -= (self.tau * self.gibbs.dot(rate)) * combined(g, &self.turn, v);
         }
         NodeMotion { slide, turn }
     }
 
     /// Power per unit of each modal speed of a wrench on the node: moment about the node, floating frame.
-    pub fn generalised(&self, g: &'g Scope, moment: Vec3<'g>, force: Vec3<'g>) -> Vec<Expr<'g>> {
+    pub fn generalised(&self, moment: Vec3<'g>, force: Vec3<'g>) -> Vec<Expr<'g>> {
         (0..self.slide.len())
             .map(|k| {
-                let slid = g.dot3(self.slide[k], force);
-                match self.turn.get(k) {
-                    Some(turn) => {
-                        let turned = g.dot3(*turn, moment);
-                        g.add(slid, turned)
-                    }
-                    None => slid,
-                }
+                let slid = self.slide[k].dot(force);
+                self.turn.get(k).map_or(slid, |turn| slid + turn.dot(moment))
             })
             .collect()
     }
 
     /// Twist of the section's frame relative to the floating frame per unit of modal speed `k`:
     /// angular velocity, velocity of the node; floating frame.
-    pub fn screw(&self, g: &'g Scope, k: usize) -> [Vec3<'g>; 2] {
+    pub fn screw(&self, k: usize) -> [Vec3<'g>; 2] {
         let turn = self.turn.get(k).copied();
-        [turn.unwrap_or_else(|| g.zero_vector()), self.slide[k]]
+        [turn.unwrap_or_else(|| self.place.scope().zero_vector()), self.slide[k]]
     }
 }
 
@@ -238,13 +205,13 @@ mod tests {
         let (a, b, c) = ([0.4, -0.3], [0.9, 1.3], [-0.5, 0.8]);
         let g = Scope::new();
         let pick = |f: &dyn Fn(usize) -> f64| [f(0), f(1)];
-        let q = pick(&|i| a[i] + b[i] * time + 0.5 * c[i] * time * time).map(|x| g.constant(x));
-        let v = pick(&|i| b[i] + c[i] * time).map(|x| g.constant(x));
-        let v_dot = pick(&|i| c[i]).map(|x| g.constant(x));
+        let q = pick(&|i| a[i] + b[i] * time + 0.5 * c[i] * time * time).map(|x| g.number(x));
+        let v = pick(&|i| b[i] + c[i] * time).map(|x| g.number(x));
+        let v_dot = pick(&|i| c[i]).map(|x| g.number(x));
         let shape = node();
         let pose = NodePose::new(&g, &shape, &q);
-        let rate = pose.velocity(&g, &v);
-        let acceleration = pose.acceleration(&g, &shape, &v, &v_dot);
+        let rate = pose.velocity(&v);
+        let acceleration = pose.acceleration(&shape, &v, &v_dot);
         let number = |x: Expr<'_>| x.as_number().expect("functions of numbers fold");
         let rotation = pose.rotation.expect("the node turns").0.map(|row| row.0.map(number));
         let rates = [rate.slide, rate.turn, acceleration.slide, acceleration.turn];

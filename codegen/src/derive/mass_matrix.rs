@@ -1,0 +1,239 @@
+//! The mass matrix by composite bodies, [CS (6)].
+//! In: [`Linkage`], poses, mass properties. Out: M as expressions. Never knows forces or closures.
+//!
+//! With the absolute angular velocity as speed of a ball link, turning the parent does not turn the
+//! child: a composite then passes only its mass inwards, and its own block of M stays constant.
+
+use crate::expr::{Expr, Mat3, Scope, Vec3};
+
+use super::attachment::NodePose;
+use super::deformation::ModalMass;
+use super::kinematics::{Pose, Poses};
+use super::link_mass::LinkMass;
+use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::wrench::Wrench;
+
+/// Composite rigid body: everything outboard of a link's joint, as if its joints were locked.
+#[derive(Clone, Copy, Debug)]
+struct Composite<'g> {
+    mass: Expr<'g>,
+    first: Vec3<'g>,
+    inertia: Mat3<'g>,
+}
+
+/// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
+pub fn mass_matrix<'g>(
+    g: &'g Scope,
+    linkage: &Linkage,
+    poses: &Poses<'g>,
+    masses: &[LinkMass<'g>],
+) -> Vec<Vec<Expr<'g>>> {
+    let n = linkage.speeds();
+    let mut columns = Columns { linkage, poses, matrix: vec![vec![g.zero(); n]; n] };
+    let mut composites: Vec<Composite<'g>> = masses
+        .iter()
+        .map(|LinkMass { rigid, .. }| Composite {
+            mass: rigid.mass,
+            first: rigid.first,
+            inertia: rigid.inertia(),
+        })
+        .collect();
+    let mut modal: Vec<Option<ModalColumns<'g>>> =
+        masses.iter().map(|mass| mass.modal.as_ref().map(|modal| ModalColumns::new(g, modal))).collect();
+    for at in (0..linkage.links.len()).rev() {
+        let link = &linkage.links[at];
+        let composite = composites[at];
+        if let Some(parent) = link.parent {
+            let passed = composite.passed_inwards(link.freedom, &poses.relative[at]);
+            let sum = &mut composites[parent];
+            sum.mass += passed.mass;
+            sum.first += passed.first;
+            sum.inertia += passed.inertia;
+        }
+        if let (Some(node), Some(parent)) = (&poses.nodes[at], link.parent) {
+            if let Some(mut body) = modal[at].take() {
+                body.hold(node, &composite);
+                body.fill(&mut columns, at);
+            } else if let Some(body) = &mut modal[parent] {
+                body.carry(node, &poses.relative[at], &composite);
+            }
+            continue;
+        }
+        for (column, wrench) in composite.momentum_columns(link.freedom).into_iter().enumerate() {
+            columns.fill(at, link.first_speed + column, wrench);
+        }
+    }
+    columns.matrix
+}
+
+/// Momentum per unit of every modal speed of one flexible body.
+struct ModalColumns<'g> {
+    /// Of the body and what its nodes carry, about its origin, in its frame.
+    wrenches: Vec<Wrench<'g>>,
+    /// Block of M.
+    block: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> ModalColumns<'g> {
+    fn new(g: &'g Scope, modal: &ModalMass<'g>) -> Self {
+        let numbers = |row: &Vec<f64>| row.iter().map(|x| g.number(*x)).collect();
+        Self {
+            wrenches: (0..modal.matrix.len()).map(|k| modal.column(k)).collect(),
+            block: modal.matrix.iter().map(numbers).collect(),
+        }
+    }
+
+    /// Adds what hangs on a node, which the modes move along.
+    fn carry(&mut self, node: &NodePose<'g>, pose: &Pose<'g>, hanging: &Composite<'g>) {
+        let screws: Vec<[Vec3<'g>; 2]> =
+            (0..self.wrenches.len()).map(|k| node.screw(k).map(|v| node.to_section(v))).collect();
+        for (k, screw) in screws.iter().enumerate() {
+            let momentum = hanging.momentum(*screw);
+            for (l, [turn, slide]) in screws.iter().enumerate().take(k + 1) {
+                self.block[k][l] += momentum.power(*turn, *slide);
+                self.block[l][k] = self.block[k][l];
+            }
+            self.wrenches[k] += momentum.on_parent(pose);
+        }
+    }
+
+    /// Adds that the whole body moves when its inboard node stays.
+    fn hold(&mut self, node: &NodePose<'g>, whole: &Composite<'g>) {
+        let screws: Vec<[Vec3<'g>; 2]> = (0..self.wrenches.len())
+            .map(|k| {
+                let [turn, slide] = node.screw(k);
+                let lever = turn.cross(node.place);
+                [-turn, lever - slide]
+            })
+            .collect();
+        let moved: Vec<Wrench<'g>> = screws.iter().map(|screw| whole.momentum(*screw)).collect();
+        for k in 0..screws.len() {
+            for l in 0..=k {
+                let terms = [
+                    self.wrenches[k].power(screws[l][0], screws[l][1]),
+                    self.wrenches[l].power(screws[k][0], screws[k][1]),
+                    moved[k].power(screws[l][0], screws[l][1]),
+                ];
+                for term in terms {
+                    self.block[k][l] += term;
+                }
+                self.block[l][k] = self.block[k][l];
+            }
+        }
+        for (wrench, moved) in self.wrenches.iter_mut().zip(moved) {
+            *wrench += moved;
+        }
+    }
+
+    fn fill(self, columns: &mut Columns<'_, 'g>, at: usize) {
+        let link = &columns.linkage.links[at];
+        let first = link.first_speed;
+        for (k, row) in self.block.into_iter().enumerate() {
+            // Entries with speeds outboard of the body's nodes are there already.
+            columns.matrix[first + k][first..first + row.len()].copy_from_slice(&row);
+        }
+        for (k, wrench) in self.wrenches.into_iter().enumerate() {
+            columns.carry(link.parent, first + k, wrench.on_parent(&columns.poses.relative[at]));
+        }
+    }
+}
+
+impl<'g> Composite<'g> {
+    /// Momentum per unit of a twist.
+    fn momentum(&self, [omega, origin]: [Vec3<'g>; 2]) -> Wrench<'g> {
+        Wrench::momentum((self.mass, self.first, self.inertia), omega, origin)
+    }
+
+    /// What of it the joint at `pose` passes to the parent link, in the parent's frame about its origin.
+    fn passed_inwards(self, freedom: Freedom, pose: &Pose<'g>) -> Self {
+        let g = self.mass.scope();
+        let (no_first, no_inertia) = (g.zero_vector(), g.matrix([[0.0; 3]; 3]));
+        let (mass, first, inertia) = match freedom {
+            Freedom::Free => (g.zero(), no_first, no_inertia),
+            Freedom::Ball => (self.mass, no_first, no_inertia),
+            _ => {
+                let inertia = self.inertia.turned_by(pose.rotation);
+                (self.mass, pose.rotation * self.first, inertia)
+            }
+        };
+        let p = pose.offset;
+        // Parallel axes: (2 p.s + m p.p) 1 - (p sᵀ + s pᵀ + m p pᵀ), with u = 2 s + m p.
+        let shifted = first + mass * p;
+        let pairs = Mat3::from_fn(|i, j| p[i] * shifted[j] + first[i] * p[j]);
+        let mut moved = inertia;
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            moved[i][i] += pairs[j][j] + pairs[k][k];
+            moved[i][j] -= pairs[i][j];
+            moved[j][i] = moved[i][j];
+        }
+        Self { mass, first: shifted, inertia: moved }
+    }
+
+    /// Momentum per unit of each speed of the link that carries it.
+    fn momentum_columns(&self, freedom: Freedom) -> Vec<Wrench<'g>> {
+        let g = self.mass.scope();
+        let unit = |axis: usize| {
+            let mut unit = g.zero_vector();
+            unit[axis] = g.number(1.0);
+            unit
+        };
+        let turn = |axis: usize| Wrench {
+            moment: Vec3::from_fn(|i| self.inertia[i][axis]),
+            force: unit(axis).cross(self.first),
+        };
+        let slide = |direction: Vec3<'g>| Wrench {
+            moment: self.first.cross(direction),
+            force: self.mass * direction,
+        };
+        match freedom {
+            Freedom::Rotation { advance, .. } => vec![turn(2) + slide(advance * unit(2))],
+            Freedom::Translation { axis } => vec![slide(g.vector(axis))],
+            Freedom::Ball => (0..3).map(turn).collect(),
+            Freedom::Free => (0..3).map(turn).chain((0..3).map(|axis| slide(unit(axis)))).collect(),
+            Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
+        }
+    }
+}
+
+/// The columns of M as they fill.
+struct Columns<'a, 'g> {
+    linkage: &'a Linkage,
+    poses: &'a Poses<'g>,
+    matrix: Vec<Vec<Expr<'g>>>,
+}
+
+impl<'g> Columns<'_, 'g> {
+    /// Fills the column of one speed of a link, down to the link and on to the ground.
+    fn fill(&mut self, from: usize, column: usize, wrench: Wrench<'g>) {
+        let link = &self.linkage.links[from];
+        for (row, entry) in wrench.generalised(link.freedom, None).into_iter().enumerate() {
+            let row = link.first_speed + row;
+            // Within a link, keep the entry computed first, so that M is symmetric to the bit.
+            if row <= column {
+                self.matrix[row][column] = entry;
+                self.matrix[column][row] = entry;
+            }
+        }
+        self.carry(link.parent, column, wrench.passed_inwards(link.freedom, &self.poses.relative[from]));
+    }
+
+    /// Carries a momentum column from a link to the ground and reads off the entries of M.
+    fn carry(&mut self, from: LinkIndex, column: usize, wrench: Wrench<'g>) {
+        let mut carried = wrench;
+        let mut at = from;
+        while let Some(index) = at {
+            let link = &self.linkage.links[index];
+            let node = self.poses.nodes[index].as_ref();
+            for (row, entry) in carried.generalised(link.freedom, node).into_iter().enumerate() {
+                // A flexible body is met twice: at its node and at its frame.
+                let row = link.first_speed + row;
+                let sum = self.matrix[row][column] + entry;
+                self.matrix[row][column] = sum;
+                self.matrix[column][row] = sum;
+            }
+            carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);
+            at = link.parent;
+        }
+    }
+}
