@@ -190,7 +190,6 @@ const EXCUSED: &[(&str, &str, &str)] = &[
     ("src/cli/fit/report.rs", "src/cli/fit.rs", "the file of the folder uses it, too"),
     ("src/cli/life/lived.rs", "src/cli/life.rs", "the file of the folder uses it, too"),
     ("src/cli/life/process.rs", "src/cli/life.rs", "the file of the folder uses it, too"),
-    ("codegen/src/derive/inertia.rs", "codegen/src/derive/deformation.rs", "not yet apart"),
     ("runtime/src/simulate/warning.rs", "runtime/src/simulate/settings.rs", "not yet apart"),
     ("runtime/src/life/settings.rs", "runtime/src/life/state.rs", "not yet apart"),
     ("gamma/src/inspection/likelihood.rs", "gamma/src/inspection/posterior.rs", "not yet apart"),
