@@ -4,6 +4,7 @@
 
 mod arguments;
 mod check;
+mod csv_table;
 mod equations;
 mod failure;
 mod file;
@@ -16,7 +17,6 @@ mod new;
 mod packaging;
 mod plot;
 mod predict;
-mod prediction;
 mod readings;
 mod schema;
 mod simulate;

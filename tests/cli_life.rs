@@ -3,9 +3,8 @@
 mod command;
 
 use command::{Folder, linkwear};
-use linkwear_gamma::life::{
-    Bands, Clock, Estimate, FirstPassage, GammaLaw, Lifetime, Method, OperatingState,
-};
+use linkwear_gamma::life::{Bands, Clock, Estimate, FirstPassage, Law, Lifetime, Method, OperatingState};
+use linkwear_gamma::process::Gamma;
 use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use serde_json::Value;
 
@@ -145,7 +144,7 @@ fn a_fit_gives_the_scatter_and_its_uncertainty_enters_the_budget() {
     );
 
     let (rate, threshold) = pace(&life);
-    let estimate = Estimate::exact(15.0, 13.6, None).expect("positive");
+    let estimate = Estimate::new(&Gamma, [15.0, 13.6], None).expect("positive");
     let estimate =
         estimate.with_log_covariance(&[vec![0.01, 0.009], vec![0.009, 0.01]]).expect("a covariance");
     let situation = OperatingState::new(threshold).and_then(|new| new.at_rate(rate)).expect("positive");
@@ -258,7 +257,7 @@ fn a_shared_factor_spreads_lives_as_the_closed_form_says() {
     let lives = ["--trajectories", "2000", "--format", "json", "--shared-factor"];
     let life = steady(&[&lives[..], &["0.2"]].concat()).json();
     let (rate, threshold) = pace(&life);
-    let law = GammaLaw::new(13.65, 13.65).expect("positive");
+    let law = Law::new(&Gamma, [13.65, 13.65]).expect("positive");
     let joint = FirstPassage::new(law, Clock::linear(rate).expect("positive"), threshold).expect("positive");
     let system = SeriesSystem::sharing(vec![joint], SharedFactor::Gamma { cov: 0.2 }).expect("one joint");
     let exact = system.whole_cycles().expect("finite");

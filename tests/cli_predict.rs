@@ -3,9 +3,8 @@
 mod command;
 
 use command::{Folder, linkwear};
-use linkwear_gamma::life::{
-    Bands, Clock, Estimate, FirstPassage, GammaLaw, Lifetime, Method, OperatingState,
-};
+use linkwear_gamma::life::{Bands, Clock, Estimate, FirstPassage, Law, Lifetime, Method, OperatingState};
+use linkwear_gamma::process::Gamma;
 use serde_json::Value;
 
 /// GaAs lasers (Meeker & Escobar 1998, table C.17), fit published with the R package `gammaprocesses`; exposure is
@@ -163,9 +162,9 @@ fn wrong_inspections_are_named_by_line() {
     let (message, line) = case("hours,um\n0,0\n2,1\n1,2\n", "um");
     assert!(message.contains("sort the readings") && line == Some(4), "{message} {line:?}");
     let (message, line) = case("hours,um\n0,0\n1,two\n", "um");
-    assert!(message.contains("column `um` has `two`") && line == Some(3), "{message} {line:?}");
+    assert!(message.contains("`um` is `two`, not a finite number") && line == Some(3), "{message} {line:?}");
     let (message, line) = case("hours,um\n0,0\n1,NaN\n", "um");
-    assert!(message.contains("the wear is NaN") && line == Some(3), "{message} {line:?}");
+    assert!(message.contains("`um` is `NaN`, not a finite number") && line == Some(3), "{message} {line:?}");
     let (message, _) = case("hours,um\n0,0\n", "um");
     assert!(message.contains("at least 2 are needed"), "{message}");
     let (message, line) = case("hours,um\n0,0\n", "mu");
@@ -185,13 +184,13 @@ fn a_fit_goes_over_into_its_prediction() {
     let life = linkwear(&asked).json();
 
     let [alpha, beta, exponent] = ["alpha", "beta", "exponent"].map(|key| number(&found[key]));
-    let law = GammaLaw::new(alpha, beta).expect("positive");
+    let law = Law::new(&Gamma, [alpha, beta]).expect("positive");
     let clock = Clock::power(1.0, exponent).expect("positive");
     let closed = FirstPassage::from(law, clock, 50.0, 30.0, 400.0).expect("wear is left");
     let row = |row: &Value| row.as_array().expect("a row").iter().map(number).collect();
     let covariance: Vec<Vec<f64>> =
         found["covariance"].as_array().expect("a matrix").iter().map(row).collect();
-    let estimate = Estimate::exact(alpha, beta, Some(exponent)).expect("positive");
+    let estimate = Estimate::new(&Gamma, [alpha, beta], Some(exponent)).expect("positive");
     let estimate = estimate.with_covariance(&covariance).expect("a covariance");
     let situation = OperatingState::new(50.0).and_then(|new| new.worn(30.0, 400.0)).expect("wear is left");
     let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("bands");
@@ -237,7 +236,7 @@ fn covariates_of_a_fit_are_asked_for_and_count() {
     // ln alpha + ln 4 b: variance 4/20^2 + 2 ln 4 0.02/20 + ln 4^2 0.0009, covariance with ln beta 1/(20 10).
     let ln = 4.0_f64.ln();
     let variance = 0.01 + 2.0 * ln * 0.001 + ln * ln * 0.0009;
-    let estimate = Estimate::exact(40.0, 10.0, None).expect("positive");
+    let estimate = Estimate::new(&Gamma, [40.0, 10.0], None).expect("positive");
     let estimate =
         estimate.with_log_covariance(&[vec![variance, 0.005], vec![0.005, 0.01]]).expect("positive");
     let situation = OperatingState::new(10.0).expect("positive");

@@ -4,7 +4,7 @@
 
 use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Model as GammaModel, estimate};
-use linkwear_gamma::monte_carlo::GammaDraw;
+use linkwear_gamma::monte_carlo::{GammaDraw, MICRO};
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::IncrementModel;
 use serde::Serialize;
@@ -15,8 +15,6 @@ use super::statistics::{LifeNumbers, Lived};
 
 /// Histories in a data set: the paper's M, which it gives no number.
 pub const HISTORIES: u64 = 20;
-/// Wear in the Gamma layer is counted in micrometres.
-pub(super) const MICRO: f64 = 1e-6;
 
 /// What random numbers are drawn for: every purpose has its own streams.
 #[derive(Clone, Copy)]
@@ -164,7 +162,8 @@ fn fit(cycle: &Cycle, histories: &[History], cycles: usize) -> Result<GammaRates
     }
     let units = (0..histories.len()).map(|unit| unit.to_string()).collect();
     let found = estimate(&Observations { units, increments }, &GammaModel::default())?;
-    Ok(GammaRates { alpha: found.alpha() / MICRO, beta: found.beta() / MICRO })
+    let parameters = found.parameters();
+    Ok(GammaRates { alpha: parameters[0] / MICRO, beta: parameters[1] / MICRO })
 }
 
 #[cfg(test)]

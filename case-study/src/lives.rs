@@ -5,12 +5,13 @@
 //! wear before has opened. Every model fits the Gamma process to the same histories with its own dLambda, then draws
 //! lives from its own fit. One calibration of the cycle, on the truth, serves all models.
 
+use linkwear_gamma::monte_carlo::MICRO;
 use linkwear_runtime::life::WearOf;
 use linkwear_runtime::wear::Measure;
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::learn::{Bearing, Learnt, MICRO, PROTOCOLS, Protocol, Purpose};
+use super::learn::{Bearing, Learnt, PROTOCOLS, Protocol, Purpose};
 use super::options::Effort;
 use super::rate::{Cycle, Rate};
 use super::statistics::{Density, LifeNumbers, mean_and_scatter};

@@ -5,12 +5,21 @@
 #![warn(missing_docs)]
 
 pub mod data;
+mod error;
 pub mod fit;
+mod fit_file;
 pub mod inspection;
 pub mod life;
+mod matrix;
 pub mod metrics;
 pub mod monte_carlo;
+mod order;
+mod prediction;
+pub mod process;
 mod quadrature;
 pub mod random;
 pub mod series;
 pub mod special;
+
+pub use fit_file::{Covariate, FitFile, FitFileError};
+pub use prediction::Prediction;

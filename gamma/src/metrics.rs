@@ -2,10 +2,10 @@
 //! Out: scores. Never knows how predictions were made.
 //!
 //! Sources: continuous ranked probability score: Gneiting & Raftery, J. Am. Stat. Assoc. 102 (2007) 359-378; its form for
-//! the Gamma law: Scheuerer & Möller, Ann. Appl. Stat. 9 (2015) 1328-1349. Prognostic horizon and alpha-lambda accuracy:
-//! Saxena, Celaya, Saha, Saha & Goebel, Int. J. Prognostics and Health Management 1 (2010).
+//! the Gamma law: Scheuerer & Möller, Ann. Appl. Stat. 9 (2015) 1328-1349.
 
-use crate::life::{LifeError, Lifetime};
+use crate::error::LifeError;
+use crate::life::Lifetime;
 use crate::quadrature::integrate;
 use crate::special::{gamma_p, ln_gamma, normal_cdf, normal_density};
 
@@ -30,7 +30,7 @@ pub fn crps_sample(sample: &[f64], truth: f64) -> Option<f64> {
 pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
     let z = (truth - mean) / std;
     let pi = std::f64::consts::PI;
-    std * (z * (2.0 * normal_cdf(z) - 1.0) + 2.0 * normal_density(z) - 1.0 / pi.sqrt())
+    std * (z * (2.0 * normal_cdf(z) - 1.0) + 2.0 * normal_density(z) - 1.0 / libm::sqrt(pi))
 }
 
 /// CRPS of a Gamma law of given shape and rate, for wear increments: `truth` in the unit of 1 / `rate`.
@@ -38,7 +38,7 @@ pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
 pub fn crps_gamma(shape: f64, rate: f64, truth: f64) -> f64 {
     let x = rate * truth;
     // 1 / B(1/2, shape).
-    let beta = (ln_gamma(shape + 0.5) - ln_gamma(shape)).exp() / std::f64::consts::PI.sqrt();
+    let beta = libm::exp(ln_gamma(shape + 0.5) - ln_gamma(shape)) / libm::sqrt(std::f64::consts::PI);
     (x * (2.0 * gamma_p(shape, x) - 1.0) - shape * (2.0 * gamma_p(shape + 1.0, x) - 1.0) - beta) / rate
 }
 
@@ -53,7 +53,10 @@ pub fn crps_life(life: &dyn Lifetime, truth: f64) -> Result<f64, LifeError> {
     limits.extend(life.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
     limits.sort_by(f64::total_cmp);
     limits.dedup();
-    let square = |t: f64| [if t < truth { life.failed(t) } else { life.reliability(t) }.powi(2)];
+    let square = |t: f64| {
+        let miss = if t < truth { life.failed(t) } else { life.reliability(t) };
+        [miss * miss]
+    };
     Ok(integrate(&square, &limits, [1e-11 * median]).0[0])
 }
 
@@ -86,68 +89,9 @@ pub fn coverage(intervals: &[(f64, f64, f64)]) -> Option<Coverage> {
     Some(Coverage { held, count: intervals.len(), part, interval: (centre - half, centre + half) })
 }
 
-/// Predictive law of remaining life made at a time. Times and remaining lives in one unit.
-pub struct Prediction<'a> {
-    /// When it was made, since the start of life.
-    pub time: f64,
-    /// Remaining life as predicted then.
-    pub life: &'a dyn Lifetime,
-}
-
-impl Prediction<'_> {
-    /// Probability that the remaining life lies between two values.
-    fn mass(&self, lower: f64, upper: f64) -> f64 {
-        let below = if lower > 0.0 { self.life.failed(lower) } else { 0.0 };
-        (self.life.failed(upper.max(0.0)) - below).max(0.0)
-    }
-}
-
-/// Width of the cone and the probability asked inside it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cone {
-    /// Half-width, as a part: of the whole life for the horizon, of the remaining life for the accuracy (Saxena's alpha).
-    pub width: f64,
-    /// Least probability of the prediction inside (Saxena's beta).
-    pub probability: f64,
-}
-
-/// Prognostic horizon: end of life minus the time of the first prediction that has at least `cone.probability` within
-/// `cone.width` times the whole life of the true remaining life. `predictions` in the order of time. None if none has.
-#[must_use]
-pub fn prognostic_horizon(predictions: &[Prediction<'_>], end_of_life: f64, cone: Cone) -> Option<f64> {
-    let half = cone.width * end_of_life;
-    let good = |prediction: &&Prediction<'_>| {
-        let rest = end_of_life - prediction.time;
-        prediction.mass(rest - half, rest + half) >= cone.probability
-    };
-    predictions.iter().find(good).map(|prediction| end_of_life - prediction.time)
-}
-
-/// Alpha-lambda accuracy: whether the prediction in force at `lambda` of the way from the first prediction to the end of
-/// life has at least `cone.probability` between (1 - width) and (1 + width) times the true remaining life. The
-/// prediction in force is the last one made until then. None without predictions or for a `lambda` outside 0..1.
-#[must_use]
-pub fn alpha_lambda(
-    predictions: &[Prediction<'_>],
-    end_of_life: f64,
-    lambda: f64,
-    cone: Cone,
-) -> Option<bool> {
-    if !(0.0..1.0).contains(&lambda) {
-        return None;
-    }
-    let first = predictions.first()?.time;
-    let when = first + lambda * (end_of_life - first);
-    let prediction = predictions.iter().rev().find(|prediction| prediction.time <= when)?;
-    let rest = end_of_life - prediction.time;
-    let mass = prediction.mass((1.0 - cone.width) * rest, (1.0 + cone.width) * rest);
-    Some(mass >= cone.probability)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, FirstPassage, GammaLaw};
     use crate::random::{StandardNormal, Stream};
     use rand::RngExt;
 
@@ -197,23 +141,5 @@ mod tests {
         // Wilson interval of 95 of 100, from Newcombe (1998): 0.8882 to 0.9785.
         assert_eq!(coverage.held, 95);
         assert!((coverage.interval.0 - 0.8882).abs() < 1e-4 && (coverage.interval.1 - 0.9785).abs() < 1e-4);
-    }
-
-    #[test]
-    fn horizon_and_accuracy_of_predictions_that_become_good() {
-        let law = GammaLaw::new(100.0, 100.0).expect("valid");
-        let life =
-            |left: f64| FirstPassage::new(law, Clock::linear(1.0).expect("valid"), left).expect("valid");
-        // True end of life 10. Predicted rests: 14 at time 0 (wrong), 8 at 2, 4 at 6: right.
-        let lives = [life(14.0), life(8.0), life(4.0)];
-        let predictions: Vec<Prediction<'_>> =
-            [0.0, 2.0, 6.0].into_iter().zip(&lives).map(|(time, life)| Prediction { time, life }).collect();
-        let cone = Cone { width: 0.2, probability: 0.5 };
-        assert_eq!(prognostic_horizon(&predictions, 10.0, cone), Some(8.0));
-        assert_eq!(alpha_lambda(&predictions, 10.0, 0.1, cone), Some(false));
-        assert_eq!(alpha_lambda(&predictions, 10.0, 0.5, cone), Some(true));
-        assert_eq!(alpha_lambda(&predictions, 10.0, 1.5, cone), None);
-        let hopeless = Cone { width: 1e-6, probability: 0.5 };
-        assert_eq!(prognostic_horizon(&predictions, 10.0, hopeless), None);
     }
 }

@@ -12,7 +12,8 @@
 
 use rand::RngExt;
 
-use crate::life::{FirstPassage, LifeError, Lifetime, positive};
+use crate::error::{LifeError, positive};
+use crate::life::{FirstPassage, Lifetime};
 use crate::quadrature::integrate;
 use crate::random::{LnGamma, StandardNormal, Stream};
 
@@ -48,7 +49,7 @@ impl SharedFactor {
         let cov = match self {
             Self::Gamma { cov } | Self::Lognormal { cov } => cov,
         };
-        let square = positive("the coefficient of variation of the shared factor", cov)?.powi(2);
+        let square = positive("the coefficient of variation of the shared factor", cov)? * cov;
         Ok(match self {
             Self::Gamma { .. } => Law::Gamma { shape: 1.0 / square },
             Self::Lognormal { .. } => Law::Lognormal { sigma: libm::sqrt(libm::log1p(square)) },
@@ -65,11 +66,11 @@ impl SharedFactor {
         let (ln_density, spread): (Box<dyn Fn(f64) -> f64>, f64) = match self.law()? {
             Law::Gamma { shape } => {
                 // Density of u = ln Z, relative to u = 0.
-                (Box::new(move |u: f64| shape * (u - u.exp() + 1.0)), 1.0 / shape.sqrt())
+                (Box::new(move |u: f64| shape * (u - libm::exp(u) + 1.0)), 1.0 / libm::sqrt(shape))
             }
             Law::Lognormal { sigma } => {
                 let mean = -0.5 * sigma * sigma;
-                (Box::new(move |u: f64| -0.5 * ((u - mean) / sigma).powi(2)), sigma)
+                (Box::new(move |u: f64| -0.5 * (u - mean) * (u - mean) / (sigma * sigma)), sigma)
             }
         };
         let step = spread.min(1.0) / FINE;
@@ -82,7 +83,7 @@ impl SharedFactor {
                 if density < CUT {
                     break;
                 }
-                nodes.push((u.exp(), density.exp()));
+                nodes.push((libm::exp(u), libm::exp(density)));
                 k += 1.0;
             }
         }
@@ -173,8 +174,8 @@ impl Lifetime for SeriesSystem {
         }
         // 1 - product of (1 - F_j) with the digits of small F_j kept.
         let at = |(z, weight): &(f64, f64)| {
-            let ln: f64 = self.members.iter().map(|member| (-member.failed_at(t, *z)).ln_1p()).sum();
-            weight * -ln.exp_m1()
+            let ln: f64 = self.members.iter().map(|member| libm::log1p(-member.failed_at(t, *z))).sum();
+            weight * -libm::expm1(ln)
         };
         self.factors.iter().map(at).sum()
     }
@@ -198,7 +199,7 @@ impl Lifetime for SeriesSystem {
     fn finite_moments(&self) -> Result<(), LifeError> {
         let Some(SharedFactor::Gamma { cov }) = self.shared else { return Ok(()) };
         let growth = self.members.iter().map(|member| member.clock().growth()).fold(0.0, f64::max);
-        let below = (0.5 * growth).sqrt();
+        let below = libm::sqrt(0.5 * growth);
         if cov < below { Ok(()) } else { Err(LifeError::HeavyFactor { cov, below }) }
     }
 }
@@ -206,10 +207,11 @@ impl Lifetime for SeriesSystem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::life::{Clock, GammaLaw, LifeStatistics};
+    use crate::life::{Clock, Law, LifeStatistics};
+    use crate::process::Gamma;
 
     fn member(alpha: f64, threshold: f64) -> FirstPassage {
-        let law = GammaLaw::new(alpha, 10.0).expect("valid");
+        let law = Law::new(&Gamma, [alpha, 10.0]).expect("valid");
         FirstPassage::new(law, Clock::linear(1.0).expect("valid"), threshold).expect("valid")
     }
 

@@ -4,8 +4,9 @@ use std::convert::Infallible;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 
-use linkwear_gamma::life::{Clock, FirstPassage, GammaLaw, LifeStatistics, Lifetime};
+use linkwear_gamma::life::{Clock, FirstPassage, Law, LifeStatistics, Lifetime};
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo};
+use linkwear_gamma::process::Gamma;
 use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use linkwear_gamma::special::gamma_p;
 use linkwear_runtime::GammaRates;
@@ -104,7 +105,7 @@ fn without_feedback_lives_follow_the_law_of_first_passage() {
 
 /// Closed form of lives without feedback, in micrometres: [`PER_CYCLE`] is 3.2 of them.
 fn member(threshold: f64) -> FirstPassage {
-    let law = GammaLaw::new(RATES.alpha * 1e-6, RATES.beta * 1e-6).expect("positive");
+    let law = Law::new(&Gamma, [RATES.alpha * 1e-6, RATES.beta * 1e-6]).expect("positive");
     FirstPassage::new(law, Clock::linear(PER_CYCLE * 1e6).expect("positive"), threshold * 1e6)
         .expect("positive")
 }

@@ -4,8 +4,9 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use linkwear_gamma::process::Process;
 
-use super::value::{assignment, covariate, draw_count, positive};
+use super::value::{assignment, covariate, draw_count, positive, process_parser};
 
 /// Compiles a linkage into its life: specialised dynamics from a TOML file.
 #[derive(Debug, Parser)]
@@ -57,7 +58,7 @@ pub enum Command {
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
                       linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
     Predict(PredictArguments),
-    /// Fit a Gamma process of wear to measured data by maximum likelihood.
+    /// Fit a process of wear (Gamma, Wiener, inverse Gaussian) to measured data by maximum likelihood.
     #[command(
         after_help = "Example:\n  linkwear fit examples/data/sliding_wear_100g.csv \\\n    --unit unit \
                       --wear wear_um --exposure cycles --from-zero --power-law"
@@ -283,6 +284,9 @@ pub struct FitArguments {
     /// um, or a CSV of two columns.
     #[arg(long, value_name = "COL|FILE")]
     pub lambda: Option<String>,
+    /// Process of wear; `predict` goes by the one that was fitted.
+    #[arg(long, value_name = "PROCESS", default_value = "gamma", value_parser = process_parser())]
+    pub process: &'static dyn Process,
     /// Estimate the exponent c of Lambda = exposure^c.
     #[arg(long, conflicts_with = "lambda")]
     pub power_law: bool,
@@ -301,7 +305,7 @@ pub struct FitArguments {
     /// Accept data of one unit, which cannot tell how units differ.
     #[arg(long)]
     pub one_unit: bool,
-    /// Compare with Wiener and inverse-Gaussian processes.
+    /// Compare with the other processes.
     #[arg(long)]
     pub compare: bool,
     /// Replicates of the parametric bootstrap: intervals, p-values of the goodness of fit.

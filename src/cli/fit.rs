@@ -1,5 +1,6 @@
-//! `fit`: a Gamma process of wear from a table of readings.
+//! `fit`: a process of wear from a table of readings.
 
+mod analysis;
 mod lambda;
 mod read;
 mod report;
@@ -7,34 +8,14 @@ mod report;
 use std::io::Write as _;
 
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
-use linkwear_gamma::fit::{
-    Bootstrap, Estimate, Fit, FitError, Goodness, Interval, LikelihoodRatio, Model, Rival, bootstrap,
-    estimate, goodness, inverse_gaussian, likelihood_ratio, profile_interval, wiener,
-};
+use linkwear_gamma::fit::{LikelihoodRatio, likelihood_ratio};
 
-use self::read::{Group, fault, groups};
+use self::analysis::{Analysis, model};
+use self::read::{Group, groups};
 use super::arguments::{FitArguments, Format};
+use super::csv_table::fault;
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
-
-/// Level of the intervals printed.
-const LEVEL: f64 = 0.95;
-
-/// One fit and what is known about it.
-struct Analysis {
-    name: String,
-    fit: Fit,
-    /// Names of the parameters, in the order of the covariance.
-    parameters: Vec<String>,
-    values: Vec<f64>,
-    /// None where the likelihood does not fall far enough.
-    intervals: Vec<Option<Interval>>,
-    goodness: Goodness,
-    bootstrap: Option<Bootstrap>,
-    rivals: Vec<(&'static str, Result<Rival, FitError>)>,
-    /// Bias of alpha and beta to first order in 1/n, where theory has it.
-    bias: Option<[f64; 2]>,
-}
 
 /// Answers `fit`.
 pub fn run(arguments: &FitArguments, format: Format) -> Result<(), Failure> {
@@ -57,33 +38,29 @@ pub fn run(arguments: &FitArguments, format: Format) -> Result<(), Failure> {
     }
     let test = ratio(&pooled, &parts);
     if let Some(out) = &arguments.out {
-        let text = report::fitted(arguments, &pooled.fit);
+        let text = pooled.file.to_json();
         write_whole(out, |file| writeln!(file, "{text:#}"))?;
     }
     match format {
-        Format::Json => print(&report::machine(arguments, &pooled, &parts, test)),
-        Format::Text => print(&report::human(arguments, &pooled, &parts, test)),
+        Format::Json => print(&report::to_json(arguments, &pooled, &parts, test)),
+        Format::Text => print(&report::to_text(arguments, &pooled, &parts, test)),
     }
 }
 
 /// Groups with parameters of their own against one process for all.
 fn ratio(pooled: &Analysis, parts: &[Analysis]) -> Option<LikelihoodRatio> {
     let apart: f64 = parts.iter().map(|part| part.fit.log_likelihood).sum();
-    let degrees = parts.len().checked_sub(1)? * pooled.parameters.len();
+    let degrees = parts.len().checked_sub(1)? * pooled.fit.parameters().len();
     (degrees > 0).then(|| likelihood_ratio(apart, pooled.fit.log_likelihood, degrees))
-}
-
-fn model(arguments: &FitArguments) -> Model {
-    Model {
-        power_law: arguments.power_law,
-        covariates: arguments.covariate.len(),
-        resolution: arguments.resolution,
-    }
 }
 
 /// Increments, enough of them.
 fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<Observations, Failure> {
-    let gauge = arguments.resolution.map_or(Gauge::Exact, Gauge::Resolution);
+    let gauge = match arguments.resolution {
+        Some(step) => Gauge::Resolution(step),
+        None if arguments.process.is_increasing() => Gauge::Exact,
+        None => Gauge::Noisy,
+    };
     let data = Observations::new(readings, arguments.from_zero, gauge);
     let data = data.map_err(|error| refused(arguments, &error))?;
     let (increments, parameters) = (data.increments.len(), model(arguments).parameters());
@@ -107,45 +84,11 @@ fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
 }
 
 fn analyse(arguments: &FitArguments, name: &str, data: &Observations) -> Result<Analysis, Failure> {
-    let found = estimate(data, &model(arguments)).map_err(|error| {
+    Analysis::new(arguments, name, data).map_err(|error| {
         let message =
             if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
         fault(&arguments.file, None, message, "look at the data; estimate fewer parameters")
-    })?;
-    Ok(complete(arguments, name, data, &found))
-}
-
-fn complete(arguments: &FitArguments, name: &str, data: &Observations, found: &Estimate) -> Analysis {
-    let clock = match (&arguments.lambda, &arguments.exposure) {
-        (Some(lambda), Some(_)) => format!("Lambda of {lambda}"),
-        (Some(clock), None) | (None, Some(clock)) => clock.clone(),
-        (None, None) => String::new(),
-    };
-    let fit = found.fit(data, &arguments.covariate, &arguments.wear, &clock);
-    let mut parameters = vec!["alpha".to_owned(), "beta".to_owned()];
-    parameters.extend(arguments.power_law.then(|| "exponent".to_owned()));
-    parameters.extend(arguments.covariate.iter().map(|covariate| format!("power of {covariate}")));
-    let increments = &data.increments;
-    let rivals = if arguments.compare {
-        vec![
-            ("Wiener", wiener(increments, &found.model)),
-            ("inverse Gaussian", inverse_gaussian(increments, &found.model)),
-        ]
-    } else {
-        Vec::new()
-    };
-    let replicates = arguments.bootstrap;
-    Analysis {
-        name: name.to_owned(),
-        intervals: (0..parameters.len()).map(|at| profile_interval(found, data, at, LEVEL).ok()).collect(),
-        parameters,
-        values: found.parameters(),
-        fit,
-        goodness: goodness(found, increments, arguments.seed),
-        bootstrap: (replicates > 0).then(|| bootstrap(found, data, replicates, arguments.seed)),
-        rivals,
-        bias: found.first_order_bias(data),
-    }
+    })
 }
 
 /// A fault of the data, in the words of the command line.

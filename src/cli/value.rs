@@ -1,5 +1,8 @@
 //! Values of options that are more than a number or a name. In: the text. Out: the value, or what to write instead.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use linkwear_gamma::process::{PROCESSES, Process, named};
+
 /// `name=value`, both non-empty.
 pub fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -30,6 +33,12 @@ pub fn draw_count(text: &str) -> Result<usize, String> {
         Ok(count) if (100..=1_000_000).contains(&count) => Ok(count),
         _ => Err("a number from 100 to 1000000 is needed".to_owned()),
     }
+}
+
+/// The name of a process that can be fitted.
+pub fn process_parser() -> impl TypedValueParser<Value = &'static dyn Process> {
+    PossibleValuesParser::new(PROCESSES.map(Process::name))
+        .map(|name| named(&name).expect("a name from the list of processes"))
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
-//! Goodness of fit. In: an estimate and its data. Out: distances of the probability integral transform from uniform,
+//! Goodness of fit. In: a fit and its data. Out: distances of the probability integral transform from uniform,
 //! and pairs for a quantile plot. Never knows p-values: these need the bootstrap.
 
 use rand::RngExt;
 use rand::distr::Open01;
 
-use super::estimate::Estimate;
+use super::estimate::Fit;
 use crate::data::Increment;
 use crate::random::Stream;
-use crate::special::{gamma_p, gamma_quantile};
 
 /// How far the data are from the fitted law.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +15,7 @@ pub struct Goodness {
     pub kolmogorov_smirnov: f64,
     /// Anderson and Darling's A^2.
     pub anderson_darling: f64,
-    /// Probability integral transforms P(a, beta dW), sorted.
+    /// Probability integral transforms of the increments, sorted.
     pub transforms: Vec<f64>,
     /// Pairs (expected, seen) of wear increments: expected is the quantile of the increment's own law at the plotting
     /// position (rank - 1/2) / n.
@@ -25,20 +24,20 @@ pub struct Goodness {
 
 /// Transforms each increment by its own law. An increment below the gauge's step is spread evenly over what it may
 /// be, with the seed's numbers.
-pub fn goodness(estimate: &Estimate, increments: &[Increment], seed: u64) -> Goodness {
-    let beta = estimate.beta();
+#[must_use]
+pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
+    let (process, logs) = (fit.model.process, fit.logs());
     let mut stream = Stream::new(seed, u64::MAX, 0);
     let mut seen: Vec<(f64, f64, f64)> = increments
         .iter()
         .map(|increment| {
-            let shape = estimate.shape(increment);
-            let u = match estimate.model.resolution {
-                Some(step) if increment.wear == 0.0 => {
-                    stream.sample::<f64, _>(Open01) * gamma_p(shape, beta * step)
-                }
-                _ => gamma_p(shape, beta * increment.wear),
+            let lambda = fit.lambda(increment);
+            let cumulative = |wear: f64| process.cumulative(logs, lambda, wear);
+            let u = match fit.model.resolution {
+                Some(step) if increment.wear == 0.0 => stream.sample::<f64, _>(Open01) * cumulative(step),
+                _ => cumulative(increment.wear),
             };
-            (u, shape, increment.wear)
+            (u, lambda, increment.wear)
         })
         .collect();
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -50,7 +49,7 @@ pub fn goodness(estimate: &Estimate, increments: &[Increment], seed: u64) -> Goo
         kolmogorov_smirnov: kolmogorov_smirnov(&transforms),
         anderson_darling: anderson_darling(&transforms),
         quantiles: quantiles
-            .map(|(at, (_, shape, wear))| (gamma_quantile(*shape, position(at)) / beta, *wear))
+            .map(|(at, (_, lambda, wear))| (process.quantile(logs, *lambda, position(at)), *wear))
             .collect(),
         transforms,
     }

@@ -1,8 +1,8 @@
-//! Profile-likelihood intervals. In: an estimate. Out: the values of a parameter that the data do not reject. Never
+//! Profile-likelihood intervals. In: an fit. Out: the values of a parameter that the data do not reject. Never
 //! knows other kinds of intervals.
 
-use super::FitError;
-use super::estimate::Estimate;
+use super::error::FitError;
+use super::estimate::{Fit, natural};
 use super::maximise::maximise;
 use crate::data::Observations;
 use crate::special::normal_quantile;
@@ -18,42 +18,43 @@ pub struct Interval {
 
 impl Interval {
     /// Whether it holds a value.
+    #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 }
 
-/// The values of parameter `index` of [`Estimate::parameters`] that a likelihood-ratio test at 1 - `level` does not
+/// The values of parameter `index` of [`Fit::parameters`] that a likelihood-ratio test at 1 - `level` does not
 /// reject, the others re-estimated at each.
 ///
 /// # Errors
 /// [`FitError::NotConverged`] when the likelihood does not fall far enough on a side.
 pub fn profile_interval(
-    estimate: &Estimate,
+    fit: &Fit,
     observations: &Observations,
     index: usize,
     level: f64,
 ) -> Result<Interval, FitError> {
     let reach = normal_quantile(0.5 + 0.5 * level);
-    let ends = [end(estimate, observations, index, -reach)?, end(estimate, observations, index, reach)?];
-    let [low, high] = ends.map(|end| if index < 2 { libm::exp(end) } else { end });
+    let ends = [end(fit, observations, index, -reach)?, end(fit, observations, index, reach)?];
+    let [low, high] = ends.map(|end| natural(index, end));
     Ok(Interval { low, high })
 }
 
 /// The value where the signed root of the likelihood ratio reaches `target`: a secant on a function that is nearly
 /// linear, because phi is in logarithms.
-fn end(estimate: &Estimate, observations: &Observations, index: usize, target: f64) -> Result<f64, FitError> {
-    let top = estimate.phi[index];
-    let deviation = estimate.covariance[index][index].sqrt();
-    let mut from = estimate.phi.clone();
+fn end(fit: &Fit, observations: &Observations, index: usize, target: f64) -> Result<f64, FitError> {
+    let top = fit.phi[index];
+    let deviation = fit.covariance[index][index].sqrt();
+    let mut from = fit.phi.clone();
     let mut root = |value: f64| -> Result<f64, FitError> {
         from[index] = value;
-        let (phi, point) = maximise(&estimate.model, &observations.increments, &from, Some(index))?;
+        let (phi, point) = maximise(&fit.model, &observations.increments, &from, Some(index))?;
         from = phi;
-        Ok((2.0 * (estimate.log_likelihood - point.value)).max(0.0).sqrt() * target.signum())
+        Ok((2.0 * (fit.log_likelihood - point.value)).max(0.0).sqrt() * target.signum())
     };
     // The exponent stays positive: towards 0 by halves.
-    let positive = estimate.model.power_law && index == 2;
+    let positive = fit.model.power_law && index == 2;
     let guard = |old: f64, new: f64| if positive && new <= 0.0 { 0.5 * old } else { new };
     let (mut x0, mut r0) = (top, 0.0);
     let mut x1 = guard(top, top + target * deviation);

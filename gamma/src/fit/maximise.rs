@@ -1,69 +1,22 @@
 //! Finding the maximum of the likelihood. In: increments, model. Out: the parameters there. Never knows what is done
 //! with them.
 
-use super::FitError;
-use super::likelihood::{Model, Point};
-use super::linear::solve;
+use super::error::FitError;
+use super::model::{Model, Point};
 use crate::data::Increment;
-use crate::special::{digamma, trigamma};
+use crate::matrix::Factor;
 
 /// Steps of Newton's method; 5 to 15 are usual.
 const MOST_STEPS: usize = 200;
 
-/// ln alpha that solves the profile equation
-/// sum dLambda [ln beta + ln dW - psi(alpha dLambda)] = 0, beta = alpha sum dLambda / sum dW, [CS (25)].
-///
-/// Newton in ln alpha: the left side falls monotonically, because x psi'(x) > 1, and a bracket catches a first step
-/// that is too long. None if the increments have no scatter, or are not positive.
-pub fn profile_ln_alpha(lambdas: &[f64], wears: &[f64]) -> Option<f64> {
-    let (lambda, wear): (f64, f64) = (lambdas.iter().sum(), wears.iter().sum());
-    let rate = wear / lambda;
-    // Alpha = mean^2 / variance, per unit of Lambda.
-    let scatter: f64 = lambdas.iter().zip(wears).map(|(l, w)| (w - rate * l) * (w - rate * l) / l).sum();
-    let mut s = libm::log(rate * rate * lambdas.len() as f64 / scatter);
-    if !s.is_finite() || wears.iter().any(|w| *w <= 0.0) {
-        return None;
-    }
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    for _ in 0..MOST_STEPS {
-        let alpha = libm::exp(s);
-        let ln_beta = s - libm::log(rate);
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (l, w) in lambdas.iter().zip(wears) {
-            let a = alpha * l;
-            value += l * (ln_beta + libm::log(*w) - digamma(a));
-            slope += l * (1.0 - a * trigamma(a));
-        }
-        if value > 0.0 {
-            low = s
-        } else {
-            high = s
-        }
-        let mut next = s - value / slope;
-        if !(next > low && next < high) {
-            next = match (low.is_finite(), high.is_finite()) {
-                (true, true) => 0.5 * (low + high),
-                (true, false) => s + 1.0,
-                _ => s - 1.0,
-            };
-        }
-        if (next - s).abs() <= 1e-15 * s.abs().max(1.0) {
-            return Some(next);
-        }
-        s = next;
-    }
-    // Rounding keeps the last digit going: the bracket is as narrow as it gets.
-    (high - low < 1e-10).then_some(s)
-}
-
-/// A start for [`maximise`]: alpha, beta from the profile equation, c by a coarse search, no effect of covariates.
+/// A start for [`maximise`]: the process's parameters given Lambda, c by a coarse search, no effect of covariates.
 pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitError> {
     // Increments below the gauge's step enter the start alone as half of it.
     let wears: Vec<f64> = increments
         .iter()
         .map(
             |increment| {
-                if increment.wear > 0.0 { increment.wear } else { model.resolution.unwrap_or(0.0) / 2.0 }
+                if increment.wear == 0.0 { model.resolution.unwrap_or(0.0) / 2.0 } else { increment.wear }
             },
         )
         .collect();
@@ -76,9 +29,8 @@ pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitErr
             phi[2] = exponent;
         }
         let lambdas: Vec<f64> = increments.iter().map(|increment| model.lambda(&phi, increment)).collect();
-        let Some(ln_alpha) = profile_ln_alpha(&lambdas, &wears) else { continue };
-        phi[0] = ln_alpha;
-        phi[1] = ln_alpha + libm::log(lambdas.iter().sum::<f64>() / wears.iter().sum::<f64>());
+        let Some(logs) = model.process.maximum(&lambdas, &wears) else { continue };
+        phi[..2].copy_from_slice(&logs);
         let value = model.value(&phi, increments);
         if value.is_finite() && best.as_ref().is_none_or(|(known, _)| value > *known) {
             best = Some((value, phi));
@@ -141,7 +93,7 @@ fn ascent(here: &Point, free: &[usize], gradient: &[f64]) -> Option<Vec<f64>> {
                 free.iter().map(entry).collect()
             })
             .collect();
-        if let Some(step) = solve(&matrix, gradient) {
+        if let Some(step) = Factor::definite(&matrix).and_then(|factor| factor.solve(gradient)) {
             return Some(step);
         }
         raised = if raised == 0.0 { 1e-6 * scale } else { 4.0 * raised };
@@ -152,9 +104,10 @@ fn ascent(here: &Point, free: &[usize], gradient: &[f64]) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process::PROCESSES;
 
     #[test]
-    fn the_profile_equation_has_the_root_of_the_full_likelihood() {
+    fn parameters_given_lambda_are_the_maximum_of_the_full_likelihood() {
         let wears = [1.2, 0.7, 2.4, 0.9, 1.6];
         let spans = [1.0, 0.5, 2.0, 1.0, 1.5];
         let increments: Vec<Increment> = wears
@@ -169,15 +122,14 @@ mod tests {
                 row: 0,
             })
             .collect();
-        let model = Model::default();
-        let ln_alpha = profile_ln_alpha(&spans, &wears).unwrap();
-        let (phi, _) = maximise(&model, &increments, &[0.0, 0.0], None).unwrap();
-        // Newton ends at a gain of 1e-13, squared once more by its last step.
-        assert!((phi[0] - ln_alpha).abs() < 1e-11, "{} {ln_alpha}", phi[0]);
-    }
-
-    #[test]
-    fn increments_without_scatter_have_no_alpha() {
-        assert_eq!(profile_ln_alpha(&[1.0, 2.0, 1.0], &[1.0, 2.0, 1.0]), None);
+        for process in PROCESSES {
+            let model = Model { process, ..Model::default() };
+            let logs = process.maximum(&spans, &wears).unwrap();
+            let (phi, _) = maximise(&model, &increments, &[0.0, 0.0], None).unwrap();
+            // Newton ends at a gain of 1e-13, squared once more by its last step.
+            for (found, logs) in phi.iter().zip(logs) {
+                assert!((found - logs).abs() < 1e-11, "{process:?}: {phi:?} {logs}");
+            }
+        }
     }
 }

@@ -31,7 +31,7 @@ pub enum InspectionError {
     },
     /// Wear falls.
     #[error(
-        "reading {row}: wear falls from {before} to {wear}, which a Gamma process cannot do; correct it, leave the reading out, or give the gauge's standard error"
+        "reading {row}: wear falls from {before} to {wear}, which no process that only grows can do; correct it, leave the reading out, or give the gauge's standard error"
     )]
     Falls {
         /// Reading.
@@ -43,7 +43,7 @@ pub enum InspectionError {
     },
     /// Wear stands still.
     #[error(
-        "reading {row}: wear stays at {wear}, to which a Gamma process gives no probability; leave the reading out or give the gauge's standard error"
+        "reading {row}: wear stays at {wear}, to which a process that only grows gives no probability; leave the reading out or give the gauge's standard error"
     )]
     StandsStill {
         /// Reading.

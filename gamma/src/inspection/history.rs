@@ -1,6 +1,7 @@
 //! Readings of one joint, checked. In: (time, wear). Out: a history no later code has to check. Never knows parameters.
 
 use super::error::InspectionError;
+use crate::process::Process;
 
 /// One inspection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,12 +19,15 @@ pub struct History {
 }
 
 impl History {
-    /// Readings without gauge error: wear rises from each to the next.
+    /// Readings without gauge error: wear rises from each to the next, if it does so by the process.
     ///
     /// # Errors
     /// [`InspectionError`] with the first reading that cannot be.
-    pub fn exact(readings: Vec<Reading>) -> Result<Self, InspectionError> {
+    pub fn exact(process: &dyn Process, readings: Vec<Reading>) -> Result<Self, InspectionError> {
         let history = Self::any(readings, 2, "to see wear rise")?;
+        if !process.is_increasing() {
+            return Ok(history);
+        }
         for (at, pair) in history.readings.windows(2).enumerate() {
             let (row, wear, before) = (at + 2, pair[1].wear, pair[0].wear);
             if wear < before {
@@ -79,9 +83,10 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process::{Gamma, Wiener};
 
     fn exact(rows: &[(f64, f64)]) -> Result<History, InspectionError> {
-        History::exact(rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect())
+        History::exact(&Gamma, rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect())
     }
 
     #[test]
@@ -102,6 +107,6 @@ mod tests {
         }
         assert!(exact(&[(0.0, 0.0), (1.0, 0.5)]).is_ok());
         let fall = vec![Reading { time: 1.0, wear: 1.0 }, Reading { time: 2.0, wear: 0.9 }];
-        assert!(History::noisy(fall).is_ok());
+        assert!(History::noisy(fall.clone()).is_ok() && History::exact(&Wiener, fall).is_ok());
     }
 }

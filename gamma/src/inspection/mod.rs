@@ -11,12 +11,14 @@ mod history;
 mod likelihood;
 mod particles;
 mod posterior;
+mod prior;
 
 pub use credible::Mixture;
 pub use error::InspectionError;
 pub use history::{History, Reading};
 pub use particles::{Effort, Particles};
-pub use posterior::{LogParameter, Posterior, Prior};
+pub use posterior::{LogParameter, Posterior};
+pub use prior::Prior;
 
 #[cfg(test)]
 mod tests;

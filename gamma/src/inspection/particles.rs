@@ -13,8 +13,10 @@ use rand::distr::Open01;
 use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
-use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState, moved};
-use crate::random::{LnGamma, StandardNormal, Stream};
+use crate::error::LifeError;
+use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState};
+use crate::process::Process;
+use crate::random::Stream;
 
 /// Different particles below which an answer is refused: three-digit probabilities need that many.
 const FEWEST: usize = 200;
@@ -52,7 +54,7 @@ impl Particles {
     pub fn follow(
         history: &History,
         prior: &Estimate,
-        situation: &OperatingState,
+        state: &OperatingState,
         gauge: f64,
         effort: Effort,
     ) -> Result<Self, InspectionError> {
@@ -64,15 +66,17 @@ impl Particles {
         let mut common = stream(effort.count);
         let mut particles: Vec<Particle> =
             (0..effort.count).map(|origin| Particle::new(origin, prior, &mut stream(origin))).collect();
+        let process = prior.process();
         let mut ln_weights = vec![0.0; particles.len()];
         let mut fewest = (usize::MAX, 1);
         let mut before = 0.0;
         for (at, reading) in history.readings().iter().enumerate() {
-            let now = situation.rate() * reading.time;
+            let now = state.rate() * reading.time;
             for (k, (particle, ln)) in particles.iter_mut().zip(&mut ln_weights).enumerate() {
                 // Cycle 0 of a stream drew the parameters; reading n draws from cycle n.
-                particle.wear_on(before, now, stream(k).at(at as u64 + 1));
-                *ln -= 0.5 * ((reading.wear - particle.wear) / gauge).powi(2);
+                particle.wear_on(process, before, now, stream(k).at(at as u64 + 1));
+                let off = (reading.wear - particle.wear) / gauge;
+                *ln -= 0.5 * off * off;
             }
             before = now;
             let last = at + 1 == history.readings().len();
@@ -89,24 +93,25 @@ impl Particles {
         if distinct < FEWEST {
             return Err(InspectionError::Degenerate { distinct, particles: effort.count, row });
         }
-        Self::alive(particles, situation, before, distinct)
+        Self::alive(process, particles, state, before, distinct)
     }
 
     fn alive(
+        process: &'static dyn Process,
         particles: Vec<Particle>,
-        situation: &OperatingState,
+        state: &OperatingState,
         exposure: f64,
         distinct: usize,
     ) -> Result<Self, InspectionError> {
         let all = particles.len() as f64;
         let (mut lives, mut wear) = (Vec::new(), Vec::new());
-        for particle in particles.iter().filter(|particle| particle.wear < situation.threshold()) {
-            lives.push(situation.clone().worn(particle.wear, exposure)?.life_at(&particle.logs)?);
+        for particle in particles.iter().filter(|particle| particle.wear < state.threshold()) {
+            lives.push(state.at_wear(particle.wear, exposure).life_at(process, &particle.logs)?);
             wear.push(particle.wear);
         }
         if lives.is_empty() {
-            let (threshold, current) = (situation.threshold(), particles[0].wear);
-            return Err(crate::life::LifeError::Failed { threshold, current }.into());
+            let (threshold, current) = (state.threshold(), particles[0].wear);
+            return Err(LifeError::Failed { threshold, current }.into());
         }
         let failed_already = 1.0 - lives.len() as f64 / all;
         Ok(Self { lives, wear, failed_already, distinct })
@@ -117,7 +122,8 @@ impl Particles {
     pub fn wear(&self) -> (f64, f64) {
         let count = self.wear.len() as f64;
         let mean = self.wear.iter().sum::<f64>() / count;
-        (mean, (self.wear.iter().map(|wear| (wear - mean).powi(2)).sum::<f64>() / count).sqrt())
+        let square = |wear: &f64| (wear - mean) * (wear - mean);
+        (mean, libm::sqrt(self.wear.iter().map(square).sum::<f64>() / count))
     }
 
     /// Probability that wear had passed the threshold at the last reading already. The law of life is that of joints
@@ -134,8 +140,8 @@ impl Particles {
         let typical: Vec<f64> = self.lives.iter().map(Lifetime::typical).collect();
         let count = typical.len() as f64;
         let mean = typical.iter().sum::<f64>() / count;
-        let square = typical.iter().map(|t| (t - mean).powi(2)).sum::<f64>() / count;
-        (square / self.distinct as f64).sqrt()
+        let square = typical.iter().map(|t| (t - mean) * (t - mean)).sum::<f64>() / count;
+        libm::sqrt(square / self.distinct as f64)
     }
 
     /// Different draws of the prior that are left.
@@ -147,16 +153,15 @@ impl Particles {
 
 impl Particle {
     fn new(origin: usize, prior: &Estimate, draws: &mut Stream) -> Self {
-        let z: Vec<f64> = prior.logs().iter().map(|_| draws.sample(StandardNormal)).collect();
-        Self { origin, logs: moved(prior.logs(), &prior.factor().times(&z)), wear: 0.0 }
+        Self { origin, logs: prior.drawn_logs(draws), wear: 0.0 }
     }
 
     /// Draws the wear between two exposures.
-    fn wear_on(&mut self, before: f64, now: f64, draws: &mut Stream) {
-        let exponent = self.logs.get(2).map_or(1.0, |log| log.exp());
-        let shape = self.logs[0].exp() * (now.powf(exponent) - before.powf(exponent));
-        if shape > 0.0 {
-            self.wear += (draws.sample(LnGamma(shape)) - self.logs[1]).exp();
+    fn wear_on(&mut self, process: &dyn Process, before: f64, now: f64, draws: &mut Stream) {
+        let exponent = self.logs.get(2).map_or(1.0, |log| libm::exp(*log));
+        let exposure = libm::pow(now, exponent) - libm::pow(before, exponent);
+        if exposure > 0.0 {
+            self.wear += process.draw([self.logs[0], self.logs[1]], exposure, draws);
         }
     }
 }
@@ -166,7 +171,7 @@ fn effective(ln_weights: &[f64]) -> f64 {
     let top = ln_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (mut sum, mut squares) = (0.0, 0.0);
     for ln in ln_weights {
-        let weight = (ln - top).exp();
+        let weight = libm::exp(ln - top);
         sum += weight;
         squares += weight * weight;
     }
@@ -176,7 +181,7 @@ fn effective(ln_weights: &[f64]) -> f64 {
 /// Systematic resampling: one uniform number places a comb over the cumulated weights.
 fn resampled(particles: &[Particle], ln_weights: &[f64], uniform: f64) -> Vec<Particle> {
     let top = ln_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let weights: Vec<f64> = ln_weights.iter().map(|ln| (ln - top).exp()).collect();
+    let weights: Vec<f64> = ln_weights.iter().map(|ln| libm::exp(ln - top)).collect();
     let step = weights.iter().sum::<f64>() / particles.len() as f64;
     let (mut at, mut reached) = (0, weights[0]);
     let mut next = Vec::with_capacity(particles.len());

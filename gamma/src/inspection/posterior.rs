@@ -2,43 +2,32 @@
 //! In: readings, prior, threshold. Out: weighted nodes over the parameters; a [`Lifetime`] mixed from their closed forms.
 //! Never knows files.
 //!
-//! Nested quadrature: along ln beta for each ln alpha, along ln alpha for each exponent, along the exponent if it is a
+//! Nested quadrature: along the second parameter for each first, along the first for each exponent, along the exponent if it is a
 //! parameter. Each line gets its own points where its hump is, so narrow, skewed and funnel-shaped posteriors cost the
 //! same. Against a closed form the reliability is good to 1e-7 (test below).
 
 use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
-use super::likelihood::{Likelihood, Slice};
-use crate::life::{Estimate, FirstPassage, LifeError, Lifetime, OperatingState};
+use super::likelihood::Likelihood;
+use super::prior::Prior;
+use crate::error::LifeError;
+use crate::life::{FirstPassage, Lifetime, OperatingState};
+use crate::process::{Process, Slice};
 use crate::quadrature::Hump;
 
 /// Weight of all the lightest nodes together that are left out.
 const NEGLIGIBLE: f64 = 1e-8;
-/// A flat prior gives a finite variance from this many increments on: S(t) falls as t^-(increments - 1).
-const FINITE_VARIANCE: usize = 4;
 /// How far from the start a hump is looked for, in logarithms.
 const FARTHEST: f64 = 60.0;
 
 /// Largest logarithm of a parameter, either way, that is computed with.
 const LARGEST: f64 = 690.0;
 
-/// What was known before the readings.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Prior {
-    /// Nothing: flat in ln alpha and ln beta, and in ln exponent if that is a parameter.
-    Flat {
-        /// Whether exposure counts by an unknown power; else as it is.
-        power_law: bool,
-    },
-    /// An estimate from other units of the same population: normal in the logarithms of its parameters. Without
-    /// covariance the parameters are known, and readings say only where wear is.
-    Fit(Estimate),
-}
-
 /// Parameters of one joint as its readings leave them.
 #[derive(Debug)]
 pub struct Posterior {
+    process: &'static dyn Process,
     nodes: Vec<Node>,
     /// Increments, if the prior was flat.
     flat: Option<usize>,
@@ -62,26 +51,22 @@ pub struct LogParameter {
 }
 
 impl Posterior {
-    /// After the readings of `history`; `situation` gives threshold and exposure per unit of time, the last reading the
+    /// After the readings of `history`; `state` gives threshold and exposure per unit of time, the last reading the
     /// present.
     ///
     /// # Errors
     /// [`InspectionError`].
-    pub fn update(
-        history: &History,
-        prior: &Prior,
-        situation: &OperatingState,
-    ) -> Result<Self, InspectionError> {
+    pub fn update(history: &History, prior: &Prior, state: &OperatingState) -> Result<Self, InspectionError> {
         let last = history.last();
-        let now = situation.clone().worn(last.wear, situation.rate() * last.time)?;
+        let now = state.clone().worn(last.wear, state.rate() * last.time)?;
         let exposures: Vec<f64> =
-            history.readings().iter().map(|reading| situation.rate() * reading.time).collect();
+            history.readings().iter().map(|reading| state.rate() * reading.time).collect();
         let wear: Vec<f64> = history.readings().iter().map(|reading| reading.wear).collect();
-        let increments = wear.len() - 1;
+        let (increments, process) = (wear.len() - 1, prior.process());
         let (start, size, flat) = match prior {
             Prior::Fit(fit) if !fit.is_uncertain() => {
                 let node = Node { logs: fit.logs().to_vec(), weight: 1.0, life: now.life(fit)? };
-                return Ok(Self { nodes: vec![node], flat: None });
+                return Ok(Self { process, nodes: vec![node], flat: None });
             }
             Prior::Fit(fit) => {
                 let size = fit.logs().len();
@@ -90,23 +75,25 @@ impl Posterior {
                 }
                 (fit.logs().to_vec(), size, None)
             }
-            Prior::Flat { power_law } => {
+            Prior::Flat { power_law, .. } => {
                 let needed = if *power_law { 4 } else { 3 };
                 if increments + 1 < needed {
                     let why = "with a flat prior, one more than parameters";
                     return Err(InspectionError::TooFew { readings: increments + 1, needed, why });
                 }
-                // The exponential law of as many increments: right order of magnitude.
-                let total = exposures[increments] - exposures[0];
-                let start = vec![(increments as f64 / total).ln(), 0.0, 0.0];
-                (start, if *power_law { 3 } else { 2 }, Some(increments))
+                let steps =
+                    |values: &[f64]| values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+                let Some([first, second]) = process.maximum(&steps(&exposures), &steps(&wear)) else {
+                    return Err(InspectionError::Proportional { readings: wear.len() });
+                };
+                (vec![first, second, 0.0], if *power_law { 3 } else { 2 }, Some(increments))
             }
         };
         let lines = Lines { likelihood: Likelihood::new(&exposures, &wear, prior), start };
         let Some(points) = lines.points(size) else {
             return Err(InspectionError::Proportional { readings: wear.len() });
         };
-        Ok(Self { nodes: weighed(points, &now)?, flat })
+        Ok(Self { process, nodes: weighed(points, process, &now)?, flat })
     }
 
     /// Nodes of the quadrature.
@@ -115,14 +102,17 @@ impl Posterior {
         self.nodes.len()
     }
 
-    /// ln alpha, ln beta and perhaps ln exponent: mean and standard deviation.
+    /// Logarithms of the process's parameters and perhaps of the exponent: mean and standard deviation.
     #[must_use]
     pub fn parameters(&self) -> Vec<LogParameter> {
         let one = |at: usize| {
             let mean: f64 = self.nodes.iter().map(|node| node.weight * node.logs[at]).sum();
-            let square: f64 =
-                self.nodes.iter().map(|node| node.weight * (node.logs[at] - mean).powi(2)).sum();
-            LogParameter { mean, std: square.sqrt() }
+            let square: f64 = self
+                .nodes
+                .iter()
+                .map(|node| node.weight * (node.logs[at] - mean) * (node.logs[at] - mean))
+                .sum();
+            LogParameter { mean, std: libm::sqrt(square) }
         };
         (0..self.nodes[0].logs.len()).map(one).collect()
     }
@@ -158,15 +148,15 @@ impl Lifetime for Posterior {
     }
 
     fn finite_moments(&self) -> Result<(), LifeError> {
+        let Some(increments) = self.flat else { return Ok(()) };
         // T grows as e^(1/c) for small exponents c, whose probability falls only as a power.
-        if self.flat.is_some() && self.nodes[0].logs.len() == 3 {
+        if self.nodes[0].logs.len() == 3 {
             return Err(LifeError::HeavyExponent);
         }
-        match self.flat {
-            Some(increments) if increments < FINITE_VARIANCE => {
-                Err(LifeError::HeavyTail { increments, needed: FINITE_VARIANCE })
-            }
-            _ => Ok(()),
+        match self.process.increments_for_variance() {
+            None => Err(LifeError::HeavyDrift),
+            Some(needed) if increments < needed => Err(LifeError::HeavyTail { increments, needed }),
+            Some(_) => Ok(()),
         }
     }
 }
@@ -189,44 +179,44 @@ type Point = (Vec<f64>, f64);
 impl Lines<'_> {
     fn points(&self, size: usize) -> Option<Vec<Point>> {
         if size == 2 {
-            return self.over_alpha(0.0, &[]);
+            return self.over_first(0.0, &[]);
         }
         let area =
-            |ln_exponent: f64| self.alpha_hump(ln_exponent).map_or(f64::NEG_INFINITY, |hump| hump.ln_area());
+            |ln_exponent: f64| self.first_hump(ln_exponent).map_or(f64::NEG_INFINITY, |hump| hump.ln_area());
         let hump = Hump::find(&area, self.start[2], 0.3, FARTHEST)?;
         let mut points = Vec::new();
         for (ln_exponent, weight) in hump.points(&area) {
-            let line = self.over_alpha(ln_exponent, &[ln_exponent])?;
+            let line = self.over_first(ln_exponent, &[ln_exponent])?;
             points.extend(line.into_iter().map(|(logs, ln)| (logs, ln + weight)));
         }
         Some(points)
     }
 
-    fn alpha_hump(&self, ln_exponent: f64) -> Option<Hump> {
-        let area = |ln_alpha: f64| self.beta_hump(ln_alpha, ln_exponent).1.ln_area();
+    fn first_hump(&self, ln_exponent: f64) -> Option<Hump> {
+        let area = |ln_first: f64| self.second_hump(ln_first, ln_exponent).1.ln_area();
         Hump::find(&area, self.start[0], 0.5, FARTHEST)
     }
 
-    fn over_alpha(&self, ln_exponent: f64, more: &[f64]) -> Option<Vec<Point>> {
-        let area = |ln_alpha: f64| self.beta_hump(ln_alpha, ln_exponent).1.ln_area();
-        let hump = self.alpha_hump(ln_exponent)?;
+    fn over_first(&self, ln_exponent: f64, more: &[f64]) -> Option<Vec<Point>> {
+        let area = |ln_first: f64| self.second_hump(ln_first, ln_exponent).1.ln_area();
+        let hump = self.first_hump(ln_exponent)?;
         let mut points = Vec::new();
-        for (ln_alpha, weight) in hump.points(&area) {
-            let (slice, inner) = self.beta_hump(ln_alpha, ln_exponent);
-            let density = |ln_beta: f64| self.likelihood.at(&slice, ln_alpha, ln_beta, ln_exponent);
-            for (ln_beta, inner_weight) in inner.points(&density) {
-                let mut logs = vec![ln_alpha, ln_beta];
+        for (ln_first, weight) in hump.points(&area) {
+            let (slice, inner) = self.second_hump(ln_first, ln_exponent);
+            let density = |ln_second: f64| self.likelihood.at(&slice, &[ln_first, ln_second, ln_exponent]);
+            for (ln_second, inner_weight) in inner.points(&density) {
+                let mut logs = vec![ln_first, ln_second];
                 logs.extend(more);
-                points.push((logs, density(ln_beta) + inner_weight + weight));
+                points.push((logs, density(ln_second) + inner_weight + weight));
             }
         }
         Some(points)
     }
 
-    /// Concave in ln beta: the hump is always found.
-    fn beta_hump(&self, ln_alpha: f64, ln_exponent: f64) -> (Slice, Hump) {
-        let slice = self.likelihood.slice(ln_alpha, ln_exponent);
-        let density = |ln_beta: f64| self.likelihood.at(&slice, ln_alpha, ln_beta, ln_exponent);
+    /// Concave along the second parameter: the hump is always found.
+    fn second_hump(&self, ln_first: f64, ln_exponent: f64) -> (Slice, Hump) {
+        let slice = self.likelihood.slice(ln_first, ln_exponent);
+        let density = |ln_second: f64| self.likelihood.at(&slice, &[ln_first, ln_second, ln_exponent]);
         let empty = Hump { mode: slice.peak(), sigma: 1.0, top: f64::NEG_INFINITY };
         let hump = Hump::find(&density, slice.peak(), 0.1, 1e4).filter(|hump| hump.top.is_finite());
         (slice, hump.unwrap_or(empty))
@@ -234,23 +224,27 @@ impl Lines<'_> {
 }
 
 /// Weights that sum to 1, lives of the nodes that count.
-fn weighed(points: Vec<Point>, now: &OperatingState) -> Result<Vec<Node>, InspectionError> {
+fn weighed(
+    points: Vec<Point>,
+    process: &'static dyn Process,
+    now: &OperatingState,
+) -> Result<Vec<Node>, InspectionError> {
     let top = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
     let mut kept: Vec<Point> = points.into_iter().filter(|point| point.1 > f64::NEG_INFINITY).collect();
     // Heaviest first, until the rest does not count. The sort is stable: the same nodes in every run.
     kept.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let all: f64 = kept.iter().map(|point| (point.1 - top).exp()).sum();
+    let all: f64 = kept.iter().map(|point| libm::exp(point.1 - top)).sum();
     let mut total = 0.0;
     let enough = kept.iter().position(|point| {
-        total += (point.1 - top).exp();
+        total += libm::exp(point.1 - top);
         total > (1.0 - NEGLIGIBLE) * all
     });
     kept.truncate(enough.map_or(kept.len(), |last| last + 1));
     let node = |(logs, ln): Point| {
         // Under a flat prior a tail of weight 1e-8 reaches rates below the smallest number; there the first jump fails.
         let within: Vec<f64> = logs.iter().map(|log| log.clamp(-LARGEST, LARGEST)).collect();
-        let life = now.life_at(&within)?;
-        Ok(Node { logs, weight: (ln - top).exp() / total, life })
+        let life = now.life_at(process, &within)?;
+        Ok(Node { logs, weight: libm::exp(ln - top) / total, life })
     };
     kept.into_iter().map(node).collect()
 }

@@ -4,16 +4,17 @@ use rand::RngExt;
 use rand::distr::Open01;
 
 use super::*;
-use crate::life::{Clock, Estimate, FirstPassage, GammaLaw, LifeError, Lifetime, OperatingState};
+use crate::life::{Clock, Estimate, FirstPassage, Law, LifeError, Lifetime, OperatingState};
+use crate::process::Gamma;
 use crate::quadrature::integrate;
-use crate::random::{LnGamma, StandardNormal, Stream};
+use crate::random::{LnGamma, Stream};
 use crate::special::ln_gamma;
 
 const READINGS: [(f64, f64); 6] = [(0.0, 0.0), (1.0, 0.7), (2.0, 1.9), (3.5, 2.8), (4.0, 3.6), (5.0, 4.3)];
 
 fn history(rows: &[(f64, f64)]) -> History {
     let readings = rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear });
-    History::exact(readings.collect()).expect("rising")
+    History::exact(&Gamma, readings.collect()).expect("rising")
 }
 
 fn situation() -> OperatingState {
@@ -21,7 +22,7 @@ fn situation() -> OperatingState {
 }
 
 fn fit() -> Estimate {
-    let estimate = Estimate::exact(5.0, 6.0, None).expect("valid");
+    let estimate = Estimate::new(&Gamma, [5.0, 6.0], None).expect("valid");
     estimate.with_log_covariance(&[vec![0.09, 0.08], vec![0.08, 0.10]]).expect("positive")
 }
 
@@ -60,8 +61,12 @@ fn ln_marginal(rows: &[(f64, f64)], alpha: f64) -> f64 {
 fn a_flat_prior_agrees_with_the_beta_integral() {
     // beta given alpha is Gamma(alpha Lambda, W), so P(T > t | alpha) = I_rho(alpha t, alpha Lambda), rho = r / (r + W),
     // r the wear that is left: one integral over ln alpha is left, here a fine trapezoid sum.
-    let posterior = Posterior::update(&history(&READINGS), &Prior::Flat { power_law: false }, &situation())
-        .expect("proper");
+    let posterior = Posterior::update(
+        &history(&READINGS),
+        &Prior::Flat { process: &Gamma, power_law: false },
+        &situation(),
+    )
+    .expect("proper");
     let (exposure, wear) = READINGS[5];
     let rho = (10.0 - wear) / 10.0;
     for t in [2.0, 5.0, 6.5, 9.0, 15.0] {
@@ -103,7 +108,7 @@ fn a_fit_as_prior_agrees_with_brute_force() {
             if square > 60.0 {
                 continue;
             }
-            let law = GammaLaw::new(alpha, beta).expect("valid");
+            let law = Law::new(&Gamma, [alpha, beta]).expect("valid");
             let life = FirstPassage::new(law, Clock::linear(1.0).expect("valid"), 10.0 - 4.3).expect("valid");
             for (sum, t) in alive.iter_mut().zip(times) {
                 *sum += weight * life.reliability(t);
@@ -127,7 +132,7 @@ fn many_readings_outweigh_the_prior_and_none_leave_it() {
     let prior = fit();
     let nearly = prior.clone().with_log_covariance(&[vec![1e-10, 0.0], vec![0.0, 1e-10]]).expect("positive");
     let sharp = Posterior::update(&history(&READINGS), &Prior::Fit(nearly), &situation()).expect("proper");
-    let known = Estimate::exact(5.0, 6.0, None).expect("valid");
+    let known = Estimate::new(&Gamma, [5.0, 6.0], None).expect("valid");
     let point = Posterior::update(&history(&READINGS), &Prior::Fit(known), &situation()).expect("proper");
     assert_eq!(point.nodes(), 1);
     // Parameters known to 1e-5.
@@ -147,7 +152,7 @@ fn an_exponent_is_learned_too() {
         .collect();
     let mut rows = rows;
     rows.insert(0, (0.0, 0.0));
-    let flat = Prior::Flat { power_law: true };
+    let flat = Prior::Flat { process: &Gamma, power_law: true };
     let posterior =
         Posterior::update(&history(&rows), &flat, &OperatingState::new(6.0).expect("valid")).expect("proper");
     let exponent = posterior.parameters()[2];
@@ -161,8 +166,7 @@ fn an_exponent_is_learned_too() {
 
 /// A unit drawn from the prior: its readings at 0, 1, .. 6 until the threshold, and its true remaining life.
 fn unit(draws: &mut Stream, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> {
-    let z = [draws.sample(StandardNormal), draws.sample(StandardNormal)];
-    let logs = crate::life::moved(prior.logs(), &prior.factor().times(&z));
+    let logs = prior.drawn_logs(draws);
     let (alpha, beta) = (logs[0].exp(), logs[1].exp());
     let mut rows = vec![(0.0, 0.0)];
     let mut wear = 0.0;
@@ -174,7 +178,7 @@ fn unit(draws: &mut Stream, prior: &Estimate) -> Option<(Vec<(f64, f64)>, f64)> 
         return None;
     }
     // Its life given what is left, by the law of passage of its own parameters.
-    let law = GammaLaw::new(alpha, beta).ok()?;
+    let law = Law::new(&Gamma, [alpha, beta]).ok()?;
     let life = FirstPassage::new(law, Clock::linear(1.0).ok()?, 10.0 - wear).ok()?;
     Some((rows, life.quantile(draws.sample(Open01)).ok()?))
 }
@@ -240,7 +244,7 @@ fn a_coarse_gauge_bears_readings_that_fall() {
 
 #[test]
 fn what_cannot_be_learned_from_is_refused() {
-    let flat = Prior::Flat { power_law: false };
+    let flat = Prior::Flat { process: &Gamma, power_law: false };
     let two = history(&READINGS[..2]);
     assert!(matches!(
         Posterior::update(&two, &flat, &situation()),

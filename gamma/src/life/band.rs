@@ -1,17 +1,17 @@
 //! Bands: what the uncertainty of estimated parameters leaves open about reliability, quantiles and means.
-//! In: an estimate with its covariance, a situation. Out: intervals. Never knows how the covariance was found.
+//! In: an estimate with its covariance, a state. Out: intervals. Never knows how the covariance was found.
 //!
 //! Delta method: a value is linear in the logarithms of the parameters on a scale on which it is unbounded, the logit for
 //! probabilities, the logarithm for times; half-width z times its standard error there, carried back. Draws: parameters
 //! from the normal law of their logarithms, quantiles of the values they give.
 
-use rand::RngExt;
-
-use super::error::LifeError;
-use super::estimate::{Estimate, OperatingState, moved};
+use super::estimate::Estimate;
 use super::first_passage::FirstPassage;
 use super::lifetime::Lifetime;
-use crate::random::{StandardNormal, Stream};
+use super::state::OperatingState;
+use crate::error::LifeError;
+use crate::order::sorted_quantile;
+use crate::random::Stream;
 use crate::special::normal_quantile;
 
 /// Step of the differences in the logarithms of the parameters: error 1e-8 by curvature, 1e-12 by rounding.
@@ -50,11 +50,11 @@ pub enum Method {
     },
 }
 
-/// Bands of one situation.
+/// Bands of one state.
 #[derive(Debug)]
 pub struct Bands<'a> {
     estimate: &'a Estimate,
-    situation: &'a OperatingState,
+    state: &'a OperatingState,
     life: FirstPassage,
     z: f64,
     level: f64,
@@ -91,14 +91,14 @@ impl<'a> Bands<'a> {
     /// [`LifeError::Probability`] for the level; [`LifeError`] if drawn parameters leave the range of numbers.
     pub fn new(
         estimate: &'a Estimate,
-        situation: &'a OperatingState,
+        state: &'a OperatingState,
         level: f64,
         method: Method,
     ) -> Result<Self, LifeError> {
         if !(level > 0.0 && level < 1.0) {
             return Err(LifeError::Probability { value: level });
         }
-        let life = situation.life(estimate)?;
+        let life = state.life(estimate)?;
         let z = normal_quantile(0.5 + 0.5 * level);
         let drawn = match method {
             Method::Delta => Vec::new(),
@@ -106,14 +106,13 @@ impl<'a> Bands<'a> {
                 // One stream for each draw, the joint 0: more draws leave the first ones as they are.
                 let mut lives = Vec::with_capacity(count);
                 for at in 0..count {
-                    let mut draws = Stream::new(seed, at as u64, 0);
-                    let z: Vec<f64> = estimate.logs().iter().map(|_| draws.sample(StandardNormal)).collect();
-                    lives.push(situation.life_at(&moved(estimate.logs(), &estimate.factor().times(&z)))?);
+                    let logs = estimate.drawn_logs(&mut Stream::new(seed, at as u64, 0));
+                    lives.push(state.life_at(estimate.process(), &logs)?);
                 }
                 lives
             }
         };
-        Ok(Self { estimate, situation, life, z, level, drawn })
+        Ok(Self { estimate, state, life, z, level, drawn })
     }
 
     /// Probability of no failure until `t` from now.
@@ -152,7 +151,7 @@ impl<'a> Bands<'a> {
         if !self.drawn.is_empty() {
             let mut values = self.drawn.iter().map(of).collect::<Result<Vec<f64>, _>>()?;
             values.sort_by(f64::total_cmp);
-            let at = |p: f64| super::statistics::sorted_quantile(&values, p);
+            let at = |p: f64| sorted_quantile(&values, p);
             let tail = 0.5 - 0.5 * self.level;
             return Ok(Band { value, lower: at(tail), upper: at(1.0 - tail) });
         }
@@ -166,7 +165,7 @@ impl<'a> Bands<'a> {
             let shifted = |step: f64| -> Result<f64, LifeError> {
                 let mut logs = self.estimate.logs().to_vec();
                 logs[at] += step;
-                Ok(scale.out(of(&self.situation.life_at(&logs)?)?))
+                Ok(scale.out(of(&self.state.life_at(self.estimate.process(), &logs)?)?))
             };
             gradient.push((shifted(STEP)? - shifted(-STEP)?) / (2.0 * STEP));
         }
@@ -183,6 +182,7 @@ impl<'a> Bands<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process::Gamma;
     use crate::special::trigamma;
 
     /// The published fit of the GaAs lasers with the inverse of its information. All 240 increments have the exposure
@@ -194,13 +194,16 @@ mod tests {
         let determinant = aa * bb - ab * ab;
         let covariance =
             [vec![bb / determinant, -ab / determinant], vec![-ab / determinant, aa / determinant]];
-        Estimate::exact(alpha, beta, None).expect("valid").with_covariance(&covariance).expect("positive")
+        Estimate::new(&Gamma, [alpha, beta], None)
+            .expect("valid")
+            .with_covariance(&covariance)
+            .expect("positive")
     }
 
     #[test]
     fn the_published_band_of_the_lasers_is_the_delta_method_on_the_logit_scale() {
-        let (estimate, situation) = (lasers(), OperatingState::new(10.0).expect("valid"));
-        let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
+        let (estimate, state) = (lasers(), OperatingState::new(10.0).expect("valid"));
+        let bands = Bands::new(&estimate, &state, 0.95, Method::Delta).expect("valid");
         let band = bands.reliability(5.0).expect("valid");
         // Five published decimals: S(5) = .42377, 95 % band .22976 to .64453 (SurPyval 0.25).
         assert!((band.value - 0.42377).abs() < 5e-6, "{band:?}");
@@ -209,10 +212,10 @@ mod tests {
 
     #[test]
     fn draws_agree_with_the_delta_method_where_uncertainty_is_small() {
-        let (estimate, situation) = (lasers(), OperatingState::new(10.0).expect("valid"));
-        let delta = Bands::new(&estimate, &situation, 0.9, Method::Delta).expect("valid");
+        let (estimate, state) = (lasers(), OperatingState::new(10.0).expect("valid"));
+        let delta = Bands::new(&estimate, &state, 0.9, Method::Delta).expect("valid");
         let draws =
-            Bands::new(&estimate, &situation, 0.9, Method::Draws { count: 2000, seed: 7 }).expect("valid");
+            Bands::new(&estimate, &state, 0.9, Method::Draws { count: 2000, seed: 7 }).expect("valid");
         for p in [0.1, 0.5, 0.9] {
             let (a, b) = (delta.quantile(p).expect("valid"), draws.quantile(p).expect("valid"));
             // 2000 draws: an end has a standard error of 0.047 half-widths at 90 %; three of them, and curvature.
@@ -220,28 +223,28 @@ mod tests {
             assert!((a.upper - b.upper).abs() < 0.2 * a.half_width(), "{a:?} {b:?}");
         }
         let again =
-            Bands::new(&estimate, &situation, 0.9, Method::Draws { count: 2000, seed: 7 }).expect("valid");
+            Bands::new(&estimate, &state, 0.9, Method::Draws { count: 2000, seed: 7 }).expect("valid");
         assert_eq!(draws.quantile(0.1), again.quantile(0.1));
         let other =
-            Bands::new(&estimate, &situation, 0.9, Method::Draws { count: 2000, seed: 8 }).expect("valid");
+            Bands::new(&estimate, &state, 0.9, Method::Draws { count: 2000, seed: 8 }).expect("valid");
         assert_ne!(draws.quantile(0.1), other.quantile(0.1));
     }
 
     #[test]
     fn known_parameters_leave_nothing_open() {
-        let estimate = Estimate::exact(28.0, 14.0, None).expect("valid");
-        let situation = OperatingState::new(10.0).expect("valid");
-        let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
+        let estimate = Estimate::new(&Gamma, [28.0, 14.0], None).expect("valid");
+        let state = OperatingState::new(10.0).expect("valid");
+        let bands = Bands::new(&estimate, &state, 0.95, Method::Delta).expect("valid");
         assert_eq!(bands.mean().expect("finite").half_width(), 0.0);
     }
 
     #[test]
     fn a_uniform_scale_of_time_moves_the_median_by_the_same_factor() {
         // Uncertain beta alone: the life is near beta W / alpha, so ln T moves by the step of ln beta, nearly.
-        let estimate = Estimate::exact(1000.0, 1000.0, None).expect("valid");
+        let estimate = Estimate::new(&Gamma, [1000.0, 1000.0], None).expect("valid");
         let estimate = estimate.with_log_covariance(&[vec![0.0, 0.0], vec![0.0, 1e-4]]).expect("valid");
-        let situation = OperatingState::new(1.0).expect("valid");
-        let bands = Bands::new(&estimate, &situation, 0.95, Method::Delta).expect("valid");
+        let state = OperatingState::new(1.0).expect("valid");
+        let bands = Bands::new(&estimate, &state, 0.95, Method::Delta).expect("valid");
         let band = bands.quantile(0.5).expect("valid");
         // d ln T / d ln beta = 1 but for terms of order 1 / (beta W) = 1e-3.
         assert!(((band.upper / band.value).ln() / (1.96 * 0.01) - 1.0).abs() < 2e-3, "{band:?}");

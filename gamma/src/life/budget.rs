@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use serde_json::{Map, Value, json};
+
 use super::band::Band;
 use super::statistics::WithError;
 
@@ -69,6 +71,25 @@ impl ErrorBudget {
         [("monte_carlo", self.monte_carlo), ("table", self.table), ("parameters", self.parameters)]
     }
 
+    /// The contributions with their kinds and reasons, and the total.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let entry = |part: Contribution| match part {
+            Contribution::Random(half) => json!({ "half_width": half, "kind": "random" }),
+            Contribution::Bound(half) => json!({ "half_width": half, "kind": "bound" }),
+            Contribution::None(reason) => json!({ "half_width": 0.0, "kind": "none", "reason": reason }),
+        };
+        let parts = self.parts().into_iter().map(|(name, part)| (name.to_owned(), entry(part)));
+        parts.chain([("total".to_owned(), json!(self.total()))]).collect()
+    }
+
+    /// The half-widths alone, as `life` has them, and the total.
+    #[must_use]
+    pub fn half_widths_json(&self) -> Value {
+        let parts = self.parts().into_iter().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
+        json!({ "half_widths_95": parts.collect::<Map<_, _>>(), "total": self.total() })
+    }
+
     /// Half-width of all together.
     #[must_use]
     pub fn total(&self) -> f64 {
@@ -80,7 +101,7 @@ impl ErrorBudget {
                 Contribution::None(_) => {}
             }
         }
-        squares.sqrt() + bounds
+        libm::sqrt(squares) + bounds
     }
 }
 

@@ -1,6 +1,6 @@
 //! How exposure Lambda runs with time, [CS (22)]. In: a time. Out: Lambda and its rate. Never knows wear.
 
-use super::error::{LifeError, positive};
+use crate::error::{LifeError, positive};
 
 /// Exposure as a function of time.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,23 +1,21 @@
-//! First passage of the Gamma process [CS (21)] in closed form, where exposure is a known function of time.
+//! First passage of a process in closed form, where exposure is a known function of time.
 //! In: law, clock, present time, wear that is left. Out: a [`Lifetime`]. Never knows uncertainty of parameters.
 //!
-//! Wear does not fall, so T <= t means W(t) >= threshold:
+//! For a process that does not fall, such as the Gamma process [CS (21)], T <= t means W(t) >= threshold:
 //!
 //! ```text
 //! P(T <= t) = Q(alpha [Lambda(now + t) - Lambda(now)], beta [threshold - current])
 //! ```
 
 use super::clock::Clock;
-use super::error::{LifeError, non_negative};
-use super::law::GammaLaw;
+use super::law::Law;
 use super::lifetime::Lifetime;
-use super::slope::hazard_in_shape;
-use crate::special::{gamma_p, gamma_q};
+use crate::error::{LifeError, non_negative, positive};
 
 /// Remaining life of one joint; time runs from the present, in the clock's unit.
 #[derive(Clone, Debug)]
 pub struct FirstPassage {
-    law: GammaLaw,
+    law: Law,
     clock: Clock,
     now: f64,
     exposure_now: f64,
@@ -29,7 +27,7 @@ impl FirstPassage {
     ///
     /// # Errors
     /// [`LifeError::NotPositive`] for the threshold.
-    pub fn new(law: GammaLaw, clock: Clock, threshold: f64) -> Result<Self, LifeError> {
+    pub fn new(law: Law, clock: Clock, threshold: f64) -> Result<Self, LifeError> {
         Self::from(law, clock, threshold, 0.0, 0.0)
     }
 
@@ -37,55 +35,51 @@ impl FirstPassage {
     ///
     /// # Errors
     /// [`LifeError::Failed`] if nothing is left to wear, [`LifeError::Negative`], [`LifeError::NotPositive`].
-    pub fn from(
-        law: GammaLaw,
-        clock: Clock,
-        threshold: f64,
-        current: f64,
-        now: f64,
-    ) -> Result<Self, LifeError> {
-        super::error::positive("the threshold", threshold)?;
+    pub fn from(law: Law, clock: Clock, threshold: f64, current: f64, now: f64) -> Result<Self, LifeError> {
+        positive("the threshold", threshold)?;
         non_negative("the present wear", current)?;
         non_negative("the present time", now)?;
         if current >= threshold {
             return Err(LifeError::Failed { threshold, current });
         }
-        let exposure_now = clock.exposure(now);
-        Ok(Self { law, clock, now, exposure_now, left: threshold - current })
+        Ok(Self::with_left(law, clock, threshold - current, now))
     }
 
-    /// Exposure gained until `t` from now.
+    /// A joint with `left` > 0 to wear at time `now` of its clock.
+    pub(crate) fn with_left(law: Law, clock: Clock, left: f64, now: f64) -> Self {
+        let exposure_now = clock.exposure(now);
+        Self { law, clock, now, exposure_now, left }
+    }
+
+    /// Exposure gained until `t` from now; none before.
     #[must_use]
     pub fn exposure(&self, t: f64) -> f64 {
-        (self.clock.exposure(self.now + t) - self.exposure_now).max(0.0)
+        (self.clock.exposure(self.now + t.max(0.0)) - self.exposure_now).max(0.0)
     }
 
     /// Reliability if exposure runs `factor` times as fast.
     #[must_use]
     pub fn reliability_at(&self, t: f64, factor: f64) -> f64 {
-        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
-        if shape > 0.0 { gamma_p(shape, self.law.beta() * self.left) } else { 1.0 }
+        self.law.survival(factor * self.exposure(t), self.left)
     }
 
     /// Probability of failure until `t` if exposure runs `factor` times as fast.
     #[must_use]
     pub fn failed_at(&self, t: f64, factor: f64) -> f64 {
-        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
-        if shape > 0.0 { gamma_q(shape, self.law.beta() * self.left) } else { 0.0 }
+        self.law.failure(factor * self.exposure(t), self.left)
+    }
+
+    /// Hazard if exposure runs `factor` times as fast.
+    #[must_use]
+    pub fn hazard_at(&self, t: f64, factor: f64) -> f64 {
+        let rate = factor * self.clock.rate(self.now + t.max(0.0));
+        rate * self.law.hazard(factor * self.exposure(t), self.left)
     }
 
     /// The clock it wears by.
     #[must_use]
     pub fn clock(&self) -> &Clock {
         &self.clock
-    }
-
-    /// Hazard if exposure runs `factor` times as fast.
-    #[must_use]
-    pub fn hazard_at(&self, t: f64, factor: f64) -> f64 {
-        let shape = factor * self.law.alpha() * self.exposure(t.max(0.0));
-        let rate = factor * self.law.alpha() * self.clock.rate(self.now + t.max(0.0));
-        rate * hazard_in_shape(shape, self.law.beta() * self.left)
     }
 
     /// Probability of outliving the clock's table, beyond which exposure is extrapolated; 0 without a table.
@@ -104,11 +98,9 @@ impl Lifetime for FirstPassage {
         self.failed_at(t, 1.0)
     }
 
-    /// When the mean wear reaches the threshold.
+    /// When exposure reaches its mean at the passage.
     fn typical(&self) -> f64 {
-        // Half a unit of shape more: the mean exposure at passage but for e^-(beta left).
-        let shape = self.law.beta() * self.left + 0.5;
-        self.clock.time(self.exposure_now + shape / self.law.alpha()) - self.now
+        self.clock.time(self.exposure_now + self.law.mean_exposure(self.left)) - self.now
     }
 
     fn breaks(&self) -> Vec<f64> {
@@ -123,10 +115,11 @@ impl Lifetime for FirstPassage {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process::Gamma;
 
     /// GaAs lasers (Meeker & Escobar, 1998, table C.17), fit of the R package `gammaprocesses`; exposure = hours/1000.
-    fn lasers() -> GammaLaw {
-        GammaLaw::new(28.75350606, 14.11445933).expect("valid")
+    fn lasers() -> Law {
+        Law::new(&Gamma, [28.75350606, 14.11445933]).expect("valid")
     }
 
     fn clock() -> Clock {

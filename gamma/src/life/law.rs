@@ -1,63 +1,55 @@
-//! The Gamma law of a wear increment, [CS (21)]. In and out: numbers. Never knows time.
+//! The law of wear: a process with its parameters. In and out: numbers. Never knows time.
 
-use super::error::{LifeError, positive};
+use crate::error::{LifeError, positive};
+use crate::process::Process;
 
-/// dW ~ Gamma(shape `alpha` dLambda, rate `beta`): mean alpha dLambda / beta, variance alpha dLambda / beta².
+/// A process with its two parameters, in the units of the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GammaLaw {
-    alpha: f64,
-    beta: f64,
+pub struct Law {
+    process: &'static dyn Process,
+    logs: [f64; 2],
 }
 
-impl GammaLaw {
-    /// `alpha` [1 / unit of exposure], `beta` [1 / unit of wear].
+impl Law {
+    /// The parameters in the order of [`Process::parameters`].
     ///
     /// # Errors
     /// [`LifeError::NotPositive`].
-    pub fn new(alpha: f64, beta: f64) -> Result<Self, LifeError> {
-        Ok(Self { alpha: positive("alpha", alpha)?, beta: positive("beta", beta)? })
+    pub fn new(process: &'static dyn Process, parameters: [f64; 2]) -> Result<Self, LifeError> {
+        let names = process.parameters();
+        let logs = [0, 1].map(|at: usize| positive(names[at], parameters[at]).map(libm::log));
+        let [first, second] = logs;
+        Ok(Self { process, logs: [first?, second?] })
     }
 
-    /// Shape per unit of exposure.
-    #[must_use]
-    pub fn alpha(&self) -> f64 {
-        self.alpha
+    /// The same from the logarithms of the parameters.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`] for parameters out of the range of numbers.
+    pub(crate) fn from_logs(process: &'static dyn Process, logs: [f64; 2]) -> Result<Self, LifeError> {
+        for (name, log) in process.parameters().into_iter().zip(logs) {
+            positive(name, libm::exp(log))?;
+        }
+        Ok(Self { process, logs })
     }
 
-    /// Rate [1 / unit of wear].
-    #[must_use]
-    pub fn beta(&self) -> f64 {
-        self.beta
+    /// Probability that wear stays below `left` throughout an exposure.
+    pub(crate) fn survival(&self, exposure: f64, left: f64) -> f64 {
+        if exposure > 0.0 { self.process.survival(self.logs, exposure, left) } else { 1.0 }
     }
 
-    /// Mean wear over an exposure, [CS (23)] [unit of wear].
-    #[must_use]
-    pub fn mean(&self, exposure: f64) -> f64 {
-        self.alpha * exposure / self.beta
+    /// Probability that wear reaches `left` within an exposure.
+    pub(crate) fn failure(&self, exposure: f64, left: f64) -> f64 {
+        if exposure > 0.0 { self.process.failure(self.logs, exposure, left) } else { 0.0 }
     }
 
-    /// Variance of the wear over an exposure, [CS (24)] [unit of wear squared].
-    #[must_use]
-    pub fn variance(&self, exposure: f64) -> f64 {
-        self.alpha * exposure / (self.beta * self.beta)
+    /// Failures per unit of exposure among the survivors.
+    pub(crate) fn hazard(&self, exposure: f64, left: f64) -> f64 {
+        self.process.hazard(self.logs, exposure, left)
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::super::LifeStatistics;
-    use super::*;
-    use crate::random::{LnGamma, Stream};
-    use rand::RngExt;
-
-    #[test]
-    fn drawn_increments_have_mean_and_variance_of_the_law() {
-        let law = GammaLaw::new(3.0, 2.0).expect("valid");
-        let mut draws = Stream::new(9, 0, 0);
-        let drawn: Vec<f64> = (0..20_000).map(|_| draws.sample(LnGamma(3.0 * 0.7)).exp() / 2.0).collect();
-        let seen = LifeStatistics::of(&drawn).expect("positive");
-        // Three standard errors of a fixed seed.
-        assert!((seen.mean().value - law.mean(0.7)).abs() < 3.0 * seen.mean().error);
-        assert!((seen.std().value - law.variance(0.7).sqrt()).abs() < 3.0 * seen.std().error);
+    /// Mean exposure at which wear reaches `left`.
+    pub(crate) fn mean_exposure(&self, left: f64) -> f64 {
+        self.process.mean_exposure(self.logs, left)
     }
 }

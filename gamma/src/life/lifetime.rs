@@ -1,8 +1,9 @@
 //! What every law of life can tell from its reliability function: quantiles, moments, whole cycles, hazard.
 //! In: reliability over time from the present. Out: numbers in the unit of that time. Never knows wear.
 
-use super::error::LifeError;
+use crate::error::LifeError;
 use crate::quadrature::integrate;
+use crate::special::rising_root;
 
 /// Survivors that are no longer counted, as a part of the accuracy asked for.
 const GONE: f64 = 1e-5;
@@ -82,16 +83,7 @@ pub trait Lifetime {
         }
         // The smaller of the two tails keeps its digits.
         let miss = |t: f64| if p <= 0.5 { self.failed(t) - p } else { (1.0 - p) - self.reliability(t) };
-        let mut high = self.typical();
-        while miss(high) < 0.0 && high < f64::MAX / 4.0 {
-            high *= 2.0;
-        }
-        let mut low = 0.5 * high;
-        while miss(low) > 0.0 && low > 1e-300 {
-            high = low;
-            low *= 0.5;
-        }
-        Ok(root(&miss, low, high))
+        Ok(rising_root(&miss, self.typical()))
     }
 
     /// Mean and standard deviation, time as it runs, by integrals of failed part and survivors; relative accuracy ten times
@@ -156,37 +148,6 @@ fn end(reliability: &dyn Fn(f64) -> f64, scale: f64, gone: f64) -> f64 {
         end *= 1.5;
     }
     end
-}
-
-/// Root of a rising function between `low` and `high`, by Ridders' method: halving with exponential correction.
-fn root(f: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let (mut f_low, mut f_high) = (f(low), f(high));
-    for _ in 0..80 {
-        if f_low == 0.0 {
-            return low;
-        }
-        if f_high == 0.0 {
-            return high;
-        }
-        let middle = 0.5 * (low + high);
-        if high - low <= 1e-13 * middle {
-            break;
-        }
-        let f_middle = f(middle);
-        let spread = (f_middle * f_middle - f_low * f_high).sqrt();
-        let step = if spread > 0.0 { (middle - low) * f_middle / spread } else { 0.0 };
-        let better = (middle - step).clamp(low, high);
-        let f_better = f(better);
-        for (t, value) in [(middle, f_middle), (better, f_better)] {
-            if value <= 0.0 && t > low {
-                (low, f_low) = (t, value);
-            }
-            if value >= 0.0 && t < high {
-                (high, f_high) = (t, value);
-            }
-        }
-    }
-    0.5 * (low + high)
 }
 
 #[cfg(test)]

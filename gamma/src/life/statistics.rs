@@ -1,7 +1,8 @@
 //! Statistics of simulated lives with their Monte-Carlo standard errors. In: lives. Out: mean, spread, quantiles.
 //! Never knows where lives come from.
 
-use super::error::LifeError;
+use crate::error::LifeError;
+use crate::order::sorted_quantile;
 
 /// A statistic and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,15 +111,6 @@ impl LifeStatistics {
         let count = self.sorted.len() as f64;
         (self.central[0] * count / (count - 1.0)).sqrt()
     }
-}
-
-/// Quantile of ascending values by linear interpolation, `p` in \[0, 1\].
-pub(super) fn sorted_quantile(sorted: &[f64], p: f64) -> f64 {
-    let place = p * (sorted.len() - 1) as f64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the length")]
-    let below = place.floor() as usize;
-    let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use rand::RngExt;
 
 use super::*;
+use crate::process::Gamma;
 use crate::random::{LnGamma, Stream};
 
 /// Wear on a bearing like that of the case study: threshold 80 um, some 3.2 um of mean wear a cycle, alpha = beta, and
@@ -53,7 +54,7 @@ fn path(rows: &[(f64, f64)], draws: &mut Stream) -> (f64, f64) {
 #[test]
 fn hundred_thousand_paths_agree_with_the_closed_form() {
     let rows = rows();
-    let law = GammaLaw::new(RATE, RATE).expect("valid");
+    let law = Law::new(&Gamma, [RATE, RATE]).expect("valid");
     let life = FirstPassage::new(law, Clock::table(rows.clone()).expect("rising"), THRESHOLD).expect("valid");
     let (whole, running): (Vec<f64>, Vec<f64>) =
         (0..100_000).map(|trajectory| path(&rows, &mut Stream::new(1, trajectory, 0))).unzip();
@@ -70,7 +71,7 @@ fn hundred_thousand_paths_agree_with_the_closed_form() {
 
 #[test]
 fn whole_cycles_add_half_a_cycle() {
-    let law = GammaLaw::new(RATE, RATE).expect("valid");
+    let law = Law::new(&Gamma, [RATE, RATE]).expect("valid");
     let life = FirstPassage::new(law, Clock::table(rows()).expect("rising"), THRESHOLD).expect("valid");
     let (running, whole) = (life.moments().expect("finite"), life.whole_cycles().expect("finite"));
     // Lives spread over about one cycle: the sum over cycles is the integral and a half but for 2 exp(-2 pi² s²) cycle.

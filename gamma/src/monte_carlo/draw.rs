@@ -7,12 +7,14 @@ use rand::RngExt;
 use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::IncrementModel;
 
-use crate::life::LifeError;
+use crate::error::LifeError;
 use crate::random::{LnGamma, Stream};
 use crate::series::SharedFactor;
 
-/// Wear in this layer is counted in micrometres.
-const MICRO: f64 = 1e-6;
+/// A micrometre in metres: wear of the processes is counted in it.
+pub const MICRO: f64 = 1e-6;
+/// Micrometres in a metre.
+pub const PER_METRE: f64 = 1.0 / MICRO;
 /// Number of the stream that a trajectory draws its shared factor from: no joint has it.
 const TRAJECTORY: u64 = u64::MAX;
 

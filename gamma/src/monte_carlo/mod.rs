@@ -4,5 +4,5 @@
 mod draw;
 mod trajectories;
 
-pub use draw::{GammaDraw, GammaMean};
+pub use draw::{GammaDraw, GammaMean, MICRO, PER_METRE};
 pub use trajectories::{Ended, Lives, MonteCarlo, Scale};

@@ -1,54 +1,32 @@
-//! Lambda by exposure, from a file. In: the JSON of `life`, or a CSV of exposure and Lambda. Out: a table to look up.
+//! Lambda by exposure, from a file. In: the JSON of `life`, or a CSV of exposure and Lambda. Out: straight lines.
 //! Never knows readings.
 
 use std::fs;
 use std::path::Path;
 
+use linkwear_gamma::life::Clock;
+use linkwear_gamma::monte_carlo::PER_METRE;
 use serde_json::Value;
 
+use super::super::csv_table::{CsvTable, fault};
 use super::super::failure::Failure;
-use super::read::{Table, fault};
 
-/// Micrometres in a metre.
-const MICRO: f64 = 1e6;
-
-/// Lambda at rising exposures, linear between them.
-pub struct LambdaTable(Vec<(f64, f64)>);
-
-impl LambdaTable {
-    /// Lambda at an exposure; none outside.
-    pub fn at(&self, exposure: f64) -> Option<f64> {
-        let above = self.0.partition_point(|(known, _)| *known < exposure);
-        let (x1, y1) = *self.0.get(above)?;
-        if x1 == exposure {
-            return Some(y1);
-        }
-        let (x0, y0) = *self.0.get(above.checked_sub(1)?)?;
-        Some(y0 + (y1 - y0) * (exposure - x0) / (x1 - x0))
-    }
-
-    /// The largest exposure.
-    pub fn end(&self) -> f64 {
-        self.0.last().map_or(0.0, |(exposure, _)| *exposure)
-    }
-}
-
-/// Reads either kind; both begin at (0, 0).
-pub fn lambda_table(path: &Path) -> Result<LambdaTable, Failure> {
+/// Lambda by exposure, straight lines from (0, 0) on, and the largest exposure.
+pub fn lambda_table(path: &Path) -> Result<(Clock, f64), Failure> {
     let mut points = vec![(0.0, 0.0)];
     if path.extension().is_some_and(|extension| extension == "json") {
         points.extend(of_life(path)?);
     } else {
-        let table = Table::read(path)?;
-        let (exposures, lambdas) = (table.numbers(0)?, table.numbers(1)?);
+        let table = CsvTable::read(path)?;
+        let (exposures, lambdas) = (table.numbers_at(0)?, table.numbers_at(1)?);
         points.extend(exposures.into_iter().zip(lambdas).filter(|(exposure, _)| *exposure > 0.0));
     }
-    let rising = points.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 < pair[1].1);
-    if !rising || points.len() < 2 {
-        let message = format!("`{}` has no Lambda that rises with exposure", path.display());
-        return Err(fault(path, None, message, "two columns, exposure and Lambda, both rising"));
-    }
-    Ok(LambdaTable(points))
+    let end = points.last().map_or(0.0, |(exposure, _)| *exposure);
+    let clock = Clock::table(points).map_err(|error| {
+        let message = format!("`{}` has no Lambda that rises with exposure: {error}", path.display());
+        fault(path, None, message, "two columns, exposure and Lambda, both rising")
+    })?;
+    Ok((clock, end))
 }
 
 /// Lambda [um], the unit of the Gamma layer, after each cycle of the joint that failed.
@@ -64,21 +42,9 @@ fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
     let mut points = Vec::new();
     for (at, cycle) in life["cycles"].as_array().ok_or_else(foreign)?.iter().enumerate() {
         let mut joints = cycle["joints"].as_array().ok_or_else(foreign)?.iter();
-        let own = joints.find(|entry| entry["joint"] == joint).ok_or_else(foreign)?;
-        sum += MICRO * own["dLambda_m"].as_f64().ok_or_else(foreign)?;
+        let entry = joints.find(|entry| entry["joint"] == joint).ok_or_else(foreign)?;
+        sum += PER_METRE * entry["dLambda_m"].as_f64().ok_or_else(foreign)?;
         points.push(((at + 1) as f64, sum));
     }
     Ok(points)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lambda_is_linear_between_points_and_unknown_outside() {
-        let table = LambdaTable(vec![(0.0, 0.0), (2.0, 4.0), (3.0, 5.0)]);
-        assert_eq!([0.0, 1.0, 2.0, 2.5, 3.0].map(|x| table.at(x)), [0.0, 2.0, 4.0, 4.5, 5.0].map(Some));
-        assert_eq!(table.at(3.1), None);
-    }
 }

@@ -3,13 +3,14 @@
 use std::fmt::Write as _;
 
 use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
+use linkwear_gamma::process::Process;
 use serde_json::{Value, json};
 
 use super::super::arguments::FitArguments;
 use super::super::table::{number, table};
-use super::{Analysis, LEVEL};
+use super::analysis::{Analysis, LEVEL};
 
-pub fn machine(
+pub fn to_json(
     arguments: &FitArguments,
     pooled: &Analysis,
     parts: &[Analysis],
@@ -26,27 +27,23 @@ pub fn machine(
     value
 }
 
-/// What a prediction needs: the fit, and whether its exposure is Lambda already.
-pub fn fitted(arguments: &FitArguments, fit: &Fit) -> Value {
-    let mut value = json!(fit);
-    value["over_lambda"] = json!(arguments.lambda.is_some());
-    value
-}
-
-fn warnings(fit: &Fit) -> Vec<&'static str> {
-    if fit.units == 1 { vec!["one unit only; how units differ cannot be seen"] } else { Vec::new() }
+fn warnings(analysis: &Analysis) -> Vec<&'static str> {
+    let one = analysis.file.units == 1;
+    if one { vec!["one unit only; how units differ cannot be seen"] } else { Vec::new() }
 }
 
 fn one(arguments: &FitArguments, own: &Analysis) -> Value {
     let fit = &own.fit;
     let errors = fit.standard_errors();
-    let mut value = fitted(arguments, fit);
+    let mut value = own.file.to_json();
+    value["name"] = json!(own.name);
+    for (name, error) in fit.model.process.parameters().into_iter().zip(&errors) {
+        value[format!("se_{name}")] = json!(error);
+    }
     let more = json!({
-        "name": own.name,
-        "se_alpha": errors[0], "se_beta": errors[1],
-        "se_exponent": fit.exponent.map(|_| errors[2]),
+        "se_exponent": fit.exponent().map(|_| errors[2]),
         "aic": fit.aic(), "bic": fit.bic(),
-        "parameters": own.parameters,
+        "parameters": own.file.names(),
         "standard_errors": errors,
         "profile_intervals": intervals(own, |at| own.intervals[at]),
         "bootstrap_intervals": own.bootstrap.as_ref().map(|drawn| intervals(own, |at| drawn.interval(at, LEVEL))),
@@ -63,7 +60,7 @@ fn one(arguments: &FitArguments, own: &Analysis) -> Value {
             "quantiles": own.goodness.quantiles,
         },
         "comparison": comparison(own),
-        "warnings": warnings(fit),
+        "warnings": warnings(own),
     });
     for (key, entry) in more.as_object().into_iter().flatten() {
         value[key] = entry.clone();
@@ -73,7 +70,7 @@ fn one(arguments: &FitArguments, own: &Analysis) -> Value {
 
 fn intervals(own: &Analysis, of: impl Fn(usize) -> Option<Interval>) -> Value {
     let pair = |at: usize| of(at).map(|interval| [interval.low, interval.high]);
-    own.parameters.iter().enumerate().map(|(at, name)| (name.clone(), json!(pair(at)))).collect()
+    own.file.names().into_iter().enumerate().map(|(at, name)| (name, json!(pair(at)))).collect()
 }
 
 fn p_values(own: &Analysis) -> Option<(f64, f64)> {
@@ -86,22 +83,27 @@ fn p_values(own: &Analysis) -> Option<(f64, f64)> {
 }
 
 fn comparison(own: &Analysis) -> Vec<Value> {
-    let of_rival = own.rivals.iter().map(|(name, rival)| match rival {
-        Ok(rival) => json!({
-            "process": name, "log_likelihood": rival.log_likelihood, "aic": rival.aic,
-            "drift": rival.drift, "spread": rival.spread, "shape": rival.shape,
-        }),
-        Err(error) => json!({ "process": name, "log_likelihood": Value::Null, "why": error.to_string() }),
-    });
-    let of_rival: Vec<Value> = of_rival.collect();
-    if of_rival.is_empty() {
-        return of_rival;
+    if own.alternatives.is_empty() {
+        return Vec::new();
     }
-    let gamma = json!({ "process": "Gamma", "log_likelihood": own.fit.log_likelihood, "aic": own.fit.aic() });
-    [vec![gamma], of_rival].concat()
+    let head = |process: &dyn Process, fit: &Fit| json!({ "process": process.title(), "log_likelihood": fit.log_likelihood, "aic": fit.aic() });
+    let others = own.alternatives.iter().map(|(process, found)| match found {
+        Ok(fit) => {
+            let (mut entry, found) = (head(*process, fit), fit.parameters());
+            for (name, value) in process.parameters().into_iter().zip(&found) {
+                entry[name] = json!(value);
+            }
+            entry["shape"] = json!(found[2..]);
+            entry
+        }
+        Err(error) => {
+            json!({ "process": process.title(), "log_likelihood": Value::Null, "why": error.to_string() })
+        }
+    });
+    [head(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
 }
 
-pub fn human(
+pub fn to_text(
     arguments: &FitArguments,
     pooled: &Analysis,
     parts: &[Analysis],
@@ -131,25 +133,26 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
     let fit = &own.fit;
     let _ = writeln!(
         text,
-        "Gamma process of {} over {}{}: {} increments of {} unit(s)\n",
-        fit.wear_unit,
-        fit.exposure_unit,
+        "{} process of {} over {}{}: {} increments of {} unit(s)\n",
+        capital(fit.model.process.title()),
+        own.file.wear_unit,
+        own.file.exposure_unit,
         if arguments.power_law { "^exponent" } else { "" },
-        fit.n,
-        fit.units
+        fit.increments,
+        own.file.units
     );
     let errors = fit.standard_errors();
     let span = |interval: Option<Interval>| {
         interval.map_or_else(|| "open".to_owned(), |i| format!("{} .. {}", number(i.low), number(i.high)))
     };
-    let rows: Vec<Vec<String>> = (0..own.parameters.len())
-        .map(|at| {
-            let mut row = vec![
-                own.parameters[at].clone(),
-                format!("{:.8}", own.values[at]),
-                number(errors[at]),
-                span(own.intervals[at]),
-            ];
+    let rows: Vec<Vec<String>> = own
+        .file
+        .names()
+        .into_iter()
+        .zip(fit.parameters())
+        .enumerate()
+        .map(|(at, (name, value))| {
+            let mut row = vec![name, format!("{value:.8}"), number(errors[at]), span(own.intervals[at])];
             row.extend(own.bootstrap.as_ref().map(|drawn| span(drawn.interval(at, LEVEL))));
             row
         })
@@ -165,20 +168,30 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         fit.bic()
     );
     fit_quality(text, own);
-    for warning in warnings(fit) {
+    for warning in warnings(own) {
         let _ = writeln!(text, "warning: {warning}");
     }
-    if !own.rivals.is_empty() {
-        let mut rows =
-            vec![vec!["Gamma".to_owned(), format!("{:.5}", fit.log_likelihood), format!("{:.3}", fit.aic())]];
-        rows.extend(own.rivals.iter().map(|(name, rival)| match rival {
-            Ok(rival) => {
-                vec![(*name).to_owned(), format!("{:.5}", rival.log_likelihood), format!("{:.3}", rival.aic)]
-            }
-            Err(_) => vec![(*name).to_owned(), String::new(), "not for these data".to_owned()],
+    if !own.alternatives.is_empty() {
+        let row = |process: &dyn Process, fit: &Fit| {
+            vec![
+                process.title().to_owned(),
+                format!("{:.5}", fit.log_likelihood),
+                format!("{:.3}", fit.aic()),
+            ]
+        };
+        let mut rows = vec![row(fit.model.process, fit)];
+        rows.extend(own.alternatives.iter().map(|(process, found)| match found {
+            Ok(fit) => row(*process, fit),
+            Err(_) => vec![process.title().to_owned(), String::new(), "not for these data".to_owned()],
         }));
         let _ = write!(text, "\n{}", table(&["process", "log-likelihood", "AIC"], &rows));
     }
+}
+
+/// With a capital letter.
+fn capital(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn fit_quality(text: &mut String, own: &Analysis) {

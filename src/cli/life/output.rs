@@ -112,9 +112,9 @@ impl Lived<'_> {
         });
         let more = match self.scatter() {
             Some(scatter) => scatter.machine(&names),
-            None => {
-                [("error_budget".to_owned(), budget_entry(&self.budget_of_mean_path()))].into_iter().collect()
-            }
+            None => [("error_budget".to_owned(), self.budget_of_mean_path().half_widths_json())]
+                .into_iter()
+                .collect(),
         };
         answer.as_object_mut().expect("an object").extend(more);
         answer
@@ -192,7 +192,7 @@ impl Scatter {
         }));
         more.insert("reliability".into(), json!(reliability));
         more.insert("failed_first".into(), json!(first));
-        more.insert("error_budget".into(), budget_entry(&self.budget));
+        more.insert("error_budget".into(), self.budget.half_widths_json());
         more
     }
 
@@ -227,13 +227,6 @@ impl Scatter {
         }
         text
     }
-}
-
-/// A budget for machines.
-fn budget_entry(budget: &ErrorBudget) -> Value {
-    let parts = budget.parts().into_iter().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
-    let parts: serde_json::Map<_, _> = parts.collect();
-    json!({ "half_widths_95": parts, "total": budget.total() })
 }
 
 /// A cycle for machines.

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use linkwear_gamma::life::{Estimate, LifeError};
-use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean};
+use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean, PER_METRE};
+use linkwear_gamma::process::{Gamma, Process as _};
 use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
 use serde_json::{Value, json};
@@ -15,8 +16,6 @@ use super::super::fit_file;
 use super::super::table::number;
 use super::failed;
 
-/// Micrometres in a metre: fits count wear and Lambda in micrometres.
-const PER_METRE: f64 = 1e6;
 /// Step in ln alpha and ln beta for the derivatives of a mean life: curvature leaves an error of 1e-4 of them.
 const STEP: f64 = 0.02;
 /// Beyond this a fit's wear is not that of the mechanism, but in other units.
@@ -87,30 +86,36 @@ impl Process {
         let file = fit_file::read(path)?;
         let again = "fit wear in um over Lambda: `linkwear life FILE --mean --format json > life.json`, then `linkwear \
                      fit .. --exposure CYCLES --lambda life.json`";
-        if file.fit.exponent.is_some() {
-            return Err(file.fault(
-                "exponent",
-                "the fit has an exponent of exposure: in `life` physics says how wear goes on",
-                again,
-            ));
+        let refused = |key: &str, message: &str, help: &str| {
+            Err(fit_file::refused(path, file.fault(key, message, help)))
+        };
+        if file.process.name() != Gamma.name() {
+            let message =
+                format!("the fit is of the {} process: `life` draws Gamma increments", file.process.title());
+            return refused("process", &message, "fit it without --process");
         }
-        if !file.fit.covariates.is_empty() {
+        if file.exponent.is_some() {
+            let message = "the fit has an exponent of exposure: in `life` physics says how wear goes on";
+            return refused("exponent", message, again);
+        }
+        if !file.covariates.is_empty() {
             let message = "the fit has covariates: in `life` physics says what load does";
-            return Err(file.fault("covariates", message, again));
+            return refused("covariates", message, again);
         }
         if file.over_lambda == Some(false) {
             let message = "the fit is over an exposure as it is, so its alpha is not one per um of Lambda";
-            return Err(file.fault("over_lambda", message, again));
+            return refused("over_lambda", message, again);
         }
-        let estimate = file.estimate(&[])?;
-        let ratio = estimate.alpha() / estimate.beta();
+        let estimate = file.estimate(&[]).map_err(|error| fit_file::refused(path, error))?;
+        let [alpha, beta] = estimate.parameters();
+        let ratio = alpha / beta;
         if !(1.0 / CREDIBLE..=CREDIBLE).contains(&ratio) {
             let message = format!("by this fit wear grows {} times as fast as Lambda", number(ratio));
             let help = "count both wear and Lambda in um; if they are, correct the wear coefficient of the mechanism's \
                         file and fit again";
-            return Err(file.fault("alpha", &message, help));
+            return refused("alpha", &message, help);
         }
-        self.warnings.extend(file.warnings);
+        self.warnings.extend(file.warning().map(str::to_owned));
         self.fits.push(FittedFile { path: path.to_path_buf(), estimate });
         Ok(self.fits.len() - 1)
     }
@@ -211,7 +216,8 @@ impl Process {
 }
 
 fn rates(estimate: &Estimate) -> GammaRates {
-    GammaRates { alpha: PER_METRE * estimate.alpha(), beta: PER_METRE * estimate.beta() }
+    let [alpha, beta] = estimate.parameters();
+    GammaRates { alpha: PER_METRE * alpha, beta: PER_METRE * beta }
 }
 
 /// The factor all joints share, if one is asked for.

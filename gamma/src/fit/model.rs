@@ -1,21 +1,31 @@
-//! The log-likelihood of Gamma increments and its derivatives. In: increments, parameters. Out: value, gradient,
-//! Hessian. Never knows how it is maximised.
+//! The log-likelihood of increments and its derivatives. In: increments, parameters. Out: value, gradient, Hessian. Never
+//! knows how it is maximised.
 //!
-//! Parameters are phi = (ln alpha, ln beta, [c], [b..]): shape of an increment a = alpha dLambda, with
-//! ln dLambda = ln(to^c - from^c) + sum b ln(covariate). With eta = ln a everything follows from derivatives in eta.
+//! Parameters are phi = (logarithms of the process's two, [c], [b..]). An increment's law is that over exposure 1 at
+//! u_k = phi_k + power_k ln dLambda, with ln dLambda = ln(to^c - from^c) + sum b ln(covariate): the derivatives in phi follow
+//! from those in u.
 
 use crate::data::Increment;
-use crate::special::{digamma, ln_gamma, ln_gamma_p_of_ln, trigamma};
+use crate::process::{Gamma, Process, Term};
 
-/// What of the model is estimated beside alpha and beta.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What is estimated: a process, and what Lambda depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model {
+    /// The process.
+    pub process: &'static dyn Process,
     /// Estimate c of Lambda = exposure^c; otherwise c = 1.
     pub power_law: bool,
     /// How many covariates of the data multiply Lambda, each as value^b.
     pub covariates: usize,
     /// Step of the gauge: an increment of 0 is then taken as "less than this".
     pub resolution: Option<f64>,
+}
+
+impl Default for Model {
+    /// The Gamma process over the exposure as it is.
+    fn default() -> Self {
+        Self { process: &Gamma, power_law: false, covariates: 0, resolution: None }
+    }
 }
 
 /// Value and derivatives at one point.
@@ -82,11 +92,11 @@ impl Model {
     }
 
     fn term(&self, phi: &[f64], increment: &Increment, ln_lambda: f64) -> Term {
-        let eta = phi[0] + ln_lambda;
-        match self.resolution {
-            Some(step) if increment.wear == 0.0 => Term::censored(eta, phi[1], libm::log(step)),
-            _ => Term::exact(eta, phi[1], increment.wear),
-        }
+        let powers = self.process.exposure_powers();
+        let logs = [phi[0] + powers[0] * ln_lambda, phi[1] + powers[1] * ln_lambda];
+        let below = self.resolution.filter(|_| increment.wear == 0.0);
+        let below = below.and_then(|step| self.process.below_step(logs, step));
+        below.unwrap_or_else(|| self.process.density(logs, increment.wear))
     }
 
     /// Value, gradient and information.
@@ -94,89 +104,39 @@ impl Model {
         let size = phi.len();
         let mut point =
             Point { value: 0.0, gradient: vec![0.0; size], information: vec![vec![0.0; size]; size] };
+        let powers = self.process.exposure_powers();
         for increment in increments {
             let (ln_lambda, slopes, bend) = self.ln_lambda(phi, increment);
-            let term = self.term(phi, increment, ln_lambda);
-            // d eta / d phi: 1, 0, slopes.
-            let slope = |at: usize| match at {
-                0 => 1.0,
-                1 => 0.0,
-                _ => slopes[at - 2],
+            let Term { value, gradient, hessian: [first, mixed, second] } =
+                self.term(phi, increment, ln_lambda);
+            // d u / d phi_i: its own parameter, or all through ln dLambda.
+            let slope = |i: usize| match i {
+                0 => [1.0, 0.0],
+                1 => [0.0, 1.0],
+                _ => powers.map(|power| power * slopes[i - 2]),
             };
-            point.value += term.value;
+            point.value += value;
             for i in 0..size {
-                point.gradient[i] += term.eta * slope(i);
+                let a = slope(i);
+                point.gradient[i] += gradient[0] * a[0] + gradient[1] * a[1];
                 for j in 0..size {
-                    point.information[i][j] -= term.eta_eta * slope(i) * slope(j);
+                    let b = slope(j);
+                    let cross = a[0] * b[1] + a[1] * b[0];
+                    point.information[i][j] -= first * a[0] * b[0] + mixed * cross + second * a[1] * b[1];
                 }
             }
-            point.gradient[1] += term.rate;
-            point.information[1][1] -= term.rate_rate;
-            for i in (0..size).filter(|i| *i != 1) {
-                point.information[i][1] -= term.eta_rate * slope(i);
-                point.information[1][i] -= term.eta_rate * slope(i);
-            }
             if self.power_law {
-                point.information[2][2] -= term.eta * bend;
+                point.information[2][2] -= (gradient[0] * powers[0] + gradient[1] * powers[1]) * bend;
             }
         }
         point
     }
 }
 
-/// One increment's share and its derivatives in eta = ln shape and ln beta.
-struct Term {
-    value: f64,
-    eta: f64,
-    rate: f64,
-    eta_eta: f64,
-    eta_rate: f64,
-    rate_rate: f64,
-}
-
-impl Term {
-    /// [CS (25)]: the density of Gamma(a, beta) at wear.
-    fn exact(eta: f64, ln_beta: f64, wear: f64) -> Self {
-        let a = libm::exp(eta);
-        let ln_wear = libm::log(wear);
-        let scaled = libm::exp(ln_beta) * wear;
-        let slope = a * (ln_beta + ln_wear - digamma(a));
-        Self {
-            value: a * ln_beta - ln_gamma(a) + (a - 1.0) * ln_wear - scaled,
-            eta: slope,
-            rate: a - scaled,
-            eta_eta: slope - a * a * trigamma(a),
-            eta_rate: a,
-            rate_rate: -scaled,
-        }
-    }
-
-    /// ln P(a, beta step): the probability of less than one step of the gauge.
-    fn censored(eta: f64, ln_beta: f64, ln_step: f64) -> Self {
-        // The derivative of P in its shape has no closed form: central differences of order 4. With
-        // ln P good to 1e-15 they are good to 1e-12 and 1e-8, ample for Newton's method and for standard errors.
-        const H: f64 = 1e-3;
-        let ln_x = ln_beta + ln_step;
-        let at = |step: f64| ln_gamma_p_of_ln(libm::exp(eta + step), ln_x);
-        let (value, a) = (at(0.0), libm::exp(eta));
-        let (up, down, up_2, down_2) = (at(H), at(-H), at(2.0 * H), at(-2.0 * H));
-        let slope = (8.0 * (up - down) - (up_2 - down_2)) / (12.0 * H);
-        let x = libm::exp(ln_x);
-        let rate = libm::exp(a * ln_x - x - ln_gamma(a) - value);
-        Self {
-            value,
-            eta: slope,
-            rate,
-            eta_eta: (16.0 * (up + down) - 30.0 * value - (up_2 + down_2)) / (12.0 * H * H),
-            eta_rate: rate * (a * (ln_x - digamma(a)) - slope),
-            rate_rate: rate * (a - x - rate),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::process::PROCESSES;
 
     fn sample(wear: f64, from: f64, to: f64, ln_load: f64) -> Increment {
         Increment { unit: 0, from, to, wear, ln_covariates: vec![ln_load], row: 0 }
@@ -184,8 +144,18 @@ mod tests {
 
     #[test]
     fn derivatives_are_those_of_the_value() {
-        let model = Model { power_law: true, covariates: 1, resolution: Some(0.1) };
-        let data = [sample(0.8, 0.0, 2.0, 0.3), sample(1.7, 2.0, 5.0, -0.4), sample(0.0, 5.0, 5.5, 1.1)];
+        for process in PROCESSES {
+            derivatives_of(process);
+        }
+    }
+
+    fn derivatives_of(process: &'static dyn Process) {
+        let model = Model { process, power_law: true, covariates: 1, resolution: Some(0.1) };
+        let mut data =
+            vec![sample(0.8, 0.0, 2.0, 0.3), sample(1.7, 2.0, 5.0, -0.4), sample(0.0, 5.0, 5.5, 1.1)];
+        if process.below_step([0.0; 2], 0.1).is_none() {
+            data.pop();
+        }
         let phi = [0.7, 0.9, 0.8, 0.5];
         let here = model.point(&phi, &data);
         assert!((here.value - model.value(&phi, &data)).abs() < 1e-14);
@@ -199,7 +169,7 @@ mod tests {
             let (up, down) = (moved(step), moved(-step));
             // Central differences: error step^2 and eps / step, both about 1e-10; the censored term's curvature 1e-6.
             let slope = (up.value - down.value) / (2.0 * step);
-            assert!((slope - here.gradient[i]).abs() < 1e-8, "{i}: {slope} {}", here.gradient[i]);
+            assert!((slope - here.gradient[i]).abs() < 1e-8, "{process:?} {i}: {slope} {}", here.gradient[i]);
             for j in 0..4 {
                 let bend = -(up.gradient[j] - down.gradient[j]) / (2.0 * step);
                 assert!(

@@ -1,4 +1,4 @@
-//! What can be wrong with a question about life. In: a value and what it stands for. Never knows files.
+//! What can be wrong with a question about life. Never knows files.
 
 /// Why a life cannot be told. Every message names the value and the cure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -86,6 +86,11 @@ pub enum LifeError {
         "with an unknown exponent and a flat prior the mean and standard deviation are not finite: use quantiles, or a fit as prior"
     )]
     HeavyExponent,
+    /// An unknown drift may be so slow that lives have no mean.
+    #[error(
+        "with a flat prior the drift of a Wiener process may be near zero, so mean and standard deviation are not finite: use quantiles, or a fit as prior"
+    )]
+    HeavyDrift,
     /// A shared factor that is near zero too often for a mean.
     #[error(
         "a Gamma factor of coefficient of variation {cov} is near zero so often that mean or standard deviation are not finite: below {below:.3} they are; use quantiles, or a lognormal factor"

@@ -1,0 +1,29 @@
+//! Why a process cannot be fitted. Never knows files.
+
+use thiserror::Error;
+
+/// Why a fit did not come about.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FitError {
+    /// Wear is an exact function of Lambda: alpha has no finite maximum.
+    #[error("wear follows Lambda without any scatter, so alpha has no finite estimate")]
+    NoScatter,
+    /// Newton's method has not found a maximum.
+    #[error("the likelihood has no maximum inside; a parameter runs off, perhaps the exponent")]
+    NotConverged,
+    /// Too few increments.
+    #[error("{increments} increments cannot give {parameters} parameters")]
+    TooFew {
+        /// How many there are.
+        increments: usize,
+        /// How many parameters are sought.
+        parameters: usize,
+    },
+    /// A gauge's step that is not a positive number.
+    #[error("the gauge's resolution must be a positive number")]
+    BadResolution,
+    /// A gauge's step for a process that has no use for it.
+    #[error("only the Gamma process takes readings that do not change as less than a step of the gauge")]
+    NoResolution,
+}

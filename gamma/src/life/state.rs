@@ -1,0 +1,92 @@
+//! The state that life is asked for in: how far a joint is worn, and how fast exposure runs. In: numbers. Out: a
+//! [`FirstPassage`]. Never knows how parameters were estimated.
+
+use super::clock::Clock;
+use super::estimate::Estimate;
+use super::first_passage::FirstPassage;
+use super::law::Law;
+use crate::error::{LifeError, non_negative, positive};
+use crate::process::Process;
+
+/// What is worn how far, and how fast exposure runs from here.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperatingState {
+    threshold: f64,
+    current: f64,
+    exposure: f64,
+    rate: f64,
+}
+
+impl OperatingState {
+    /// A new joint that fails at `threshold` [unit of wear]; one unit of exposure per unit of time.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`].
+    pub fn new(threshold: f64) -> Result<Self, LifeError> {
+        Ok(Self { threshold: positive("the threshold", threshold)?, current: 0.0, exposure: 0.0, rate: 1.0 })
+    }
+
+    /// Worn to `current` [unit of wear] after `exposure` (before any exponent) [unit of exposure].
+    ///
+    /// # Errors
+    /// [`LifeError::Negative`], [`LifeError::Failed`].
+    pub fn worn(mut self, current: f64, exposure: f64) -> Result<Self, LifeError> {
+        self.current = non_negative("the present wear", current)?;
+        self.exposure = non_negative("the present exposure", exposure)?;
+        if current >= self.threshold {
+            return Err(LifeError::Failed { threshold: self.threshold, current });
+        }
+        Ok(self)
+    }
+
+    /// `rate` units of exposure per unit of time from now on; lives are in that time.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`].
+    pub fn at_rate(mut self, rate: f64) -> Result<Self, LifeError> {
+        self.rate = positive("the rate", rate)?;
+        Ok(self)
+    }
+
+    /// Wear at failure.
+    #[must_use]
+    pub fn threshold(&self) -> f64 {
+        self.threshold
+    }
+
+    /// Wear now.
+    #[must_use]
+    pub fn current(&self) -> f64 {
+        self.current
+    }
+
+    /// Units of exposure per unit of time.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Law of the remaining life if the parameters are those estimated.
+    ///
+    /// # Errors
+    /// [`LifeError`], if a parameter leaves the range of numbers.
+    pub fn life(&self, estimate: &Estimate) -> Result<FirstPassage, LifeError> {
+        self.life_at(estimate.process(), estimate.logs())
+    }
+
+    /// The same at given logarithms of the parameters and perhaps of the exponent.
+    pub(crate) fn life_at(
+        &self,
+        process: &'static dyn Process,
+        logs: &[f64],
+    ) -> Result<FirstPassage, LifeError> {
+        let law = Law::from_logs(process, [logs[0], logs[1]])?;
+        let clock = Clock::power(self.rate, logs.get(2).map_or(1.0, |log| libm::exp(*log)))?;
+        Ok(FirstPassage::with_left(law, clock, self.threshold - self.current, self.exposure / self.rate))
+    }
+
+    /// Worn to `current`, which a particle has, below the threshold but perhaps below 0.
+    pub(crate) fn at_wear(&self, current: f64, exposure: f64) -> Self {
+        Self { current, exposure, ..self.clone() }
+    }
+}

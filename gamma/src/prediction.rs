@@ -1,0 +1,207 @@
+//! A prediction: everything that is told about the remaining life of one joint. In: an estimate, the joint's state, perhaps
+//! readings. Out: numbers with their bands and error budget, JSON. Never knows files or terminals.
+
+use serde_json::{Map, Value, json};
+
+use crate::error::LifeError;
+use crate::inspection::{Effort, History, InspectionError, Mixture, Particles, Posterior, Prior};
+use crate::life::{
+    Band, Bands, Contribution, ErrorBudget, Estimate, FirstPassage, Lifetime, Method, Moments,
+    OperatingState, WithError,
+};
+
+/// Times at which reliability is given, from now until all but [`TAIL`] have failed.
+const TIMES: usize = 41;
+const TAIL: f64 = 1e-3;
+
+/// Uncertainty of the parameters is part of the law itself.
+const WITHIN: Contribution = Contribution::None("parameters are integrated over; the law contains them");
+
+/// The remaining life of one joint; times in the unit of the exposure's rate, from the present.
+#[derive(Clone, Debug)]
+pub struct Prediction {
+    /// What it rests on: `fit`, `fit and inspections`, ..
+    pub from: String,
+    /// Wear now.
+    pub current: f64,
+    /// Wear at failure.
+    pub threshold: f64,
+    /// Mean and standard deviation, the mean with its band; None where they are not finite, and a warning says so.
+    pub moments: Option<(Moments, Band)>,
+    /// The same of the time rounded up to whole units.
+    pub whole: Option<Moments>,
+    /// 10 %, 50 %, 90 % of the life, with what the parameters leave open.
+    pub quantiles: [Band; 3],
+    /// Ends of the interval that holds the life with probability [`Prediction::LEVEL`].
+    pub interval: (f64, f64),
+    /// Time, reliability with its band, hazard.
+    pub course: Vec<(f64, Band, f64)>,
+    /// Of the mean.
+    pub budget: Option<ErrorBudget>,
+    /// What its reader has to know.
+    pub warnings: Vec<String>,
+}
+
+impl Prediction {
+    /// Probability of every interval and band.
+    pub const LEVEL: f64 = 0.95;
+
+    /// From a fit alone; `method` makes the bands.
+    ///
+    /// # Errors
+    /// [`LifeError`].
+    pub fn by_fit(estimate: &Estimate, state: &OperatingState, method: Method) -> Result<Self, LifeError> {
+        let life = state.life(estimate)?;
+        let bands = Bands::new(estimate, state, Self::LEVEL, method)?;
+        let mut answer = Self::ask(&life, state, "fit", &mut |ask| match ask {
+            Ask::Mean(_) => bands.mean(),
+            Ask::Quantile(p, _) => bands.quantile(p),
+            Ask::Reliability(t, _) => bands.reliability(t),
+        })?;
+        let known = Contribution::None("the fit gives no covariance");
+        answer.complete(Contribution::None("closed form"), (!estimate.is_uncertain()).then_some(known));
+        Ok(answer)
+    }
+
+    /// After exact readings; the last one is the present, `state` gives threshold and rate.
+    ///
+    /// # Errors
+    /// [`InspectionError`].
+    pub fn after(history: &History, prior: &Prior, state: &OperatingState) -> Result<Self, InspectionError> {
+        let posterior = Posterior::update(history, prior, state)?;
+        let last = history.last();
+        let now = state.clone().worn(last.wear, state.rate() * last.time)?;
+        let from = match prior {
+            Prior::Flat { .. } => "inspections alone",
+            Prior::Fit(_) => "fit and inspections",
+        };
+        let mut answer = Self::ask(&posterior, &now, from, &mut |ask| ask.of(&posterior))?;
+        answer.complete(Contribution::None("closed forms, quadrature over parameters"), Some(WITHIN));
+        Ok(answer)
+    }
+
+    /// After readings with a normal error of standard deviation `gauge` \[unit of wear\]; the last one is the present, `state`
+    /// gives threshold and rate.
+    ///
+    /// # Errors
+    /// [`InspectionError`].
+    pub fn after_gauge(
+        history: &History,
+        prior: &Estimate,
+        state: &OperatingState,
+        gauge: f64,
+        effort: Effort,
+    ) -> Result<Self, InspectionError> {
+        let particles = Particles::follow(history, prior, state, gauge, effort)?;
+        let from = "fit and inspections with gauge error";
+        let mut answer = Self::ask(&particles, state, from, &mut |ask| ask.of(&particles))?;
+        answer.current = particles.wear().0;
+        let mean = answer.moments.map_or(f64::NAN, |(moments, _)| moments.mean);
+        let error = WithError { value: mean, error: particles.mean_error() };
+        answer.complete(ErrorBudget::monte_carlo(error), Some(WITHIN));
+        if particles.failed_already() > 0.0 {
+            answer.warnings.push(format!(
+                "with probability {:.2} the joint had failed at the last reading: the answer is for one that had not",
+                particles.failed_already()
+            ));
+        }
+        Ok(answer)
+    }
+
+    fn ask(
+        life: &dyn Lifetime,
+        state: &OperatingState,
+        from: &str,
+        band: &mut dyn FnMut(Ask) -> Result<Band, LifeError>,
+    ) -> Result<Self, LifeError> {
+        let mut warnings = Vec::new();
+        let (moments, whole) = match (life.moments(), life.whole_cycles()) {
+            (Ok(moments), Ok(whole)) => (Some((moments, band(Ask::Mean(moments.mean))?)), Some(whole)),
+            (Err(error), _) | (_, Err(error)) => {
+                warnings.push(error.to_string());
+                (None, None)
+            }
+        };
+        let mut quantile = |p: f64| band(Ask::Quantile(p, life.quantile(p)?));
+        let quantiles = [quantile(0.1)?, quantile(0.5)?, quantile(0.9)?];
+        let interval = (life.quantile(0.5 - 0.5 * Self::LEVEL)?, life.quantile(0.5 + 0.5 * Self::LEVEL)?);
+        let end = life.quantile(1.0 - TAIL)?;
+        let mut course = Vec::with_capacity(TIMES);
+        for k in 0..TIMES {
+            let t = end * k as f64 / (TIMES - 1) as f64;
+            course.push((t, band(Ask::Reliability(t, life.reliability(t)))?, life.hazard(t)));
+        }
+        Ok(Self {
+            from: from.to_owned(),
+            current: state.current(),
+            threshold: state.threshold(),
+            moments,
+            whole,
+            quantiles,
+            interval,
+            course,
+            budget: None,
+            warnings,
+        })
+    }
+
+    /// Adds the budget of the mean. `parameters`: None takes the band of the mean.
+    fn complete(&mut self, monte_carlo: Contribution, parameters: Option<Contribution>) {
+        self.budget = self.moments.map(|(_, band)| ErrorBudget {
+            monte_carlo,
+            table: Contribution::None("exposure is a formula"),
+            parameters: parameters.unwrap_or_else(|| ErrorBudget::parameters(band)),
+        });
+    }
+
+    /// One JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let moments = self.moments.as_ref();
+        let ends = |band: &Band| json!({ "lower": band.lower, "upper": band.upper });
+        let names = ["p10", "p50", "p90"];
+        let quantiles = names.iter().zip(&self.quantiles);
+        let bands: Map<String, Value> =
+            quantiles.clone().map(|(name, band)| ((*name).to_owned(), ends(band))).collect();
+        let quantiles: Map<String, Value> =
+            quantiles.map(|(name, band)| ((*name).to_owned(), json!(band.value))).collect();
+        let reliability = |(t, band, _): &(f64, Band, f64)| json!({ "time": t, "reliability": band.value, "lower": band.lower, "upper": band.upper });
+        let hazard = |(t, _, hazard): &(f64, Band, f64)| json!({ "time": t, "hazard": hazard });
+        json!({
+            "from": self.from,
+            "threshold": self.threshold,
+            "current": self.current,
+            "mean": moments.map(|(moments, _)| moments.mean),
+            "std": moments.map(|(moments, _)| moments.std),
+            "cov": moments.map(|(moments, _)| moments.cov()),
+            "mean_whole_cycles": self.whole.map(|whole| whole.mean),
+            "std_whole_cycles": self.whole.map(|whole| whole.std),
+            "quantiles": quantiles,
+            "interval95": { "lower": self.interval.0, "upper": self.interval.1 },
+            "bands": { "mean": moments.map(|(_, band)| ends(band)), "quantiles": bands },
+            "reliability": self.course.iter().map(reliability).collect::<Vec<_>>(),
+            "hazard": self.course.iter().map(hazard).collect::<Vec<_>>(),
+            "budget": self.budget.as_ref().map(ErrorBudget::to_json),
+            "warnings": self.warnings,
+        })
+    }
+}
+
+/// What is asked of the possible laws, with the answer of the whole.
+enum Ask {
+    Mean(f64),
+    Quantile(f64, f64),
+    Reliability(f64, f64),
+}
+
+impl Ask {
+    fn of(&self, mixture: &dyn Mixture) -> Result<Band, LifeError> {
+        let level = Prediction::LEVEL;
+        match *self {
+            // For a steady load the typical time is the mean; for a curved one it is near, at no cost of an integral.
+            Self::Mean(value) => mixture.credible(value, level, &|life: &FirstPassage| Ok(life.typical())),
+            Self::Quantile(p, value) => mixture.credible(value, level, &|life| life.quantile(p)),
+            Self::Reliability(t, value) => mixture.credible(value, level, &|life| Ok(life.reliability(t))),
+        }
+    }
+}

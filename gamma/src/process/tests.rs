@@ -1,0 +1,144 @@
+//! Every process against its own definitions, against `rand_distr`, and against published formulas.
+
+use rand::RngExt;
+
+use super::*;
+use crate::life::{Clock, FirstPassage, Law, LifeStatistics, Lifetime};
+use crate::random::Stream;
+
+/// ln 2 and ln 0.8: laws of moderate scatter for all processes.
+const LOGS: [f64; 2] = [core::f64::consts::LN_2, -0.223_143_551_314_209_76];
+
+fn life(process: &'static dyn Process, parameters: [f64; 2], threshold: f64) -> FirstPassage {
+    let law = Law::new(process, parameters).expect("positive");
+    FirstPassage::new(law, Clock::linear(1.0).expect("positive"), threshold).expect("wear is left")
+}
+
+#[test]
+fn densities_sum_to_the_cumulative_law() {
+    for process in PROCESSES {
+        let powers = process.exposure_powers();
+        let exposure: f64 = 1.7;
+        let logs = [0, 1].map(|k: usize| LOGS[k] + powers[k] * exposure.ln());
+        let (from, to, cells) = (1.0, 4.0, 3000);
+        let width = (to - from) / f64::from(cells);
+        let density = |k: i32| process.density(logs, from + width * (f64::from(k) + 0.5)).value.exp();
+        let sum: f64 = (0..cells).map(|k| width * density(k)).sum();
+        let cumulative = |wear: f64| process.cumulative(LOGS, exposure, wear);
+        // Midpoint rule: width² / 24 of the change of the slope.
+        assert!((sum - cumulative(to) + cumulative(from)).abs() < 1e-6, "{process:?}");
+        for p in [1e-3, 0.3, 0.7, 0.999] {
+            assert!((cumulative(process.quantile(LOGS, exposure, p)) - p).abs() < 1e-12, "{process:?} {p}");
+        }
+    }
+}
+
+#[test]
+fn a_slice_is_the_sum_of_the_densities() {
+    let increments = [(0.5, 0.7), (1.0, 2.5), (2.0, 3.1)];
+    for process in PROCESSES {
+        let powers = process.exposure_powers();
+        let slice = process.slice(LOGS[0], &increments);
+        let sum = |second: f64| -> f64 {
+            let one = |(exposure, wear): &(f64, f64)| {
+                let logs = [LOGS[0] + powers[0] * exposure.ln(), second + powers[1] * exposure.ln()];
+                process.density(logs, *wear).value
+            };
+            increments.iter().map(one).sum()
+        };
+        for second in [-1.0, 0.0, slice.peak()] {
+            assert!((slice.at(second) - sum(second)).abs() < 1e-12, "{process:?}");
+        }
+        assert!(slice.at(slice.peak()) > slice.at(slice.peak() + 0.01).max(slice.at(slice.peak() - 0.01)));
+    }
+}
+
+#[test]
+fn drawn_increments_follow_the_cumulative_law() {
+    for process in PROCESSES {
+        let mut stream = Stream::new(21, 0, 0);
+        let n = 20_000;
+        let law = |wear: f64| process.cumulative(LOGS, 0.4, wear);
+        let mut places: Vec<f64> = (0..n).map(|_| law(process.draw(LOGS, 0.4, &mut stream))).collect();
+        places.sort_by(f64::total_cmp);
+        let off = |(at, p): (usize, &f64)| (p - (at as f64 + 0.5) / f64::from(n)).abs();
+        let distance = places.iter().enumerate().map(off).fold(0.0, f64::max);
+        // Kolmogorov's critical value at 0.1 %.
+        assert!(distance < 1.95 / f64::from(n).sqrt(), "{process:?}: {distance}");
+    }
+}
+
+#[test]
+fn inverse_gaussian_draws_have_the_quantiles_of_rand_distr() {
+    let n = 40_000;
+    for (mean, shape) in [(1.0, 0.1), (2.0, 3.0), (1.0, 500.0)] {
+        let (logs, mut stream) = ([mean, shape].map(f64::ln), Stream::new(22, 0, 0));
+        let mut ours: Vec<f64> = (0..n).map(|_| InverseGaussian.draw(logs, 1.0, &mut stream)).collect();
+        let oracle = rand_distr::InverseGaussian::new(mean, shape).expect("positive");
+        let mut theirs: Vec<f64> = (0..n).map(|_| stream.sample(oracle)).collect();
+        ours.sort_by(f64::total_cmp);
+        theirs.sort_by(f64::total_cmp);
+        let below = |x: &f64| theirs.partition_point(|y| y <= x);
+        let distance = ours.iter().enumerate().map(|(at, x)| below(x).abs_diff(at)).max().unwrap_or(n);
+        // Smirnov's two-sample distance, critical value at 0.1 %: 1.9495 sqrt(2 / n).
+        assert!((distance as f64) < 1.9495 * (2.0 * n as f64).sqrt(), "{mean} {shape}: {distance} of {n}");
+    }
+}
+
+#[test]
+fn survival_failure_and_hazard_belong_together() {
+    for process in PROCESSES {
+        for (exposure, left) in [(0.5, 3.0), (2.0, 3.0), (9.0, 3.0), (40.0, 3.0)] {
+            let alive = |exposure: f64| process.survival(LOGS, exposure, left);
+            assert!((alive(exposure) + process.failure(LOGS, exposure, left) - 1.0).abs() < 1e-14);
+            let step = 1e-5 * exposure;
+            let slope = (alive(exposure - step).ln() - alive(exposure + step).ln()) / (2.0 * step);
+            let hazard = process.hazard(LOGS, exposure, left);
+            // Central difference: rounding of 1 - S, 1e-16 / step, and curvature.
+            assert!(
+                (slope - hazard).abs() < 1e-6 * hazard + 1e-10,
+                "{process:?} {exposure}: {slope} {hazard}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_wiener_passage_has_the_moments_of_the_inverse_gaussian_law() {
+    // Folks & Chhikara (1978): mean left / drift, variance left spread² / drift³.
+    let (drift, spread, left) = (2.0, 0.8, 10.0);
+    let moments = life(&Wiener, [drift, spread], left).moments().expect("finite");
+    assert!((moments.mean - left / drift).abs() < 1e-9, "{moments:?}");
+    assert!(
+        (moments.std.powi(2) / (left * spread * spread / drift.powi(3)) - 1.0).abs() < 1e-8,
+        "{moments:?}"
+    );
+    // The closed form is that of paths: small steps, and Gobet's and Asmussen's shift 0.5826 spread sqrt(step) for the
+    // crossings between two of them.
+    let step: f64 = 0.01;
+    let seen: Vec<f64> = (0..2000)
+        .map(|path| {
+            let (mut stream, mut wear, mut steps) = (Stream::new(23, path, 0), 0.0, 0.0);
+            while wear < left - 0.5826 * spread * step.sqrt() {
+                wear += Wiener.draw([drift.ln(), spread.ln()], step, &mut stream);
+                steps += 1.0;
+            }
+            steps * step
+        })
+        .collect();
+    let seen = LifeStatistics::of(&seen).expect("lives");
+    assert!((seen.mean().value - moments.mean).abs() < 3.0 * seen.mean().error, "{:?}", seen.mean());
+    assert!((seen.std().value - moments.std).abs() < 3.0 * seen.std().error, "{:?}", seen.std());
+}
+
+#[test]
+fn the_mean_exposure_is_the_mean_of_the_passage() {
+    for (process, parameters) in
+        [(&Gamma as &dyn Process, [3.0, 2.0]), (&Wiener, [2.0, 0.8]), (&InverseGaussian, [2.0, 100.0])]
+    {
+        let moments = life(process, parameters, 10.0).moments().expect("finite");
+        // Exact but for e^-20 and Phi(-15); the accuracy of the integrals.
+        let mean = process.mean_exposure(parameters.map(f64::ln), 10.0);
+        assert!((moments.mean / mean - 1.0).abs() < 1e-8, "{process:?}: {} {mean}", moments.mean);
+    }
+}

@@ -1,0 +1,118 @@
+//! Tables of numbers in CSV files. In: a path. Out: cells by named columns, with their lines; or what is wrong, where, and
+//! what to do. Never knows what the columns mean.
+
+use std::fs;
+use std::path::Path;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+use linkwear_codegen::diagnostic::nearest;
+
+use super::failure::Failure;
+
+/// A fault of a data file.
+pub fn fault(file: &Path, line: Option<usize>, message: String, help: &str) -> Failure {
+    Failure::Data { file: file.to_path_buf(), line, message, help: help.to_owned() }
+}
+
+/// A CSV file in memory.
+pub struct CsvTable<'a> {
+    file: &'a Path,
+    /// Line of the header.
+    head: usize,
+    header: Vec<String>,
+    /// Line and cells.
+    rows: Vec<(usize, StringRecord)>,
+}
+
+impl<'a> CsvTable<'a> {
+    /// Reads the file; its first line that is neither empty nor a comment (#) is the header.
+    pub fn read(file: &'a Path) -> Result<Self, Failure> {
+        let text = fs::read_to_string(file).map_err(|error| Failure::Read(file.to_path_buf(), error))?;
+        // A byte order mark would hide in the first name.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let mut reader =
+            ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
+        let broken = |error: csv::Error| {
+            let line = error.position().and_then(|position| usize::try_from(position.line()).ok());
+            let help = "each line needs as many cells as the header";
+            fault(file, line, format!("this is no CSV table: {error}"), help)
+        };
+        let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
+        if header.is_empty() {
+            let help = "write a line of column names, then one reading a line";
+            return Err(fault(file, None, "the file is empty".to_owned(), help));
+        }
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(broken)?;
+            let line = record.position().map_or(0, |position| usize::try_from(position.line()).unwrap_or(0));
+            rows.push((line, record));
+        }
+        let first = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
+        let head = text.lines().position(first).map_or(1, |at| at + 1);
+        Ok(Self { file, head, header, rows })
+    }
+
+    /// The line of each row.
+    pub fn lines(&self) -> impl Iterator<Item = usize> {
+        self.rows.iter().map(|(line, _)| *line)
+    }
+
+    /// Whether there is a column of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.header.iter().any(|column| column == name)
+    }
+
+    fn place(&self, name: &str) -> Result<usize, Failure> {
+        let wrong = |message: String, help: &str| Err(fault(self.file, Some(self.head), message, help));
+        let mut found = self.header.iter().enumerate().filter(|(_, column)| *column == name);
+        match (found.next(), found.next()) {
+            (Some((at, _)), None) => Ok(at),
+            (Some(_), Some(_)) => wrong(format!("column `{name}` is there twice"), "rename one of them"),
+            _ => {
+                let help = match nearest(name, self.header.iter().map(String::as_str)) {
+                    Some(column) => format!("did you mean `{column}`?"),
+                    None => format!("the columns are: {}", self.header.join(", ")),
+                };
+                wrong(format!("there is no column `{name}`"), &help)
+            }
+        }
+    }
+
+    /// The finite numbers of a column, by row.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, Failure> {
+        self.numbers_at(self.place(name)?)
+    }
+
+    /// The same by the column's place, from 0.
+    pub fn numbers_at(&self, column: usize) -> Result<Vec<f64>, Failure> {
+        let number = |(line, record): &(usize, StringRecord)| {
+            let cell = record.get(column).unwrap_or_default();
+            let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
+            value.ok_or_else(|| self.no_number(*line, column, cell))
+        };
+        self.rows.iter().map(number).collect()
+    }
+
+    fn no_number(&self, line: usize, column: usize, cell: &str) -> Failure {
+        let name = self.header.get(column).map_or("", String::as_str);
+        let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
+        if !unit.is_empty() && unit.len() < cell.len() {
+            let message = format!("line {line}: `{name}` is `{cell}`, a number with a unit");
+            let help =
+                format!("one unit per column: convert all rows, and put it into the header, `{name}_{unit}`");
+            return fault(self.file, Some(line), message, &help);
+        }
+        let message = match cell {
+            "" => format!("line {line}: `{name}` is empty"),
+            _ => format!("line {line}: `{name}` is `{cell}`, not a finite number"),
+        };
+        fault(self.file, Some(line), message, "write a number, or delete the line")
+    }
+
+    /// The cells of a column.
+    pub fn texts(&self, name: &str) -> Result<Vec<String>, Failure> {
+        let column = self.place(name)?;
+        Ok(self.rows.iter().map(|(_, record)| record[column].to_owned()).collect())
+    }
+}
