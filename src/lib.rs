@@ -6,7 +6,10 @@
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
+pub mod backend;
 pub mod files;
+pub mod life;
+pub mod mechanism;
 pub mod mechanisms;
 #[cfg(feature = "cli")]
 pub mod progress;

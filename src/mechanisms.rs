@@ -17,81 +17,25 @@ pub struct Shipped {
     pub system: fn() -> Box<dyn System<f64>>,
 }
 
-macro_rules! shipped {
-    ($($(#[$doc:meta])* $name:ident = $file:literal),* $(,)?) => {
+/// Modules of compiled mechanisms, and a table `SHIPPED` of them, from a list of `/// what it is` and `name,`.
+#[macro_export]
+macro_rules! mechanisms {
+    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
         $(
             $(#[$doc])*
             pub mod $name {
-                linkwear_runtime::include_mechanism!($file);
+                ::linkwear_runtime::include_mechanism!(stringify!($name));
             }
         )*
 
-        /// Every shipped mechanism, in the order of `build.rs`.
-        pub static SHIPPED: &[Shipped] = &[$(Shipped {
-            name: $file,
+        /// Every mechanism of the list, in its order.
+        pub static SHIPPED: &[$crate::mechanisms::Shipped] = &[$($crate::mechanisms::Shipped {
+            name: stringify!($name),
             source_sha256: $name::SOURCE_SHA256,
             description: $name::description,
-            system: || Box::new($name::Mechanism::default()),
+            system: || ::std::boxed::Box::new($name::Mechanism::default()),
         }),*];
     };
 }
 
-shipped! {
-    /// A bar that swings about one revolute joint.
-    pendulum = "pendulum",
-    /// Planar four-bar with four revolute joints: three of its constraint rows are redundant.
-    four_bar = "four_bar",
-    /// Slider-crank with a driven crank.
-    slider_crank = "slider_crank",
-    /// The case study's spatial four-bar, rigid, with ideal joints.
-    rssr_rigid = "rssr_rigid",
-    /// The case study's spatial four-bar with a flexible coupler and ideal joints.
-    rssr_flexible = "rssr_flexible",
-    /// The case study: flexible coupler, and a wearing bearing with clearance at the crank.
-    rssr = "rssr",
-    /// The case study's four-bar with a wearing ball between crank and coupler.
-    rssr_ball_wear = "rssr_ball_wear",
-    /// The planar four-bar with two wearing bearings.
-    four_bar_wear = "four_bar_wear",
-    /// Slider-crank with a loose pin at its slider, by Flores and Ambrosio.
-    slider_crank_clearance = "slider_crank_clearance",
-    /// Andrews' squeezing mechanism: seven bodies, three loops, a spring and a motor.
-    andrews = "andrews",
-    /// Two parallelogram cells; passes positions where it could go on in several ways.
-    n_four_bar_2 = "n_four_bar_2",
-    /// Forty parallelogram cells.
-    n_four_bar_40 = "n_four_bar_40",
-    /// Bricard's six revolutes: overconstrained, yet it moves.
-    bricard = "bricard",
-    /// Bennett's four skew revolutes: overconstrained, yet it moves.
-    bennett = "bennett",
-    /// The stiff flyball governor.
-    flyball = "flyball",
-    /// A six-bar with two loops.
-    six_bar = "six_bar",
-    /// A spatial slider-crank with a universal joint.
-    spatial_slider_crank = "spatial_slider_crank",
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_shipped_file_is_compiled_in_and_carries_its_own_name() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
-        let files = std::fs::read_dir(folder).expect("mechanisms folder");
-        let mut names: Vec<String> = files
-            .map(|entry| entry.expect("an entry").path())
-            .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
-            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        let mut compiled: Vec<&str> = SHIPPED.iter().map(|shipped| shipped.name).collect();
-        compiled.sort_unstable();
-        assert_eq!(names, compiled);
-        for shipped in SHIPPED {
-            assert_eq!((shipped.description)().name, shipped.name);
-        }
-    }
-}
+include!("../mechanisms/shipped.rs");

@@ -62,6 +62,7 @@ fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
         &["life", "mechanisms/rssr.toml", "--shared-factor", "0"],
         &["life", "mechanisms/rssr.toml", "--shared-factor", "0.2", "--mean"],
         &["predict", "fit.json", "--threshold", "10", "--covariate", "load"],
+        &["simulate", "mechanisms/pendulum.toml", "--backend", "jit"],
         &["new", "no-name"],
     ];
     for case in cases {

@@ -7,24 +7,28 @@ fn readme() -> String {
     fs::read_to_string("README.md").expect("README.md")
 }
 
-#[test]
-fn the_embedding_section_is_the_example_crate_word_for_word() {
+/// A section of the README shows these files of an example crate, word for word, and no others.
+fn assert_shown(section: &str, example: &str, files: &[(&str, &str)]) {
     let readme = readme();
-    let section = readme.split("\n## Embedding\n").nth(1).expect("an embedding section");
-    let section = section.split("\n## ").next().expect("a section");
+    let heading = format!("\n## {section}\n");
+    let text = readme.split(&heading).nth(1).expect("the section");
+    let text = text.split("\n## ").next().expect("a section");
     let mut shown = Vec::new();
-    for (name, language) in [
-        ("Cargo.toml", "toml"),
-        ("build.rs", "rust"),
-        ("mechanisms/swing.toml", "toml"),
-        ("src/main.rs", "rust"),
-    ] {
-        let text = fs::read_to_string(format!("examples/downstream/{name}")).expect("a file of the example");
-        let fence = format!("\n`{name}`\n\n```{language}\n{text}```\n");
-        assert!(section.contains(&fence), "README.md must have, under Embedding:{fence}");
+    for (name, language) in files {
+        let file = fs::read_to_string(format!("examples/{example}/{name}")).expect("a file of the example");
+        let fence = format!("\n`{name}`\n\n```{language}\n{file}```\n");
+        assert!(text.contains(&fence), "README.md must have, under {section}:{fence}");
         shown.push(fence);
     }
-    assert_eq!(section.matches("\n```\n").count(), shown.len(), "a fence that is no file of the example");
+    assert_eq!(text.matches("\n```\n").count(), shown.len(), "a fence that is no file of the example");
+}
+
+#[test]
+fn example_crates_stand_in_the_readme_word_for_word() {
+    let (cargo, main) = (("Cargo.toml", "toml"), ("src/main.rs", "rust"));
+    let build = [cargo, ("build.rs", "rust"), ("mechanisms/swing.toml", "toml"), main];
+    assert_shown("Embedding", "downstream", &build);
+    assert_shown("A life from Rust", "life", &[cargo, main]);
 }
 
 #[test]

@@ -21,7 +21,7 @@ pub const CYCLES: [u64; 3] = [10, 20, 30];
 const LOWEST_PEAK: f64 = 0.1;
 /// Wear of two models further apart than this does not belong to one peak [deg].
 const SAME_PEAK: f64 = 30.0;
-/// So many times the threshold is not reached in 30 cycles: nothing fails.
+/// Factor on the threshold, large enough that no joint fails within 30 cycles.
 const BEYOND: f64 = 10.0;
 
 /// Fig. 5.

@@ -51,11 +51,17 @@ pub struct Configuration {
 /// The assembled mechanism over one turn with ideal joints, which moves as that with clearance to 10 µm.
 pub(super) fn configuration(compiled: &Compiled, watch: &Watch<'_>) -> Result<Configuration, StudyError> {
     let model = Model::ideal();
-    let system = model.system();
+    let system = model.mechanism.system();
     let settings = Settings::new(Integrator::Rk4 { step: 1e-4 }, Span::Turns(1.0), TRACE);
-    let run = simulate(&*system, &model.description, &model.parameters, &settings, &mut |_| {
-        if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })?;
+    let run = simulate(
+        &*system,
+        &model.mechanism.description,
+        &model.mechanism.parameters,
+        &settings,
+        &mut |_| {
+            if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    )?;
     if let Some(error) = run.stopped {
         return Err(error.into());
     }
@@ -89,7 +95,7 @@ pub(super) fn configuration(compiled: &Compiled, watch: &Watch<'_>) -> Result<Co
 /// Where a point is at every sample.
 fn path(model: &Model, run: &Run, point: &str) -> Result<Vec<[f64; 3]>, StudyError> {
     let name = format!("{point}.x");
-    let at = model.description.channels.iter().position(|channel| channel.name == name);
+    let at = model.mechanism.description.channels.iter().position(|channel| channel.name == name);
     let at = at.ok_or(StudyError::Missing { kind: "point", name: point.to_owned() })?;
     Ok(run.rows.iter().map(|row| [row[at], row[at + 1], row[at + 2]]).collect())
 }

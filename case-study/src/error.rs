@@ -1,8 +1,8 @@
-//! Why a study could not be finished, as data. In: nothing. Out: [`StudyError`].
+//! Why a study could not be finished, as data. Out: [`StudyError`].
 
 use std::convert::Infallible;
 
-use linkwear_codegen::Diagnostics;
+use linkwear::mechanism::LoadError;
 use linkwear_gamma::fit::FitError;
 use linkwear_runtime::life::{CalibrationError, LifeError, SettingsError};
 use linkwear_runtime::{RunError, SetupError};
@@ -12,8 +12,8 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// A mechanism of the study is not accepted by the generator.
-    #[error("{0}")]
-    Mechanism(Diagnostics),
+    #[error(transparent)]
+    Mechanism(#[from] LoadError),
     /// The file of the mechanism is not written as a variant of the study expects.
     #[error("the study expects `{expected}` in the file of its mechanism")]
     Text {

@@ -113,14 +113,20 @@ pub(super) fn forces(threads: usize, settle: u32, watch: &Watch<'_>) -> Result<F
 
 /// One turn after settling.
 fn turn(model: &Model, settle: f64, watch: &Watch<'_>) -> Result<Run, StudyError> {
-    let system = model.system();
+    let system = model.mechanism.system();
     let settings = Settings {
         settle: Span::Turns(settle),
         ..Settings::new(Integrator::Rk4 { step: STEP }, Span::Turns(1.0), SAMPLES)
     };
-    let run = simulate(&*system, &model.description, &model.parameters, &settings, &mut |_| {
-        if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    })?;
+    let run = simulate(
+        &*system,
+        &model.mechanism.description,
+        &model.mechanism.parameters,
+        &settings,
+        &mut |_| {
+            if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+    )?;
     watch.done((settle + 1.0) * model.cost());
     match run.stopped {
         Some(RunError::Interrupted { .. }) => Err(StudyError::Interrupted),
@@ -132,8 +138,8 @@ fn turn(model: &Model, settle: f64, watch: &Watch<'_>) -> Result<Run, StudyError
 /// A quantity of the bearing at all samples.
 fn column(model: &Model, run: &Run, quantity: &str) -> Result<Vec<f64>, StudyError> {
     let name = format!("{JOINT}.{quantity}");
-    let contacts = ContactChannels::new(&model.description);
-    let mut channels = model.description.channels.iter().chain(contacts.channels());
+    let contacts = ContactChannels::new(&model.mechanism.description);
+    let mut channels = model.mechanism.description.channels.iter().chain(contacts.channels());
     let Some(at) = channels.position(|channel| channel.name == name) else {
         return Err(StudyError::Missing { kind: "column", name });
     };
@@ -167,8 +173,8 @@ fn ideal(settle: f64, watch: &Watch<'_>) -> Result<ForceCurve, StudyError> {
     let model = Model::ideal();
     let worn = Model::flexible();
     let run = turn(&model, settle, watch)?;
-    let radius = worn.description.contacts[0].journal_radius;
-    let joint = IdealJoint::revolute(&model.description, JOINT, [0.0, 0.0, 1.0], radius)?;
+    let radius = worn.mechanism.description.contacts[0].journal_radius;
+    let joint = IdealJoint::revolute(&model.mechanism.description, JOINT, [0.0, 0.0, 1.0], radius)?;
     let forces: Vec<f64> = run.rows.iter().map(|row| joint.normal_force_and_speed(row).0).collect();
     let measure = joint.measure(&run, None);
     Ok(curve(&run, &forces, THINNED, (measure.wear_integral_J, measure.mean_normal_force_N)))

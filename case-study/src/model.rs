@@ -4,17 +4,17 @@
 //! Variants are made as any user makes them: by the options of the generator, by editing the text of a file, and by
 //! changing the laws of contact and wear in a description, which the equations do not know.
 
+use linkwear::backend::{Backend, Equations};
+use linkwear::mechanism::{LoadError, Mechanism};
+use linkwear::mechanisms;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::life::{JointWear, RevolutionWear, WearSource};
 use linkwear_runtime::wear::{Area, Measure};
-use linkwear_runtime::{
-    Description, DynamicsSource, Integrator, RevolutionSettings, RunError, System, TurnState,
-};
+use linkwear_runtime::{DynamicsSource, Integrator, RevolutionSettings, RunError, TurnState};
 
 use super::error::StudyError;
 use super::options::INTERPRETED;
 use super::watch::Watch;
-use linkwear::mechanisms;
 
 /// The file of the case study.
 pub(super) const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
@@ -23,42 +23,38 @@ pub(super) const JOINT: &str = "R1";
 
 /// A mechanism to run.
 pub(super) struct Model {
-    equations: Equations,
-    pub description: Description,
-    pub parameters: Vec<f64>,
-}
-
-enum Equations {
-    Shipped(fn() -> Box<dyn System<f64>>),
-    Compiled(Box<Compiled>),
+    pub mechanism: Mechanism,
 }
 
 /// The case study, understood by the generator.
 pub(super) fn compiled() -> Result<Compiled, StudyError> {
-    compile_text(TEXT.to_owned(), false)
+    Ok(compile(&source(TEXT.to_owned()), &Options::default()).map_err(LoadError::Mechanism)?)
 }
 
-fn compile_text(text: String, rigid: bool) -> Result<Compiled, StudyError> {
-    let source = SourceFile { name: "mechanisms/rssr.toml".into(), text };
-    compile(&source, &Options { rigid, ..Options::default() }).map_err(StudyError::Mechanism)
+fn source(text: String) -> SourceFile {
+    SourceFile { name: "mechanisms/rssr.toml".into(), text }
 }
 
 impl Model {
     /// The case study as it is shipped: flexible coupler, clearance at R1.
     pub fn flexible() -> Self {
-        Self::shipped(mechanisms::rssr::description(), || Box::new(mechanisms::rssr::Mechanism::default()))
+        let equations = Equations::compiled(|| Box::new(mechanisms::rssr::Mechanism::default()));
+        Self { mechanism: Mechanism::new(mechanisms::rssr::description().clone(), equations) }
     }
 
     /// The same with ideal joints.
     pub fn ideal() -> Self {
-        Self::shipped(mechanisms::rssr_flexible::description(), || {
-            Box::new(mechanisms::rssr_flexible::Mechanism::default())
-        })
+        let equations = Equations::compiled(|| Box::new(mechanisms::rssr_flexible::Mechanism::default()));
+        Self { mechanism: Mechanism::new(mechanisms::rssr_flexible::description().clone(), equations) }
     }
 
     /// The case study with a rigid coupler.
     pub fn rigid() -> Result<Self, StudyError> {
-        Ok(Self::of(compile_text(TEXT.to_owned(), true)?))
+        Self::interpreted(TEXT.to_owned(), &Options { rigid: true, ..Options::default() })
+    }
+
+    fn interpreted(text: String, options: &Options) -> Result<Self, StudyError> {
+        Ok(Self { mechanism: Mechanism::compile(&source(text), options, Backend::Interpreter)? })
     }
 
     /// The case study with these frequencies of its coupler [Hz], each in both planes.
@@ -71,13 +67,13 @@ impl Model {
         if text == TEXT {
             Err(StudyError::Text { expected })
         } else {
-            Ok(Self::of(compile_text(text, false)?))
+            Self::interpreted(text, &Options::default())
         }
     }
 
     /// With wear over another contact area, and depth kept at so many bearing angles.
     pub fn wearing(mut self, area: Area, bins: usize) -> Self {
-        for contact in self.description.contacts.to_mut() {
+        for contact in self.mechanism.description.contacts.to_mut() {
             if let Some(wear) = &mut contact.wear {
                 (wear.area, wear.profile, wear.bins, wear.measure) =
                     (area, true, bins, Some(Measure::Maximum));
@@ -86,30 +82,9 @@ impl Model {
         self
     }
 
-    fn shipped(description: &Description, system: fn() -> Box<dyn System<f64>>) -> Self {
-        let parameters = description.parameters.iter().map(|parameter| parameter.default).collect();
-        Self { equations: Equations::Shipped(system), description: description.clone(), parameters }
-    }
-
-    fn of(compiled: Compiled) -> Self {
-        let (description, parameters) = (compiled.description().clone(), compiled.parameters());
-        Self { equations: Equations::Compiled(Box::new(compiled)), description, parameters }
-    }
-
-    /// Its equations, for one thread.
-    pub fn system(&self) -> Box<dyn System<f64>> {
-        match &self.equations {
-            Equations::Shipped(system) => system(),
-            Equations::Compiled(compiled) => Box::new(compiled.interpreter()),
-        }
-    }
-
     /// Cost of a turn, roughly, in turns of the compiled flexible mechanism: what progress is counted in.
     pub fn cost(&self) -> f64 {
-        match &self.equations {
-            Equations::Shipped(_) => 1.0,
-            Equations::Compiled(_) => INTERPRETED,
-        }
+        if self.mechanism.backend() == "compiled" { 1.0 } else { INTERPRETED }
     }
 
     /// Runs `action` with revolutions of this mechanism, each of which is told to the watch.
@@ -119,9 +94,10 @@ impl Model {
         watch: &Watch<'_>,
         action: impl FnOnce(&mut Watched<'_>) -> Result<T, StudyError>,
     ) -> Result<T, StudyError> {
-        let system = self.system();
+        let system = self.mechanism.system();
         let stop = || watch.is_stopped();
-        let inner = DynamicsSource::new(&*system, &self.description, &self.parameters, settings)?;
+        let inner =
+            DynamicsSource::new(&*system, &self.mechanism.description, &self.mechanism.parameters, settings)?;
         let turns = f64::from(settings.settle + settings.average.max(1));
         let step = if let Integrator::Rk4 { step } = settings.integrator { 2e-5 / step } else { 1.0 };
         let cost = turns * step * self.cost();

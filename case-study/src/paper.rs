@@ -1,4 +1,4 @@
-//! What the paper prints about lives: its Table 2 and the words beside it. In: nothing. Out: numbers.
+//! What the paper prints about lives: its Table 2 and the words beside it. Out: numbers.
 
 use serde::Serialize;
 

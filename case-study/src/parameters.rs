@@ -1,6 +1,7 @@
 //! Table 1: the parameters of the study, the paper's beside those of the file, every assumed value marked.
 //! In: the file of the mechanism. Out: [`ParameterRow`]s. Never runs anything.
 
+use linkwear::mechanism::LoadError;
 use linkwear_codegen::Compiled;
 use linkwear_codegen::spec::{self, ClearanceSpec, Literal, Quantity, WearSpec};
 use serde::Serialize;
@@ -63,7 +64,7 @@ const DRIVE: Printed = printed(("Crank frequency (section 5)", "f"), (2.0, "Hz")
 
 /// Rows of the paper first, then what the file marks as assumed.
 pub(super) fn parameters(compiled: &Compiled) -> Result<Vec<ParameterRow>, StudyError> {
-    let file = spec::parse(&compiled.source).map_err(StudyError::Mechanism)?.file;
+    let file = spec::parse(&compiled.source).map_err(LoadError::Mechanism)?.file;
     let known = &compiled.mechanism.parameters;
     let mut rows = Vec::new();
     for row in PAPER.iter().chain([&DRIVE]) {

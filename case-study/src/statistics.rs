@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Points of a density.
 const POINTS: usize = 121;
-/// A density reaches so many standard deviations to both sides of the mean.
+/// Half-width of the plotted range, in standard deviations.
 const WIDTH: f64 = 4.0;
 
 /// A random life [cycles].

@@ -211,7 +211,7 @@ fn measured(
             threshold: reach * joint.threshold,
             ..joint.clone()
         };
-        let wears = model.description.contacts.iter().find_map(|contact| contact.wear);
+        let wears = model.mechanism.description.contacts.iter().find_map(|contact| contact.wear);
         let rates = wears.and_then(|wear| wear.scatter);
         let surveyed = LifeSettings::new(joints.iter().map(further).collect());
         let table = WearTable::measure(&surveyed, revolutions, points, &mut |_| {})?;

@@ -4,7 +4,7 @@
 /// Put it into a module of its own: `mod rssr { linkwear_runtime::include_mechanism!("rssr"); }`.
 #[macro_export]
 macro_rules! include_mechanism {
-    ($name:literal) => {
+    ($name:expr) => {
         #[allow(
             dead_code,
             unused_imports,

@@ -4,9 +4,11 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use linkwear::backend::Backend;
+use linkwear::life::Coupling;
 use linkwear_gamma::process::Process;
 
-use super::value::{assignment, covariate, draw_count, positive, process_parser};
+use super::value::{assignment, backend, coupling, covariate, draw_count, positive, process_parser};
 
 /// Compiles a linkage into its life: specialised dynamics from a TOML file.
 #[derive(Debug, Parser)]
@@ -54,7 +56,7 @@ pub enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         arguments: Vec<String>,
     },
-    /// Tell the remaining life from a fit, and from inspections of the joint.
+    /// Predict the remaining life from a fit, and from inspections of the joint.
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
                       linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
     Predict(PredictArguments),
@@ -130,14 +132,6 @@ pub struct GenerateArguments {
     /// Write nothing; fail if OUT.rs is not what would be written.
     #[arg(long, requires = "out")]
     pub check: bool,
-    /// Language.
-    #[arg(long, value_enum, default_value_t = Target::Rust)]
-    pub target: Target,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Target {
-    Rust,
 }
 
 #[derive(Debug, Args)]
@@ -161,9 +155,8 @@ pub struct SimulateArguments {
     /// Error tolerance of dopri5 [default: 1e-9].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
-    /// What runs the equations. `auto`: compiled if the file is a shipped mechanism, byte for byte, with
-    /// no generation-time parameter set; else the interpreter.
-    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    /// What runs the equations.
+    #[arg(long, value_parser = backend(), default_value = "auto")]
     pub backend: Backend,
     /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
     #[arg(long)]
@@ -181,19 +174,17 @@ pub struct LifeArguments {
     /// data must be in um, Lambda from `life` (`fit --lambda life.json`). With several wearing joints: once for each.
     #[arg(long, value_name = "[JOINT=]FIT.json")]
     pub fit: Vec<String>,
-    /// Spread of a factor of mean 1, one for each life, by which all joints wear faster or slower together: its
-    /// coefficient of variation, by a Gamma law.
+    /// Coefficient of variation of a random wear-rate factor (Gamma law, mean 1) common to all joints of a life.
     #[arg(long, value_name = "COV", value_parser = positive, conflicts_with = "mean")]
     pub shared_factor: Option<f64>,
-    /// Picks the random numbers; the same seed gives the same bits on any number of threads.
+    /// Seed of the random numbers; the same seed gives the same bits on any number of threads.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Only the mean path: every increment of wear is its mean.
     #[arg(long)]
     pub mean: bool,
-    /// Wear per revolution from a table made once, or from the dynamics at every wear step [default: table, or full
-    /// where a profile is fed back].
-    #[arg(long, value_enum)]
+    /// Source of the wear per revolution: a table made once, or the dynamics at every wear step [default: table, or full where a worn profile is fed back].
+    #[arg(long, value_parser = coupling())]
     pub coupling: Option<Coupling>,
     /// Take flexible bodies as rigid.
     #[arg(long)]
@@ -204,20 +195,20 @@ pub struct LifeArguments {
     /// Step of the fourth-order Runge-Kutta method [s].
     #[arg(long, value_name = "S", value_parser = positive, default_value = "2e-5")]
     pub step: f64,
-    /// Revolutions after each change of a clearance before one is measured.
+    /// Revolutions to settle after each change of clearance, before measuring.
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub settle: u32,
-    /// Revolutions whose mean is taken; a motion that chatters needs 20 or more.
+    /// Revolutions to average; a motion that chatters needs 20 or more.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub average: u32,
-    /// Folder for life.json, cycles.csv and lives.csv; one with something in it is refused.
+    /// Folder for life.json, cycles.csv and lives.csv; must be new or empty.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
     /// What runs the equations.
-    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    #[arg(long, value_parser = backend(), default_value = "auto")]
     pub backend: Backend,
 }
 
@@ -237,7 +228,7 @@ pub struct PredictArguments {
     /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
     #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
     pub covariate: Vec<(String, f64)>,
-    /// Exposure per unit of time from now on; lives are told in that time [default: 1].
+    /// Exposure per unit of time from now on; lives are reported in that time [default: 1].
     #[arg(long, value_name = "R", value_parser = positive)]
     pub rate: Option<f64>,
     /// Readings of this joint (CSV), time since it was new; the last one is the present.
@@ -261,7 +252,7 @@ pub struct PredictArguments {
     /// Bands by this many drawn parameters [default: by the delta method].
     #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = draw_count)]
     pub draws: Option<usize>,
-    /// Decides all random numbers.
+    /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
 }
@@ -311,18 +302,12 @@ pub struct FitArguments {
     /// Replicates of the parametric bootstrap: intervals, p-values of the goodness of fit.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub bootstrap: usize,
-    /// Seed of the bootstrap.
+    /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Coupling {
-    Table,
-    Full,
 }
 
 /// How long to run: at most one of the two.
@@ -343,14 +328,6 @@ pub enum IntegratorName {
     Dopri5,
     #[value(name = "generalized-alpha")]
     GeneralizedAlpha,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Backend {
-    Auto,
-    Compiled,
-    Jit,
-    Interpreter,
 }
 
 #[derive(Debug, Args)]

@@ -19,11 +19,11 @@ pub fn run(input: &Input, format: Format) -> Result<(), Failure> {
     let loaded = load(input)?;
     match format {
         Format::Text => print(&text(&loaded.compiled).trim_end()),
-        Format::Json => print(&machine(&loaded)),
+        Format::Json => print(&to_json(&loaded)),
     }
 }
 
-fn machine(loaded: &Loaded) -> Value {
+fn to_json(loaded: &Loaded) -> Value {
     let (mechanism, analysis) = (&loaded.compiled.mechanism, &loaded.compiled.analysis);
     let redundant: Vec<Value> = analysis
         .redundant

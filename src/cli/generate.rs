@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::arguments::{Format, GenerateArguments, Target};
+use super::arguments::{Format, GenerateArguments};
 use super::equations::operations;
 use super::failure::Failure;
 use super::file::{print, refuse_same, write_whole};
@@ -21,9 +21,7 @@ pub fn run(arguments: &GenerateArguments, format: Format) -> Result<(), Failure>
     }
     let start = Instant::now();
     let loaded = load(&arguments.input)?;
-    let text = match arguments.target {
-        Target::Rust => loaded.compiled.rust_source(),
-    };
+    let text = loaded.compiled.rust_source();
     let seconds = start.elapsed().as_secs_f64();
     match (&arguments.out, arguments.check) {
         (Some(out), true) => compare(out, &text)?,

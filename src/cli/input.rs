@@ -1,8 +1,8 @@
 //! From arguments to a compiled mechanism, and its warnings to stderr.
 
-use std::fs;
-
-use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile};
+use linkwear::backend::Backend;
+use linkwear::mechanism::{LoadError, Mechanism, located_warnings, read_source};
+use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, compile};
 use serde_json::Value;
 
 use super::arguments::{ClosureName, Input};
@@ -10,33 +10,9 @@ use super::failure::{Failure, entries};
 
 /// A mechanism that was read and compiled.
 pub struct Loaded {
-    /// The text of the file.
-    pub source: SourceFile,
     /// With overrides and closure as asked.
     pub compiled: Compiled,
     warnings: Diagnostics,
-}
-
-/// Reads and compiles; prints warnings.
-pub fn load(input: &Input) -> Result<Loaded, Failure> {
-    load_as(input, false)
-}
-
-/// As [`load`]; `rigid` takes flexible bodies as rigid.
-pub fn load_as(input: &Input, rigid: bool) -> Result<Loaded, Failure> {
-    let text = fs::read_to_string(&input.file).map_err(|error| Failure::Read(input.file.clone(), error))?;
-    let source = SourceFile { name: input.file.display().to_string(), text };
-    let closure = input.closure.map(|name| match name {
-        ClosureName::Joint => Closure::Joint,
-        ClosureName::Log => Closure::Log,
-    });
-    let options = Options { closure, overrides: input.overrides.clone(), rigid };
-    let compiled = compile(&source, &options).map_err(Failure::Mechanism)?;
-    let warnings = Diagnostics::from_list(compiled.warnings.clone()).located(&source);
-    if !warnings.is_empty() {
-        eprintln!("{warnings}");
-    }
-    Ok(Loaded { source, compiled, warnings })
 }
 
 impl Loaded {
@@ -44,11 +20,47 @@ impl Loaded {
     pub fn warnings(&self) -> Vec<Value> {
         entries(&self.warnings)
     }
+}
 
-    /// Names of the overridden parameters that are folded into the code, so that it must be made anew.
-    pub fn folded_overrides(&self, input: &Input) -> Vec<String> {
-        let parameters = &self.compiled.mechanism.parameters;
-        let folded = |name: &str| parameters.iter().any(|known| known.name == name && !known.tunable);
-        input.overrides.iter().map(|(name, _)| name).filter(|name| folded(name)).cloned().collect()
+/// Reads and compiles; prints warnings.
+pub fn load(input: &Input) -> Result<Loaded, Failure> {
+    let source = read_source(&input.file).map_err(failed)?;
+    let compiled = compile(&source, &options(input, false)).map_err(Failure::Mechanism)?;
+    let warnings = located_warnings(&compiled);
+    print_warnings(&warnings);
+    Ok(Loaded { compiled, warnings })
+}
+
+/// Reads, compiles and chooses a back end; prints warnings. `rigid` takes flexible bodies as rigid.
+pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Mechanism, Failure> {
+    let source = read_source(&input.file).map_err(failed)?;
+    let mechanism = Mechanism::compile(&source, &options(input, rigid), backend).map_err(failed)?;
+    print_warnings(&mechanism.warnings);
+    Ok(mechanism)
+}
+
+fn options(input: &Input, rigid: bool) -> Options {
+    let closure = input.closure.map(|name| match name {
+        ClosureName::Joint => Closure::Joint,
+        ClosureName::Log => Closure::Log,
+    });
+    Options { closure, overrides: input.overrides.clone(), rigid }
+}
+
+fn print_warnings(warnings: &Diagnostics) {
+    if !warnings.is_empty() {
+        eprintln!("{warnings}");
+    }
+}
+
+fn failed(error: LoadError) -> Failure {
+    match error {
+        LoadError::Read { file, error } => Failure::Read(file, error),
+        LoadError::Mechanism(diagnostics) => Failure::Mechanism(diagnostics),
+        LoadError::Backend(error) => Failure::Backend {
+            message: format!("--backend compiled: {error}"),
+            help: "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)"
+                .to_owned(),
+        },
     }
 }

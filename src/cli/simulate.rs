@@ -4,22 +4,20 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use linkwear::mechanisms::{SHIPPED, Shipped};
-use linkwear_codegen::{Options, compile};
+use linkwear::mechanism::Mechanism;
+use linkwear::progress::{Progress, catch_interrupts, stop_requested};
 use linkwear_runtime::clearance_joint::ContactChannels;
 use linkwear_runtime::{
-    Description, Integrator, Run, RunError, Settings, Span, System, TurnMeasure, simulate, write_csv,
+    Description, Integrator, Run, RunError, Settings, Span, TurnMeasure, simulate, write_csv,
 };
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
-use super::arguments::{Backend, Format, Input, IntegratorName, SimulateArguments};
-use super::failure::Failure;
+use super::arguments::{Format, IntegratorName, SimulateArguments};
+use super::failure::{Failure, entries};
 use super::file::{print, refuse_same, write_whole};
-use super::input::{Loaded, load_as};
+use super::input::load_mechanism;
 use super::summary;
 use super::table::{duration, number, plural, table};
-use linkwear::progress::{Progress, catch_interrupts, stop_requested};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
@@ -34,20 +32,19 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
     if let Some(out) = &arguments.out {
         refuse_same(&arguments.input.file, out)?;
     }
-    let loaded = load_as(&arguments.input, arguments.rigid)?;
-    let description = loaded.compiled.description();
+    let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
+    let description = &mechanism.description;
     let span = span(arguments, description)?;
     let settings = Settings::new(integrator, span, arguments.samples as usize);
-    let (backend, system) = choose_backend(&arguments.input, arguments.backend, arguments.rigid, &loaded)?;
-    let parameters = loaded.compiled.parameters();
 
     catch_interrupts();
     let mut progress = Progress::new();
     let start = Instant::now();
-    let result = simulate(&*system, description, &parameters, &settings, &mut |fraction| {
-        progress.set(fraction);
-        if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
+    let result =
+        simulate(&*mechanism.system(), description, &mechanism.parameters, &settings, &mut |fraction| {
+            progress.set(fraction);
+            if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
     let wall_seconds = start.elapsed().as_secs_f64();
     progress.finish();
 
@@ -59,8 +56,8 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
         write_whole(out, |file| write_csv(file, description, &run))?;
     }
     match format {
-        Format::Json => print(&machine(arguments, &loaded, &run, backend, wall_seconds)),
-        Format::Text => print(&human(arguments, description, &run, &settings, backend, wall_seconds)),
+        Format::Json => print(&to_json(arguments, &mechanism, &run, wall_seconds)),
+        Format::Text => print(&to_text(arguments, &mechanism, &run, &settings, wall_seconds)),
     }
 }
 
@@ -100,58 +97,6 @@ fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span
     }
 }
 
-/// The back end's name and the equations on it.
-pub fn choose_backend(
-    input: &Input,
-    backend: Backend,
-    rigid: bool,
-    loaded: &Loaded,
-) -> Result<(&'static str, Box<dyn System<f64>>), Failure> {
-    let refuse = |message: &str, help: &str| {
-        Err(Failure::Backend { message: message.to_owned(), help: help.to_owned() })
-    };
-    let interpreter = || ("interpreter", Box::new(loaded.compiled.interpreter()) as Box<dyn System<f64>>);
-    match (backend, compiled_in(input, rigid, loaded)) {
-        (Backend::Interpreter, _) | (Backend::Auto, Err(_)) => Ok(interpreter()),
-        (Backend::Auto | Backend::Compiled, Ok(shipped)) => Ok(("compiled", (shipped.system)())),
-        (Backend::Compiled, Err(reason)) => refuse(
-            &format!("--backend compiled: {reason}"),
-            "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
-        ),
-        (Backend::Jit, _) => {
-            refuse("--backend jit comes with a later version", "use --backend auto or interpreter")
-        }
-    }
-}
-
-/// The shipped mechanism that is exactly what was asked for, or why there is none.
-fn compiled_in(input: &Input, rigid: bool, loaded: &Loaded) -> Result<&'static Shipped, String> {
-    if rigid && loaded.compiled.mechanism.bodies.iter().any(|body| body.flexible.is_some()) {
-        return Err("it is compiled with its flexible bodies".to_owned());
-    }
-    let hash = sha256(loaded.source.text.as_bytes());
-    let shipped = SHIPPED
-        .iter()
-        .find(|shipped| shipped.source_sha256 == hash)
-        .ok_or("the file is not a shipped mechanism, byte for byte")?;
-    let folded = loaded.folded_overrides(input);
-    if !folded.is_empty() {
-        return Err(format!("{} is folded into the compiled code", folded.join(", ")));
-    }
-    if input.closure.is_some() {
-        // The compiled code has the closure of the file, which only a second reading without the option tells.
-        let own = compile(&loaded.source, &Options::default()).map_err(Failure::Mechanism);
-        if !own.is_ok_and(|own| own.mechanism.closure == loaded.compiled.mechanism.closure) {
-            return Err("it is compiled with another closure".to_owned());
-        }
-    }
-    Ok(shipped)
-}
-
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 fn failed(arguments: &SimulateArguments, error: RunError, kept: Option<PathBuf>) -> Failure {
     let file = arguments.input.file.clone();
     match error {
@@ -183,18 +128,12 @@ fn partial_name(out: &Path) -> PathBuf {
     out.with_file_name(name)
 }
 
-fn machine(
-    arguments: &SimulateArguments,
-    loaded: &Loaded,
-    run: &Run,
-    backend: &str,
-    wall_seconds: f64,
-) -> Value {
+fn to_json(arguments: &SimulateArguments, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
     let numbers = &run.statistics;
-    let description = loaded.compiled.description();
+    let description = &mechanism.description;
     json!({
         "name": description.name,
-        "backend": backend,
+        "backend": mechanism.backend(),
         "time_s": run.times.last().copied().unwrap_or_default(),
         "samples": run.rows.len(),
         "steps": numbers.steps,
@@ -208,10 +147,10 @@ fn machine(
         "max_loop_error_rad": numbers.max_loop_error_rad,
         "energy_error_J": numbers.energy_error_J,
         "energy_throughput_J": numbers.energy_throughput_J,
-        "peaks": summary::peaks(description, run).iter().map(summary::Peak::machine).collect::<Vec<_>>(),
+        "peaks": summary::peaks(description, run).iter().map(summary::Peak::to_json).collect::<Vec<_>>(),
         "out": arguments.out.as_ref().map(|path| path.display().to_string()),
         "turns": run.turns.iter().map(|turn| turn_entry(description, turn)).collect::<Vec<_>>(),
-        "warnings": all_warnings(loaded, run),
+        "warnings": all_warnings(mechanism, run),
     })
 }
 
@@ -230,9 +169,9 @@ fn turn_entry(description: &Description, turn: &TurnMeasure) -> Value {
 }
 
 /// Those of the file, then those of the run.
-fn all_warnings(loaded: &Loaded, run: &Run) -> Vec<Value> {
+fn all_warnings(mechanism: &Mechanism, run: &Run) -> Vec<Value> {
     let of_run = run.warnings.iter().map(|warning| json!({ "code": "run", "message": warning.to_string() }));
-    loaded.warnings().into_iter().chain(of_run).collect()
+    entries(&mechanism.warnings).into_iter().chain(of_run).collect()
 }
 
 /// The last turns of every joint with clearance.
@@ -257,14 +196,14 @@ fn turns_table(description: &Description, run: &Run) -> String {
     table(&head, &rows)
 }
 
-fn human(
+fn to_text(
     arguments: &SimulateArguments,
-    description: &Description,
+    mechanism: &Mechanism,
     run: &Run,
     settings: &Settings,
-    backend: &str,
     wall_seconds: f64,
 ) -> String {
+    let description = &mechanism.description;
     let end = number(run.times.last().copied().unwrap_or_default());
     let length = match settings.span {
         Span::Turns(turns) => {
@@ -273,7 +212,8 @@ fn human(
         }
         Span::Time(_) => format!("{end} s"),
     };
-    let head = format!("{}: {length} in {}, {backend}", description.name, duration(wall_seconds));
+    let head =
+        format!("{}: {length} in {}, {}", description.name, duration(wall_seconds), mechanism.backend());
     let method = match settings.integrator {
         Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
         Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
@@ -308,12 +248,5 @@ mod tests {
     fn rows_of_an_incomplete_run_go_beside_the_file() {
         assert_eq!(partial_name(Path::new("a/rssr.csv")), Path::new("a/rssr.partial.csv"));
         assert_eq!(partial_name(Path::new("rssr")), Path::new("rssr.partial"));
-    }
-
-    #[test]
-    fn the_hash_is_the_published_one() {
-        // SHA-256 of "abc", FIPS 180-2, appendix B.1.
-        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(sha256(b"abc"), expected);
     }
 }

@@ -27,7 +27,7 @@ pub struct Peak {
 
 impl Peak {
     /// For machines.
-    pub fn machine(&self) -> Value {
+    pub fn to_json(&self) -> Value {
         json!({
             "joint": self.joint, "force_N": self.force, "force_time_s": self.force_time,
             "moment_N_m": self.moment, "moment_time_s": self.moment_time,

@@ -1,7 +1,24 @@
 //! Values of options that are more than a number or a name. In: the text. Out: the value, or what to write instead.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use linkwear::backend::Backend;
+use linkwear::life::Coupling;
 use linkwear_gamma::process::{PROCESSES, Process, named};
+
+/// A back end by its name.
+pub fn backend() -> impl TypedValueParser<Value = Backend> {
+    PossibleValuesParser::new(["auto", "compiled", "interpreter"]).map(|name| match name.as_str() {
+        "compiled" => Backend::Compiled,
+        "interpreter" => Backend::Interpreter,
+        _ => Backend::Auto,
+    })
+}
+
+/// A coupling by its name.
+pub fn coupling() -> impl TypedValueParser<Value = Coupling> {
+    PossibleValuesParser::new(["table", "full"])
+        .map(|name| if name == "full" { Coupling::Full } else { Coupling::Table })
+}
 
 /// `name=value`, both non-empty.
 pub fn assignment(text: &str) -> Result<(String, String), String> {

@@ -7,8 +7,7 @@ use linkwear_runtime::life::{CycleRecord, FailureEvent};
 
 use super::super::failure::Failure;
 use super::super::file::{claim_folder, write_whole};
-use super::super::input::Loaded;
-use super::lived::Lived;
+use super::output::Answer;
 
 /// A folder that was empty.
 pub struct Folder(PathBuf);
@@ -21,13 +20,13 @@ impl Folder {
     }
 
     /// Everything.
-    pub fn write(&self, lived: &Lived<'_>, loaded: &Loaded, backend: &str) -> Result<(), Failure> {
-        let names = lived.plan.names();
-        self.write_cycles(&names, &lived.cycles)?;
-        if !lived.lives.is_empty() {
-            write_whole(&self.0.join("lives.csv"), |file| write_lives(file, &names, &lived.lives))?;
+    pub fn write(&self, answer: &Answer<'_>) -> Result<(), Failure> {
+        let (names, life) = (answer.life.names(), answer.life);
+        self.write_cycles(&names, &life.cycles)?;
+        if !life.lives.is_empty() {
+            write_whole(&self.0.join("lives.csv"), |file| write_lives(file, &names, &life.lives))?;
         }
-        let answer = lived.machine(loaded, backend);
+        let answer = answer.to_json();
         write_whole(&self.0.join("life.json"), |file| writeln!(file, "{answer:#}"))
     }
 

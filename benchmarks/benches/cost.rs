@@ -1,11 +1,10 @@
-//! What generation and one call of the equations cost: `cargo bench --bench cost`.
+//! What generation and one call of the equations cost: `cargo bench -p linkwear-benchmarks`.
 //! Compiled code and the interpreter run the same tape, so their ratio is the price of not having a compiler.
 
 use std::path::Path;
 
 use divan::{Bencher, black_box};
-use linkwear::codegen::compile::{Compiled, Options, compile};
-use linkwear::codegen::source::SourceFile;
+use linkwear::codegen::{Compiled, Options, SourceFile, compile};
 use linkwear::mechanisms::SHIPPED;
 use linkwear::runtime::{Entry, System};
 
@@ -16,7 +15,7 @@ fn main() {
 }
 
 fn source(name: &str) -> SourceFile {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms").join(format!("{name}.toml"));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../mechanisms").join(format!("{name}.toml"));
     let text = std::fs::read_to_string(path).expect("a shipped mechanism");
     SourceFile { name: format!("mechanisms/{name}.toml"), text }
 }
@@ -46,7 +45,11 @@ fn forward(bencher: Bencher, system: &dyn System<f64>) {
 /// One forward dynamics of compiled code.
 #[divan::bench(args = NAMES)]
 fn forward_dynamics_compiled(bencher: Bencher, name: &str) {
-    let shipped = SHIPPED.iter().find(|shipped| shipped.name == name).expect("shipped");
+    let shipped = SHIPPED
+        .iter()
+        .chain(linkwear_benchmarks::SHIPPED)
+        .find(|shipped| shipped.name == name)
+        .expect("shipped");
     forward(bencher, &*(shipped.system)());
 }
 

@@ -1,0 +1,75 @@
+//! Interpreter and compiled code run the same tape: every entry point of every shipped mechanism must agree in every bit.
+
+use linkwear::mechanisms::{SHIPPED, Shipped};
+use linkwear_codegen::{Compiled, Options, SourceFile, compile};
+use linkwear_runtime::{Entry, System};
+
+/// All that are compiled in, here or in linkwear itself.
+fn all() -> impl Iterator<Item = &'static Shipped> {
+    SHIPPED.iter().chain(linkwear_benchmarks::SHIPPED)
+}
+
+fn compiled(name: &str) -> Compiled {
+    let path = format!("{}/../mechanisms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a shipped mechanism");
+    compile(&SourceFile { name: format!("mechanisms/{name}.toml"), text }, &Options::default())
+        .expect("shipped mechanisms compile")
+}
+
+/// A small generator (xorshift), so that states repeat.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn compiled_and_interpreted_entries_agree_bit_for_bit() {
+    for shipped in all() {
+        let interpreted = compiled(shipped.name).interpreter();
+        let system = (shipped.system)();
+        let mut random = Random(0x9E37_79B9_7F4A_7C15);
+        let (sizes, other) = (system.sizes(), System::<f64>::sizes(&interpreted));
+        for entry in Entry::ALL {
+            assert_eq!(sizes.input(entry), other.input(entry), "{}", shipped.name);
+            for _ in 0..50 {
+                let input: Vec<f64> = (0..sizes.input(entry)).map(|_| 3.0 * random.next()).collect();
+                let mut outputs = [vec![0.0; sizes.output(entry)], vec![1.0; sizes.output(entry)]];
+                system.evaluate(entry, &input, &mut outputs[0], &mut vec![0.0; sizes.workspace]);
+                interpreted.evaluate(entry, &input, &mut outputs[1], &mut vec![0.0; other.workspace]);
+                let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+                assert_eq!(bits(&outputs[0]), bits(&outputs[1]), "{} of {}", entry.name(), shipped.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn compiled_code_describes_itself_as_the_generator_does() {
+    for shipped in all() {
+        assert_eq!((shipped.description)(), compiled(shipped.name).description());
+    }
+}
+
+#[test]
+fn every_shipped_file_is_compiled_and_carries_its_own_name() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../mechanisms");
+    let files = std::fs::read_dir(folder).expect("mechanisms folder");
+    let mut names: Vec<String> = files
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let mut compiled: Vec<&str> = all().map(|shipped| shipped.name).collect();
+    compiled.sort_unstable();
+    assert_eq!(names, compiled);
+    for shipped in all() {
+        assert_eq!((shipped.description)().name, shipped.name);
+    }
+}

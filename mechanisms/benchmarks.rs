@@ -1,0 +1,15 @@
+// Published benchmarks, compiled for tests only: read by benchmarks/build.rs and benchmarks/src/lib.rs.
+mechanisms! {
+    /// Andrews' squeezing mechanism: seven bodies, three loops, a spring and a motor.
+    andrews,
+    /// Two parallelogram cells; passes positions where it could go on in several ways.
+    n_four_bar_2,
+    /// Forty parallelogram cells.
+    n_four_bar_40,
+    /// Bricard's six revolutes: overconstrained, yet it moves.
+    bricard,
+    /// Bennett's four skew revolutes: overconstrained, yet it moves.
+    bennett,
+    /// The stiff flyball governor.
+    flyball,
+}

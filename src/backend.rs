@@ -1,0 +1,126 @@
+//! Which back end runs the equations of a mechanism. In: a compiled mechanism, what is asked for.
+//! Out: [`Equations`], or why there are none. Never knows what they are used for.
+
+use std::fmt;
+
+use linkwear_codegen::compile::sha256;
+use linkwear_codegen::{Compiled, Options, compile};
+use linkwear_runtime::System;
+use thiserror::Error;
+
+use crate::mechanisms::{SHIPPED, Shipped};
+
+/// What runs the equations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backend {
+    /// Compiled if the file is a shipped mechanism, byte for byte, with no generation-time parameter set; else the
+    /// interpreter.
+    #[default]
+    Auto,
+    /// Equations that were compiled into this program.
+    Compiled,
+    /// Runs the tapes of any mechanism, operation by operation.
+    Interpreter,
+}
+
+/// There is no compiled code for what was asked for.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("{reason}")]
+pub struct BackendError {
+    /// Why.
+    pub reason: String,
+}
+
+type Make = dyn Fn() -> Box<dyn System<f64>> + Send + Sync;
+
+/// Equations on a back end; every thread makes a system of its own.
+pub struct Equations {
+    name: &'static str,
+    make: Box<Make>,
+}
+
+impl fmt::Debug for Equations {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Equations").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl Equations {
+    /// Of a mechanism that a program compiled in, `|| Box::new(my_mechanism::Mechanism::default())`.
+    pub fn compiled(make: impl Fn() -> Box<dyn System<f64>> + Send + Sync + 'static) -> Self {
+        Self { name: "compiled", make: Box::new(make) }
+    }
+
+    /// By interpreting the tapes.
+    #[must_use]
+    pub fn interpreted(mechanism: &Compiled) -> Self {
+        let system = mechanism.interpreter();
+        Self { name: "interpreter", make: Box::new(move || Box::new(system.clone())) }
+    }
+
+    /// Of a mechanism, compiled with these options, on the back end that is asked for.
+    ///
+    /// # Errors
+    /// If compiled code is asked for and there is none for exactly this mechanism.
+    pub fn choose(mechanism: &Compiled, options: &Options, backend: Backend) -> Result<Self, BackendError> {
+        if backend == Backend::Interpreter {
+            return Ok(Self::interpreted(mechanism));
+        }
+        match compiled_in(mechanism, options) {
+            Ok(shipped) => Ok(Self::compiled(shipped.system)),
+            Err(_) if backend == Backend::Auto => Ok(Self::interpreted(mechanism)),
+            Err(reason) => Err(BackendError { reason }),
+        }
+    }
+
+    /// `compiled` or `interpreter`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The equations, for one thread.
+    #[must_use]
+    pub fn system(&self) -> Box<dyn System<f64>> {
+        (self.make)()
+    }
+}
+
+/// The shipped mechanism that is exactly what was asked for, or why there is none.
+fn compiled_in(mechanism: &Compiled, options: &Options) -> Result<&'static Shipped, String> {
+    if options.rigid && mechanism.mechanism.bodies.iter().any(|body| body.flexible.is_some()) {
+        return Err("it is compiled with its flexible bodies".to_owned());
+    }
+    let hash = sha256(&mechanism.source.text);
+    let shipped = SHIPPED
+        .iter()
+        .find(|shipped| shipped.source_sha256 == hash)
+        .ok_or("the file is not a shipped mechanism, byte for byte")?;
+    let parameters = &mechanism.mechanism.parameters;
+    let is_folded = |name: &str| parameters.iter().any(|known| known.name == name && !known.tunable);
+    let folded = options.overrides.iter().map(|(name, _)| name.as_str()).filter(|name| is_folded(name));
+    let folded: Vec<&str> = folded.collect();
+    if !folded.is_empty() {
+        return Err(format!("{} is folded into the compiled code", folded.join(", ")));
+    }
+    if options.closure.is_some() {
+        // The compiled code has the closure of the file, which only a second reading without the option tells.
+        let as_written = compile(&mechanism.source, &Options::default());
+        if !as_written.is_ok_and(|written| written.mechanism.closure == mechanism.mechanism.closure) {
+            return Err("it is compiled with another closure".to_owned());
+        }
+    }
+    Ok(shipped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hash_is_the_published_one() {
+        // SHA-256 of "abc", FIPS 180-2, appendix B.1.
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256("abc"), expected);
+    }
+}

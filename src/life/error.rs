@@ -1,0 +1,109 @@
+//! Why there is no life, as data.
+
+use std::error::Error as StdError;
+
+use linkwear_gamma::life::LifeError as LawError;
+use linkwear_runtime::RunError;
+use linkwear_runtime::life::{CycleRecord, SettingsError};
+use thiserror::Error;
+
+/// A life that was not lived to its end, with the cycles of the mean path that were completed.
+#[derive(Debug, Error)]
+#[error("{cause}")]
+pub struct LifeError {
+    /// Why.
+    #[source]
+    pub cause: Cause,
+    /// Names of the wearing joints, in the order of the cycles' entries.
+    pub joints: Vec<String>,
+    /// Completed cycles.
+    pub cycles: Vec<CycleRecord>,
+}
+
+/// Why a life was not lived to its end.
+#[derive(Debug, Error)]
+pub enum Cause {
+    /// The mechanism has no joint with wear.
+    #[error("no joint of this mechanism wears")]
+    NoWear,
+    /// No revolute joint is driven.
+    #[error("no revolute joint is driven, so revolutions cannot be counted")]
+    NoTurns,
+    /// Random lives are asked for, and a wearing joint has neither alpha and beta nor a fit.
+    #[error("joint `{joint}` has no Gamma process to draw from")]
+    NoProcess {
+        /// Its name.
+        joint: String,
+    },
+    /// A fit is given for something else.
+    #[error("`{joint}` is no joint that wears; there are: {}", .known.join(", "))]
+    UnknownJoint {
+        /// What was given.
+        joint: String,
+        /// The wearing joints.
+        known: Vec<String>,
+    },
+    /// A shared factor is given, but only the mean path is lived.
+    #[error("a shared factor spreads random lives, and none are asked for")]
+    NoRandomLives,
+    /// The shared factor scatters too much for a mean life to exist.
+    #[error(transparent)]
+    SharedFactor(LawError),
+    /// A number of a wearing joint is out of range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The mechanism cannot be run.
+    #[error(transparent)]
+    Run(RunError),
+    /// No joint fails within the limit on cycles.
+    #[error("{}no joint has failed after {cycles} cycles", of_life(*.trajectory))]
+    CycleLimit {
+        /// The random life; none: the mean path.
+        trajectory: Option<u64>,
+        /// The limit.
+        cycles: u64,
+    },
+    /// The table, the mean path or a random life cannot go on.
+    #[error("{}{error}", of_life(*.trajectory))]
+    Wear {
+        /// The random life; none: the table or the mean path.
+        trajectory: Option<u64>,
+        /// Why.
+        error: Box<dyn StdError + Send + Sync>,
+    },
+    /// Stopped on request.
+    #[error("stopped on request{}", within(*.trajectory, *.lives))]
+    Interrupted {
+        /// The random life that was being lived, where one was.
+        trajectory: Option<u64>,
+        /// Random lives completed, and asked for; none: they had not begun.
+        lives: Option<(usize, u64)>,
+    },
+}
+
+fn of_life(trajectory: Option<u64>) -> String {
+    trajectory.map_or_else(String::new, |number| format!("life {number}: "))
+}
+
+fn within(trajectory: Option<u64>, lives: Option<(usize, u64)>) -> String {
+    let Some((done, count)) = lives else { return String::new() };
+    let place = trajectory.map_or_else(String::new, |number| format!(" in life {number},"));
+    format!("{place} after {done} of {count} lives")
+}
+
+impl From<Cause> for LifeError {
+    /// Before the first cycle.
+    fn from(cause: Cause) -> Self {
+        Self { cause, joints: Vec::new(), cycles: Vec::new() }
+    }
+}
+
+impl From<RunError> for Cause {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::NoTurns => Self::NoTurns,
+            RunError::Interrupted { .. } => Self::Interrupted { trajectory: None, lives: None },
+            error => Self::Run(error),
+        }
+    }
+}

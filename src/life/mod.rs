@@ -1,0 +1,18 @@
+//! The life of a mechanism whose joints wear: one mean path, random lives by their Gamma processes, statistics with
+//! errors. In: a [`Mechanism`](crate::mechanism::Mechanism). Out: [`LifeResult`]. Never touches files or terminals.
+//!
+//! [`LifeStudy::new`] has the defaults of `linkwear life`; change its fields to ask for something else, then
+//! [`LifeStudy::run`].
+
+mod error;
+mod fit;
+mod process;
+mod result;
+mod run;
+mod study;
+
+pub use error::{Cause, LifeError};
+pub use fit::JointFit;
+pub use process::JointProcess;
+pub use result::LifeResult;
+pub use study::{Coupling, LifeStudy, Trajectories};

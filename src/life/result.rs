@@ -1,0 +1,113 @@
+//! What became of a life. In: the mean path, random lives. Out: their statistics and how far off they may be.
+//! Never knows how they were lived.
+
+use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics};
+use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
+
+use super::process::JointProcess;
+use super::study::Coupling;
+
+/// A life to the failure threshold, in cycles.
+#[derive(Clone, Debug)]
+pub struct LifeResult {
+    /// The wearing joints.
+    pub joints: Vec<JointLife>,
+    /// Where wear was from.
+    pub coupling: Coupling,
+    /// End of the mean path.
+    pub end: FailureEvent,
+    /// Cycles of the mean path.
+    pub cycles: Vec<CycleRecord>,
+    /// Estimated error of the mean path by its wear steps [cycles].
+    pub step_error: f64,
+    /// Ends of the random lives, in the order of their numbers; none of them if only the mean path was lived.
+    pub lives: Vec<FailureEvent>,
+    /// Gamma process of each wearing joint, if all have one.
+    pub process: Option<Vec<JointProcess>>,
+    /// The table of wear per revolution and its errors, if there is one.
+    pub table: Option<TableReport>,
+    /// Measurements of revolutions.
+    pub measurements: u64,
+    /// What was doubtful.
+    pub warnings: Vec<String>,
+    /// Standard error of the mean life by the covariances of fits, if there are any [cycles].
+    pub parameter_error: Option<f64>,
+}
+
+impl LifeResult {
+    /// Names of the wearing joints.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.joints.iter().map(|joint| joint.joint.clone()).collect()
+    }
+
+    /// Statistics of the random lives with their standard errors [cycles]; none with fewer than two lives.
+    #[must_use]
+    pub fn statistics(&self) -> Option<LifeStatistics> {
+        let cycles: Vec<f64> = self.lives.iter().map(|end| end.cycles).collect();
+        LifeStatistics::of(&cycles).ok()
+    }
+
+    /// Ends of the random lives, or that of the mean path alone.
+    fn ends(&self) -> &[FailureEvent] {
+        if self.lives.is_empty() { std::slice::from_ref(&self.end) } else { &self.lives }
+    }
+
+    /// Mean life [cycles]; that of the mean path where no random lives were drawn.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.ends().iter().map(|end| end.cycles).sum::<f64>() / self.ends().len() as f64
+    }
+
+    /// Mean life as inspections after whole cycles see it.
+    #[must_use]
+    pub fn mean_whole_cycles(&self) -> f64 {
+        self.ends().iter().map(|end| end.whole_cycles as f64).sum::<f64>() / self.ends().len() as f64
+    }
+
+    /// Part of the lives that each joint ended.
+    #[must_use]
+    pub fn failed_first(&self) -> Vec<f64> {
+        let count = self.ends().len() as f64;
+        let ended_by = |joint| self.ends().iter().filter(|end| end.joint == joint).count() as f64;
+        (0..self.joints.len()).map(|joint| ended_by(joint) / count).collect()
+    }
+
+    /// The joint that ends the mean path.
+    #[must_use]
+    pub fn failed_joint(&self) -> &JointLife {
+        &self.joints[self.end.joint]
+    }
+
+    /// Largest relative error of the table, if there is one.
+    #[must_use]
+    pub fn table_error(&self) -> Option<f64> {
+        let report = self.table.as_ref()?;
+        let others = report.others.iter().flatten();
+        Some(report.left_out.iter().chain(others).copied().fold(0.0, f64::max))
+    }
+
+    /// How far off the mean life may be: that of the random lives, or of the mean path where there are none [cycles].
+    #[must_use]
+    pub fn budget(&self) -> ErrorBudget {
+        let (mean, monte_carlo) = match self.statistics() {
+            Some(lives) => (lives.mean().value, ErrorBudget::monte_carlo(lives.mean())),
+            None => (self.end.cycles, Contribution::None("one life, every increment its mean")),
+        };
+        let table = match self.table_error() {
+            // A depth that is wrong everywhere by a part makes the life wrong by that part.
+            Some(error) => Contribution::Bound(error * mean),
+            None => Contribution::Bound(self.step_error),
+        };
+        let is_fitted = |joints: &[JointProcess]| joints.iter().any(|joint| joint.from.is_some());
+        let parameters = match (self.parameter_error, &self.process) {
+            (Some(error), _) => ErrorBudget::random(error),
+            (None, Some(joints)) if is_fitted(joints) => Contribution::None("the fit gives no covariance"),
+            (None, Some(_)) => {
+                Contribution::None("alpha and beta are taken as known from the mechanism's file")
+            }
+            (None, None) => Contribution::None("no Gamma process: wear is what physics says"),
+        };
+        ErrorBudget { monte_carlo, table, parameters }
+    }
+}

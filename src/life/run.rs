@@ -1,0 +1,262 @@
+//! Living: the table, the mean path, the random lives. In: a study. Out: what became of it, or why it stopped with the
+//! cycles there were.
+
+use std::convert::Infallible;
+use std::error::Error as StdError;
+use std::num::NonZero;
+use std::ops::ControlFlow;
+use std::thread::available_parallelism;
+
+use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
+use linkwear_runtime::life::{
+    CycleRecord, DEFAULT_POINTS, FailureEvent, Feedback, IncrementModel, LifeError as Stop, LifeOutcome,
+    LifeSettings, LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
+};
+use linkwear_runtime::{DynamicsSource, RunError, System, TurnState};
+
+use super::error::{Cause, LifeError};
+use super::process::Process;
+use super::result::LifeResult;
+use super::study::{Coupling, LifeStudy};
+
+/// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
+/// numbers, so few are enough; with the dynamics at every step each is dear.
+const SHIFTED_BY_TABLE: u64 = 200;
+const SHIFTED_BY_DYNAMICS: u64 = 4;
+
+/// Runs with a source of wear that was made for it.
+type Body<'b> = &'b mut dyn FnMut(&mut dyn WearSource<State = Option<TurnState>, Error = RunError>);
+
+impl LifeStudy<'_> {
+    /// Lives.
+    ///
+    /// # Errors
+    /// With the cycles that were completed, if the mechanism cannot live or one of its lives does not end.
+    pub fn run(&self) -> Result<LifeResult, LifeError> {
+        self.run_watched(&|_| {}, &|| false)
+    }
+
+    /// As [`Self::run`]. `progress` gets the finished part, 0 to 1, of the table, the mean path and the random lives, one
+    /// after the other; `stop` is asked all the time.
+    ///
+    /// # Errors
+    /// As [`Self::run`], and [`Cause::Interrupted`].
+    pub fn run_watched(
+        &self,
+        progress: &(dyn Fn(f64) + Sync),
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<LifeResult, LifeError> {
+        let system = self.mechanism.system();
+        let mut source = self.source(&*system, stop)?;
+        let plan = Plan::new(self, &source, (progress, stop))?;
+        let mut result = match plan.coupling {
+            Coupling::Table => plan.by_table(&mut source),
+            Coupling::Full => plan.by_dynamics(&mut source),
+        }?;
+        result.warnings.splice(0..0, source.warnings().iter().map(ToString::to_string));
+        Ok(result)
+    }
+
+    /// Revolutions of a system.
+    fn source<'s>(
+        &'s self,
+        system: &'s dyn System<f64>,
+        stop: &'s (dyn Fn() -> bool + Sync),
+    ) -> Result<DynamicsSource<'s>, Cause> {
+        let mechanism = self.mechanism;
+        if !mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
+            return Err(Cause::NoWear);
+        }
+        let (description, parameters) = (&mechanism.description, &mechanism.parameters);
+        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.stopped_by(stop))
+    }
+}
+
+/// What to live, and how.
+struct Plan<'s> {
+    study: &'s LifeStudy<'s>,
+    settings: LifeSettings,
+    coupling: Coupling,
+    process: Option<Process>,
+    /// Random lives; none for the mean path alone.
+    trajectories: Option<u64>,
+    threads: NonZero<usize>,
+    progress: &'s (dyn Fn(f64) + Sync),
+    stop: &'s (dyn Fn() -> bool + Sync),
+}
+
+impl<'s> Plan<'s> {
+    fn new(
+        study: &'s LifeStudy<'s>,
+        source: &DynamicsSource<'_>,
+        (progress, stop): (&'s (dyn Fn(f64) + Sync), &'s (dyn Fn() -> bool + Sync)),
+    ) -> Result<Self, Cause> {
+        let mut settings = LifeSettings::new(source.joints()?);
+        if !study.feedback {
+            settings = settings.without_feedback();
+        }
+        let has_profile = settings.joints.iter().any(|joint| joint.feedback == Feedback::Profile);
+        let default = if has_profile { Coupling::Full } else { Coupling::Table };
+        let coupling = study.coupling.unwrap_or(default);
+        settings.step = match coupling {
+            Coupling::Table => WearStep::TABLE,
+            Coupling::Full => WearStep::FULL,
+        };
+        let process = Process::new(study, &study.mechanism.description)?;
+        let trajectories = process.as_ref().and_then(|_| study.trajectories.count(coupling));
+        if trajectories.is_none() && study.shared_factor.is_some() {
+            return Err(Cause::NoRandomLives);
+        }
+        let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
+        Ok(Self { study, settings, coupling, process, trajectories, threads, progress, stop })
+    }
+
+    fn by_table(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
+        let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, &mut |part| {
+            (self.progress)(part);
+        });
+        let mut table = measured.map_err(|error| self.error(cause(error, None), &[]))?;
+        let mut result = self.mean_path(&mut table, &|_| {})?;
+        self.draw(&mut result, &|body| {
+            body(&mut table.clone());
+            Ok::<(), Infallible>(())
+        })?;
+        result.measurements = table.report().measurements as u64;
+        result.table = Some(table.report().clone());
+        Ok(result)
+    }
+
+    fn by_dynamics(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
+        let mut result = self.mean_path(source, self.progress)?;
+        self.draw(&mut result, &|body: Body<'_>| {
+            let system = self.study.mechanism.system();
+            let (description, parameters) =
+                (&self.study.mechanism.description, &self.study.mechanism.parameters);
+            let made = DynamicsSource::new(&*system, description, parameters, self.study.revolutions)?;
+            body(&mut made.stopped_by(self.stop));
+            Ok(())
+        })?;
+        Ok(result)
+    }
+
+    /// The life in which every increment is its mean.
+    fn mean_path<S: WearSource>(&self, source: &mut S, show: &dyn Fn(f64)) -> Result<LifeResult, LifeError>
+    where
+        Stop<S::Error>: StdError + Send + Sync + 'static,
+    {
+        let state = LifeState::new(&self.settings, 0);
+        let mut state = state.map_err(|error| self.error(error.into(), &[]))?;
+        let mean = self.process.as_ref().map(Process::mean);
+        let increments: &dyn IncrementModel = mean.as_ref().map_or(&MeanIncrement, |mean| mean);
+        let outcome = run_life(&self.settings, source, increments, &mut state, &mut |cycle| {
+            show(cycle.used.min(1.0));
+            self.go_on()
+        });
+        let none = || Cause::Interrupted { trajectory: None, lives: None };
+        let end = match outcome {
+            Ok(LifeOutcome::Failed(end)) => end,
+            Ok(LifeOutcome::Cancelled) => return Err(self.error(none(), &state.cycles)),
+            Ok(LifeOutcome::CycleLimit) => {
+                let limit = Cause::CycleLimit { trajectory: None, cycles: self.settings.most_cycles };
+                return Err(self.error(limit, &state.cycles));
+            }
+            Err(error) => return Err(self.error(cause(error, None), &state.cycles)),
+        };
+        let name = |joint: usize| &self.settings.joints[joint].joint;
+        let warnings = state.warnings.iter();
+        let warnings = warnings
+            .map(|known| format!("{}, cycle {}: {}", name(known.joint), known.cycle, known.warning))
+            .collect();
+        let by_fit = |process: &Process| process.uncertainty_of_mean_path(end.joint, end.cycles);
+        Ok(LifeResult {
+            joints: self.settings.joints.clone(),
+            coupling: self.coupling,
+            end,
+            step_error: state.joints[end.joint].error,
+            cycles: state.cycles,
+            lives: Vec::new(),
+            process: self.process.as_ref().map(|process| process.joints.clone()),
+            table: None,
+            measurements: state.measurements,
+            warnings,
+            parameter_error: self.process.as_ref().and_then(by_fit),
+        })
+    }
+
+    /// The random lives, and what uncertain parameters do to their mean.
+    fn draw<S: Clone + Default, E: Send>(
+        &self,
+        result: &mut LifeResult,
+        scale: Scale<'_, S, E>,
+    ) -> Result<(), LifeError>
+    where
+        Stop<E>: StdError + Send + Sync + 'static,
+    {
+        let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
+        let failed = |cause| self.error(cause, &result.cycles);
+        let lives = self.draw_by(scale, &process.draw(), count, self.progress).map_err(failed)?;
+        let few = match self.coupling {
+            Coupling::Table => SHIFTED_BY_TABLE,
+            Coupling::Full => SHIFTED_BY_DYNAMICS,
+        };
+        let by_fits = process.uncertainty(&mut |shifted| {
+            let lives = self.draw_by(scale, shifted, count.min(few), &|_| {})?;
+            Ok(lives.iter().map(|end| end.cycles).sum::<f64>() / lives.len() as f64)
+        });
+        let by_fits = by_fits.map_err(failed)?;
+        // One life has no statistics: the budget stays that of the mean path.
+        if lives.len() > 1 {
+            result.parameter_error = by_fits;
+        }
+        result.lives = lives;
+        Ok(())
+    }
+
+    /// Lives by these draws.
+    fn draw_by<S: Clone + Default, E: Send>(
+        &self,
+        scale: Scale<'_, S, E>,
+        draw: &GammaDraw,
+        count: u64,
+        show: &(dyn Fn(f64) + Sync),
+    ) -> Result<Vec<FailureEvent>, Cause>
+    where
+        Stop<E>: StdError + Send + Sync + 'static,
+    {
+        let mut settings = self.settings.clone();
+        settings.keep_cycles = false;
+        let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
+        let Lives { failures, ended } = run.run(scale, &|done| {
+            show(done as f64 / count as f64);
+            self.go_on()
+        });
+        let lives = Some((failures.len(), count));
+        match ended {
+            Ended::Complete => Ok(failures.into_iter().map(|(_, end)| end).collect()),
+            Ended::Cancelled => Err(Cause::Interrupted { trajectory: None, lives }),
+            Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if (self.stop)() => {
+                Err(Cause::Interrupted { trajectory: Some(trajectory), lives })
+            }
+            Ended::Stopped { trajectory, stop } => Err(cause(stop, Some(trajectory))),
+            Ended::Survived { trajectory } => {
+                Err(Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles })
+            }
+        }
+    }
+
+    fn error(&self, cause: Cause, cycles: &[CycleRecord]) -> LifeError {
+        let joints = self.settings.joints.iter().map(|joint| joint.joint.clone()).collect();
+        LifeError { cause, joints, cycles: cycles.to_vec() }
+    }
+
+    fn go_on(&self) -> ControlFlow<()> {
+        if (self.stop)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+fn cause<E>(error: Stop<E>, trajectory: Option<u64>) -> Cause
+where
+    Stop<E>: StdError + Send + Sync + 'static,
+{
+    Cause::Wear { trajectory, error: Box::new(error) }
+}

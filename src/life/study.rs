@@ -1,0 +1,90 @@
+//! What is asked of a life. In: a mechanism, choices. Out: a [`LifeStudy`] to run.
+
+use std::num::NonZero;
+
+use linkwear_runtime::RevolutionSettings;
+
+use super::fit::JointFit;
+use crate::mechanism::Mechanism;
+
+/// Where the wear of a revolution is from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// From a table over the clearance, measured once with the dynamics.
+    Table,
+    /// From the dynamics, at every wear step.
+    Full,
+}
+
+/// Random lives to draw.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Trajectories {
+    /// 1000 with a table, where every wearing joint has a Gamma process; else none.
+    #[default]
+    Default,
+    /// None, the mean path alone.
+    MeanPath,
+    /// So many.
+    Count(u64),
+}
+
+impl Trajectories {
+    /// Whether random lives are asked for by number.
+    pub(super) fn is_asked(self) -> bool {
+        matches!(self, Self::Count(_))
+    }
+
+    /// The number of lives; none: the mean path alone.
+    pub(super) fn count(self, coupling: Coupling) -> Option<u64> {
+        /// A standard error of a thirtieth of the scatter.
+        const DEFAULT: u64 = 1000;
+        match self {
+            Self::Default => (coupling == Coupling::Table).then_some(DEFAULT),
+            Self::MeanPath => None,
+            Self::Count(count) => Some(count),
+        }
+    }
+}
+
+/// A life to be lived, cycle by cycle, until the first joint has worn to its threshold.
+#[derive(Clone, Debug)]
+pub struct LifeStudy<'m> {
+    /// The mechanism, with at least one joint that wears.
+    pub mechanism: &'m Mechanism,
+    /// How a revolution is run and measured.
+    pub revolutions: RevolutionSettings,
+    /// Where wear is from. None: a table; the dynamics where a worn profile is fed back, which has no table.
+    pub coupling: Option<Coupling>,
+    /// Whether wear opens the clearance.
+    pub feedback: bool,
+    /// Random lives beside the mean path.
+    pub trajectories: Trajectories,
+    /// Seed of the random numbers: the same seed gives the same bits on any number of threads.
+    pub seed: u64,
+    /// Threads that share the random lives. None: one per core.
+    pub threads: Option<NonZero<usize>>,
+    /// Fits that take the place of alpha and beta in the mechanism's file, at most one for each wearing joint. Their
+    /// covariance enters the error budget.
+    pub fits: Vec<JointFit>,
+    /// Coefficient of variation of a random wear-rate factor (Gamma law, mean 1) common to all joints of a life.
+    pub shared_factor: Option<f64>,
+}
+
+impl<'m> LifeStudy<'m> {
+    /// With the defaults of `linkwear life`: revolutions by Runge-Kutta at 20 µs, 4 to settle, 1 measured; feedback; a
+    /// table where that is right; 1000 random lives where every joint has a Gamma process; seed 1; all cores.
+    #[must_use]
+    pub fn new(mechanism: &'m Mechanism) -> Self {
+        Self {
+            mechanism,
+            revolutions: RevolutionSettings::default(),
+            coupling: None,
+            feedback: true,
+            trajectories: Trajectories::Default,
+            seed: 1,
+            threads: None,
+            fits: Vec::new(),
+            shared_factor: None,
+        }
+    }
+}
