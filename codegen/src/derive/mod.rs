@@ -1,7 +1,7 @@
 //! Symbolic derivation: from a mechanism to named outputs over one expression graph.
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
-//! Order of reading: `linkage` (frames), `kinematics`, `inertia`, `closure`, `forces`,
+//! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `forces`,
 //! `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
 
 mod across;
