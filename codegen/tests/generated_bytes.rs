@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use linkwear_codegen::compile::{Compiled, Options, compile, sha256};
+use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
 
@@ -34,7 +34,7 @@ fn hashes(folder: &str) -> String {
             // The first line carries the version.
             let source = compiled.rust_source();
             let body = source.split_once('\n').expect("several lines").1;
-            let hash = &sha256(body)[..16];
+            let hash = &SourceFile { name: String::new(), text: body.to_owned() }.sha256()[..16];
             writeln!(lines, "{name:24} {closure:?}  {hash}  {statements:6} {operations:6}")
                 .expect("text takes it");
         }

@@ -1,29 +1,17 @@
-//! The whole pipeline, in order: parse, resolve, derive, analyse, derive again without redundant rows, lower.
-//! In: a source file. Out: [`Compiled`]. Never knows how a stage works.
+//! A mechanism, understood, and what can be asked of it.
+//! In: what the stages made. Out: [`Compiled`]. Never knows in which order they ran.
 
 use linkwear_runtime::{Description, Sizes};
 
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, STATEMENTS_PER_FUNCTION, emit};
-use crate::derive::{self, Equations, Purpose};
-use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::model::{self, Closure, Mechanism, Overrides, Topology};
-use crate::preflight::{self, Analysis, Findings};
+use crate::derive::Equations;
+use crate::diagnostic::Diagnostic;
+use crate::model::{Mechanism, Topology};
+use crate::preflight::Analysis;
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
-use crate::spec;
 use crate::tape::{self, Operations, Tape};
-
-/// What a caller may change without touching the file.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// Overrides the file's closure.
-    pub closure: Option<Closure>,
-    /// Parameter values by name, with units in the text.
-    pub overrides: Vec<(String, String)>,
-    /// Takes flexible bodies as rigid.
-    pub rigid: bool,
-}
 
 /// A mechanism, understood: equations, tapes and all that is known about it.
 #[derive(Clone, Debug)]
@@ -42,8 +30,8 @@ pub struct Compiled {
     pub equations: Equations,
     /// One tape per function.
     pub tapes: Vec<Tape>,
-    description: Description,
-    sizes: Sizes,
+    pub(super) description: Description,
+    pub(super) sizes: Sizes,
 }
 
 /// Cost of one entry point.
@@ -57,59 +45,6 @@ pub struct FunctionCount {
     pub statements: usize,
     /// Functions that the code is split into.
     pub parts: usize,
-}
-
-/// Compiles a file.
-///
-/// # Errors
-/// All that is wrong with the file, in one go.
-pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
-    let spec = spec::parse(source)?;
-    let overrides = Overrides::from_pairs(&options.overrides);
-    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
-    if let Some(closure) = options.closure {
-        mechanism.closure = closure;
-    }
-    if options.rigid {
-        mechanism.freeze();
-    }
-    let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
-    let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;
-    warnings.extend(remarks);
-    let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
-    let tapes = tape::lower(&derived.equations);
-    let mut compiled = Compiled {
-        source: source.clone(),
-        mechanism,
-        topology,
-        analysis,
-        warnings,
-        equations: derived.equations,
-        tapes,
-        description: derived.description,
-        sizes: derived.sizes,
-    };
-    let system = compiled.interpreter();
-    preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
-    let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
-    compiled.warnings.extend(near);
-    Ok(compiled)
-}
-
-fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {
-    let released = preflight::released(mechanism);
-    let derived = derive::derive(&released, topology, None, Purpose::Analysis);
-    let tapes = tape::lower(&derived.equations);
-    let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
-    let case = preflight::Case {
-        source,
-        mechanism,
-        topology,
-        linkage: &derived.linkage,
-        description: &derived.description,
-        system: &interpreter,
-    };
-    preflight::analyse(&case)
 }
 
 impl Compiled {
@@ -168,7 +103,7 @@ impl Compiled {
     pub fn rust_source_for(&self, runtime_path: &str) -> String {
         emit(&EmitInput {
             source_name: &self.file_name(),
-            source_sha256: &sha256(&self.source.text),
+            source_sha256: &self.source.sha256(),
             tapes: &self.tapes,
             description: &self.description,
             sizes: self.sizes,
@@ -181,11 +116,4 @@ impl Compiled {
         let parts: Vec<&str> = self.source.name.split(['/', '\\']).filter(|part| !part.is_empty()).collect();
         parts[parts.len().saturating_sub(2)..].join("/")
     }
-}
-
-/// SHA-256 of a text in hexadecimal.
-#[must_use]
-pub fn sha256(text: &str) -> String {
-    use sha2::Digest as _;
-    sha2::Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,0 +1,79 @@
+//! The whole pipeline, in order: parse, resolve, derive, analyse, derive again without redundant rows, lower.
+//! In: a source file. Out: [`Compiled`]. Never knows how a stage works.
+
+mod compiled;
+
+use crate::backend::interp::Interpreted;
+use crate::derive::{self, Purpose};
+use crate::diagnostic::Diagnostics;
+use crate::model::{self, Closure, Mechanism, Overrides, Topology};
+use crate::preflight::{self, Findings};
+use crate::source::SourceFile;
+use crate::spec;
+use crate::tape;
+
+pub use compiled::{Compiled, FunctionCount};
+
+/// What a caller may change without touching the file.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Overrides the file's closure.
+    pub closure: Option<Closure>,
+    /// Parameter values by name, with units in the text.
+    pub overrides: Vec<(String, String)>,
+    /// Takes flexible bodies as rigid.
+    pub rigid: bool,
+}
+
+/// Compiles a file.
+///
+/// # Errors
+/// All that is wrong with the file, in one go.
+pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
+    let spec = spec::parse(source)?;
+    let overrides = Overrides::from_pairs(&options.overrides);
+    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
+    if let Some(closure) = options.closure {
+        mechanism.closure = closure;
+    }
+    if options.rigid {
+        mechanism.freeze();
+    }
+    let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
+    let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;
+    warnings.extend(remarks);
+    let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
+    let tapes = tape::lower(&derived.equations);
+    let mut compiled = Compiled {
+        source: source.clone(),
+        mechanism,
+        topology,
+        analysis,
+        warnings,
+        equations: derived.equations,
+        tapes,
+        description: derived.description,
+        sizes: derived.sizes,
+    };
+    let system = compiled.interpreter();
+    preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
+    let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
+    compiled.warnings.extend(near);
+    Ok(compiled)
+}
+
+fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {
+    let released = preflight::released(mechanism);
+    let derived = derive::derive(&released, topology, None, Purpose::Analysis);
+    let tapes = tape::lower(&derived.equations);
+    let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
+    let case = preflight::Case {
+        source,
+        mechanism,
+        topology,
+        linkage: &derived.linkage,
+        description: &derived.description,
+        system: &interpreter,
+    };
+    preflight::analyse(&case)
+}
