@@ -31,6 +31,18 @@ pub enum Node {
     Binary(Binary, ExprId, ExprId),
 }
 
+impl Node {
+    /// The nodes that it is computed from.
+    pub fn children(self) -> impl Iterator<Item = ExprId> {
+        let (first, second) = match self {
+            Self::Constant(_) | Self::Symbol(_) => (None, None),
+            Self::Unary(_, a) => (Some(a), None),
+            Self::Binary(_, a, b) => (Some(a), Some(b)),
+        };
+        first.into_iter().chain(second)
+    }
+}
+
 /// Functions of one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "named as in mathematics")]

@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
-use super::Analysis;
+use super::analysis::Analysis;
 use super::rank::Rows;
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";

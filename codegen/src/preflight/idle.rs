@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::id::JointId;
 use crate::model::{Carrier, Joint, Mechanism};
 
-use super::Case;
+use super::case::Case;
 use super::samples::{ClosedPositions, evaluate, null_space};
 
 /// Motions smaller than this share of the largest count as rest; rounding leaves 1e-12.

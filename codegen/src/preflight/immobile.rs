@@ -7,7 +7,7 @@ use crate::derive::{Freedom, Link, row_count};
 use crate::id::JointId;
 use crate::model::{Carrier, Closure};
 
-use super::Case;
+use super::case::Case;
 use super::samples::{ClosedPositions, Position, null_space};
 
 /// Shares of a unit motion below this are rest; rounding leaves 1e-12.

@@ -3,7 +3,7 @@
 
 use linkwear_runtime::Entry;
 
-use super::Case;
+use super::case::Case;
 use super::samples::{ClosedPositions, evaluate, null_space};
 
 /// Components below this share of the largest of a self-stress count as untouched by it.

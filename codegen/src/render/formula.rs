@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use crate::expr::{Binary, ExprId, Graph, Node, Unary};
 
-use super::TextFormat;
+use super::format::TextFormat;
 
 /// Writes nodes of a graph.
 pub struct Formula<'a> {

@@ -1,6 +1,7 @@
 //! The equations for people: named steps and outputs as text, Markdown or LaTeX, with operation counts.
 //! In: [`Equations`]. Out: text. Never knows tapes' order or Rust syntax.
 
+mod format;
 mod formula;
 
 use std::collections::{BTreeSet, HashMap};
@@ -10,18 +11,8 @@ use crate::derive::{Block, Equations, Function};
 use crate::expr::{ExprId, Graph, Node};
 use crate::tape::{Operations, Tape, unshared_operations};
 
+pub use format::TextFormat;
 use formula::Formula;
-
-/// How equations are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextFormat {
-    /// Plain text.
-    Text,
-    /// Markdown with code blocks.
-    Markdown,
-    /// LaTeX, ready to be included.
-    Latex,
-}
 
 /// One output of one function, with its cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,7 +120,7 @@ impl<'a> Writer<'a> {
         let mut stack: Vec<ExprId> = self.chosen.iter().flat_map(|block| block.entries.clone()).collect();
         while let Some(id) = stack.pop() {
             if live.insert(id) {
-                for child in children(self.graph.node(id)) {
+                for child in self.graph.node(id).children() {
                     *uses.entry(child).or_default() += 1;
                     stack.push(child);
                 }
@@ -140,7 +131,7 @@ impl<'a> Writer<'a> {
         let mut number = 0;
         for id in live {
             let node = self.graph.node(id);
-            let below: Vec<ExprId> = children(node).collect();
+            let below: Vec<ExprId> = node.children().collect();
             if below.is_empty() {
                 lengths.insert(id, 4);
                 continue;
@@ -280,13 +271,4 @@ impl<'a> Writer<'a> {
             _ => writeln!(text, "  {left} = {right}"),
         };
     }
-}
-
-fn children(node: Node) -> impl Iterator<Item = ExprId> {
-    let (first, second) = match node {
-        Node::Constant(_) | Node::Symbol(_) => (None, None),
-        Node::Unary(_, a) => (Some(a), None),
-        Node::Binary(_, a, b) => (Some(a), Some(b)),
-    };
-    first.into_iter().chain(second)
 }

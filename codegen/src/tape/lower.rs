@@ -46,7 +46,7 @@ impl Live {
         // Children come before parents, so one sweep from the end counts every use.
         for index in (0..graph.len()).rev() {
             if uses[index] > 0 {
-                for child in children(graph.node(ExprId::new(index))) {
+                for child in graph.node(ExprId::new(index)).children() {
                     uses[child.index()] += 1;
                 }
             }
@@ -74,7 +74,7 @@ impl Live {
                     order.push(id);
                 } else {
                     stack.push((id, true));
-                    let mut below: Vec<ExprId> = children(graph.node(id)).collect();
+                    let mut below: Vec<ExprId> = graph.node(id).children().collect();
                     below.reverse();
                     stack.extend(below.into_iter().map(|child| (child, false)));
                 }
@@ -82,15 +82,6 @@ impl Live {
         }
         order
     }
-}
-
-fn children(node: Node) -> impl Iterator<Item = ExprId> {
-    let (first, second) = match node {
-        Node::Constant(_) | Node::Symbol(_) => (None, None),
-        Node::Unary(_, a) => (Some(a), None),
-        Node::Binary(_, a, b) => (Some(a), Some(b)),
-    };
-    first.into_iter().chain(second)
 }
 
 struct Lowerer<'a> {

@@ -9,8 +9,8 @@ use quote::{format_ident, quote};
 use crate::expr::{Binary, Unary};
 use crate::tape::{Op, Operand, Part, Slot, Split, Statement, Tape};
 
+use super::comment::{MARKER, count_text, one_line};
 use super::names::Names;
-use super::{count_text, one_line};
 
 /// The public function and its parts.
 pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> TokenStream {
@@ -129,7 +129,7 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
     for statement in statements {
         if section != Some(statement.section) {
             section = Some(statement.section);
-            let marker = format_ident!("{}", super::sections::MARKER);
+            let marker = format_ident!("{}", MARKER);
             let index = Literal::usize_unsuffixed(statement.section);
             tokens.extend(quote!(#marker!(#index);));
         }

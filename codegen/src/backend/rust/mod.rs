@@ -1,17 +1,19 @@
 //! Writes tapes as specialised, unrolled Rust: a documented struct that implements the runtime's contract.
 //! In: [`EmitInput`]. Out: source text, the same bytes every time. Never knows mechanics.
 
+mod comment;
 mod contact;
 mod describe;
 mod function;
 mod names;
-mod sections;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::tape::{Operations, Split, Tape, split};
+use crate::tape::{Split, Tape, split};
+
+use comment::one_line;
 
 /// Statements of one emitted function at most; see [`split`].
 pub use crate::tape::PART_LIMIT as STATEMENTS_PER_FUNCTION;
@@ -44,7 +46,7 @@ pub fn emit(input: &EmitInput<'_>) -> String {
     for (tape, split) in input.tapes.iter().zip(&splits) {
         let tokens = function::functions(tape, split, &runtime);
         text.push('\n');
-        text.push_str(&sections::with_comments(&format_items(tokens), &tape.sections));
+        text.push_str(&comment::with_comments(&format_items(tokens), &tape.sections));
     }
     text
 }
@@ -73,11 +75,6 @@ fn header(input: &EmitInput<'_>) -> String {
         lines.push(format!("// {:<22} {:>10} {:>10}", tape.name, total, tape.statements.len()));
     }
     lines.join("\n") + "\n\n"
-}
-
-/// User text for a comment: one line, no control characters.
-fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// The struct with its parameters, and the contract.
@@ -135,20 +132,6 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
         }
         #description
     }
-}
-
-/// Counts for a reader.
-fn count_text(operations: &Operations) -> String {
-    format!(
-        "{} operations ({} mul, {} add, {} div, {} sqrt, {} sincos, {} other)",
-        operations.total,
-        operations.mul,
-        operations.add,
-        operations.div,
-        operations.sqrt,
-        operations.sincos,
-        operations.other
-    )
 }
 
 #[cfg(test)]

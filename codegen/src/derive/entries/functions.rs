@@ -3,7 +3,7 @@
 
 use linkwear_runtime::{Channel, Entry, RowInfo};
 
-use super::{Deriver, Instant};
+use super::deriver::{Deriver, Instant};
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
 use crate::derive::geometry::Geometry;

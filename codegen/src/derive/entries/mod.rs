@@ -2,29 +2,21 @@
 //! In: mechanism, topology, which constraint rows to keep. Out: [`Derived`].
 //! Never knows tapes. The only place that knows all parts of the derivation.
 
+mod deriver;
 mod description;
 mod functions;
+mod names;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 
-use crate::expr::{Expr, Scope, Vec3};
-use crate::id::JointId;
+use crate::expr::Scope;
 use crate::model::{Mechanism, Topology};
 
+use super::geometry::Geometry;
+use super::linkage::Linkage;
+use super::linkage_build::linkage;
 use super::{Equations, Function};
-use crate::derive::closure::{CutRows, cut_rows, row_count};
-use crate::derive::contacts::ContactWrench;
-use crate::derive::dynamics::Partition;
-use crate::derive::forces::loads;
-use crate::derive::formula_to_expr::Inputs;
-use crate::derive::geometry::Geometry;
-use crate::derive::joint_state::JointStates;
-use crate::derive::kinematics::{Poses, accelerations, twists};
-use crate::derive::link_mass::{LinkMass, link_masses};
-use crate::derive::linkage::{Freedom, Link, Linkage};
-use crate::derive::linkage_build::linkage;
-use crate::derive::loads::Loads;
-use crate::derive::motion::{ModalState, Motion};
+use deriver::{Deriver, inputs};
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
@@ -64,250 +56,39 @@ pub fn derive(
         scope.begin_section("prescribed motion");
         let (inputs, parameters) = inputs(&scope, mechanism);
         let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-        Deriver::new(geometry, parameters, keep).results(purpose)
+        results(&Deriver::new(geometry, parameters, keep), purpose)
     };
     Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
 }
 
-/// Symbols of tunable parameters and time, numbers for the other parameters; and the tunable ones alone.
-fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<'g>>) {
-    let mut tunable = Vec::new();
-    let parameters = mechanism
-        .parameters
-        .iter()
-        .map(|parameter| {
-            if parameter.tunable {
-                tunable.push(g.symbol(parameter.name.clone()));
-                tunable[tunable.len() - 1]
-            } else {
-                g.number(parameter.value)
-            }
-        })
-        .collect();
-    (Inputs { parameters, time: g.symbol("t") }, tunable)
-}
-
-/// A prescribed coordinate with its place and its law.
-struct Driver<'g> {
-    joint: JointId,
-    joint_coordinate: usize,
-    coordinate: usize,
-    speed: usize,
-    /// Position, speed, acceleration over parameters and t.
-    law: [Expr<'g>; 3],
-}
-
-struct Deriver<'g> {
-    geometry: Geometry<'g>,
-    /// Symbols of the tunable parameters.
-    parameters: Vec<Expr<'g>>,
-    drivers: Vec<Driver<'g>>,
-    /// Symbols of all coordinates and speeds, driven ones included.
-    q_all: Vec<Expr<'g>>,
-    v_all: Vec<Expr<'g>>,
-    free_q: Vec<usize>,
-    partition: Partition,
-    /// Symbols of the accelerations of the free speeds.
-    v_dot: Vec<Expr<'g>>,
-    /// Symbols of the multipliers of all rows.
-    lambda: Vec<Expr<'g>>,
-    /// Symbols of the drivers' forces.
-    drive: Vec<Expr<'g>>,
-    /// Symbols of the wrenches that contact laws hand in.
-    contacts: Vec<ContactWrench<'g>>,
-    keep: Vec<bool>,
-}
-
-/// Link motion with what depends on it.
-struct Instant<'g> {
-    state: JointStates<'g>,
-    loads: Loads<'g>,
-    cuts: Vec<CutRows<'g>>,
-}
-
-fn modal_state<'g>(link: &Link, q: &[Expr<'g>], v: &[Expr<'g>], v_dot: &[Expr<'g>]) -> ModalState<'g> {
-    if !matches!(link.freedom, Freedom::Flexible { .. }) {
-        return ModalState::default();
-    }
-    let (coordinates, speeds) = (link.coordinates(), link.speeds());
-    ModalState { q: q[coordinates].to_vec(), v: v[speeds.clone()].to_vec(), v_dot: v_dot[speeds].to_vec() }
-}
-
-/// The driven coordinates with their laws.
-fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
-    let mut drivers = Vec::new();
-    for (index, joint) in geometry.mechanism.joints.iter().enumerate() {
-        let id = JointId::new(index);
-        for drive in &joint.drives {
-            let Some(link) = geometry.linkage.link_of_coordinate(id, drive.coordinate) else { continue };
-            let link = &geometry.linkage.links[link];
-            let position = geometry.inputs.lower(&drive.law);
-            let speed = position.derivative(geometry.inputs.time);
-            let acceleration = speed.derivative(geometry.inputs.time);
-            drivers.push(Driver {
-                joint: id,
-                joint_coordinate: drive.coordinate,
-                coordinate: link.first_coordinate,
-                speed: link.first_speed,
-                law: [position, speed, acceleration],
-            });
-        }
-    }
-    drivers
-}
-
-impl<'g> Deriver<'g> {
-    fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
-        let Geometry { g, mechanism, linkage, .. } = geometry;
-        let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
-        let keep = keep.map_or_else(|| vec![true; rows.sum()], <[bool]>::to_vec);
-        let drivers = drivers(&geometry);
-        let names = description::variable_names(mechanism, linkage);
-        let symbol = |name: &str, suffix: &str| g.symbol(name.replace('.', "_") + suffix);
-        let q_all: Vec<Expr<'g>> = names.0.iter().map(|(name, _)| symbol(name, "")).collect();
-        let v_all: Vec<Expr<'g>> = names.1.iter().map(|(name, _)| symbol(name, "")).collect();
-        let driven: Vec<usize> = drivers.iter().map(|driver| driver.speed).collect();
-        let free = (0..v_all.len()).filter(|index| !driven.contains(index)).collect();
-        let partition = Partition { free, driven };
-        let v_dot = partition.free.iter().map(|index| symbol(&names.1[*index].0, "_dot")).collect();
-        let (mut kept, mut spare) = (0, 0);
-        let lambda = keep
-            .iter()
-            .map(|keep| {
-                let (name, count) = if *keep { ("lambda", &mut kept) } else { ("spare_lambda", &mut spare) };
-                *count += 1;
-                g.symbol(format!("{name}{count}"))
-            })
-            .collect();
-        let drive = drivers
-            .iter()
-            .map(|driver| g.symbol(format!("{}_drive", mechanism.joint(driver.joint).name)))
-            .collect();
-        let with_clearance =
-            mechanism.joints.iter().enumerate().filter(|(_, joint)| joint.clearance.is_some());
-        let contacts = with_clearance
-            .map(|(index, joint)| {
-                let part = |what: &str| {
-                    Vec3(["x", "y", "z"].map(|axis| g.symbol(format!("{}_contact_{what}{axis}", joint.name))))
-                };
-                ContactWrench { joint: JointId::new(index), force: part("f"), moment: part("m") }
-            })
-            .collect();
-        Self {
-            geometry,
-            parameters,
-            free_q: (0..q_all.len())
-                .filter(|index| drivers.iter().all(|driver| driver.coordinate != *index))
-                .collect(),
-            drivers,
-            q_all,
-            v_all,
-            partition,
-            v_dot,
-            lambda,
-            drive,
-            contacts,
-            keep,
-        }
-    }
-
-    /// Coordinates, speeds and accelerations with the drivers' laws inserted; `v_dot` of the free speeds.
-    fn driven_state(&self, v_dot: &[Expr<'g>]) -> [Vec<Expr<'g>>; 3] {
-        let (mut q, mut v) = (self.q_all.clone(), self.v_all.clone());
-        let mut rates = vec![self.geometry.g.zero(); v.len()];
-        for (speed, rate) in self.partition.free.iter().zip(v_dot) {
-            rates[*speed] = *rate;
-        }
-        for driver in &self.drivers {
-            [q[driver.coordinate], v[driver.speed], rates[driver.speed]] = driver.law;
-        }
-        [q, v, rates]
-    }
-
-    fn gravity(&self) -> Vec3<'g> {
-        self.geometry.inputs.lower3(&self.geometry.mechanism.gravity)
-    }
-
-    fn masses(&self) -> Vec<LinkMass<'g>> {
-        self.geometry.g.begin_section("mass properties");
-        // Modes are never driven: the symbols of all coordinates are those of the free ones.
-        link_masses(&self.geometry, &self.q_all)
-    }
-
-    /// Link motion, loads and closure rows for the given coordinates, speeds and accelerations.
-    fn instant(&self, [q, v, v_dot]: [Vec<Expr<'g>>; 3], exact: bool) -> Instant<'g> {
-        let geometry = self.geometry;
-        let Geometry { g, linkage, .. } = geometry;
-        g.begin_section("poses of the links, [CS (2)]");
-        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
-        let poses = Poses::new(g, linkage, &mounts, &q);
-        self.label_poses(&poses, &q);
-        g.begin_section("twists of the links, [CS (5)]");
-        let twists = twists(g, linkage, &poses, &v);
-        g.begin_section("accelerations of the links");
-        let ground = -self.gravity();
-        let accelerations = accelerations(linkage, &poses, &twists, (&v, &v_dot), ground);
-        for (link, (twist, acceleration)) in linkage.links.iter().zip(twists.iter().zip(&accelerations)) {
-            for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
-                twist.omega[i].label(format!("{}_w{axis}", link.name));
-                twist.origin[i].label(format!("{}_v{axis}", link.name));
-                acceleration.origin[i].label(format!("{}_a{axis}", link.name));
-                acceleration.alpha[i].label(format!("{}_alpha_{axis}", link.name));
-            }
-        }
-        let modes = linkage.links.iter().map(|link| modal_state(link, &q, &v, &v_dot)).collect();
-        let motion = Motion { poses, twists, accelerations, ground, modes };
-        let state = JointStates { geometry, motion, q, v, v_dot };
-        let loads = loads(g, &state, &self.contacts);
-        let cuts = cut_rows(g, &geometry, &state.motion, exact);
-        Instant { state, loads, cuts }
-    }
-
-    fn label_poses(&self, poses: &Poses<'g>, q: &[Expr<'g>]) {
-        let Geometry { mechanism, linkage, .. } = self.geometry;
-        for (at, link) in linkage.links.iter().enumerate() {
-            if let Freedom::Rotation { offset, .. } = link.freedom {
-                let joint = &mechanism.joint(link.joint).name;
-                let angle = q[link.first_coordinate] + offset;
-                angle.sin().label(format!("sin_{joint}"));
-                angle.cos().label(format!("cos_{joint}"));
-            }
-            for (axis, component) in ["x", "y", "z"].iter().zip(poses.world[at].offset) {
-                component.label(format!("{}_{axis}", link.name));
-            }
-        }
-    }
-
-    /// All functions, in the order of [`Entry::ALL`], with their layout and names.
-    fn results(&self, purpose: Purpose) -> (Vec<Function>, Sizes, Description) {
-        let masses = self.masses();
-        let dynamic = self.instant(self.driven_state(&[]), false);
-        let prescribed = self.prescribed();
-        let (start, start_values) = self.start();
-        let forward_dynamics = match purpose {
-            Purpose::Everything => self.forward_dynamics(&dynamic, &masses),
-            Purpose::Analysis => self.function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
-        };
-        let rates = self.rates(&dynamic);
-        let (closure, rows) = self.closure();
-        let energy = self.energy(&dynamic, &masses);
-        let (observe, channels) = self.observe(&masses);
-        let equations_of_motion = self.equations_of_motion(&masses);
-        let contacts = self.contacts(&dynamic);
-        let functions = vec![
-            prescribed,
-            start,
-            forward_dynamics,
-            rates,
-            closure,
-            energy,
-            observe,
-            equations_of_motion,
-            contacts,
-        ];
-        let in_order =
-            functions.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name());
-        debug_assert!(in_order);
-        (functions, self.sizes(channels.len()), self.description(&start_values, rows, channels))
-    }
+/// All functions, in the order of [`Entry::ALL`], with their layout and names.
+fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, Description) {
+    let masses = deriver.masses();
+    let dynamic = deriver.instant(deriver.driven_state(&[]), false);
+    let prescribed = deriver.prescribed();
+    let (start, start_values) = deriver.start();
+    let forward_dynamics = match purpose {
+        Purpose::Everything => deriver.forward_dynamics(&dynamic, &masses),
+        Purpose::Analysis => deriver.function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
+    };
+    let rates = deriver.rates(&dynamic);
+    let (closure, rows) = deriver.closure();
+    let energy = deriver.energy(&dynamic, &masses);
+    let (observe, channels) = deriver.observe(&masses);
+    let equations_of_motion = deriver.equations_of_motion(&masses);
+    let contacts = deriver.contacts(&dynamic);
+    let functions = vec![
+        prescribed,
+        start,
+        forward_dynamics,
+        rates,
+        closure,
+        energy,
+        observe,
+        equations_of_motion,
+        contacts,
+    ];
+    let in_order = functions.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name());
+    debug_assert!(in_order);
+    (functions, deriver.sizes(channels.len()), deriver.description(&start_values, rows, channels))
 }

@@ -1,0 +1,247 @@
+//! The symbols of one mechanism, and its motion, loads and closure rows at an instant.
+//! In: [`Geometry`], which constraint rows to keep. Out: [`Instant`]s. Never knows what entry points return.
+
+use crate::expr::{Expr, Scope, Vec3};
+use crate::id::JointId;
+use crate::model::Mechanism;
+
+use super::names::variable_names;
+use crate::derive::closure::{CutRows, cut_rows, row_count};
+use crate::derive::contacts::ContactWrench;
+use crate::derive::dynamics::Partition;
+use crate::derive::forces::loads;
+use crate::derive::formula_to_expr::Inputs;
+use crate::derive::geometry::Geometry;
+use crate::derive::joint_state::JointStates;
+use crate::derive::kinematics::{Poses, accelerations, twists};
+use crate::derive::link_mass::{LinkMass, link_masses};
+use crate::derive::linkage::{Freedom, Link};
+use crate::derive::loads::Loads;
+use crate::derive::motion::{ModalState, Motion};
+
+/// Symbols of tunable parameters and time, numbers for the other parameters; and the tunable ones alone.
+pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<'g>>) {
+    let mut tunable = Vec::new();
+    let parameters = mechanism
+        .parameters
+        .iter()
+        .map(|parameter| {
+            if parameter.tunable {
+                tunable.push(g.symbol(parameter.name.clone()));
+                tunable[tunable.len() - 1]
+            } else {
+                g.number(parameter.value)
+            }
+        })
+        .collect();
+    (Inputs { parameters, time: g.symbol("t") }, tunable)
+}
+
+/// A prescribed coordinate with its place and its law.
+pub struct Driver<'g> {
+    /// Its joint.
+    pub joint: JointId,
+    /// Its number among the joint's coordinates.
+    pub joint_coordinate: usize,
+    /// Its index among all coordinates.
+    pub coordinate: usize,
+    /// Its index among all speeds.
+    pub speed: usize,
+    /// Position, speed, acceleration over parameters and t.
+    pub law: [Expr<'g>; 3],
+}
+
+/// A mechanism with the symbols of its equations.
+pub struct Deriver<'g> {
+    /// Mechanism, links, parameters and time.
+    pub geometry: Geometry<'g>,
+    /// Symbols of the tunable parameters.
+    pub parameters: Vec<Expr<'g>>,
+    /// Driven coordinates.
+    pub drivers: Vec<Driver<'g>>,
+    /// Symbols of all coordinates, driven ones included.
+    pub q_all: Vec<Expr<'g>>,
+    /// Symbols of all speeds, driven ones included.
+    pub v_all: Vec<Expr<'g>>,
+    /// Free coordinates, by index among all.
+    pub free_q: Vec<usize>,
+    /// Free and driven speeds.
+    pub partition: Partition,
+    /// Symbols of the accelerations of the free speeds.
+    pub v_dot: Vec<Expr<'g>>,
+    /// Symbols of the multipliers of all rows.
+    pub lambda: Vec<Expr<'g>>,
+    /// Symbols of the drivers' forces.
+    pub drive: Vec<Expr<'g>>,
+    /// Symbols of the wrenches that contact laws hand in.
+    pub contacts: Vec<ContactWrench<'g>>,
+    /// Whether each constraint row is kept.
+    pub keep: Vec<bool>,
+}
+
+/// Link motion with what depends on it.
+pub struct Instant<'g> {
+    /// Coordinates and motion.
+    pub state: JointStates<'g>,
+    /// Applied loads.
+    pub loads: Loads<'g>,
+    /// Constraint rows of every cut.
+    pub cuts: Vec<CutRows<'g>>,
+}
+
+fn modal_state<'g>(link: &Link, q: &[Expr<'g>], v: &[Expr<'g>], v_dot: &[Expr<'g>]) -> ModalState<'g> {
+    if !matches!(link.freedom, Freedom::Flexible { .. }) {
+        return ModalState::default();
+    }
+    let (coordinates, speeds) = (link.coordinates(), link.speeds());
+    ModalState { q: q[coordinates].to_vec(), v: v[speeds.clone()].to_vec(), v_dot: v_dot[speeds].to_vec() }
+}
+
+/// The driven coordinates with their laws.
+fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
+    let mut drivers = Vec::new();
+    for (index, joint) in geometry.mechanism.joints.iter().enumerate() {
+        let id = JointId::new(index);
+        for drive in &joint.drives {
+            let Some(link) = geometry.linkage.link_of_coordinate(id, drive.coordinate) else { continue };
+            let link = &geometry.linkage.links[link];
+            let position = geometry.inputs.lower(&drive.law);
+            let speed = position.derivative(geometry.inputs.time);
+            let acceleration = speed.derivative(geometry.inputs.time);
+            drivers.push(Driver {
+                joint: id,
+                joint_coordinate: drive.coordinate,
+                coordinate: link.first_coordinate,
+                speed: link.first_speed,
+                law: [position, speed, acceleration],
+            });
+        }
+    }
+    drivers
+}
+
+impl<'g> Deriver<'g> {
+    /// Makes the symbols; `keep` says for every constraint row whether it is kept, `None` keeps all.
+    pub fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
+        let Geometry { g, mechanism, linkage, .. } = geometry;
+        let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
+        let keep = keep.map_or_else(|| vec![true; rows.sum()], <[bool]>::to_vec);
+        let drivers = drivers(&geometry);
+        let names = variable_names(mechanism, linkage);
+        let symbol = |name: &str, suffix: &str| g.symbol(name.replace('.', "_") + suffix);
+        let q_all: Vec<Expr<'g>> = names.0.iter().map(|(name, _)| symbol(name, "")).collect();
+        let v_all: Vec<Expr<'g>> = names.1.iter().map(|(name, _)| symbol(name, "")).collect();
+        let driven: Vec<usize> = drivers.iter().map(|driver| driver.speed).collect();
+        let free = (0..v_all.len()).filter(|index| !driven.contains(index)).collect();
+        let partition = Partition { free, driven };
+        let v_dot = partition.free.iter().map(|index| symbol(&names.1[*index].0, "_dot")).collect();
+        let (mut kept, mut spare) = (0, 0);
+        let lambda = keep
+            .iter()
+            .map(|keep| {
+                let (name, count) = if *keep { ("lambda", &mut kept) } else { ("spare_lambda", &mut spare) };
+                *count += 1;
+                g.symbol(format!("{name}{count}"))
+            })
+            .collect();
+        let drive = drivers
+            .iter()
+            .map(|driver| g.symbol(format!("{}_drive", mechanism.joint(driver.joint).name)))
+            .collect();
+        let with_clearance =
+            mechanism.joints.iter().enumerate().filter(|(_, joint)| joint.clearance.is_some());
+        let contacts = with_clearance
+            .map(|(index, joint)| {
+                let part = |what: &str| {
+                    Vec3(["x", "y", "z"].map(|axis| g.symbol(format!("{}_contact_{what}{axis}", joint.name))))
+                };
+                ContactWrench { joint: JointId::new(index), force: part("f"), moment: part("m") }
+            })
+            .collect();
+        Self {
+            geometry,
+            parameters,
+            free_q: (0..q_all.len())
+                .filter(|index| drivers.iter().all(|driver| driver.coordinate != *index))
+                .collect(),
+            drivers,
+            q_all,
+            v_all,
+            partition,
+            v_dot,
+            lambda,
+            drive,
+            contacts,
+            keep,
+        }
+    }
+
+    /// Coordinates, speeds and accelerations with the drivers' laws inserted; `v_dot` of the free speeds.
+    pub fn driven_state(&self, v_dot: &[Expr<'g>]) -> [Vec<Expr<'g>>; 3] {
+        let (mut q, mut v) = (self.q_all.clone(), self.v_all.clone());
+        let mut rates = vec![self.geometry.g.zero(); v.len()];
+        for (speed, rate) in self.partition.free.iter().zip(v_dot) {
+            rates[*speed] = *rate;
+        }
+        for driver in &self.drivers {
+            [q[driver.coordinate], v[driver.speed], rates[driver.speed]] = driver.law;
+        }
+        [q, v, rates]
+    }
+
+    /// Acceleration of gravity in W [m/s²].
+    pub fn gravity(&self) -> Vec3<'g> {
+        self.geometry.inputs.lower3(&self.geometry.mechanism.gravity)
+    }
+
+    /// Mass properties of all links.
+    pub fn masses(&self) -> Vec<LinkMass<'g>> {
+        self.geometry.g.begin_section("mass properties");
+        // Modes are never driven: the symbols of all coordinates are those of the free ones.
+        link_masses(&self.geometry, &self.q_all)
+    }
+
+    /// Link motion, loads and closure rows for the given coordinates, speeds and accelerations.
+    pub fn instant(&self, [q, v, v_dot]: [Vec<Expr<'g>>; 3], exact: bool) -> Instant<'g> {
+        let geometry = self.geometry;
+        let Geometry { g, linkage, .. } = geometry;
+        g.begin_section("poses of the links, [CS (2)]");
+        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
+        let poses = Poses::new(g, linkage, &mounts, &q);
+        self.label_poses(&poses, &q);
+        g.begin_section("twists of the links, [CS (5)]");
+        let twists = twists(g, linkage, &poses, &v);
+        g.begin_section("accelerations of the links");
+        let ground = -self.gravity();
+        let accelerations = accelerations(linkage, &poses, &twists, (&v, &v_dot), ground);
+        for (link, (twist, acceleration)) in linkage.links.iter().zip(twists.iter().zip(&accelerations)) {
+            for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
+                twist.omega[i].label(format!("{}_w{axis}", link.name));
+                twist.origin[i].label(format!("{}_v{axis}", link.name));
+                acceleration.origin[i].label(format!("{}_a{axis}", link.name));
+                acceleration.alpha[i].label(format!("{}_alpha_{axis}", link.name));
+            }
+        }
+        let modes = linkage.links.iter().map(|link| modal_state(link, &q, &v, &v_dot)).collect();
+        let motion = Motion { poses, twists, accelerations, ground, modes };
+        let state = JointStates { geometry, motion, q, v, v_dot };
+        let loads = loads(g, &state, &self.contacts);
+        let cuts = cut_rows(g, &geometry, &state.motion, exact);
+        Instant { state, loads, cuts }
+    }
+
+    fn label_poses(&self, poses: &Poses<'g>, q: &[Expr<'g>]) {
+        let Geometry { mechanism, linkage, .. } = self.geometry;
+        for (at, link) in linkage.links.iter().enumerate() {
+            if let Freedom::Rotation { offset, .. } = link.freedom {
+                let joint = &mechanism.joint(link.joint).name;
+                let angle = q[link.first_coordinate] + offset;
+                angle.sin().label(format!("sin_{joint}"));
+                angle.cos().label(format!("cos_{joint}"));
+            }
+            for (axis, component) in ["x", "y", "z"].iter().zip(poses.world[at].offset) {
+                component.label(format!("{}_{axis}", link.name));
+            }
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! What coordinates and speeds are called, and their units.
+//! In: [`Mechanism`], [`Linkage`]. Out: [`Names`]. Never derives.
+
+use crate::derive::linkage::{Freedom, Linkage};
+use crate::model::{Coordinate, Mechanism};
+
+/// Names and units of all coordinates and of all speeds, in tree order.
+pub(super) type Names = (Vec<(String, &'static str)>, Vec<(String, &'static str)>);
+
+pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names {
+    let (mut positions, mut speeds) = (Vec::new(), Vec::new());
+    for link in &linkage.links {
+        let joint = mechanism.joint(link.joint);
+        let name = &joint.name;
+        match link.freedom {
+            Freedom::Rotation { .. } | Freedom::Translation { .. } => {
+                let offset = joint.model.offsets().position(|number| number == link.joint_coordinate);
+                if let Some(axis) = offset.map(|axis| ["x", "y", "z"][axis]) {
+                    positions.push((format!("{name}.{axis}"), "m"));
+                    speeds.push((format!("{name}.v{axis}"), "m/s"));
+                    continue;
+                }
+                let coordinates = joint.model.coordinates();
+                let suffix = if coordinates.len() > 1 {
+                    (link.joint_coordinate + 1).to_string()
+                } else {
+                    String::new()
+                };
+                let units = if coordinates[link.joint_coordinate] == Coordinate::Angle {
+                    ("rad", "rad/s")
+                } else {
+                    ("m", "m/s")
+                };
+                positions.push((format!("{name}.q{suffix}"), units.0));
+                speeds.push((format!("{name}.v{suffix}"), units.1));
+            }
+            Freedom::Ball | Freedom::Free => {
+                positions.extend((0..4).map(|i| (format!("{name}.q{i}"), "1")));
+                speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.w{axis}"), "rad/s")));
+                if link.freedom == Freedom::Free {
+                    positions.extend(["x", "y", "z"].map(|axis| (format!("{name}.{axis}"), "m")));
+                    speeds.extend(["x", "y", "z"].map(|axis| (format!("{name}.v{axis}"), "m/s")));
+                }
+            }
+            Freedom::Flexible { modes } => {
+                let body = mechanism.body(link.body);
+                let unit = body.flexible.as_ref().map_or("1", |flexible| flexible.data.modal_unit());
+                let rate = if unit == "1" { "1/s" } else { "kg^0.5 m/s" };
+                positions.extend((1..=modes).map(|k| (format!("{}.eta{k}", body.name), unit)));
+                speeds.extend((1..=modes).map(|k| (format!("{}.eta{k}_v", body.name), rate)));
+            }
+            Freedom::Weld | Freedom::Node => {}
+        }
+    }
+    (positions, speeds)
+}
