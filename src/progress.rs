@@ -1,21 +1,36 @@
 //! How far a long run is: a bar on a terminal, plain lines elsewhere, always on stderr; and Ctrl-C.
 
 use std::io::{IsTerminal, stderr};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use linkwear_runtime::Watch;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From here on Ctrl-C asks [`stop_requested`] instead of ending the process; a second one ends it.
-pub fn catch_interrupts() {
+/// Does long work under a watch that shows a bar and stops it at Ctrl-C; a second Ctrl-C ends the process.
+pub fn watched<T>(work: impl FnOnce(Watch<'_>) -> T) -> T {
     // It fails only if a handler is set already: then that one serves.
     let _ = ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(1);
         }
     });
+    let progress = Mutex::new(Progress::new());
+    let result = work(Watch::new(&|part| {
+        progress.lock().unwrap_or_else(PoisonError::into_inner).set(part);
+        go_on(part)
+    }));
+    progress.into_inner().unwrap_or_else(PoisonError::into_inner).finish();
+    result
+}
+
+/// What a [`Watch`] without a bar calls: goes on until Ctrl-C.
+pub fn go_on(_: f64) -> ControlFlow<()> {
+    if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// Whether Ctrl-C was pressed.
@@ -29,7 +44,7 @@ const QUIET: Duration = Duration::from_millis(500);
 const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
 /// Progress of one run.
-pub struct Progress {
+struct Progress {
     bar: Option<ProgressBar>,
     start: Instant,
     last_line: Instant,
@@ -37,7 +52,7 @@ pub struct Progress {
 
 impl Progress {
     /// Starts; shows nothing yet.
-    pub fn new() -> Self {
+    fn new() -> Self {
         let now = Instant::now();
         let bar = stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(1000);
@@ -48,7 +63,7 @@ impl Progress {
     }
 
     /// Shows how far it is, `fraction` in 0..1.
-    pub fn set(&mut self, fraction: f64) {
+    fn set(&mut self, fraction: f64) {
         if self.start.elapsed() < QUIET {
             return;
         }
@@ -63,7 +78,7 @@ impl Progress {
     }
 
     /// Takes the bar away.
-    pub fn finish(&self) {
+    fn finish(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

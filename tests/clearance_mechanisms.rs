@@ -20,11 +20,11 @@ fn check(name: &str, turns: f64) {
         statistics.energy_error_J,
         statistics.energy_throughput_J
     );
-    let joints = compiled.description().contacts.len();
-    assert_eq!(run.turns.len(), turns as usize * joints);
-    for turn in &run.turns {
-        let wears = compiled.description().contacts[turn.joint].wear.is_some();
-        assert!(turn.wear_integral_J > 0.0 && (turn.depth_m > 0.0) == wears, "{name}: {turn:?}");
+    assert_eq!(run.turns.len(), turns as usize);
+    let contacts = &compiled.description().contacts;
+    for (contact, turn) in run.turns.iter().flat_map(|turn| contacts.iter().zip(turn)) {
+        let wears = contact.wear.is_some();
+        assert!(turn.wear_integral > 0.0 && (turn.depth > 0.0) == wears, "{name}: {turn:?}");
     }
 }
 

@@ -5,12 +5,11 @@
 mod bearing;
 mod support;
 
-use std::ops::ControlFlow;
-
 use bearing::{assert_near, wear_by_angle};
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{IdealJoint, Integrator, SINGULAR_PIVOT, Settings, Span, TurnMeasure, TurnRunner};
+use linkwear_runtime::wear::ContactMeasure;
+use linkwear_runtime::{IdealJoint, Integrator, SINGULAR_PIVOT, Settings, Span, TurnRunner, Watch};
 use support::{Recorded, Table, compile_source, compiled, run_with, shipped};
 
 /// Of the coupler in the reference [Hz]; each in both planes.
@@ -42,8 +41,8 @@ fn settled(compiled: &Compiled, step: f64, samples: usize) -> Recorded {
 }
 
 /// The measure of the last turn.
-fn last_turn(run: &Recorded) -> &TurnMeasure {
-    run.run.turns.last().expect("a full turn")
+fn last_turn(run: &Recorded) -> &ContactMeasure {
+    run.run.turns.last().and_then(|turn| turn.first()).expect("a full turn")
 }
 
 /// Value at `t` of evenly spaced samples, by the cubic through the four nearest.
@@ -72,11 +71,11 @@ fn one_settled_turn_agrees_with_an_independent_code() {
     let run = settled(&rssr(REFERENCE, &[]), STEP, 12_501);
     let turn = last_turn(&run);
     // The two codes agree to 2e-7; their beams are matched to six digits.
-    assert_near(turn.wear_integral_J, 2.005_363_6, 1e-5, "wear integral");
-    assert_near(turn.mean_normal_force_N, 31.912_78, 1e-5, "mean force");
+    assert_near(turn.wear_integral, 2.005_363_6, 1e-5, "wear integral");
+    assert_near(turn.mean_force, 31.912_78, 1e-5, "mean force");
     // The reference's peak is one of its rows, 1 ms apart.
-    assert_near(turn.peak_normal_force_N, 52.810, 1e-3, "peak force");
-    assert_eq!(turn.contact_losses, 0);
+    assert_near(turn.peak_force, 52.810, 1e-3, "peak force");
+    assert_eq!(turn.losses, 0.0);
 
     let reference = Table::reference("rssr_clearance/flex_10um.csv");
     let start = run.run.times[0];
@@ -93,14 +92,14 @@ fn one_settled_turn_agrees_with_an_independent_code() {
     let by_angle = Table::reference("rssr_clearance/wear_by_angle_10um.csv").column("flex_S_J");
     let difference: f64 = wear_by_angle(&run).iter().zip(&by_angle).map(|(a, b)| (a - b).abs()).sum();
     // Measured 1e-3: the edges of bins are crossed within a step of either code.
-    assert!(difference < 0.01 * turn.wear_integral_J, "by angle: {difference} J");
+    assert!(difference < 0.01 * turn.wear_integral, "by angle: {difference} J");
 }
 
 #[test]
 fn wear_integrals_of_a_second_code_are_met_at_both_clearances() {
     for (clearance, expected, bound) in [("10 um", 2.005_381_6, 1e-5), ("90 um", 2.026_839, 3e-4)] {
         let run = settled(&rssr(RAYLEIGH, &[("c0", clearance)]), STEP, 0);
-        let value = last_turn(&run).wear_integral_J;
+        let value = last_turn(&run).wear_integral;
         // Six digits, measured 1e-6; at 90 µm that code's contact was coarser.
         assert_near(value, expected, bound, clearance);
     }
@@ -110,10 +109,10 @@ fn wear_integrals_of_a_second_code_are_met_at_both_clearances() {
 fn an_ideal_joint_wears_by_its_reaction() {
     let compiled = compiled("rssr_flexible", &[], None);
     let run = settled(&compiled, STEP, 5_001);
-    let joint = IdealJoint::revolute(compiled.description(), "R1", [0.0, 0.0, 1.0], 0.01).unwrap();
+    let joint = IdealJoint::revolute(&run.run, "R1", [0.0, 0.0, 1.0], 0.01).unwrap();
     let measure = joint.measure(&run.run, None);
     // The number has six digits.
-    assert_near(measure.wear_integral_J, 2.004_55, 1e-5, "wear integral");
+    assert_near(measure.wear_integral, 2.004_55, 1e-5, "wear integral");
 }
 
 #[test]
@@ -125,12 +124,12 @@ fn the_wear_integral_converges_with_order_four() {
         TurnRunner::new(&system, compiled.description(), &parameters, method, SINGULAR_PIVOT).unwrap()
     };
     let mut settling = runner(STEP);
-    settling.settle(SETTLE as u32, &mut |_| ControlFlow::Continue(())).unwrap();
+    settling.settle(SETTLE as u32, Watch::NONE).unwrap();
     let start = settling.state();
     let measure = |step| {
         let mut runner = runner(step);
         runner.restore(&start).unwrap();
-        runner.measure(&mut |_| ControlFlow::Continue(())).unwrap().joints[0].wear_integral_J
+        runner.measure(Watch::NONE).unwrap().joints[0].wear_integral
     };
     let best = measure(5e-6);
     let errors = [4e-5, 2e-5, 1e-5].map(|step| (measure(step) / best - 1.0).abs());
@@ -147,10 +146,10 @@ fn the_flexible_mechanism_is_periodic() {
         ..Settings::new(Integrator::Rk4 { step: STEP }, Span::Turns(2.0), 3)
     };
     let run = run_with(&rssr(REFERENCE, &[]), &settings);
-    let [first, second] = &run.run.turns[..] else { panic!("two turns") };
+    let [first, second] = run.run.turns.concat().try_into().expect("two turns");
     // Bounds of S and the state; measured 1e-11. The coupler's spin about its own line is left out: nothing
     // but the friction of two balls holds it, and no other coordinate feels it.
-    assert_near(second.wear_integral_J, first.wear_integral_J, 1e-8, "wear integral");
+    assert_near(second.wear_integral, first.wear_integral, 1e-8, "wear integral");
     for (name, size) in
         [("R1.x", 1e-5), ("R1.y", 1e-5), ("R4.q", 1.0), ("R4.v", 1.0), ("R1.Fn", 50.0), ("R1.drive", 6.0)]
     {

@@ -7,8 +7,6 @@
 
 mod support;
 
-use std::ops::ControlFlow;
-
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::id::JointId;
 use linkwear_codegen::model::Closure;
@@ -16,7 +14,7 @@ use linkwear_codegen::source::SourceFile;
 use linkwear_oracle::Kind;
 use linkwear_oracle::Oracle;
 use linkwear_oracle::random::Recipe;
-use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
 use support::{compile_source, shipped};
 
 /// Largest share of a quantity's scale by which the two may differ. Both are exact up to rounding; loops are
@@ -89,14 +87,11 @@ fn compare_sample(oracle: &Oracle, t: f64, column: &dyn Fn(&str) -> Option<f64>,
 }
 
 /// Compares every sample of a run; potential energies up to their constant.
-fn compare(oracle: &Oracle, run: &Run, description: &Description) -> Ledger {
+fn compare(oracle: &Oracle, run: &Run) -> Ledger {
     let mut ledger = Ledger::default();
     let mut offset = None;
     for (t, row) in run.times.iter().zip(&run.rows) {
-        let column = |name: &str| -> Option<f64> {
-            let index = description.channels.iter().position(|channel| channel.name == name)?;
-            Some(row[index])
-        };
+        let column = |name: &str| run.index(name).ok().map(|index| row[index]);
         compare_sample(oracle, *t, &column, &mut ledger);
         let states = oracle.states_from(&column).expect("columns reach every body");
         let (ours, theirs) =
@@ -113,11 +108,11 @@ fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) {
     let integrator = Integrator::Dopri5 { tolerance: 1e-9, max_step: None };
     let settings = Settings::new(integrator, Span::Time(seconds), SAMPLES);
     let description = compiled.description();
-    let watch = &mut |_| ControlFlow::Continue(());
-    let run = simulate(&compiled.interpreter(), description, &compiled.parameters(), &settings, watch)
+    let system = compiled.interpreter();
+    let run = simulate(&system, description, &compiled.parameters(), &settings, Watch::NONE)
         .unwrap_or_else(|error| panic!("{}: {error}\n{}", source.name, source.text));
     let oracle = Oracle::with_defaults(&compiled.mechanism).expect("the oracle reads what we read");
-    let (name, error) = compare(&oracle, &run, description).worst().expect("at least the start");
+    let (name, error) = compare(&oracle, &run).worst().expect("at least the start");
     assert!(error < AGREEMENT, "{} {closure:?}: {name} ({error:.1e})\n{}", source.name, source.text);
 }
 

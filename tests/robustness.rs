@@ -2,10 +2,8 @@
 
 mod support;
 
-use std::ops::ControlFlow;
-
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
 use support::{compile_source, largest_difference, run, shipped};
 
 fn source(text: &str) -> SourceFile {
@@ -41,10 +39,8 @@ fn past_the_dead_point(integrator: Integrator) -> Run {
     let compiled = compile_source(&source(SHORT), &[], None);
     let settings = Settings::new(integrator, Span::Time(2.0), 201);
     let system = compiled.interpreter();
-    simulate(&system, compiled.description(), &compiled.parameters(), &settings, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .expect("it can start")
+    simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
+        .expect("it can start")
 }
 
 #[test]
@@ -197,8 +193,7 @@ fn values_changed_at_run_time_act_as_values_compiled_in() {
     let settings = Settings::new(Integrator::Rk4 { step: 1e-4 }, Span::Time(0.3), 31);
     let system = tunable.interpreter();
     let changed =
-        simulate(&system, tunable.description(), &parameters, &settings, &mut |_| ControlFlow::Continue(()))
-            .expect("it runs");
+        simulate(&system, tunable.description(), &parameters, &settings, Watch::NONE).expect("it runs");
     let overrides = changes.map(|(name, text, _)| (name, text));
     let folded = support::run_with(&compile_source(&shipped("rssr_rigid"), &overrides, None), &settings);
     assert_eq!(changed.times, folded.run.times);

@@ -2,7 +2,6 @@
 //! compiled equations; only what its description says of the area changes.
 
 use std::num::NonZero;
-use std::ops::ControlFlow;
 
 use linkwear::mechanisms::rssr;
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, MonteCarlo};
@@ -11,7 +10,7 @@ use linkwear_runtime::life::{
     calibrate, run_life,
 };
 use linkwear_runtime::wear::Area;
-use linkwear_runtime::{Description, DynamicsSource, RevolutionSettings, System};
+use linkwear_runtime::{Description, DynamicsSource, RevolutionSettings, System, Watch};
 
 /// Cycles of the deterministic life.
 const CYCLES: f64 = 25.1;
@@ -41,7 +40,7 @@ impl Case {
         let mut fine = self.revolutions(&self.system);
         let mut settings = LifeSettings::new(fine.joints().expect("numbers in range"));
         let mut table =
-            WearTable::measure(&settings, &mut fine, DEFAULT_POINTS, &mut |_| {}).expect("a table");
+            WearTable::measure(&settings, &mut fine, DEFAULT_POINTS, Watch::NONE).expect("a table");
         settings.step = WearStep::TABLE;
         let found = calibrate(&settings, &mut table, CYCLES, 1e-6).expect("a length of cycles");
         (settings.with_longer_cycles(found.factor), table)
@@ -53,7 +52,7 @@ where
     F::Error: std::fmt::Debug,
 {
     let mut state = LifeState::new(settings, 0).expect("settings");
-    match run_life(settings, fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(())) {
+    match run_life(settings, fine, &MeanIncrement, &mut state, Watch::NONE) {
         Ok(LifeOutcome::Failed(failure)) => failure.cycles,
         other => panic!("{other:?}"),
     }
@@ -96,7 +95,6 @@ fn random(area: Area, bound: f64) {
     let (settings, table) = case.calibrated();
     let scatter = case.description.contacts[0].wear.and_then(|wear| wear.scatter).expect("a Gamma process");
     let draw = GammaDraw::new(1, &[scatter]);
-    let go_on = |_: u64| ControlFlow::Continue(());
     let full_settings = LifeSettings { step: WearStep::FULL, ..settings.clone() };
     let threads = NonZero::new(2).expect("two");
     let run = |settings| MonteCarlo { settings, draw: &draw, trajectories: 0..16, threads };
@@ -105,7 +103,7 @@ fn random(area: Area, bound: f64) {
             lend(&mut table.clone());
             Ok(())
         },
-        &go_on,
+        Watch::NONE,
     );
     let full = run(&full_settings).run(
         &|lend| {
@@ -113,7 +111,7 @@ fn random(area: Area, bound: f64) {
             lend(&mut case.revolutions(&system));
             Ok(())
         },
-        &go_on,
+        Watch::NONE,
     );
     assert_eq!((&by_table.ended, &full.ended), (&Ended::Complete, &Ended::Complete));
     let pairs = by_table.failures.iter().zip(&full.failures);

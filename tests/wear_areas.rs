@@ -20,7 +20,7 @@ fn depth(area: &str, clearance: &str) -> f64 {
         settle: Span::Turns(2.0),
         ..Settings::new(Integrator::Rk4 { step: 2e-5 }, Span::Turns(1.0), 0)
     };
-    run_with(&compiled, &settings).run.turns[0].depth_m
+    run_with(&compiled, &settings).run.turns[0][0].depth
 }
 
 fn check(area: &str, at_10_um: f64, exponent: f64) {

@@ -1,12 +1,11 @@
 //! Wear kept by bearing angle and fed back to the gap there: the case study's journal makes room for itself.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 use linkwear::mechanisms::rssr;
 use linkwear_runtime::life::{LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearStep, run_life};
 use linkwear_runtime::wear::{Grid, Measure, Profile};
-use linkwear_runtime::{DynamicsSource, RevolutionSettings};
+use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
 
 /// Of which one wears a micrometre off the deepest place of the unworn bearing.
 const REVOLUTIONS: f64 = 4e7;
@@ -28,8 +27,7 @@ fn worn() -> Vec<Profile> {
     let mut state = LifeState::new(&settings, 0).expect("settings");
     let live = |cycle| {
         settings.most_cycles = cycle;
-        let outcome =
-            run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(()));
+        let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::NONE);
         assert!(matches!(outcome, Ok(LifeOutcome::CycleLimit)), "{outcome:?}");
         state.joints[0].profile.clone().expect("a profile")
     };

@@ -5,10 +5,11 @@ use linkwear_runtime::wear::Area;
 use serde::Serialize;
 
 use super::error::StudyError;
+use super::job_pool::run_all;
 use super::model::Model;
 use super::options::{AREA_POINTS, Effort};
+use super::progress::Progress;
 use super::tables::{Measured, flexible, job};
-use super::watch::{Watch, run_all};
 
 /// From the unworn clearance to that at the threshold, which opens by all the wear.
 const FULL: (f64, f64) = (1.0, 1.0);
@@ -32,11 +33,11 @@ pub struct AreaGrowth {
 pub(super) fn areas(
     threads: usize,
     effort: &Effort,
-    watch: &Watch<'_>,
+    progress: &Progress<'_>,
 ) -> Result<Vec<AreaGrowth>, StudyError> {
     let areas = [("projected", Area::Projected), ("Hertz", Area::Hertz), ("conformal", Area::Conformal)];
-    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, AREA_POINTS), FULL, watch);
-    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, AREA_POINTS), FULL, watch);
+    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, AREA_POINTS), FULL, progress);
+    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, AREA_POINTS), FULL, progress);
     let jobs = areas.iter().map(|area| rigid(area.1)).chain(areas.iter().map(|area| flexible(area.1)));
     let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs.collect()).into_iter().collect();
     let found = found?;

@@ -5,8 +5,8 @@
 //! life of the paper's ground truth; the same number serves all models. They go on beyond the threshold.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{LifeState, MeanIncrement, WearStep, run_life};
 use linkwear_runtime::wear::Profile;
 use serde::Serialize;
@@ -98,7 +98,7 @@ pub fn turned(angle: f64) -> f64 {
 pub(super) fn around(tables: &Tables, effort: &Effort) -> Result<Around, StudyError> {
     let (proposed, finest) = (&tables.flexible, &tables.finest);
     let revolutions_per_cycle = tables.revolutions_per_cycle(Definition::DEEPEST, effort)?;
-    let deterministic = tables.rigid.table.at(0, 0.0).profile;
+    let deterministic = tables.rigid.table.at(0, 0.0).deposit;
     let no_profile = || StudyError::Missing { kind: "profile of joint", name: super::model::JOINT.into() };
     Ok(Around {
         revolutions_per_cycle,
@@ -120,9 +120,7 @@ fn worn(measured: &Measured, step: WearStep, revolutions: f64) -> Result<WornBea
     let mut snapshots = Vec::new();
     for cycle in CYCLES {
         settings.most_cycles = cycle;
-        run_life(&settings, &mut measured.table.clone(), &MeanIncrement, &mut state, &mut |_| {
-            ControlFlow::Continue(())
-        })?;
+        run_life(&settings, &mut measured.table.clone(), &MeanIncrement, &mut state, Watch::NONE)?;
         let profile = state.joints.first().and_then(|joint| joint.profile.clone());
         snapshots.extend(profile.map(|profile| snapshot(cycle, &profile, 1.0)));
     }

@@ -1,16 +1,14 @@
 //! Fig. 3: the assembled mechanism as points and lines. In: the mechanism. Out: [`Configuration`].
 //! Never knows how it is drawn.
 
-use std::ops::ControlFlow;
-
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::Carrier;
-use linkwear_runtime::{Integrator, Run, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
 use serde::Serialize;
 
 use super::error::StudyError;
 use super::model::Model;
-use super::watch::Watch;
+use super::progress::Progress;
 
 /// Crank positions of the traces.
 const TRACE: usize = 73;
@@ -49,27 +47,24 @@ pub struct Configuration {
 }
 
 /// The assembled mechanism over one turn with ideal joints, which moves as that with clearance to 10 µm.
-pub(super) fn configuration(compiled: &Compiled, watch: &Watch<'_>) -> Result<Configuration, StudyError> {
+pub(super) fn configuration(
+    compiled: &Compiled,
+    progress: &Progress<'_>,
+) -> Result<Configuration, StudyError> {
     let model = Model::ideal();
     let system = model.mechanism.system();
     let settings = Settings::new(Integrator::Rk4 { step: 1e-4 }, Span::Turns(1.0), TRACE);
-    let run = simulate(
-        &*system,
-        &model.mechanism.description,
-        &model.mechanism.parameters,
-        &settings,
-        &mut |_| {
-            if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        },
-    )?;
+    let watch = |_| progress.go_on();
+    let (description, parameters) = (&model.mechanism.description, &model.mechanism.parameters);
+    let run = simulate(&*system, description, parameters, &settings, Watch::new(&watch))?;
     if let Some(error) = run.stopped {
         return Err(error.into());
     }
-    watch.done(1.0);
+    progress.done(1.0);
     let mechanism = &compiled.mechanism;
     let mut joints = Vec::new();
     for joint in &mechanism.joints {
-        let path = path(&model, &run, &mechanism.point(joint.at).name)?;
+        let path = run.vector(&format!("{}.", mechanism.point(joint.at).name))?;
         // Less than a thousandth of a millimetre is the play of a bearing.
         let moves = path.iter().any(|at| (0..3).any(|i| (at[i] - path[0][i]).abs() > 1e-6));
         joints.push(JointPlace {
@@ -90,12 +85,4 @@ pub(super) fn configuration(compiled: &Compiled, watch: &Watch<'_>) -> Result<Co
         }
     });
     Ok(Configuration { links: links.collect(), joints })
-}
-
-/// Where a point is at every sample.
-fn path(model: &Model, run: &Run, point: &str) -> Result<Vec<[f64; 3]>, StudyError> {
-    let name = format!("{point}.x");
-    let at = model.mechanism.description.channels.iter().position(|channel| channel.name == name);
-    let at = at.ok_or(StudyError::Missing { kind: "point", name: point.to_owned() })?;
-    Ok(run.rows.iter().map(|row| [row[at], row[at + 1], row[at + 2]]).collect())
 }

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use linkwear::mechanism::LoadError;
 use linkwear_gamma::fit::FitError;
 use linkwear_runtime::life::{CalibrationError, LifeError, SettingsError};
-use linkwear_runtime::{RunError, SetupError};
+use linkwear_runtime::{NoColumn, RunError, SetupError};
 use thiserror::Error;
 
 /// Why a study could not be finished.
@@ -28,6 +28,9 @@ pub enum StudyError {
         /// Its name.
         name: String,
     },
+    /// A run lacks a column.
+    #[error(transparent)]
+    Column(#[from] NoColumn),
     /// A run failed.
     #[error(transparent)]
     Run(#[from] RunError),

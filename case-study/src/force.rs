@@ -1,15 +1,14 @@
 //! Fig. 4: force at the crank bearing over one turn: ideal joint, rigid and flexible coupler with clearance, and the
 //! curve of an independent multibody code. In: models. Out: [`Forces`]. Never knows how it is drawn.
 
-use std::ops::ControlFlow;
-
-use linkwear_runtime::clearance_joint::ContactChannels;
-use linkwear_runtime::{IdealJoint, Integrator, Run, RunError, Settings, Span, simulate};
+use linkwear_runtime::wear::ContactMeasure;
+use linkwear_runtime::{IdealJoint, Integrator, Run, RunError, Settings, Span, Watch, simulate};
 use serde::Serialize;
 
 use super::error::StudyError;
+use super::job_pool::{Job, run_all};
 use super::model::{JOINT, Model};
-use super::watch::{Job, Watch, run_all};
+use super::progress::Progress;
 
 /// Of the coupler in the reference [Hz].
 const REFERENCE_FREQUENCIES: [f64; 3] = [138.042, 550.64, 1233.27];
@@ -79,19 +78,19 @@ pub struct Forces {
 }
 
 /// Runs the turns of Fig. 4.
-pub(super) fn forces(threads: usize, settle: u32, watch: &Watch<'_>) -> Result<Forces, StudyError> {
+pub(super) fn forces(threads: usize, settle: u32, progress: &Progress<'_>) -> Result<Forces, StudyError> {
     let settled = |settle: u32| f64::from(settle);
     type Answer = Result<(ForceCurve, Vec<f64>), StudyError>;
     let clear = |model: Model, settle: f64, thinned: usize| -> Answer {
-        let run = turn(&model, settle, watch)?;
-        let forces = column(&model, &run, "Fn")?;
+        let run = turn(&model, settle, progress)?;
+        let forces = run.column(&format!("{JOINT}.Fn"))?;
         Ok((contact_curve(&run, &forces, thinned), forces))
     };
     let jobs: Vec<Job<'_, Answer>> = vec![
         Box::new(|| clear(Model::with_frequencies(REFERENCE_FREQUENCIES)?, settled(settle), THINNED)),
         Box::new(|| clear(Model::rigid()?, settled(settle), THINNED_CHATTER)),
         Box::new(|| clear(Model::flexible(), settled(settle), THINNED)),
-        Box::new(|| ideal(settled(settle), watch).map(|curve| (curve, Vec::new()))),
+        Box::new(|| ideal(settled(settle), progress).map(|curve| (curve, Vec::new()))),
     ];
     let mut answers = run_all(threads, jobs).into_iter();
     let mut next = || answers.next().expect("as many answers as jobs");
@@ -112,22 +111,16 @@ pub(super) fn forces(threads: usize, settle: u32, watch: &Watch<'_>) -> Result<F
 }
 
 /// One turn after settling.
-fn turn(model: &Model, settle: f64, watch: &Watch<'_>) -> Result<Run, StudyError> {
+fn turn(model: &Model, settle: f64, progress: &Progress<'_>) -> Result<Run, StudyError> {
     let system = model.mechanism.system();
     let settings = Settings {
         settle: Span::Turns(settle),
         ..Settings::new(Integrator::Rk4 { step: STEP }, Span::Turns(1.0), SAMPLES)
     };
-    let run = simulate(
-        &*system,
-        &model.mechanism.description,
-        &model.mechanism.parameters,
-        &settings,
-        &mut |_| {
-            if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        },
-    )?;
-    watch.done((settle + 1.0) * model.cost());
+    let watch = |_| progress.go_on();
+    let (description, parameters) = (&model.mechanism.description, &model.mechanism.parameters);
+    let run = simulate(&*system, description, parameters, &settings, Watch::new(&watch))?;
+    progress.done((settle + 1.0) * model.cost());
     match run.stopped {
         Some(RunError::Interrupted { .. }) => Err(StudyError::Interrupted),
         Some(error) => Err(error.into()),
@@ -135,24 +128,11 @@ fn turn(model: &Model, settle: f64, watch: &Watch<'_>) -> Result<Run, StudyError
     }
 }
 
-/// A quantity of the bearing at all samples.
-fn column(model: &Model, run: &Run, quantity: &str) -> Result<Vec<f64>, StudyError> {
-    let name = format!("{JOINT}.{quantity}");
-    let contacts = ContactChannels::new(&model.mechanism.description);
-    let mut channels = model.mechanism.description.channels.iter().chain(contacts.channels());
-    let Some(at) = channels.position(|channel| channel.name == name) else {
-        return Err(StudyError::Missing { kind: "column", name });
-    };
-    Ok(run.rows.iter().map(|row| row[at]).collect())
-}
-
 fn contact_curve(run: &Run, forces: &[f64], thinned: usize) -> ForceCurve {
-    let turn = &run.turns[run.turns.len() - 1];
-    let (wear_integral, mean) = (turn.wear_integral_J, turn.mean_normal_force_N);
-    ForceCurve { contact_losses: turn.contact_losses, ..curve(run, forces, thinned, (wear_integral, mean)) }
+    curve(run, forces, thinned, &run.turns[run.turns.len() - 1][0])
 }
 
-fn curve(run: &Run, forces: &[f64], thinned: usize, (wear_integral, mean): (f64, f64)) -> ForceCurve {
+fn curve(run: &Run, forces: &[f64], thinned: usize, measure: &ContactMeasure) -> ForceCurve {
     let start = run.times[0];
     let time = |index: usize| run.times[index] - start;
     let at = (0..forces.len()).fold(0, |best, index| if forces[index] > forces[best] { index } else { best });
@@ -160,24 +140,23 @@ fn curve(run: &Run, forces: &[f64], thinned: usize, (wear_integral, mean): (f64,
     ForceCurve {
         times: kept().map(time).collect(),
         forces: kept().map(|index| forces[index]).collect(),
-        mean,
+        mean: measure.mean_force,
         peak: forces[at],
         peak_time: time(at),
-        wear_integral,
-        contact_losses: 0,
+        wear_integral: measure.wear_integral,
+        contact_losses: measure.losses as u64,
     }
 }
 
 /// The reaction of the ideal joint, across its axis.
-fn ideal(settle: f64, watch: &Watch<'_>) -> Result<ForceCurve, StudyError> {
+fn ideal(settle: f64, progress: &Progress<'_>) -> Result<ForceCurve, StudyError> {
     let model = Model::ideal();
     let worn = Model::flexible();
-    let run = turn(&model, settle, watch)?;
+    let run = turn(&model, settle, progress)?;
     let radius = worn.mechanism.description.contacts[0].journal_radius;
-    let joint = IdealJoint::revolute(&model.mechanism.description, JOINT, [0.0, 0.0, 1.0], radius)?;
+    let joint = IdealJoint::revolute(&run, JOINT, [0.0, 0.0, 1.0], radius)?;
     let forces: Vec<f64> = run.rows.iter().map(|row| joint.normal_force_and_speed(row).0).collect();
-    let measure = joint.measure(&run, None);
-    Ok(curve(&run, &forces, THINNED, (measure.wear_integral_J, measure.mean_normal_force_N)))
+    Ok(curve(&run, &forces, THINNED, &joint.measure(&run, None)))
 }
 
 /// The turn of the independent code.

@@ -8,6 +8,7 @@ mod configuration;
 mod error;
 mod figures;
 mod force;
+mod job_pool;
 mod learn;
 mod lives;
 mod model;
@@ -15,12 +16,12 @@ mod options;
 mod paper;
 mod parameters;
 mod plot;
+mod progress;
 mod rate;
 mod report;
 mod statistics;
 mod table2;
 mod tables;
-mod watch;
 
 pub use areas::AreaGrowth;
 pub use around::{Around, CYCLES, Peak, Snapshot, WornBearing};
@@ -38,11 +39,12 @@ pub use statistics::{Density, LifeNumbers};
 pub use table2::{Row, ShownProtocol, Table2};
 pub use tables::{TRUE_LIFE, TableQuality};
 
+use linkwear_runtime::Watch;
 use serde::Serialize;
 
 use options::Effort;
+use progress::Progress;
 use tables::Tables;
-use watch::Watch;
 
 /// Turns before that of Fig. 4.
 const SETTLE: u32 = 5;
@@ -80,28 +82,23 @@ pub struct Study {
     pub lives: Vec<Lives>,
 }
 
-/// Runs the study on so many threads, whose number changes no bit. `progress` gets the finished part, 0 to 1; `stop`
-/// is asked all the time.
+/// Runs the study on so many threads, whose number changes no bit. `watch` hears the finished part
+/// and may stop it.
 ///
 /// # Errors
 /// If a run fails, or if asked to stop.
-pub fn run(
-    options: Options,
-    threads: usize,
-    progress: &(dyn Fn(f64) + Sync),
-    stop: &(dyn Fn() -> bool + Sync),
-) -> Result<Study, StudyError> {
+pub fn run(options: Options, threads: usize, watch: Watch<'_>) -> Result<Study, StudyError> {
     let effort = Effort::of(options);
-    let watch = Watch::new(progress, stop, FORCE_WORK + effort.work(GAMMAS.len()));
+    let progress = Progress::new(watch, FORCE_WORK + effort.work(GAMMAS.len()));
     let compiled = model::compiled()?;
-    let forces = force::forces(threads, SETTLE, &watch)?;
-    let areas = areas::areas(threads, &effort, &watch)?;
-    let measured = Tables::measure(threads, (&GAMMAS, REACH), &effort, &watch)?;
+    let forces = force::forces(threads, SETTLE, &progress)?;
+    let areas = areas::areas(threads, &effort, &progress)?;
+    let measured = Tables::measure(threads, (&GAMMAS, REACH), &effort, &progress)?;
     let (mut tables, mut lives) = (Vec::new(), Vec::new());
     for (gamma, measured) in GAMMAS.into_iter().zip(&measured) {
         tables.extend(measured.quality(gamma, &effort));
         for definition in lives::definitions(gamma) {
-            lives.push(lives::lives(measured, definition, (threads, options.seed), &effort, &watch)?);
+            lives.push(lives::lives(measured, definition, (threads, options.seed), &effort, &progress)?);
         }
     }
     let none = || StudyError::Missing { kind: "wear", name: model::JOINT.into() };
@@ -111,7 +108,7 @@ pub fn run(
         table2,
         protocol,
         parameters: parameters::parameters(&compiled)?,
-        configuration: configuration::configuration(&compiled, &watch)?,
+        configuration: configuration::configuration(&compiled, &progress)?,
         forces,
         tables,
         around: around::around(&measured[FULL_FEEDBACK], &effort)?,

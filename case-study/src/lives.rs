@@ -11,12 +11,13 @@ use linkwear_runtime::wear::Measure;
 use serde::Serialize;
 
 use super::error::StudyError;
+use super::job_pool::{Job, run_all};
 use super::learn::{Bearing, Learnt, PROTOCOLS, Protocol, Purpose};
 use super::options::Effort;
+use super::progress::Progress;
 use super::rate::{Cycle, Rate};
 use super::statistics::{Density, LifeNumbers, mean_and_scatter};
 use super::tables::{Definition, Tables};
-use super::watch::{Job, Watch, run_all};
 
 /// Names of the models, in the order of all results.
 pub const MODELS: [&str; 3] = ["proposed", "baseline 1 (rigid)", "baseline 2 (no feedback)"];
@@ -119,12 +120,12 @@ pub(super) fn lives(
     (wear, definition): (&'static str, Definition),
     (threads, seed): (usize, u64),
     effort: &Effort,
-    watch: &Watch<'_>,
+    progress: &Progress<'_>,
 ) -> Result<Lives, StudyError> {
     let (bearing, revolutions_per_cycle) = bearing(tables, definition, seed, effort)?;
     let lived = bearing.lives(&bearing.truth, bearing.rates, Purpose::Truth, 0..effort.trajectories);
     let truth = LifeNumbers::of(&lived);
-    let learnt = learn(&bearing, threads, effort, watch)?;
+    let learnt = learn(&bearing, threads, effort, progress)?;
     let protocols = PROTOCOLS.iter().enumerate();
     let protocols = protocols.map(|(at, protocol)| under(*protocol, at, &learnt, &truth)).collect();
     let mut densities = vec![Density::of(&lived)];
@@ -178,15 +179,15 @@ fn learn(
     bearing: &Bearing,
     threads: usize,
     effort: &Effort,
-    watch: &Watch<'_>,
+    progress: &Progress<'_>,
 ) -> Result<AllLearnt, StudyError> {
     let jobs = (0..effort.data_sets).map(|set| {
         let job = move || {
-            if watch.is_stopped() {
+            if progress.go_on().is_break() {
                 return Err(StudyError::Interrupted);
             }
             let learnt = bearing.data_set(set, effort.trajectories_per_set);
-            watch.done(effort.work_of_data_set);
+            progress.done(effort.work_of_data_set);
             learnt
         };
         Box::new(job) as Job<'_, Result<Vec<Vec<Learnt>>, StudyError>>

@@ -6,11 +6,10 @@ use std::io::{self, Write as _};
 use std::num::NonZeroU16;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Mutex;
 
 use clap::{Parser, ValueEnum};
 use linkwear::files::{WriteError, claim_folder, print, write_whole};
-use linkwear::progress::{Progress, catch_interrupts, stop_requested};
+use linkwear::progress::watched;
 use linkwear_case_study::{Options, Picture, Study, html, markdown, pictures, run, summary};
 use serde_json::{Value, json};
 
@@ -123,21 +122,10 @@ fn answer(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn study(arguments: &Arguments) -> Result<Study, Failure> {
-    catch_interrupts();
     let options = Options { quick: arguments.quick, seed: arguments.seed };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or_else(processors, |threads| usize::from(threads.get()));
-    let progress = Mutex::new(Progress::new());
-    let report = |part: f64| {
-        if let Ok(mut progress) = progress.lock() {
-            progress.set(part);
-        }
-    };
-    let study = run(options, threads, &report, &stop_requested);
-    if let Ok(progress) = progress.lock() {
-        progress.finish();
-    }
-    study.map_err(Failure::study)
+    watched(|watch| run(options, threads, watch)).map_err(Failure::study)
 }
 
 /// Writes every file whole; returns their names.

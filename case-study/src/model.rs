@@ -8,13 +8,13 @@ use linkwear::backend::{Backend, Equations};
 use linkwear::mechanism::{LoadError, Mechanism};
 use linkwear::mechanisms;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
-use linkwear_runtime::life::{JointWear, RevolutionWear, WearSource};
-use linkwear_runtime::wear::{Area, Measure};
-use linkwear_runtime::{DynamicsSource, Integrator, RevolutionSettings, RunError, TurnState};
+use linkwear_runtime::life::{JointWear, WearSource};
+use linkwear_runtime::wear::{Area, ContactMeasure, Measure};
+use linkwear_runtime::{DynamicsSource, Integrator, RevolutionSettings, RunError, TurnState, Watch};
 
 use super::error::StudyError;
 use super::options::INTERPRETED;
-use super::watch::Watch;
+use super::progress::Progress;
 
 /// The file of the case study.
 pub(super) const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
@@ -87,28 +87,28 @@ impl Model {
         if self.mechanism.backend() == "compiled" { 1.0 } else { INTERPRETED }
     }
 
-    /// Runs `action` with revolutions of this mechanism, each of which is told to the watch.
+    /// Runs `action` with revolutions of this mechanism, each of which counts as progress.
     pub fn measuring<T>(
         &self,
         settings: RevolutionSettings,
-        watch: &Watch<'_>,
+        progress: &Progress<'_>,
         action: impl FnOnce(&mut Watched<'_>) -> Result<T, StudyError>,
     ) -> Result<T, StudyError> {
         let system = self.mechanism.system();
-        let stop = || watch.is_stopped();
+        let stop = |_| progress.go_on();
         let inner =
             DynamicsSource::new(&*system, &self.mechanism.description, &self.mechanism.parameters, settings)?;
         let turns = f64::from(settings.settle + settings.average.max(1));
         let step = if let Integrator::Rk4 { step } = settings.integrator { 2e-5 / step } else { 1.0 };
         let cost = turns * step * self.cost();
-        action(&mut Watched { inner: inner.stopped_by(&stop), watch, cost })
+        action(&mut Watched { inner: inner.watched_by(Watch::new(&stop)), progress, cost })
     }
 }
 
 /// Revolutions that tell how far they are.
 pub(super) struct Watched<'a> {
     pub inner: DynamicsSource<'a>,
-    watch: &'a Watch<'a>,
+    progress: &'a Progress<'a>,
     cost: f64,
 }
 
@@ -120,9 +120,9 @@ impl WearSource for Watched<'_> {
         &mut self,
         joints: &[JointWear],
         state: &mut Self::State,
-    ) -> Result<Vec<RevolutionWear>, Self::Error> {
+    ) -> Result<Vec<ContactMeasure>, Self::Error> {
         let measured = self.inner.measure(joints, state);
-        self.watch.done(self.cost);
+        self.progress.done(self.cost);
         measured
     }
 }

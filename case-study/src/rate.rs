@@ -30,7 +30,7 @@ impl Rate {
         let mut values = Vec::with_capacity(INTERVALS + 1);
         for index in 0..=INTERVALS {
             let revolution = measured.table.at(0, place(index));
-            let (value, profile) = match (definition.wear, revolution.profile) {
+            let (value, profile) = match (definition.wear, revolution.deposit) {
                 (WearOf::Profile(Measure::Maximum), Some(profile)) => {
                     let leads = leading(worn.as_ref().unwrap_or(&profile));
                     (profile.depths()[leads], Some(profile))

@@ -6,13 +6,14 @@
 
 use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, WearOf, WearStep, WearTable, calibrate};
 use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
-use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError};
+use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError, Watch};
 use serde::Serialize;
 
 use super::error::StudyError;
+use super::job_pool::{Job, run_all};
 use super::model::Model;
 use super::options::Effort;
-use super::watch::{Job, Watch, run_all};
+use super::progress::Progress;
 
 /// What counts as wear and what it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,15 +127,16 @@ impl Tables {
         threads: usize,
         (gammas, reach): (&[f64], f64),
         effort: &Effort,
-        watch: &Watch<'_>,
+        progress: &Progress<'_>,
     ) -> Result<Vec<Self>, StudyError> {
         let half = Integrator::Rk4 { step: 0.5 * effort.step };
         let fine = RevolutionSettings { integrator: half, ..effort.flexible };
         let worn = (Area::Hertz, effort.bins);
         let rigid =
-            |gamma| job(Model::rigid, worn, (effort.rigid, effort.rigid_points), (gamma, reach), watch);
-        let finest = |gamma| job(flexible, worn, (fine, effort.finest_points), (gamma, reach), watch);
-        let proposed = |gamma| job(flexible, worn, (effort.flexible, effort.points), (gamma, reach), watch);
+            |gamma| job(Model::rigid, worn, (effort.rigid, effort.rigid_points), (gamma, reach), progress);
+        let finest = |gamma| job(flexible, worn, (fine, effort.finest_points), (gamma, reach), progress);
+        let proposed =
+            |gamma| job(flexible, worn, (effort.flexible, effort.points), (gamma, reach), progress);
         let gammas = || gammas.iter().copied();
         // The longest first.
         let jobs = gammas().map(rigid).chain(gammas().map(finest)).chain(gammas().map(proposed)).collect();
@@ -190,9 +192,9 @@ pub(super) fn job<'w>(
     (area, bins): (Area, usize),
     (settings, points): (RevolutionSettings, usize),
     range: (f64, f64),
-    watch: &'w Watch<'_>,
+    progress: &'w Progress<'_>,
 ) -> Job<'w, Result<Measured, StudyError>> {
-    Box::new(move || measured(&model()?.wearing(area, bins), (settings, points), range, watch))
+    Box::new(move || measured(&model()?.wearing(area, bins), (settings, points), range, progress))
 }
 
 /// Measures one model from the unworn clearance to that at `reach` times the threshold.
@@ -200,9 +202,9 @@ fn measured(
     model: &Model,
     (settings, points): (RevolutionSettings, usize),
     (gamma, reach): (f64, f64),
-    watch: &Watch<'_>,
+    progress: &Progress<'_>,
 ) -> Result<Measured, StudyError> {
-    model.measuring(settings, watch, |revolutions| {
+    model.measuring(settings, progress, |revolutions| {
         let joints = revolutions.inner.joints()?;
         let feedback = scalar(gamma)?;
         let further = |joint: &JointLife| JointLife {
@@ -214,7 +216,7 @@ fn measured(
         let wears = model.mechanism.description.contacts.iter().find_map(|contact| contact.wear);
         let rates = wears.and_then(|wear| wear.scatter);
         let surveyed = LifeSettings::new(joints.iter().map(further).collect());
-        let table = WearTable::measure(&surveyed, revolutions, points, &mut |_| {})?;
+        let table = WearTable::measure(&surveyed, revolutions, points, Watch::NONE)?;
         Ok(Measured { table, rates, joints })
     })
 }

@@ -7,12 +7,13 @@ use std::sync::OnceLock;
 use linkwear_case_study::{
     Lives, Options, Prediction, Protocol, Study, TRUE_LIFE, html, markdown, pictures, run,
 };
+use linkwear_runtime::Watch;
 use serde_json::Value;
 
 const OPTIONS: Options = Options { quick: true, seed: 7 };
 
 fn study_on(threads: usize) -> Study {
-    run(OPTIONS, threads, &|_| {}, &|| false).unwrap_or_else(|error| panic!("{error}"))
+    run(OPTIONS, threads, Watch::NONE).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// One study for all tests.

@@ -3,10 +3,8 @@
 
 mod drawing;
 
-use std::ops::ControlFlow;
-
 use linkwear::mechanisms::rssr_rigid;
-use linkwear::runtime::{Description, Run, Settings, Span, simulate};
+use linkwear::runtime::{Settings, Span, Watch, simulate};
 
 use drawing::Curves;
 
@@ -20,30 +18,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let description = rssr_rigid::description();
     let settings =
         Settings { span: Span::Turns(TURNS), samples: 2 * ROWS_PER_TURN + 1, ..Settings::default() };
-    let run = simulate(&mechanism, description, &mechanism.parameters(), &settings, &mut |_| {
-        ControlFlow::Continue(())
-    })?;
-    let last = |name: String| -> Result<Vec<f64>, String> {
-        Ok(column(description, &run, &name)?[ROWS_PER_TURN..].to_vec())
-    };
-    let vector = |stem: &str| -> Result<Vec<[f64; 3]>, String> {
-        let (x, y, z) = (last(format!("{stem}x"))?, last(format!("{stem}y"))?, last(format!("{stem}z"))?);
-        Ok((0..x.len()).map(|row| [x[row], y[row], z[row]]).collect())
-    };
+    let run = simulate(&mechanism, description, &mechanism.parameters(), &settings, Watch::NONE)?;
+    let vector = |stem: &str| run.vector(stem).map(|rows| rows[ROWS_PER_TURN..].to_vec());
     let length = |v: &[f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     let curves = Curves {
         crank_tip: vector("A.")?,
         rocker_tip: vector("B.")?,
-        torque: last("R1.drive".to_owned())?,
+        torque: run.column("R1.drive")?[ROWS_PER_TURN..].to_vec(),
         force: vector("R1.F")?.iter().map(length).collect(),
     };
     std::fs::write("docs/rssr.svg", drawing::svg(&curves))?;
     println!("docs/rssr.svg written");
     Ok(())
-}
-
-fn column(description: &Description, run: &Run, name: &str) -> Result<Vec<f64>, String> {
-    let at = description.channels.iter().position(|channel| channel.name == name);
-    let at = at.ok_or_else(|| format!("no column `{name}`"))?;
-    Ok(run.rows.iter().map(|row| row[at]).collect())
 }

@@ -10,10 +10,9 @@ use linkwear_gamma::process::Gamma;
 use linkwear_gamma::series::{SeriesSystem, SharedFactor};
 use linkwear_gamma::special::gamma_p;
 use linkwear_runtime::GammaRates;
-use linkwear_runtime::life::{
-    Feedback, JointLife, JointWear, LifeSettings, RevolutionWear, WearOf, WearSource, WearStep,
-};
-use linkwear_runtime::wear::{Limits, Observed, ScalarFeedback};
+use linkwear_runtime::Watch;
+use linkwear_runtime::life::{Feedback, JointLife, JointWear, LifeSettings, WearOf, WearSource, WearStep};
+use linkwear_runtime::wear::{ContactMeasure, Limits, Observed, ScalarFeedback};
 
 /// beta `W_crit` = 1092 and a mean life of about 25 cycles, as in the case study.
 const RATES: GammaRates = GammaRates { alpha: 13.65e6, beta: 13.65e6 };
@@ -29,16 +28,17 @@ impl WearSource for Power {
     type State = ();
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
-        let wear = |joint: &JointWear| RevolutionWear {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Infallible> {
+        let wear = |joint: &JointWear| ContactMeasure {
             wear_integral: 2.0,
             depth: PER_CYCLE * (joint.clearance / C0).powf(self.0),
-            profile: None,
             mean_force: 30.0,
             peak_force: 50.0,
-            contact_losses: 0.0,
-            separated: 0.0,
-            observed: Observed::nothing(joint.clearance, 0.01),
+            losses: 0.0,
+            touching: 1.0,
+            loss: 0.0,
+            deposit: None,
+            observed: Some(Observed::nothing(joint.clearance, 0.01)),
         };
         Ok(joints.iter().map(wear).collect())
     }
@@ -67,7 +67,7 @@ fn lives(settings: &LifeSettings, exponent: f64, seed: u64, count: u64, threads:
             lend(&mut Power(exponent));
             Ok(())
         },
-        &|_| ControlFlow::Continue(()),
+        Watch::NONE,
     )
 }
 
@@ -125,7 +125,7 @@ fn lives_with_a_shared_factor_follow_the_closed_form() {
                 lend(&mut Power(0.5));
                 Ok(())
             },
-            &|_| ControlFlow::Continue(()),
+            Watch::NONE,
         );
         assert_eq!(run.ended, Ended::Complete);
         let members = thresholds.iter().map(|threshold| member(*threshold)).collect();
@@ -171,9 +171,7 @@ fn a_run_that_is_stopped_keeps_the_lives_it_had() {
             lend(&mut Power(0.5));
             Ok(())
         },
-        &|done| {
-            if done < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        },
+        Watch::new(&|part| if part < 0.045 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }),
     );
     assert_eq!((run.ended, run.failures.len()), (Ended::Cancelled, 5));
 }

@@ -49,12 +49,9 @@ pub enum SetupError {
         /// Radius of the journal or ball [m].
         journal_radius: f64,
     },
-    /// An output column is asked for that the mechanism does not have.
-    #[error("the mechanism has no output `{name}`; check the name of the joint or body")]
-    NoChannel {
-        /// Its name.
-        name: String,
-    },
+    /// A column is asked for that the run does not have.
+    #[error(transparent)]
+    NoColumn(#[from] NoColumn),
     /// A setting of the run makes no sense.
     #[error("setting `{name}` is {value}; it must be {need}")]
     Setting {
@@ -65,6 +62,16 @@ pub enum SetupError {
         /// What it must be.
         need: &'static str,
     },
+}
+
+/// A column that a run does not have.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("the run has no column `{name}`{}", nearest.as_ref().map_or_else(String::new, |name| format!("; did you mean `{name}`?")))]
+pub struct NoColumn {
+    /// Its name.
+    pub name: String,
+    /// The column whose name is nearest.
+    pub nearest: Option<String>,
 }
 
 /// No consistent start was found.

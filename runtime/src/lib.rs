@@ -26,6 +26,8 @@ mod assemble;
 #[cfg(feature = "std")]
 pub mod clearance_joint;
 #[cfg(feature = "std")]
+mod column;
+#[cfg(feature = "std")]
 mod contact_frequency;
 #[cfg(feature = "std")]
 mod description;
@@ -53,6 +55,8 @@ mod record;
 mod simulate;
 #[cfg(feature = "std")]
 mod singular_dynamics;
+#[cfg(feature = "std")]
+mod watch;
 
 pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
@@ -65,6 +69,8 @@ pub use assemble::{
     State, assemble, assemble_static_contact, assemble_with, check_clearances, offset_columns, place,
 };
 #[cfg(feature = "std")]
+pub use column::Column;
+#[cfg(feature = "std")]
 pub use contact_frequency::contact_frequencies;
 #[cfg(feature = "std")]
 pub use description::{
@@ -76,7 +82,7 @@ pub use dynamics::{Dynamics, SINGULAR_PIVOT};
 #[cfg(feature = "std")]
 pub use dynamics_source::{DynamicsSource, RevolutionSettings};
 #[cfg(feature = "std")]
-pub use error::{AssemblyError, RunError, SetupError};
+pub use error::{AssemblyError, NoColumn, RunError, SetupError};
 #[cfg(feature = "std")]
 pub use evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates};
 #[cfg(feature = "std")]
@@ -87,8 +93,10 @@ pub use projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector,
 pub use record::write_csv;
 #[cfg(feature = "std")]
 pub use simulate::{
-    BRANCH_PART, IdealJoint, IdealMeasure, Integrator, JUMP_FLOOR, Progress, Run, RunWarning, Settings, Span,
-    Statistics, TurnMeasure, TurnMeasures, TurnRunner, TurnState, simulate,
+    BRANCH_PART, IdealJoint, Integrator, JUMP_FLOOR, Run, RunWarning, Settings, Span, Statistics,
+    TurnMeasures, TurnRunner, TurnState, simulate,
 };
 #[cfg(feature = "std")]
 pub use singular_dynamics::{LOST_RANK, NEARLY_LOST};
+#[cfg(feature = "std")]
+pub use watch::Watch;

@@ -1,20 +1,17 @@
-//! Sampled rows as CSV. In: a [`Run`] and the [`Description`] it belongs to. Out: text in any writer.
+//! Sampled rows as CSV. In: a [`Run`]. Out: text in any writer.
 //! Numbers are the shortest that read back to the same bits.
 
 use std::io::{self, Write};
 
-use crate::clearance_joint::ContactChannels;
-use crate::description::Description;
 use crate::simulate::Run;
 
-/// Writes the header `t [s],name [unit],...` and one line per sample. Columns of contacts follow the generated ones.
+/// Writes the header `t [s],name [unit],...` and one line per sample.
 ///
 /// # Errors
 /// What the writer reports.
-pub fn write_csv(writer: &mut dyn Write, description: &Description, run: &Run) -> io::Result<()> {
+pub fn write_csv(writer: &mut dyn Write, run: &Run) -> io::Result<()> {
     write!(writer, "t [s]")?;
-    let contacts = ContactChannels::new(description);
-    for channel in description.channels.iter().chain(contacts.channels()) {
+    for channel in &run.channels {
         write!(writer, ",{} [{}]", channel.name, channel.unit)?;
     }
     writeln!(writer)?;
@@ -45,32 +42,12 @@ mod tests {
     use super::*;
     use crate::description::Channel;
 
-    fn description(names: &[(&'static str, &'static str)]) -> Description {
-        let channels = names
-            .iter()
-            .map(|(name, unit)| Channel { name: (*name).into(), unit: (*unit).into(), wraps: false })
-            .collect();
-        Description {
-            name: "two".into(),
-            parameters: vec![].into(),
-            coordinates: vec![].into(),
-            speeds: vec![].into(),
-            motions: vec![].into(),
-            quaternions: vec![].into(),
-            rows: vec![].into(),
-            drivers: vec![].into(),
-            channels: std::borrow::Cow::Owned(channels),
-            turn_driver: None,
-            contacts: vec![].into(),
-        }
-    }
-
     #[test]
     fn numbers_read_back_to_the_same_bits() {
         let values = vec![0.1, -0.0, 1.0 / 3.0, 5e-324, -1.797_693_134_862_315_7e308, 1e-5, 123_456_789.25];
         let run = Run { times: vec![0.5], rows: vec![values.clone()], ..Run::default() };
         let mut text = Vec::new();
-        write_csv(&mut text, &description(&[]), &run).expect("a vector takes every byte");
+        write_csv(&mut text, &run).expect("a vector takes every byte");
         let text = String::from_utf8(text).expect("numbers are ASCII");
         let line = text.lines().nth(1).expect("one row");
         assert_eq!(line, "0.5,0.1,0,0.3333333333333333,5e-324,-1.7976931348623157e308,0.00001,123456789.25");
@@ -82,8 +59,13 @@ mod tests {
     #[test]
     fn header_names_columns_with_units() {
         let mut text = Vec::new();
-        let description = description(&[("R1.q", "rad"), ("R1.drive", "N m")]);
-        write_csv(&mut text, &description, &Run::default()).expect("a vector takes every byte");
+        let column = |(name, unit): (&'static str, &'static str)| Channel {
+            name: name.into(),
+            unit: unit.into(),
+            wraps: false,
+        };
+        let channels = [("R1.q", "rad"), ("R1.drive", "N m")].map(column).to_vec();
+        write_csv(&mut text, &Run { channels, ..Run::default() }).expect("a vector takes every byte");
         assert_eq!(text, b"t [s],R1.q [rad],R1.drive [N m]\n");
     }
 
@@ -99,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_full_disk_is_reported() {
-        let error = write_csv(&mut Full, &description(&[]), &Run::default()).expect_err("nothing fits");
+        let error = write_csv(&mut Full, &Run::default()).expect_err("nothing fits");
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     }
 }

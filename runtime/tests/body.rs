@@ -4,16 +4,13 @@ mod common;
 
 use common::Dense;
 use common::body::Body;
-use linkwear_runtime::{Integrator, LOST, Run, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, LOST, Run, Settings, Span, Watch, simulate};
 use nalgebra::Vector3;
-use std::ops::ControlFlow;
 
 fn run(system: &Dense<Body>, integrator: Integrator, time: f64) -> Run {
     let settings = Settings::new(integrator, Span::Time(time), 51);
-    let result = simulate(system, &system.description, &system.parameters(), &settings, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .expect("it starts");
+    let result = simulate(system, &system.description, &system.parameters(), &settings, Watch::NONE)
+        .expect("it starts");
     assert_eq!(result.stopped, None);
     result
 }

@@ -5,14 +5,13 @@ mod common;
 use common::bars::{At, Bar, Bars};
 use common::body::Body;
 use common::{Dense, Model};
-use linkwear_runtime::{Integrator, LOST, Run, RunError, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, LOST, Run, RunError, Settings, Span, Watch, simulate};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 
 fn run<M: Model>(system: &Dense<M>, integrator: Integrator, time: f64, samples: usize) -> Run {
     let settings = Settings::new(integrator, Span::Time(time), samples);
-    simulate(system, &system.description, &system.parameters(), &settings, &mut |_| ControlFlow::Continue(()))
+    simulate(system, &system.description, &system.parameters(), &settings, Watch::NONE)
         .expect("the mechanism can start")
 }
 

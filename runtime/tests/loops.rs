@@ -4,9 +4,8 @@ mod common;
 
 use common::Dense;
 use common::bars::{At, Bar, Bars, Law};
-use linkwear_runtime::{Integrator, LOST, Run, RunError, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, LOST, Run, RunError, Settings, Span, Watch, simulate};
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::ControlFlow;
 
 const GRAVITY: f64 = 9.81;
 
@@ -20,9 +19,7 @@ fn dense(bars: Bars) -> Dense<Bars> {
 
 fn run(system: &Dense<Bars>, integrator: Integrator, time: f64, samples: usize) -> Run {
     let settings = Settings::new(integrator, Span::Time(time), samples);
-    let run = simulate(system, &system.description, &system.parameters(), &settings, &mut |_| {
-        ControlFlow::Continue(())
-    });
+    let run = simulate(system, &system.description, &system.parameters(), &settings, Watch::NONE);
     run.expect("the mechanism can start")
 }
 

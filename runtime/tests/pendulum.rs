@@ -4,9 +4,10 @@ mod common;
 
 use common::Dense;
 use common::bars::{At, Bar, Bars};
-use linkwear_runtime::{Integrator, Run, RunError, Settings, SetupError, Span, simulate};
+use linkwear_runtime::{Integrator, Run, RunError, Settings, SetupError, Span, Watch, simulate};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 const GRAVITY: f64 = 9.81;
 
@@ -20,9 +21,7 @@ fn dopri5(tolerance: f64) -> Integrator {
 
 fn run(system: &Dense<Bars>, integrator: Integrator, time: f64, samples: usize) -> Run {
     let settings = Settings::new(integrator, Span::Time(time), samples);
-    let run = simulate(system, &system.description, &system.parameters(), &settings, &mut |_| {
-        ControlFlow::Continue(())
-    });
+    let run = simulate(system, &system.description, &system.parameters(), &settings, Watch::NONE);
     run.expect("the pendulum can start")
 }
 
@@ -158,8 +157,7 @@ fn turns_end_where_the_driver_closes_them() {
     let system = pendulum(bar);
     let settings = Settings { settle: Span::Turns(1.0), ..Settings::new(dopri5(1e-8), Span::Turns(2.5), 6) };
     let result =
-        simulate(&system, &system.description, &[GRAVITY], &settings, &mut |_| ControlFlow::Continue(()))
-            .expect("it turns");
+        simulate(&system, &system.description, &[GRAVITY], &settings, Watch::NONE).expect("it turns");
     // A turn takes half a second; the root is found to the last bits.
     assert!((result.times[0] - 0.5).abs() < 1e-15 && (result.times[5] - 1.75).abs() < 1e-15);
 }
@@ -168,8 +166,7 @@ fn turns_end_where_the_driver_closes_them() {
 fn turns_without_a_turning_driver_are_an_error() {
     let system = released(1.0);
     let settings = Settings::new(dopri5(1e-8), Span::Turns(1.0), 2);
-    let outcome =
-        simulate(&system, &system.description, &[GRAVITY], &settings, &mut |_| ControlFlow::Continue(()));
+    let outcome = simulate(&system, &system.description, &[GRAVITY], &settings, Watch::NONE);
     assert_eq!(outcome, Err(RunError::NoTurns));
 }
 
@@ -179,8 +176,7 @@ fn a_driver_that_only_swings_never_makes_a_turn() {
         Bar { law: Some(|t| [t.sin(), t.cos(), -t.sin()]), ..Bar::unit(At::Ground(0.0, 0.0), 0.0, 0.0) };
     let system = pendulum(bar);
     let settings = Settings::new(dopri5(1e-8), Span::Turns(1.0), 2);
-    let outcome =
-        simulate(&system, &system.description, &[GRAVITY], &settings, &mut |_| ControlFlow::Continue(()));
+    let outcome = simulate(&system, &system.description, &[GRAVITY], &settings, Watch::NONE);
     let Err(RunError::TurnsNotReached { reached, .. }) = outcome else { panic!("{outcome:?}") };
     assert!((reached - 0.5 / PI).abs() < 1e-3);
 }
@@ -189,8 +185,7 @@ fn a_driver_that_only_swings_never_makes_a_turn() {
 fn senseless_settings_and_parameters_are_named() {
     let system = released(1.0);
     let go = |settings: Settings, parameters: &[f64]| {
-        simulate(&system, &system.description, parameters, &settings, &mut |_| ControlFlow::Continue(()))
-            .expect_err("senseless")
+        simulate(&system, &system.description, parameters, &settings, Watch::NONE).expect_err("senseless")
     };
     let good = Settings::new(dopri5(1e-8), Span::Time(1.0), 2);
     for (settings, wanted) in [
@@ -219,17 +214,18 @@ fn senseless_settings_and_parameters_are_named() {
 fn a_request_to_stop_keeps_the_samples() {
     let system = released(1.0);
     let settings = Settings::new(dopri5(1e-10), Span::Time(10.0), 1001);
-    let mut fractions = Vec::new();
-    let result = simulate(&system, &system.description, &[GRAVITY], &settings, &mut |fraction| {
-        fractions.push(fraction);
+    let fractions = Mutex::new(Vec::new());
+    let hear = |fraction: f64| {
+        fractions.lock().expect("one thread").push(fraction);
         if fraction < 0.5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    })
-    .expect("it starts");
+    };
+    let result = simulate(&system, &system.description, &[GRAVITY], &settings, Watch::new(&hear));
+    let result = result.expect("it starts");
     let Some(RunError::Interrupted { t }) = result.stopped else { panic!("{:?}", result.stopped) };
     assert!((5.0..6.0).contains(&t));
     assert_eq!(result.rows.len(), result.times.len());
     assert!((500..=600).contains(&result.rows.len()));
-    assert!(fractions.is_sorted());
+    assert!(fractions.into_inner().expect("one thread").is_sorted());
 }
 
 #[test]

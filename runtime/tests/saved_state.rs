@@ -3,14 +3,14 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use linkwear_runtime::TurnState;
 use linkwear_runtime::clearance_joint::ClearanceState;
 use linkwear_runtime::contact::ImpactMemory;
 use linkwear_runtime::life::{
-    Feedback, JointLife, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, RevolutionWear,
-    WearOf, WearSource, run_life,
+    Feedback, JointLife, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearOf, WearSource,
+    run_life,
 };
-use linkwear_runtime::wear::{Limits, Measure, Observed, Profile, Warning};
+use linkwear_runtime::wear::{ContactMeasure, Limits, Measure, Observed, Profile, Warning};
+use linkwear_runtime::{TurnState, Watch};
 
 #[test]
 fn memory_of_a_contact_comes_back() {
@@ -75,21 +75,22 @@ impl WearSource for Unsettled {
         &mut self,
         joints: &[JointWear],
         state: &mut Self::State,
-    ) -> Result<Vec<RevolutionWear>, Infallible> {
+    ) -> Result<Vec<ContactMeasure>, Infallible> {
         let worn = joints[0].profile.as_ref().expect("the profile is fed back").maximum();
         let memory = state.get_or_insert_with(|| vec![0.1, 0.7]);
         memory[0] = (3.7 * memory[0] + memory[1] + worn).sin();
         let mut profile = Profile::unworn(12).expect("12 bins are enough");
         profile.deposit(memory[0], 0.8, 1e-13 * (1.0 + 1e4 * worn));
-        Ok(vec![RevolutionWear {
+        Ok(vec![ContactMeasure {
             wear_integral: 2.0 + 0.1 * memory[0],
             depth: 3.25e-13,
-            profile: Some(profile),
+            deposit: Some(profile),
             mean_force: 32.0 / 3.0,
             peak_force: 55.1,
-            contact_losses: 0.0,
-            separated: 0.0,
-            observed: Observed { pressure: 4e9, ..Observed::nothing(1e-5, 0.01) },
+            losses: 0.0,
+            touching: 1.0,
+            loss: 0.0,
+            observed: Some(Observed { pressure: 4e9, ..Observed::nothing(1e-5, 0.01) }),
         }])
     }
 }
@@ -109,12 +110,11 @@ fn a_trajectory_written_after_every_step_ends_with_the_same_bits() {
     };
     let settings = LifeSettings::new(vec![joint]);
     let mut whole = LifeState::new(&settings, 5).unwrap();
-    run_life(&settings, &mut Unsettled, &MeanIncrement, &mut whole, &mut |_| ControlFlow::Continue(()))
-        .unwrap();
+    run_life(&settings, &mut Unsettled, &MeanIncrement, &mut whole, Watch::NONE).unwrap();
     let mut saved = LifeState::new(&settings, 5).unwrap();
     let mut stops = 0;
     loop {
-        let stop = &mut |_: &_| ControlFlow::Break(());
+        let stop = Watch::new(&|_| ControlFlow::Break(()));
         let outcome = run_life(&settings, &mut Unsettled, &MeanIncrement, &mut saved, stop).unwrap();
         let text = serde_json::to_string(&saved).unwrap();
         let read: LifeState<Option<Vec<f64>>> = serde_json::from_str(&text).unwrap();

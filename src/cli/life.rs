@@ -5,10 +5,8 @@ mod fits;
 mod folder;
 mod output;
 
-use std::sync::{Mutex, PoisonError};
-
 use linkwear::life::{Cause, LifeError, LifeStudy, Trajectories};
-use linkwear::progress::{Progress, catch_interrupts, stop_requested};
+use linkwear::progress::watched;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde_json::Value;
 
@@ -24,7 +22,6 @@ use super::input::load_mechanism;
 pub fn run(arguments: &LifeArguments, format: Format) -> Result<(), Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let folder = arguments.out.as_deref().map(Folder::claim).transpose()?;
-    catch_interrupts();
     let Fits { fits, warnings } = Fits::read(arguments, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
@@ -45,10 +42,7 @@ pub fn run(arguments: &LifeArguments, format: Format) -> Result<(), Failure> {
         shared_factor: arguments.shared_factor,
         ..LifeStudy::new(&mechanism)
     };
-    let progress = Mutex::new(Progress::new());
-    let lock = || progress.lock().unwrap_or_else(PoisonError::into_inner);
-    let lived = study.run_watched(&|part| lock().set(part), &stop_requested);
-    lock().finish();
+    let lived = watched(|watch| study.run_watched(watch));
     let mut life = lived.map_err(|error| failed(arguments, error, folder.as_ref(), format))?;
     life.warnings.extend(warnings);
     let answer = Answer { mechanism: &mechanism, study: &study, life: &life };

@@ -1,15 +1,12 @@
 //! `simulate`: choose a back end, integrate, record.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use linkwear::mechanism::Mechanism;
-use linkwear::progress::{Progress, catch_interrupts, stop_requested};
-use linkwear_runtime::clearance_joint::ContactChannels;
-use linkwear_runtime::{
-    Description, Integrator, Run, RunError, Settings, Span, TurnMeasure, simulate, write_csv,
-};
+use linkwear::progress::watched;
+use linkwear_runtime::wear::ContactMeasure;
+use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, simulate, write_csv};
 use serde_json::{Value, json};
 
 use super::arguments::{Format, IntegratorName, SimulateArguments};
@@ -37,23 +34,18 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
     let span = span(arguments, description)?;
     let settings = Settings::new(integrator, span, arguments.samples as usize);
 
-    catch_interrupts();
-    let mut progress = Progress::new();
     let start = Instant::now();
-    let result =
-        simulate(&*mechanism.system(), description, &mechanism.parameters, &settings, &mut |fraction| {
-            progress.set(fraction);
-            if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+    let system = mechanism.system();
+    let parameters = &mechanism.parameters;
+    let result = watched(|watch| simulate(&*system, description, parameters, &settings, watch));
     let wall_seconds = start.elapsed().as_secs_f64();
-    progress.finish();
 
     let run = result.map_err(|error| failed(arguments, error, None))?;
     if let Some(error) = &run.stopped {
-        return Err(failed(arguments, error.clone(), keep_partial(arguments, description, &run)?));
+        return Err(failed(arguments, error.clone(), keep_partial(arguments, &run)?));
     }
     if let Some(out) = &arguments.out {
-        write_whole(out, |file| write_csv(file, description, &run))?;
+        write_whole(out, |file| write_csv(file, &run))?;
     }
     match format {
         Format::Json => print(&to_json(arguments, &mechanism, &run, wall_seconds)),
@@ -106,14 +98,10 @@ fn failed(arguments: &SimulateArguments, error: RunError, kept: Option<PathBuf>)
 }
 
 /// Saves the rows of an incomplete run beside the file they were meant for, which is left as it was.
-fn keep_partial(
-    arguments: &SimulateArguments,
-    description: &Description,
-    run: &Run,
-) -> Result<Option<PathBuf>, Failure> {
+fn keep_partial(arguments: &SimulateArguments, run: &Run) -> Result<Option<PathBuf>, Failure> {
     let Some(out) = arguments.out.as_deref().filter(|_| !run.rows.is_empty()) else { return Ok(None) };
     let partial = partial_name(out);
-    write_whole(&partial, |file| write_csv(file, description, run))?;
+    write_whole(&partial, |file| write_csv(file, run))?;
     Ok(Some(partial))
 }
 
@@ -147,25 +135,29 @@ fn to_json(arguments: &SimulateArguments, mechanism: &Mechanism, run: &Run, wall
         "max_loop_error_rad": numbers.max_loop_error_rad,
         "energy_error_J": numbers.energy_error_J,
         "energy_throughput_J": numbers.energy_throughput_J,
-        "peaks": summary::peaks(description, run).iter().map(summary::Peak::to_json).collect::<Vec<_>>(),
+        "peaks": summary::peaks(run).iter().map(summary::Peak::to_json).collect::<Vec<_>>(),
         "out": arguments.out.as_ref().map(|path| path.display().to_string()),
-        "turns": run.turns.iter().map(|turn| turn_entry(description, turn)).collect::<Vec<_>>(),
+        "turns": turn_entries(description, run),
         "warnings": all_warnings(mechanism, run),
     })
 }
 
-fn turn_entry(description: &Description, turn: &TurnMeasure) -> Value {
-    json!({
-        "turn": turn.turn,
-        "joint": description.contacts[turn.joint].joint,
-        "wear_integral_J": turn.wear_integral_J,
-        "depth_m": turn.depth_m,
-        "mean_normal_force_N": turn.mean_normal_force_N,
-        "peak_normal_force_N": turn.peak_normal_force_N,
-        "contact_losses": turn.contact_losses,
-        "touching_part": turn.touching_part,
-        "loss_J": turn.loss_J,
-    })
+/// Every joint with clearance in every turn.
+fn turn_entries(description: &Description, run: &Run) -> Vec<Value> {
+    let joints = description.contacts.iter().map(|contact| contact.joint.as_ref());
+    let turns = run.turns.iter().enumerate();
+    turns.flat_map(|(at, turn)| joints.clone().zip(turn).map(move |of| turn_entry(at + 1, of))).collect()
+}
+
+fn turn_entry(turn: usize, (joint, measure): (&str, &ContactMeasure)) -> Value {
+    let mut entry = json!({ "turn": turn, "joint": joint });
+    for (column, value) in &ContactMeasure::COLUMNS {
+        // Within a turn losses are counted, and forces have their long name.
+        let key = column.key().replace("_force", "_normal_force");
+        let value = value(measure);
+        entry[key] = if column.name == "contact losses" { json!(value as u64) } else { json!(value) };
+    }
+    entry
 }
 
 /// Those of the file, then those of the run.
@@ -177,22 +169,23 @@ fn all_warnings(mechanism: &Mechanism, run: &Run) -> Vec<Value> {
 /// The last turns of every joint with clearance.
 fn turns_table(description: &Description, run: &Run) -> String {
     const SHOWN: usize = 12;
-    let rows: Vec<Vec<String>> = run
-        .turns
-        .iter()
-        .skip(run.turns.len().saturating_sub(SHOWN))
-        .map(|turn| {
-            vec![
-                turn.turn.to_string(),
-                description.contacts[turn.joint].joint.to_string(),
-                format!("{:.7}", turn.wear_integral_J),
-                number(turn.mean_normal_force_N),
-                number(turn.peak_normal_force_N),
-                turn.contact_losses.to_string(),
-            ]
-        })
+    let brief = || ContactMeasure::COLUMNS.iter().filter(|(column, _)| column.brief);
+    let mut rows = Vec::new();
+    for (at, turn) in run.turns.iter().enumerate() {
+        for (contact, measure) in description.contacts.iter().zip(turn) {
+            let cells = brief().map(|(column, value)| match column.unit {
+                "J" => format!("{:.7}", value(measure)),
+                _ => number(value(measure)),
+            });
+            rows.push([(at + 1).to_string(), contact.joint.to_string()].into_iter().chain(cells).collect());
+        }
+    }
+    let rows = rows.split_off(rows.len().saturating_sub(SHOWN));
+    let head: Vec<String> = ["turn", "joint"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(brief().map(|(column, _)| column.title()))
         .collect();
-    let head = ["turn", "joint", "wear integral [J]", "mean force [N]", "peak force [N]", "contact losses"];
     table(&head, &rows)
 }
 
@@ -231,11 +224,7 @@ fn to_text(
     }
     if let Some(out) = &arguments.out {
         let rows = plural(run.rows.len() as u64, "row", "rows");
-        text.push_str(&format!(
-            "\n{rows} of {} columns in {}",
-            description.channels.len() + ContactChannels::new(description).channels().len() + 1,
-            out.display()
-        ));
+        text.push_str(&format!("\n{rows} of {} columns in {}", run.channels.len() + 1, out.display()));
     }
     text.trim_end().to_owned()
 }

@@ -36,27 +36,21 @@ impl Peak {
 }
 
 /// Peaks of every joint that has a wrench, in column order.
-pub fn peaks(description: &Description, run: &Run) -> Vec<Peak> {
-    let joints = description.channels.iter().filter_map(|channel| channel.name.strip_suffix(".Fx"));
+pub fn peaks(run: &Run) -> Vec<Peak> {
+    let joints = run.channels.iter().filter_map(|channel| channel.name.strip_suffix(".Fx"));
     joints
         .map(|joint| {
-            let (force, force_time) = largest(description, run, joint, "F");
-            let (moment, moment_time) = largest(description, run, joint, "M");
+            let (force, force_time) = largest(run, &format!("{joint}.F"));
+            let (moment, moment_time) = largest(run, &format!("{joint}.M"));
             Peak { joint: joint.to_owned(), force, force_time, moment, moment_time }
         })
         .collect()
 }
 
-/// Largest length of the vector `joint.Fx..z`, and when.
-fn largest(description: &Description, run: &Run, joint: &str, letter: &str) -> (f64, f64) {
-    let columns: Vec<usize> = ["x", "y", "z"]
-        .iter()
-        .filter_map(|axis| {
-            let name = format!("{joint}.{letter}{axis}");
-            description.channels.iter().position(|channel| channel.name == name)
-        })
-        .collect();
-    let lengths = run.rows.iter().map(|row| columns.iter().map(|at| row[*at] * row[*at]).sum::<f64>().sqrt());
+/// Largest length of a vector, and when; zero if there is none.
+fn largest(run: &Run, stem: &str) -> (f64, f64) {
+    let vectors = run.vector(stem).unwrap_or_default();
+    let lengths = vectors.iter().map(|vector| vector.iter().map(|x| x * x).sum::<f64>().sqrt());
     lengths.zip(&run.times).fold(
         (0.0, 0.0),
         |best, (length, time)| {
@@ -95,8 +89,8 @@ pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> S
         facts.push(vec!["singular".into(), format!("{solves} near a singular position")]);
     }
     text.push_str(&table(&["", ""], &facts));
-    curves(&mut text, description, run);
-    let peaks = peaks(description, run);
+    curves(&mut text, run);
+    let peaks = peaks(run);
     if !peaks.is_empty() {
         let header = ["peak load at", "force [N]", "at t [s]", "moment [N m]", "at t [s]"];
         let _ = write!(text, "\n{}", short_table(&header, peak_rows(&peaks)));
@@ -119,9 +113,9 @@ fn peak_rows(peaks: &[Peak]) -> Vec<Vec<String>> {
 }
 
 /// Drives first, then joint positions: what one looks at first.
-fn curves(text: &mut String, description: &Description, run: &Run) {
+fn curves(text: &mut String, run: &Run) {
     let columns = |suffix: &'static str| {
-        description.channels.iter().enumerate().filter(move |(_, channel)| channel.name.ends_with(suffix))
+        run.channels.iter().enumerate().filter(move |(_, channel)| channel.name.ends_with(suffix))
     };
     let rows: Vec<Vec<String>> = columns(".drive")
         .chain(columns(".q"))

@@ -16,10 +16,10 @@ pub fn short_table(header: &[&str], mut rows: Vec<Vec<String>>) -> String {
 
 /// Lines of a table, indented by two, two spaces between columns, no trailing space.
 /// Columns whose cells all read as numbers are aligned right.
-pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+pub fn table(header: &[impl AsRef<str>], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
-        cells.chain(header.get(column).map(|title| title.chars().count())).max().unwrap_or(0)
+        cells.chain(header.get(column).map(|title| title.as_ref().chars().count())).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..header.len()).map(width).collect();
     let right: Vec<bool> = (0..header.len()).map(|column| is_numeric(rows, column)).collect();
@@ -36,8 +36,8 @@ pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
         text
     };
     let mut text = String::new();
-    if header.iter().any(|title| !title.is_empty()) {
-        text.push_str(&line(header.to_vec()));
+    if header.iter().any(|title| !title.as_ref().is_empty()) {
+        text.push_str(&line(header.iter().map(AsRef::as_ref).collect()));
     }
     for row in rows {
         text.push_str(&line(row.iter().map(String::as_str).collect()));

@@ -4,7 +4,7 @@
 use std::convert::Infallible;
 use std::error::Error as StdError;
 use std::num::NonZero;
-use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::available_parallelism;
 
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
@@ -12,7 +12,7 @@ use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, FailureEvent, Feedback, IncrementModel, LifeError as Stop, LifeOutcome,
     LifeSettings, LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
 };
-use linkwear_runtime::{DynamicsSource, RunError, System, TurnState};
+use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
 use super::error::{Cause, LifeError};
 use super::process::Process;
@@ -33,22 +33,26 @@ impl LifeStudy<'_> {
     /// # Errors
     /// With the cycles that were completed, if the mechanism cannot live or one of its lives does not end.
     pub fn run(&self) -> Result<LifeResult, LifeError> {
-        self.run_watched(&|_| {}, &|| false)
+        self.run_watched(Watch::NONE)
     }
 
-    /// As [`Self::run`]. `progress` gets the finished part, 0 to 1, of the table, the mean path and the random lives, one
-    /// after the other; `stop` is asked all the time.
+    /// As [`Self::run`]. `watch` hears the finished part of the table, the mean path and the random lives, one after the
+    /// other, and may stop them.
     ///
     /// # Errors
     /// As [`Self::run`], and [`Cause::Interrupted`].
-    pub fn run_watched(
-        &self,
-        progress: &(dyn Fn(f64) + Sync),
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<LifeResult, LifeError> {
+    pub fn run_watched(&self, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+        let last = AtomicU64::new(0.0_f64.to_bits());
+        let tell = |part: f64| {
+            last.store(part.to_bits(), Ordering::Relaxed);
+            watch.report(part)
+        };
+        // Within a revolution and along a table nothing is told, and the watch may stop all the same.
+        let ask = |_: f64| watch.report(f64::from_bits(last.load(Ordering::Relaxed)));
+        let (watch, silent) = (Watch::new(&tell), Watch::new(&ask));
         let system = self.mechanism.system();
-        let mut source = self.source(&*system, stop)?;
-        let plan = Plan::new(self, &source, (progress, stop))?;
+        let mut source = self.source(&*system, silent)?;
+        let plan = Plan::new(self, &source, (watch, silent))?;
         let mut result = match plan.coupling {
             Coupling::Table => plan.by_table(&mut source),
             Coupling::Full => plan.by_dynamics(&mut source),
@@ -61,14 +65,14 @@ impl LifeStudy<'_> {
     fn source<'s>(
         &'s self,
         system: &'s dyn System<f64>,
-        stop: &'s (dyn Fn() -> bool + Sync),
+        silent: Watch<'s>,
     ) -> Result<DynamicsSource<'s>, Cause> {
         let mechanism = self.mechanism;
         if !mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
             return Err(Cause::NoWear);
         }
         let (description, parameters) = (&mechanism.description, &mechanism.parameters);
-        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.stopped_by(stop))
+        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.watched_by(silent))
     }
 }
 
@@ -81,15 +85,16 @@ struct Plan<'s> {
     /// Random lives; none for the mean path alone.
     trajectories: Option<u64>,
     threads: NonZero<usize>,
-    progress: &'s (dyn Fn(f64) + Sync),
-    stop: &'s (dyn Fn() -> bool + Sync),
+    watch: Watch<'s>,
+    /// Tells nothing new, only asks whether to stop.
+    silent: Watch<'s>,
 }
 
 impl<'s> Plan<'s> {
     fn new(
         study: &'s LifeStudy<'s>,
         source: &DynamicsSource<'_>,
-        (progress, stop): (&'s (dyn Fn(f64) + Sync), &'s (dyn Fn() -> bool + Sync)),
+        (watch, silent): (Watch<'s>, Watch<'s>),
     ) -> Result<Self, Cause> {
         let mut settings = LifeSettings::new(source.joints()?);
         if !study.feedback {
@@ -108,15 +113,13 @@ impl<'s> Plan<'s> {
             return Err(Cause::NoRandomLives);
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
-        Ok(Self { study, settings, coupling, process, trajectories, threads, progress, stop })
+        Ok(Self { study, settings, coupling, process, trajectories, threads, watch, silent })
     }
 
     fn by_table(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
-        let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, &mut |part| {
-            (self.progress)(part);
-        });
+        let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
         let mut table = measured.map_err(|error| self.error(cause(error, None), &[]))?;
-        let mut result = self.mean_path(&mut table, &|_| {})?;
+        let mut result = self.mean_path(&mut table, self.silent)?;
         self.draw(&mut result, &|body| {
             body(&mut table.clone());
             Ok::<(), Infallible>(())
@@ -127,20 +130,20 @@ impl<'s> Plan<'s> {
     }
 
     fn by_dynamics(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
-        let mut result = self.mean_path(source, self.progress)?;
+        let mut result = self.mean_path(source, self.watch)?;
         self.draw(&mut result, &|body: Body<'_>| {
             let system = self.study.mechanism.system();
             let (description, parameters) =
                 (&self.study.mechanism.description, &self.study.mechanism.parameters);
             let made = DynamicsSource::new(&*system, description, parameters, self.study.revolutions)?;
-            body(&mut made.stopped_by(self.stop));
+            body(&mut made.watched_by(self.silent));
             Ok(())
         })?;
         Ok(result)
     }
 
     /// The life in which every increment is its mean.
-    fn mean_path<S: WearSource>(&self, source: &mut S, show: &dyn Fn(f64)) -> Result<LifeResult, LifeError>
+    fn mean_path<S: WearSource>(&self, source: &mut S, watch: Watch<'_>) -> Result<LifeResult, LifeError>
     where
         Stop<S::Error>: StdError + Send + Sync + 'static,
     {
@@ -148,10 +151,7 @@ impl<'s> Plan<'s> {
         let mut state = state.map_err(|error| self.error(error.into(), &[]))?;
         let mean = self.process.as_ref().map(Process::mean);
         let increments: &dyn IncrementModel = mean.as_ref().map_or(&MeanIncrement, |mean| mean);
-        let outcome = run_life(&self.settings, source, increments, &mut state, &mut |cycle| {
-            show(cycle.used.min(1.0));
-            self.go_on()
-        });
+        let outcome = run_life(&self.settings, source, increments, &mut state, watch);
         let none = || Cause::Interrupted { trajectory: None, lives: None };
         let end = match outcome {
             Ok(LifeOutcome::Failed(end)) => end,
@@ -194,13 +194,13 @@ impl<'s> Plan<'s> {
     {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
         let failed = |cause| self.error(cause, &result.cycles);
-        let lives = self.draw_by(scale, &process.draw(), count, self.progress).map_err(failed)?;
+        let lives = self.draw_by(scale, &process.draw(), count, self.watch).map_err(failed)?;
         let few = match self.coupling {
             Coupling::Table => SHIFTED_BY_TABLE,
             Coupling::Full => SHIFTED_BY_DYNAMICS,
         };
         let by_fits = process.uncertainty(&mut |shifted| {
-            let lives = self.draw_by(scale, shifted, count.min(few), &|_| {})?;
+            let lives = self.draw_by(scale, shifted, count.min(few), self.silent)?;
             Ok(lives.iter().map(|end| end.cycles).sum::<f64>() / lives.len() as f64)
         });
         let by_fits = by_fits.map_err(failed)?;
@@ -218,7 +218,7 @@ impl<'s> Plan<'s> {
         scale: Scale<'_, S, E>,
         draw: &GammaDraw,
         count: u64,
-        show: &(dyn Fn(f64) + Sync),
+        watch: Watch<'_>,
     ) -> Result<Vec<FailureEvent>, Cause>
     where
         Stop<E>: StdError + Send + Sync + 'static,
@@ -226,15 +226,12 @@ impl<'s> Plan<'s> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
         let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
-        let Lives { failures, ended } = run.run(scale, &|done| {
-            show(done as f64 / count as f64);
-            self.go_on()
-        });
+        let Lives { failures, ended } = run.run(scale, watch);
         let lives = Some((failures.len(), count));
         match ended {
             Ended::Complete => Ok(failures.into_iter().map(|(_, end)| end).collect()),
             Ended::Cancelled => Err(Cause::Interrupted { trajectory: None, lives }),
-            Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if (self.stop)() => {
+            Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if self.silent.report(0.0).is_break() => {
                 Err(Cause::Interrupted { trajectory: Some(trajectory), lives })
             }
             Ended::Stopped { trajectory, stop } => Err(cause(stop, Some(trajectory))),
@@ -248,15 +245,14 @@ impl<'s> Plan<'s> {
         let joints = self.settings.joints.iter().map(|joint| joint.joint.clone()).collect();
         LifeError { cause, joints, cycles: cycles.to_vec() }
     }
-
-    fn go_on(&self) -> ControlFlow<()> {
-        if (self.stop)() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
 }
 
 fn cause<E>(error: Stop<E>, trajectory: Option<u64>) -> Cause
 where
     Stop<E>: StdError + Send + Sync + 'static,
 {
+    if matches!(error, Stop::Interrupted) {
+        return Cause::Interrupted { trajectory, lives: None };
+    }
     Cause::Wear { trajectory, error: Box::new(error) }
 }

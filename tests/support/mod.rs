@@ -1,14 +1,12 @@
 //! Shared by the cross-stage tests: compile a shipped mechanism, run it, read columns by name.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::clearance_joint::ContactChannels;
-use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
+use linkwear_runtime::{Description, Integrator, Run, Settings, Span, Watch, simulate};
 
 /// Text of a shipped mechanism.
 pub fn shipped(name: &str) -> SourceFile {
@@ -38,10 +36,8 @@ pub fn run(compiled: &Compiled, span: Span, settle: Span, samples: usize, tolera
 /// Any integration by the interpreter.
 pub fn run_with(compiled: &Compiled, settings: &Settings) -> Recorded {
     let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), settings, &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap_or_else(|error| panic!("{error}"));
+    let run = simulate(&system, compiled.description(), &compiled.parameters(), settings, Watch::NONE)
+        .unwrap_or_else(|error| panic!("{error}"));
     if let Some(stopped) = &run.stopped {
         panic!("the run stopped early: {stopped}");
     }
@@ -59,15 +55,7 @@ pub struct Recorded {
 impl Recorded {
     /// All samples of a column, those of contacts included.
     pub fn column(&self, name: &str) -> Vec<f64> {
-        let contacts = ContactChannels::new(&self.description);
-        let index = self
-            .description
-            .channels
-            .iter()
-            .chain(contacts.channels())
-            .position(|channel| channel.name == name)
-            .unwrap_or_else(|| panic!("no column {name}"));
-        self.run.rows.iter().map(|row| row[index]).collect()
+        self.run.column(name).unwrap_or_else(|error| panic!("{error}"))
     }
 
     /// Last sample of a column.

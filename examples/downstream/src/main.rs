@@ -1,7 +1,6 @@
 use std::error::Error;
-use std::ops::ControlFlow;
 
-use linkwear_runtime::{Entry, Settings, Span, System, simulate};
+use linkwear_runtime::{Entry, Settings, Span, System, Watch, simulate};
 
 mod swing {
     linkwear_runtime::include_mechanism!("swing");
@@ -10,15 +9,11 @@ mod swing {
 fn main() -> Result<(), Box<dyn Error>> {
     // Tunable parameters are fields, in SI.
     let bar = swing::Mechanism { damping: 0.2 };
-    let names = swing::description();
 
     // Let it fall from the horizontal for two seconds and look at its bearing.
     let settings = Settings { span: Span::Time(2.0), ..Settings::default() };
-    let go_on = &mut |_| ControlFlow::Continue(());
-    let run = simulate(&bar, names, &bar.parameters(), &settings, go_on)?;
-    let at = names.channels.iter().position(|channel| channel.name == "R1.Fz");
-    let force = at.ok_or("no such column")?;
-    let peak = run.rows.iter().map(|row| row[force]).fold(0.0, f64::max);
+    let run = simulate(&bar, swing::description(), &bar.parameters(), &settings, Watch::NONE)?;
+    let peak = run.column("R1.Fz")?.into_iter().fold(0.0, f64::max);
     println!("largest vertical force at R1: {peak:.2} N");
 
     // Or call the equations: parameters, time, coordinates, speeds in; accelerations out.

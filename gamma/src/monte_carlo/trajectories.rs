@@ -6,6 +6,7 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
     FailureEvent, IncrementModel, LifeError, LifeOutcome, LifeSettings, LifeState, WearSource, run_life,
 };
@@ -27,7 +28,7 @@ pub struct MonteCarlo<'a> {
 pub enum Ended<E> {
     /// All were lived.
     Complete,
-    /// The observer said so.
+    /// The watch said so.
     Cancelled,
     /// A trajectory could not go on.
     Stopped {
@@ -52,8 +53,8 @@ pub struct Lives<E> {
     pub ended: Ended<E>,
 }
 
-/// Makes a fine scale and lends it to what it is called with; an error is that of the making. Lending lets a fine
-/// scale borrow from what is made with it, as revolutions borrow a system.
+/// Creates a fine scale for one thread and passes it to the callback. Errors are those of creating it. The callback
+/// lets a fine scale borrow from what is created with it, as revolutions borrow a system.
 pub type Scale<'a, S, E> = &'a (
         dyn Fn(&mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
     );
@@ -62,13 +63,9 @@ pub type Scale<'a, S, E> = &'a (
 type Result<E> = std::result::Result<FailureEvent, Ended<E>>;
 
 impl MonteCarlo<'_> {
-    /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `observe` hears how many lives
-    /// are done, from whichever thread, and may end the run.
-    pub fn run<S: Clone + Default, E: Send>(
-        &self,
-        scale: Scale<'_, S, E>,
-        observe: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Lives<E> {
+    /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `watch` hears which part of
+    /// the lives is done, from whichever thread, and may end the run.
+    pub fn run<S: Clone + Default, E: Send>(&self, scale: Scale<'_, S, E>, watch: Watch<'_>) -> Lives<E> {
         let next = AtomicU64::new(self.trajectories.start);
         let done = AtomicU64::new(0);
         let halt = AtomicBool::new(false);
@@ -78,8 +75,10 @@ impl MonteCarlo<'_> {
             done.fetch_add(1, Ordering::Relaxed);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, result));
         };
-        let go_on = || {
-            let stop = observe(done.load(Ordering::Relaxed)).is_break() || halt.load(Ordering::Relaxed);
+        let count = (self.trajectories.end - self.trajectories.start) as f64;
+        let go_on = |_: f64| {
+            let part = done.load(Ordering::Relaxed) as f64 / count;
+            let stop = watch.report(part).is_break() || halt.load(Ordering::Relaxed);
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let work = || {
@@ -89,7 +88,7 @@ impl MonteCarlo<'_> {
                     if trajectory >= self.trajectories.end {
                         break;
                     }
-                    keep(trajectory, self.live(&mut fine, trajectory, &go_on));
+                    keep(trajectory, self.live(&mut fine, trajectory, Watch::new(&go_on)));
                 }
             });
             if let Err(error) = made {
@@ -107,16 +106,11 @@ impl MonteCarlo<'_> {
         collect(results.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    fn live<F: WearSource>(
-        &self,
-        fine: &mut F,
-        trajectory: u64,
-        go_on: &dyn Fn() -> ControlFlow<()>,
-    ) -> Result<F::Error> {
+    fn live<F: WearSource>(&self, fine: &mut F, trajectory: u64, watch: Watch<'_>) -> Result<F::Error> {
         let stopped = |stop| Ended::Stopped { trajectory, stop };
         let mut state =
             LifeState::new(self.settings, trajectory).map_err(|error| stopped(LifeError::Settings(error)))?;
-        match run_life(self.settings, fine, self.draw, &mut state, &mut |_| go_on()) {
+        match run_life(self.settings, fine, self.draw, &mut state, watch) {
             Ok(LifeOutcome::Failed(failure)) => Ok(failure),
             Ok(LifeOutcome::Cancelled) => Err(Ended::Cancelled),
             Ok(LifeOutcome::CycleLimit) => Err(Ended::Survived { trajectory }),

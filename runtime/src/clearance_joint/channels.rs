@@ -32,22 +32,23 @@ const JOURNAL: &[(&str, &str, Quantity)] = &[
     ("contact_angle", "rad", Quantity::Angle),
 ];
 
-/// The columns that contacts add to those of generated code; names that exist already are left out.
+/// All columns of a mechanism: the generated ones, then those that contacts add; names that exist already are not
+/// added.
 #[derive(Clone, Debug, Default)]
-pub struct ContactChannels {
-    channels: Vec<Channel>,
+pub(crate) struct Channels {
+    /// Their names and units.
+    pub(crate) channels: Vec<Channel>,
     sources: Vec<(usize, Quantity)>,
 }
 
-impl ContactChannels {
-    /// The columns of a mechanism: none without clearance.
-    #[must_use]
-    pub fn new(description: &Description) -> Self {
-        let mut list = Self::default();
+impl Channels {
+    /// The columns of a mechanism.
+    pub(crate) fn new(description: &Description) -> Self {
+        let mut list = Self { channels: description.channels.to_vec(), sources: Vec::new() };
         for (joint, info) in description.contacts.iter().enumerate() {
             for (suffix, unit, quantity) in if info.ball { BALL } else { JOURNAL } {
                 let name = format!("{}.{suffix}", info.joint);
-                if description.channels.iter().all(|channel| channel.name != name) {
+                if list.channels.iter().all(|channel| channel.name != name) {
                     // The contact angle keeps to (-pi, pi]: a bearing has no turns.
                     list.channels.push(Channel { name: name.into(), unit: (*unit).into(), wraps: false });
                     list.sources.push((joint, *quantity));
@@ -57,22 +58,16 @@ impl ContactChannels {
         list
     }
 
-    /// The columns.
-    #[must_use]
-    pub fn channels(&self) -> &[Channel] {
-        &self.channels
-    }
-
-    /// Writes their values, one per column.
-    pub fn write(&self, contacts: &[ContactState], values: &mut [f64]) {
+    /// Writes the values of the columns that contacts add.
+    pub(crate) fn write(&self, contacts: &[ContactState], values: &mut [f64]) {
         for ((joint, quantity), value) in self.sources.iter().zip(values) {
-            let touch = &contacts[*joint];
+            let contact = &contacts[*joint];
             *value = match quantity {
-                Quantity::Offset(axis) => touch.offset[*axis],
-                Quantity::Gap => touch.gap,
-                Quantity::NormalForce => touch.normal_force,
-                Quantity::SlidingSpeed => touch.sliding_speed,
-                Quantity::Angle => touch.angle,
+                Quantity::Offset(axis) => contact.offset[*axis],
+                Quantity::Gap => contact.gap,
+                Quantity::NormalForce => contact.normal_force,
+                Quantity::SlidingSpeed => contact.sliding_speed,
+                Quantity::Angle => contact.angle,
             };
         }
     }

@@ -8,6 +8,6 @@ mod channels;
 mod joint;
 mod joints;
 
-pub use channels::ContactChannels;
+pub(crate) use channels::Channels;
 pub use joint::{Clearance, ContactState};
 pub use joints::{ClearanceState, Clearances};

@@ -5,8 +5,6 @@
 //! With continuous feedback the life in revolutions does not depend on how they are grouped, and one division would
 //! do. With feedback once per cycle it does: the life is found by a secant between two that bracket it.
 
-use std::ops::ControlFlow;
-
 use thiserror::Error;
 
 use super::cycle::{LifeOutcome, run_life};
@@ -16,6 +14,7 @@ use super::path::{Walker, rates};
 use super::settings::{LifeSettings, WearStep};
 use super::source::WearSource;
 use super::state::LifeState;
+use crate::watch::Watch;
 
 /// Lives tried at most: bisection alone halves any bracket to rounding in fewer.
 const MOST_LIVES: usize = 100;
@@ -140,7 +139,7 @@ fn life<F: WearSource>(
     // Longer lives than this are only known to be too long; the search goes on from there.
     settings.most_cycles = (10.0 * cycles).ceil() as u64;
     let mut state = LifeState::new(&settings, 0).map_err(LifeError::from)?;
-    match run_life(&settings, fine, &MeanIncrement, &mut state, &mut |_| ControlFlow::Continue(())) {
+    match run_life(&settings, fine, &MeanIncrement, &mut state, Watch::NONE) {
         Ok(LifeOutcome::Failed(failure)) => Ok(Some(failure.cycles)),
         Ok(LifeOutcome::Cancelled | LifeOutcome::CycleLimit) => Ok(Some(settings.most_cycles as f64)),
         Err(LifeError::ThresholdBelowFirstIncrement { .. }) => Ok(None),

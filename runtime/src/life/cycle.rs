@@ -1,5 +1,5 @@
 //! The loop over cycles: measure, follow the mean path, draw, feed back, compare with the threshold.
-//! In: settings, fine scale, draw, state. Out: the state further on, records to an observer, the end of the life.
+//! In: settings, fine scale, draw, state. Out: the state further on, records of cycles, the end of the life.
 //! Never knows whether the fine scale is a table or the dynamics, nor where random numbers come from.
 
 use std::ops::ControlFlow;
@@ -8,16 +8,18 @@ use super::error::LifeError;
 use super::increment::IncrementModel;
 use super::path::{Path, Walker, rates};
 use super::settings::LifeSettings;
-use super::source::{RevolutionWear, WearSource};
+use super::source::WearSource;
 use super::state::{CycleJoint, CycleRecord, FailureEvent, LifeState};
 use super::worn::WearState;
+use crate::watch::Watch;
+use crate::wear::ContactMeasure;
 
 /// How a life that did not fail to run came to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LifeOutcome {
     /// A joint reached its threshold.
     Failed(FailureEvent),
-    /// The observer stopped it; the state goes on from there.
+    /// The watch stopped it; the state goes on from there.
     Cancelled,
     /// It lasts longer than was asked for; the state goes on with a larger limit.
     CycleLimit,
@@ -25,8 +27,8 @@ pub enum LifeOutcome {
 
 /// Runs a trajectory to its end. A state that was saved goes on with the same bits as one that was not.
 ///
-/// The observer gets every cycle and may stop the life; the state is then at the end of the step, which on the mean
-/// path can be several cycles, all of them observed.
+/// The watch hears of every cycle how much of the threshold is used up, and may stop the life; the state is then at the
+/// end of the step, which on the mean path can be several cycles.
 ///
 /// # Errors
 /// If it cannot go on; the state is that after the last whole step and can be kept.
@@ -35,7 +37,7 @@ pub fn run_life<F: WearSource>(
     fine: &mut F,
     draw: &dyn IncrementModel,
     state: &mut LifeState<F::State>,
-    observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
+    watch: Watch<'_>,
 ) -> Result<LifeOutcome, LifeError<F::Error>> {
     settings.check()?;
     state.check(settings)?;
@@ -46,7 +48,7 @@ pub fn run_life<F: WearSource>(
         if state.cycle >= settings.most_cycles {
             return Ok(LifeOutcome::CycleLimit);
         }
-        if advance(settings, fine, draw, state, observer)?.is_break() && state.failure.is_none() {
+        if advance(settings, fine, draw, state, watch)?.is_break() && state.failure.is_none() {
             return Ok(LifeOutcome::Cancelled);
         }
     }
@@ -58,7 +60,7 @@ fn advance<F: WearSource>(
     fine: &mut F,
     draw: &dyn IncrementModel,
     state: &mut LifeState<F::State>,
-    observer: &mut dyn FnMut(&CycleRecord) -> ControlFlow<()>,
+    watch: Watch<'_>,
 ) -> Result<ControlFlow<()>, LifeError<F::Error>> {
     let base = state.joints.clone();
     let mut walker = Walker {
@@ -87,13 +89,13 @@ fn advance<F: WearSource>(
     let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;
     // From here on nothing fails: the state changes as a whole.
     for (joint, wear) in measured.iter().enumerate() {
-        let mut seen = wear.observed;
+        let Some(mut seen) = wear.observed else { continue };
         seen.depth_per_cycle = cycles.first_increment(joint);
         settings.joints[joint].limits.warnings(&seen).for_each(|warning| state.warn(joint, warning));
     }
     let mut flow = ControlFlow::Continue(());
     for record in cycles.records(settings, &base, state.cycle, &measured) {
-        if observer(&record).is_break() {
+        if watch.report(record.used.min(1.0)).is_break() {
             flow = ControlFlow::Break(());
         }
         if settings.keep_cycles {
@@ -118,7 +120,7 @@ fn advance<F: WearSource>(
 fn reachable<E>(
     settings: &LifeSettings,
     base: &[WearState],
-    measured: &[RevolutionWear],
+    measured: &[ContactMeasure],
     cycle: u64,
     is_mean: bool,
 ) -> Result<u64, LifeError<E>> {
@@ -208,7 +210,7 @@ impl Cycles {
         settings: &'c LifeSettings,
         base: &'c [WearState],
         done: u64,
-        measured: &'c [RevolutionWear],
+        measured: &'c [ContactMeasure],
     ) -> impl Iterator<Item = CycleRecord> + 'c {
         let record = move |(index, (gains, joints)): (usize, &'c (Vec<f64>, Vec<WearState>))| {
             let before = if index == 0 { base } else { self.ends[index - 1].1.as_slice() };
@@ -217,10 +219,7 @@ impl Cycles {
                 mean_increment: gains[at],
                 increment: joints[at].wear - before[at].wear,
                 wear: joints[at].wear,
-                wear_integral: measured[at].wear_integral,
-                mean_force: measured[at].mean_force,
-                peak_force: measured[at].peak_force,
-                contact_losses: measured[at].contact_losses,
+                revolution: measured[at].numbers(),
             };
             let used = joints.iter().zip(&settings.joints).map(|(state, joint)| state.wear / joint.threshold);
             CycleRecord {

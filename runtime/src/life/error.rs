@@ -43,15 +43,15 @@ pub enum LifeError<E> {
     #[error(
         "cycle {cycle}: joint `{joint}` is without contact for {:.0} % of a revolution; sliding wear means \
          nothing there, drive slower or load the joint",
-        separated * 100.0
+        (1.0 - touching) * 100.0
     )]
     ContactLost {
         /// The joint.
         joint: String,
         /// The cycle.
         cycle: u64,
-        /// Part of the revolution without contact.
-        separated: f64,
+        /// Part of the revolution in contact.
+        touching: f64,
     },
     /// Nothing wears, so nothing fails.
     #[error("cycle {cycle}: no joint wears (no load or no sliding); the life has no end")]
@@ -93,6 +93,9 @@ pub enum LifeError<E> {
         /// The increment [m].
         value: f64,
     },
+    /// The watch asked to stop.
+    #[error("stopped on request")]
+    Interrupted,
     /// The fine scale failed.
     #[error("cycle {cycle}: {error}")]
     Fine {

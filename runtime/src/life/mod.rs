@@ -18,7 +18,6 @@ mod path;
 mod settings;
 mod source;
 mod state;
-mod summary;
 mod table;
 mod worn;
 
@@ -27,8 +26,7 @@ pub use cycle::{LifeOutcome, run_life};
 pub use error::LifeError;
 pub use increment::{IncrementModel, MeanIncrement};
 pub use settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf, WearStep};
-pub use source::{JointWear, RevolutionWear, WearSource};
+pub use source::{JointWear, WearSource};
 pub use state::{Control, CycleJoint, CycleRecord, FailureEvent, JointWarning, LifeState};
-pub use summary::{Quantiles, Summary};
 pub use table::{DEFAULT_POINTS, TableReport, WearTable};
 pub use worn::WearState;

@@ -6,9 +6,10 @@
 
 use super::error::LifeError;
 use super::settings::{Feedback, LifeSettings, WearStep};
-use super::source::{JointWear, RevolutionWear, WearSource};
+use super::source::{JointWear, WearSource};
 use super::state::Control;
 use super::worn::WearState;
+use crate::wear::ContactMeasure;
 
 /// The next step is at most so many times longer.
 const LARGEST_GROWTH: f64 = 4.0;
@@ -38,7 +39,7 @@ pub(super) struct Path {
     /// Whole cycles that it covers.
     pub(super) span: u64,
     /// What a revolution wears at its end; unknown if geometry was constant.
-    pub(super) end: Option<Vec<RevolutionWear>>,
+    pub(super) end: Option<Vec<ContactMeasure>>,
     /// Estimated error per joint [cycles].
     pub(super) error: Vec<f64>,
 }
@@ -84,7 +85,7 @@ pub(super) struct Walker<'a, F: WearSource> {
 /// A step that was tried.
 struct Trial<S> {
     to: Increments,
-    measured: Vec<RevolutionWear>,
+    measured: Vec<ContactMeasure>,
     state: S,
     /// Error over gain.
     ratio: f64,
@@ -97,7 +98,7 @@ impl<F: WearSource> Walker<'_, F> {
         &mut self,
         increments: &[f64],
         state: &mut F::State,
-    ) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
+    ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
         let mut rest = increments;
         let mut joints = Vec::with_capacity(self.base.len());
         for (joint, base) in self.settings.joints.iter().zip(self.base) {
@@ -114,7 +115,7 @@ impl<F: WearSource> Walker<'_, F> {
     /// The path from a measurement at its begin over the cycles of one step, at most `most`, or over one cycle.
     pub(super) fn follow(
         &mut self,
-        start: &[RevolutionWear],
+        start: &[ContactMeasure],
         control: &mut Control,
         most: u64,
     ) -> Result<Path, LifeError<F::Error>> {
@@ -241,11 +242,11 @@ fn accepts(
 }
 
 /// Mean increments per cycle.
-pub(super) fn rates(settings: &LifeSettings, measured: &[RevolutionWear]) -> Increments {
+pub(super) fn rates(settings: &LifeSettings, measured: &[ContactMeasure]) -> Increments {
     let mut rates = Vec::with_capacity(settings.joints.iter().map(|joint| joint.width()).sum());
     for (joint, wear) in settings.joints.iter().zip(measured) {
         rates.push(joint.revolutions_per_cycle * wear.depth);
-        if let (Some(_), Some(profile)) = (joint.bins, &wear.profile) {
+        if let (Some(_), Some(profile)) = (joint.bins, &wear.deposit) {
             rates.extend(profile.depths().iter().map(|depth| joint.revolutions_per_cycle * depth));
         }
     }
@@ -259,7 +260,7 @@ pub(super) fn measure<F: WearSource>(
     joints: &[JointWear],
     state: &mut F::State,
     cycle: u64,
-) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
+) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
     for (joint, worn) in settings.joints.iter().zip(joints) {
         let clearance = worn.clearance + worn.profile.as_ref().map_or(0.0, |profile| profile.maximum());
         let (name, journal_radius) = (joint.joint.clone(), joint.journal_radius);
@@ -274,17 +275,17 @@ pub(super) fn measure<F: WearSource>(
     shape("joints", settings.joints.len(), measured.len())?;
     for (joint, wear) in settings.joints.iter().zip(&measured) {
         if let Some(bins) = joint.bins {
-            let found = wear.profile.as_ref().map_or(0, |profile| profile.depths().len());
+            let found = wear.deposit.as_ref().map_or(0, |profile| profile.depths().len());
             shape("bins of a profile", bins, found)?;
         }
         if let Some((name, value)) = wear.flaw() {
             return Err(LifeError::Measured { joint: joint.joint.clone(), cycle, name, value });
         }
-        if wear.separated > settings.most_separated {
+        if wear.touching < settings.least_touching {
             return Err(LifeError::ContactLost {
                 joint: joint.joint.clone(),
                 cycle,
-                separated: wear.separated,
+                touching: wear.touching,
             });
         }
     }

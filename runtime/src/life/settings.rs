@@ -83,8 +83,8 @@ pub struct LifeSettings {
     pub step: WearStep,
     /// Ends a life that has not failed; it may be exceeded by the rest of a jump.
     pub most_cycles: u64,
-    /// Part of a revolution without contact above which Archard's sliding wear is meaningless.
-    pub most_separated: f64,
+    /// Part of a revolution in contact below which Archard's sliding wear is meaningless.
+    pub least_touching: f64,
     /// Whether the state keeps the records of all cycles (the observer sees them anyway).
     pub keep_cycles: bool,
 }
@@ -146,7 +146,7 @@ pub enum SettingsError {
 impl LifeSettings {
     /// Settings for these joints with the steps of full coupling.
     pub fn new(joints: Vec<JointLife>) -> Self {
-        Self { joints, step: WearStep::FULL, most_cycles: 100_000, most_separated: 0.5, keep_cycles: true }
+        Self { joints, step: WearStep::FULL, most_cycles: 100_000, least_touching: 0.5, keep_cycles: true }
     }
 
     /// The same life with the geometry of the unworn joints throughout: the paper's second baseline.
@@ -179,9 +179,8 @@ impl LifeSettings {
         let run = |name, value: f64, need, fits: bool| {
             if fits { Ok(()) } else { Err(SettingsError::Run { name, value, need }) }
         };
-        let separated = self.most_separated;
-        let in_unit = separated > 0.0 && separated <= 1.0;
-        run("the accepted part without contact", separated, "above 0 and at most 1", in_unit)?;
+        let touching = self.least_touching;
+        run("the least part in contact", touching, "from 0 to below 1", (0.0..1.0).contains(&touching))?;
         if let WearStep::Adaptive { tolerance, shortest, longest } = self.step {
             let in_open = tolerance > 0.0 && tolerance < 1.0;
             run("the tolerance of the wear step", tolerance, "between 0 and 1", in_open)?;

@@ -2,9 +2,9 @@
 //! the records of cycles. Never knows files or formats.
 
 use super::settings::{LifeSettings, SettingsError};
-use super::source::RevolutionWear;
 use super::worn::WearState;
-use crate::wear::{Profile, Warning};
+use crate::column::{Column, Quantity};
+use crate::wear::{ContactMeasure, Profile, Warning};
 
 /// A trajectory between two cycles. `S` is the state of the fine scale.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct LifeState<S> {
     /// The fine scale.
     pub fine: S,
     /// What a revolution wears now, if it was measured already.
-    pub measured: Option<Vec<RevolutionWear>>,
+    pub measured: Option<Vec<ContactMeasure>>,
     /// Control of the wear step.
     pub control: Control,
     /// How it ended, if it has.
@@ -78,8 +78,8 @@ pub struct CycleRecord {
     pub joints: Vec<CycleJoint>,
 }
 
-/// A joint in one cycle. Revolutions are those last measured before the cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A joint in one cycle.
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CycleJoint {
     /// Clearance at the start [m].
@@ -90,14 +90,29 @@ pub struct CycleJoint {
     pub increment: f64,
     /// W at the end [m].
     pub wear: f64,
-    /// Wear integral of a revolution [J].
-    pub wear_integral: f64,
-    /// Mean normal force [N].
-    pub mean_force: f64,
-    /// Largest normal force [N].
-    pub peak_force: f64,
-    /// Losses of contact in a revolution.
-    pub contact_losses: f64,
+    /// The revolution last measured before the cycle: its numbers, without profile and extremes.
+    pub revolution: ContactMeasure,
+}
+
+impl CycleJoint {
+    const COLUMNS: [Quantity<Self>; 3] = [
+        (Column::new("clearance", "clearance", "m"), |one| one.clearance),
+        (Column::new("dLambda", "dLambda", "m"), |one| one.mean_increment),
+        (Column::new("wear", "W", "m"), |one| one.wear),
+    ];
+
+    /// The columns of a table of cycles: those of the joint, then those of the revolution that are not details.
+    pub fn columns() -> impl Iterator<Item = Column> {
+        let revolution = ContactMeasure::COLUMNS.map(|(column, _)| column);
+        Self::COLUMNS.map(|(column, _)| column).into_iter().chain(revolution).filter(|column| column.brief)
+    }
+
+    /// The numbers of these columns.
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        let of_revolution = ContactMeasure::COLUMNS.iter().filter(|(column, _)| column.brief);
+        let of_revolution = of_revolution.map(|(_, value)| value(&self.revolution));
+        Self::COLUMNS.iter().map(|(_, value)| value(self)).chain(of_revolution)
+    }
 }
 
 impl<S: Default> LifeState<S> {

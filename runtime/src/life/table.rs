@@ -14,8 +14,9 @@ use super::error::LifeError;
 use super::interpolate::{Curve, find};
 use super::path::measure;
 use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf};
-use super::source::{JointWear, RevolutionWear, WearSource};
-use crate::wear::{Observed, Profile};
+use super::source::{JointWear, WearSource};
+use crate::watch::Watch;
+use crate::wear::{ContactMeasure, Observed, Profile};
 
 /// Points of a table unless told otherwise.
 pub const DEFAULT_POINTS: usize = 17;
@@ -52,29 +53,30 @@ struct JointTable {
     wear_integral: Curve,
     mean_force: Curve,
     peak_force: Curve,
-    contact_losses: Curve,
-    separated: Curve,
+    losses: Curve,
+    touching: Curve,
+    loss: Curve,
     bins: Vec<Curve>,
-    observed: Vec<Observed>,
+    observed: Vec<Option<Observed>>,
 }
 
 /// Wear of all joints and what a revolution does there.
 struct Point {
     wear: Vec<f64>,
-    measured: Vec<RevolutionWear>,
+    measured: Vec<ContactMeasure>,
 }
 
 impl WearTable {
     /// Measures `points` points along the deterministic life (more with several joints, which need a predictor each).
-    /// `progress` gets the finished part, 0 to 1.
+    /// `watch` hears the finished part.
     ///
     /// # Errors
-    /// If the settings make no sense or feed a profile back, or as [`Stop`] says.
+    /// If the settings make no sense or feed a profile back, or as [`LifeError`] says.
     pub fn measure<F: WearSource>(
         settings: &LifeSettings,
         fine: &mut F,
         points: usize,
-        progress: &mut dyn FnMut(f64),
+        watch: Watch<'_>,
     ) -> Result<Self, LifeError<F::Error>> {
         settings.check()?;
         if points < 3 {
@@ -85,7 +87,7 @@ impl WearTable {
             return Err(SettingsError::TableOfProfile { joint: joint.joint.clone() }.into());
         }
         let mut survey = Survey { settings, fine, state: F::State::default(), measurements: 0 };
-        let path = survey.path(points, progress)?;
+        let path = survey.path(points, watch)?;
         let joints: Vec<JointTable> =
             (0..settings.joints.len()).map(|joint| JointTable::of(settings, &path, joint)).collect();
         let others = if joints.len() > 1 { Some(survey.others(&path, &joints)?) } else { None };
@@ -95,7 +97,7 @@ impl WearTable {
     }
 
     /// What a revolution wears at a joint (index among the wearing joints) worn by W [m].
-    pub fn at(&self, joint: usize, wear: f64) -> RevolutionWear {
+    pub fn at(&self, joint: usize, wear: f64) -> ContactMeasure {
         self.joints[joint].at(wear)
     }
 
@@ -109,7 +111,7 @@ impl WearSource for WearTable {
     type State = ();
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Infallible> {
         Ok(self.joints.iter().zip(joints).map(|(table, joint)| table.at(joint.wear)).collect())
     }
 }
@@ -124,7 +126,7 @@ impl JointTable {
     fn of(settings: &LifeSettings, path: &[Point], joint: usize) -> Self {
         let scale = scale(&settings.joints[joint]);
         let mut places: Vec<f64> = Vec::with_capacity(path.len());
-        let mut points: Vec<&RevolutionWear> = Vec::with_capacity(path.len());
+        let mut points: Vec<&ContactMeasure> = Vec::with_capacity(path.len());
         for point in path {
             let place = libm::log1p(point.wear[joint] / scale);
             // A joint that does not wear stays at one place.
@@ -134,9 +136,9 @@ impl JointTable {
             }
         }
         let column =
-            |of: fn(&RevolutionWear) -> f64| points.iter().map(|point| of(point)).collect::<Vec<_>>();
+            |of: fn(&ContactMeasure) -> f64| points.iter().map(|point| of(point)).collect::<Vec<_>>();
         let bin = |bin: usize| {
-            let depth = |point: &&RevolutionWear| point.profile.as_ref().map_or(0.0, |p| p.depths()[bin]);
+            let depth = |point: &&ContactMeasure| point.deposit.as_ref().map_or(0.0, |p| p.depths()[bin]);
             Curve::plain(&places, points.iter().map(depth).collect())
         };
         let bins = (0..settings.joints[joint].bins.unwrap_or(0)).map(bin).collect();
@@ -146,27 +148,29 @@ impl JointTable {
             wear_integral: Curve::logarithmic(&places, column(|wear| wear.wear_integral)),
             mean_force: Curve::plain(&places, column(|wear| wear.mean_force)),
             peak_force: Curve::plain(&places, column(|wear| wear.peak_force)),
-            contact_losses: Curve::plain(&places, column(|wear| wear.contact_losses)),
-            separated: Curve::plain(&places, column(|wear| wear.separated)),
+            losses: Curve::plain(&places, column(|wear| wear.losses)),
+            touching: Curve::plain(&places, column(|wear| wear.touching)),
+            loss: Curve::plain(&places, column(|wear| wear.loss)),
             bins,
             observed: points.iter().map(|point| point.observed).collect(),
             places,
         }
     }
 
-    fn at(&self, wear: f64) -> RevolutionWear {
+    fn at(&self, wear: f64) -> ContactMeasure {
         let cell = find(&self.places, libm::log1p(wear / self.scale));
         // Only beyond the last point can a line fall below zero.
         let value = |curve: &Curve| curve.at(cell).max(0.0);
         let depths: Vec<f64> = self.bins.iter().map(value).collect();
-        RevolutionWear {
+        ContactMeasure {
             wear_integral: value(&self.wear_integral),
             depth: value(&self.depth),
-            profile: if depths.is_empty() { None } else { Profile::try_from(depths).ok() },
             mean_force: value(&self.mean_force),
             peak_force: value(&self.peak_force),
-            contact_losses: value(&self.contact_losses),
-            separated: value(&self.separated).min(1.0),
+            losses: value(&self.losses),
+            touching: value(&self.touching).min(1.0),
+            loss: value(&self.loss),
+            deposit: if depths.is_empty() { None } else { Profile::try_from(depths).ok() },
             observed: self.observed[cell.nearest()],
         }
     }
@@ -187,14 +191,14 @@ fn left_out(settings: &LifeSettings, path: &[Point], joint: usize) -> f64 {
 }
 
 /// Relative difference of what two revolutions add to W.
-fn difference(joint: &JointLife, truth: &RevolutionWear, table: &RevolutionWear) -> f64 {
+fn difference(joint: &JointLife, truth: &ContactMeasure, table: &ContactMeasure) -> f64 {
     let (truth, table) = (gain(joint, truth), gain(joint, table));
     if truth == table { 0.0 } else { (table - truth).abs() / truth.abs().max(f64::MIN_POSITIVE) }
 }
 
 /// W that one cycle adds to an unworn joint [m].
-fn gain(joint: &JointLife, wear: &RevolutionWear) -> f64 {
-    let per_revolution = match (joint.wear, &wear.profile) {
+fn gain(joint: &JointLife, wear: &ContactMeasure) -> f64 {
+    let per_revolution = match (joint.wear, &wear.deposit) {
         (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
         _ => wear.depth,
     };
@@ -210,7 +214,7 @@ struct Survey<'a, F: WearSource> {
 }
 
 impl<F: WearSource> Survey<'_, F> {
-    fn measure(&mut self, wear: &[f64]) -> Result<Vec<RevolutionWear>, LifeError<F::Error>> {
+    fn measure(&mut self, wear: &[f64]) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
         let worn = |(joint, wear): (&JointLife, &f64)| JointWear {
             clearance: joint.clearance + joint.gamma() * wear,
             wear: *wear,
@@ -222,15 +226,11 @@ impl<F: WearSource> Survey<'_, F> {
     }
 
     /// Points at which the joint that leads has its places; the others are where they are then (Heun's method).
-    fn path(
-        &mut self,
-        points: usize,
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<Vec<Point>, LifeError<F::Error>> {
+    fn path(&mut self, points: usize, watch: Watch<'_>) -> Result<Vec<Point>, LifeError<F::Error>> {
         let joints = &self.settings.joints;
         let mut wear = vec![0.0; joints.len()];
         let mut measured = self.measure(&wear)?;
-        let gains = |measured: &[RevolutionWear]| -> Vec<f64> {
+        let gains = |measured: &[ContactMeasure]| -> Vec<f64> {
             joints.iter().zip(measured).map(|(joint, wear)| gain(joint, wear)).collect()
         };
         let pace = |gains: &[f64], joint: usize| gains[joint] / joints[joint].threshold;
@@ -270,7 +270,9 @@ impl<F: WearSource> Survey<'_, F> {
             }
             wear = there;
             path.push(Point { wear: wear.clone(), measured: measured.clone() });
-            progress(index as f64 / (points - 1) as f64);
+            if watch.report(index as f64 / (points - 1) as f64).is_break() {
+                return Err(LifeError::Interrupted);
+            }
         }
         Ok(path)
     }

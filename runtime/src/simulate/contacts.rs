@@ -1,5 +1,5 @@
 //! Follows joints with clearance from step to step: what contacts remember, what a turn did to each joint, where
-//! wear goes around the bearing, whether steps are fine enough. In: accepted steps. Out: [`TurnMeasure`]s,
+//! wear goes around the bearing, whether steps are fine enough. In: accepted steps. Out: [`ContactMeasure`]s,
 //! [`RunWarning`]s. Never knows integrators.
 
 use std::f64::consts::PI;
@@ -10,36 +10,7 @@ use crate::clearance_joint::{Clearance, ContactState};
 use crate::contact_frequency::inverse_mass;
 use crate::evaluate::Evaluator;
 use crate::system::CONTACT_WRENCH;
-use crate::wear::{Observed, Profile};
-
-/// What one turn of the turn driver did to one joint with clearance.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[allow(non_snake_case, reason = "units at the end of a name keep their case")]
-pub struct TurnMeasure {
-    /// Number of the turn, counted from 1 after settling.
-    pub turn: u64,
-    /// Index of the joint among [`crate::Description::contacts`].
-    pub joint: usize,
-    /// S = ∫ F_n |v_t| dt [J], integrated with the state.
-    pub wear_integral_J: f64,
-    /// ∫ k/(H A) F_n |v_t| dt [m]; zero if the joint does not wear.
-    pub depth_m: f64,
-    /// Average over time of the normal force [N].
-    pub mean_normal_force_N: f64,
-    /// Largest normal force at the end of a step [N].
-    pub peak_normal_force_N: f64,
-    /// How often the bodies came apart.
-    pub contact_losses: u64,
-    /// Part of the time in which they touched, by steps that ended in contact.
-    pub touching_part: f64,
-    /// Energy lost in damping and friction [J].
-    pub loss_J: f64,
-    /// Depth by bearing angle that came on top; nothing if the joint keeps no profile.
-    pub deposit: Option<Profile>,
-    /// Extremes, for warnings of the wear laws; nothing if the joint does not wear.
-    pub observed: Option<Observed>,
-}
+use crate::wear::{ContactMeasure, Observed, Profile};
 
 /// Contact for less than this part of a turn draws a warning.
 const RARE: f64 = 0.5;
@@ -67,10 +38,9 @@ pub(super) struct Follower {
     contacts: Vec<ContactState>,
     t: f64,
     turn_begin: f64,
-    turn: u64,
     longest_step: f64,
     probe: Vec<f64>,
-    measures: Vec<TurnMeasure>,
+    measures: Vec<Vec<ContactMeasure>>,
 }
 
 impl Follower {
@@ -96,7 +66,6 @@ impl Follower {
             contacts: Vec::new(),
             t,
             turn_begin: t,
-            turn: 0,
             longest_step: 0.0,
             probe: vec![0.0; evaluator.sizes().contacts * CONTACT_WRENCH + evaluator.sizes().speeds],
             measures: Vec::new(),
@@ -118,11 +87,11 @@ impl Follower {
     }
 
     /// What turns did.
-    pub(super) fn into_measures(self) -> Vec<TurnMeasure> {
+    pub(super) fn into_measures(self) -> Vec<Vec<ContactMeasure>> {
         self.measures
     }
 
-    /// Takes in an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
+    /// Accumulates an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
     pub(super) fn accept(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
@@ -146,7 +115,7 @@ impl Follower {
         for (((track, before), (joint, now)), totals) in
             self.tracks.iter_mut().zip(&self.contacts).zip(joints).zip(totals)
         {
-            track.take_in(joint, (before, now), totals, step);
+            track.accumulate(joint, (before, now), totals, step);
         }
         self.contacts.copy_from_slice(clearances.contacts());
         self.probe_frequencies(motion, state);
@@ -171,24 +140,22 @@ impl Follower {
 
     /// A turn ends here: notes what it did, and begins the next one.
     pub(super) fn end_turn(&mut self, motion: &ConstrainedMotion<'_>) {
-        self.turn += 1;
         let duration = self.t - self.turn_begin;
-        for (joint, track) in self.tracks.iter_mut().enumerate() {
+        let measure = |track: &mut Track| {
             let done = track.last.since(track.begin);
-            self.measures.push(TurnMeasure {
-                turn: self.turn,
-                joint,
-                wear_integral_J: done.wear,
-                depth_m: done.depth,
-                mean_normal_force_N: done.impulse / duration,
-                peak_normal_force_N: track.peak,
-                contact_losses: track.losses,
-                touching_part: (track.touching / duration).min(1.0),
-                loss_J: done.loss,
+            ContactMeasure {
+                wear_integral: done.wear,
+                depth: done.depth,
+                mean_force: done.impulse / duration,
+                peak_force: track.peak,
+                losses: track.losses as f64,
+                touching: (track.touching / duration).min(1.0),
+                loss: done.loss,
                 deposit: track.deposit.take(),
                 observed: track.observed,
-            });
-        }
+            }
+        };
+        self.measures.push(self.tracks.iter_mut().map(measure).collect());
         self.begin_turn(motion);
     }
 
@@ -208,12 +175,12 @@ impl Follower {
             {
                 warnings.push(RunWarning::StepTooCoarse { joint: name(), step, frequency, accurate, stable });
             }
-            let own = self.measures.iter().filter(|measure| measure.joint == joint);
-            let rarest = own.min_by(|a, b| a.touching_part.total_cmp(&b.touching_part));
-            if let Some(TurnMeasure { turn, touching_part, .. }) = rarest
-                && *touching_part < RARE
+            let parts = self.measures.iter().map(|turn| turn[joint].touching).enumerate();
+            let rarest = parts.min_by(|(_, a), (_, b)| a.total_cmp(b));
+            if let Some((index, touching_part)) = rarest
+                && touching_part < RARE
             {
-                let (turn, touching_part) = (*turn, *touching_part);
+                let turn = index as u64 + 1;
                 warnings.push(RunWarning::ContactLost { joint: name(), turn, touching_part });
             }
         }
@@ -239,7 +206,7 @@ impl Follower {
 }
 
 impl Track {
-    fn take_in(
+    fn accumulate(
         &mut self,
         joint: &Clearance,
         (before, now): (&ContactState, &ContactState),
@@ -265,7 +232,7 @@ impl Track {
     }
 }
 
-/// Profile that takes in the depth of one turn, if the joint keeps one.
+/// Profile that collects the depth of one turn, if the joint keeps one.
 fn empty_deposit(joint: &Clearance) -> Option<Profile> {
     let (_, wear) = joint.wear()?;
     if wear.keeps_profile() { Profile::unworn(wear.bins).ok() } else { None }

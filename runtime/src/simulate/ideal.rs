@@ -1,5 +1,5 @@
 //! Wear of an ideal joint from its reaction: no clearance, no contact, for design studies. In: sampled rows of a
-//! [`Run`]. Out: the same numbers per joint as a measured turn. Never knows contacts.
+//! [`Run`]. Out: the numbers of a measured turn. Never knows contacts.
 //!
 //! F_n is the reaction across the axis (of a ball the whole), v_t the journal radius times the joint's speed (of a
 //! ball the part across the force). The quadrature over evenly spaced samples is the trapezoidal rule with Gregory's
@@ -7,9 +7,8 @@
 
 use super::run::Run;
 use crate::clearance_joint::Clearance;
-use crate::description::Description;
 use crate::error::SetupError;
-use crate::wear::Load;
+use crate::wear::{ContactMeasure, Load};
 
 /// Where the motion of an ideal joint is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,54 +28,35 @@ pub struct IdealJoint {
     radius: f64,
 }
 
-/// What an ideal joint did over the samples of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[allow(non_snake_case, reason = "units at the end of a name keep their case")]
-pub struct IdealMeasure {
-    /// S = ∫ F_n |v_t| dt [J].
-    pub wear_integral_J: f64,
-    /// ∫ k/(H A) F_n |v_t| dt [m]; zero without a law.
-    pub depth_m: f64,
-    /// Average over time of the normal force [N].
-    pub mean_normal_force_N: f64,
-    /// Largest normal force at a sample [N].
-    pub peak_normal_force_N: f64,
-}
-
 impl IdealJoint {
     /// A revolute joint with its axis [any length, in W] and journal radius [m]. The axis has to keep its direction: a
     /// joint on the ground, or of a planar mechanism.
     ///
     /// # Errors
-    /// If the mechanism has no such joint, or axis or radius make no sense.
-    pub fn revolute(
-        description: &Description,
-        joint: &str,
-        axis: [f64; 3],
-        journal_radius: f64,
-    ) -> Result<Self, SetupError> {
+    /// If the run has no columns of such a joint, or axis or radius make no sense.
+    pub fn revolute(run: &Run, joint: &str, axis: [f64; 3], journal_radius: f64) -> Result<Self, SetupError> {
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
         positive("length of the axis", length)?;
         positive("journal radius", journal_radius)?;
-        let speed = find(description, joint, "v")?;
+        let speed = find(run, joint, "v")?;
         let motion = Motion::Revolute { speed, axis: axis.map(|x| x / length) };
-        Ok(Self { force: find(description, joint, "Fx")?, motion, radius: journal_radius })
+        Ok(Self { force: find(run, joint, "Fx")?, motion, radius: journal_radius })
     }
 
     /// A spherical joint between two bodies (no parent: the ground) with the radius of its ball [m].
     ///
     /// # Errors
-    /// If the mechanism has no such joint or bodies, or the radius makes no sense.
+    /// If the run has no columns of such a joint or bodies, or the radius makes no sense.
     pub fn ball(
-        description: &Description,
+        run: &Run,
         joint: &str,
         (parent, child): (Option<&str>, &str),
         radius: f64,
     ) -> Result<Self, SetupError> {
         positive("radius of the ball", radius)?;
-        let parent = parent.map(|body| find(description, body, "wx")).transpose()?;
-        let motion = Motion::Ball { child: find(description, child, "wx")?, parent };
-        Ok(Self { force: find(description, joint, "Fx")?, motion, radius })
+        let parent = parent.map(|body| find(run, body, "wx")).transpose()?;
+        let motion = Motion::Ball { child: find(run, child, "wx")?, parent };
+        Ok(Self { force: find(run, joint, "Fx")?, motion, radius })
     }
 
     /// Normal force [N] and sliding speed [m/s] of one sampled row.
@@ -99,23 +79,23 @@ impl IdealJoint {
     /// What the joint did over the samples of a run. `wear`: laws of a joint and the clearance [m] whose contact area
     /// counts, the contact taken as resting at every instant.
     #[must_use]
-    pub fn measure(&self, run: &Run, wear: Option<(&Clearance, f64)>) -> IdealMeasure {
+    pub fn measure(&self, run: &Run, wear: Option<(&Clearance, f64)>) -> ContactMeasure {
         let count = run.times.len();
-        let mut measure = IdealMeasure::default();
+        let mut measure = ContactMeasure::default();
         let [first, .., last] = run.times[..] else { return measure };
         let spacing = (last - first) / (count - 1) as f64;
         for (index, row) in run.rows.iter().enumerate() {
             let weight = spacing * gregory(index, count);
             let (normal_force, sliding_speed) = self.normal_force_and_speed(row);
-            measure.wear_integral_J += weight * normal_force * sliding_speed.abs();
-            measure.mean_normal_force_N += weight * normal_force / (last - first);
-            measure.peak_normal_force_N = measure.peak_normal_force_N.max(normal_force);
+            measure.wear_integral += weight * normal_force * sliding_speed.abs();
+            measure.mean_force += weight * normal_force / (last - first);
+            measure.peak_force = measure.peak_force.max(normal_force);
             if let Some((joint, clearance)) = wear
                 && let Some((archard, _)) = joint.wear()
             {
                 let penetration = joint.resting_penetration(clearance, normal_force);
                 let load = Load { normal_force, penetration, sliding_speed };
-                measure.depth_m += weight * archard.rates(&load, &joint.pair(clearance)).depth;
+                measure.depth += weight * archard.rates(&load, &joint.pair(clearance)).depth;
             }
         }
         measure
@@ -130,10 +110,8 @@ fn gregory(index: usize, count: usize) -> f64 {
     if count < 6 { if from_end == 0 { 0.5 } else { 1.0 } } else { ENDS.get(from_end).copied().unwrap_or(1.0) }
 }
 
-fn find(description: &Description, element: &str, quantity: &str) -> Result<usize, SetupError> {
-    let name = format!("{element}.{quantity}");
-    let at = description.channels.iter().position(|channel| channel.name == name);
-    at.ok_or(SetupError::NoChannel { name })
+fn find(run: &Run, element: &str, quantity: &str) -> Result<usize, SetupError> {
+    Ok(run.index(&format!("{element}.{quantity}"))?)
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), SetupError> {

@@ -2,18 +2,18 @@
 //! (order 2, as the method). In: a consistent start. Out: samples. Never knows the method's formulas.
 
 use super::motion::ConstrainedMotion;
-use super::sampler::Progress;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use crate::error::RunError;
 use crate::integrate::{GeneralizedAlpha, Problem, Rk4};
+use crate::watch::Watch;
 
 pub(super) fn run_generalized_alpha(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler,
     state: &mut [f64],
     (longest, rho): (f64, f64),
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(), RunError> {
     sampler.sample_at_start(motion, state)?;
     let mut derivative = vec![0.0; state.len()];
@@ -51,7 +51,7 @@ pub(super) fn run_generalized_alpha(
                 sampled.copy_from_slice(state);
                 sampler.sample(motion, t, &mut sampled)?;
             }
-            sampler.report(t, progress)?;
+            sampler.report(t, watch)?;
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Runs a mechanism through time: consistent start, steps, samples, statistics.
 //! In: a system, its description, parameters, [`Settings`]. Out: a [`Run`].
-//! Never knows files or terminals; progress goes to the caller's closure, which may stop the run.
+//! Never knows files or terminals; a [`Watch`] hears of progress and may stop the run.
 
 mod contacts;
 mod events;
@@ -15,11 +15,9 @@ mod steps;
 mod turns;
 mod warning;
 
-pub use contacts::TurnMeasure;
-pub use ideal::{IdealJoint, IdealMeasure};
+pub use ideal::IdealJoint;
 pub use motion::{BRANCH_PART, JUMP_FLOOR};
 pub use run::{Run, Statistics};
-pub use sampler::Progress;
 pub use settings::{Integrator, Settings, Span};
 pub use turns::{TurnMeasures, TurnRunner, TurnState};
 pub use warning::RunWarning;
@@ -30,6 +28,7 @@ use crate::dynamics::Dynamics;
 use crate::error::RunError;
 use crate::evaluate::Evaluator;
 use crate::system::System;
+use crate::watch::Watch;
 use motion::ConstrainedMotion;
 use sampler::Sampler;
 use schedule::Schedule;
@@ -45,7 +44,7 @@ pub fn simulate(
     description: &Description,
     parameters: &[f64],
     settings: &Settings,
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<Run, RunError> {
     settings.check()?;
     let mut evaluator = Evaluator::new(system, description, parameters)?;
@@ -56,6 +55,6 @@ pub fn simulate(
     motion.learn_sizes(0.0, &start);
     let mut state = motion.join(&start);
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
-    let stopped = steps::run(&mut motion, &mut sampler, &mut state, settings.integrator, progress);
+    let stopped = steps::run(&mut motion, &mut sampler, &mut state, settings.integrator, watch);
     Ok(sampler.finish(&motion, warning::step_limits(settings.integrator), stopped.err()))
 }

@@ -1,8 +1,9 @@
-//! What a run gives back.
+//! What a run gives back: samples with the names of their columns, its cost and quality, turns of contacts.
 
-use super::contacts::TurnMeasure;
 use super::warning::RunWarning;
-use crate::error::RunError;
+use crate::description::Channel;
+use crate::error::{NoColumn, RunError};
+use crate::wear::ContactMeasure;
 
 /// What a run cost and how well it kept its laws. Covers settling too.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,17 +36,82 @@ pub struct Statistics {
 /// A finished run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {
+    /// Columns of the rows: those of the mechanism, then those of its contacts.
+    pub channels: Vec<Channel>,
     /// Times of the samples [s].
     pub times: Vec<f64>,
-    /// One row per sample, one value per channel (those of contacts after the generated ones, see
-    /// [`crate::clearance_joint::ContactChannels`]); angles that wrap are unwrapped along time.
+    /// One row per sample, one value per channel; angles that wrap are unwrapped along time.
     pub rows: Vec<Vec<f64>>,
     /// Cost and quality.
     pub statistics: Statistics,
-    /// For every full turn after settling, what every joint with clearance did in it.
-    pub turns: Vec<TurnMeasure>,
+    /// For every full turn after settling, what every joint with clearance did in it: by turn, then by joint.
+    pub turns: Vec<Vec<ContactMeasure>>,
     /// Where the result is not to be trusted.
     pub warnings: Vec<RunWarning>,
     /// Why the run ended before its time, if it did.
     pub stopped: Option<RunError>,
+}
+
+impl Run {
+    /// Values of a column at all samples, in its unit.
+    ///
+    /// # Errors
+    /// [`NoColumn`] with the nearest name if there is none of this name.
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, NoColumn> {
+        let at = self.index(name)?;
+        Ok(self.rows.iter().map(|row| row[at]).collect())
+    }
+
+    /// Values of three columns that end in `x`, `y`, `z` after a stem, as `R1.F` or `A.`, at all samples.
+    ///
+    /// # Errors
+    /// As [`Self::column`].
+    pub fn vector(&self, stem: &str) -> Result<Vec<[f64; 3]>, NoColumn> {
+        let [x, y, z] = ["x", "y", "z"].map(|axis| self.index(&format!("{stem}{axis}")));
+        let (x, y, z) = (x?, y?, z?);
+        Ok(self.rows.iter().map(|row| [row[x], row[y], row[z]]).collect())
+    }
+
+    /// Place of a column in the rows.
+    ///
+    /// # Errors
+    /// As [`Self::column`].
+    pub fn index(&self, name: &str) -> Result<usize, NoColumn> {
+        self.channels.iter().position(|channel| channel.name == name).ok_or_else(|| {
+            let names = self.channels.iter().map(|channel| channel.name.as_ref());
+            let nearest = names.min_by_key(|known| distance(known, name)).map(str::to_owned);
+            NoColumn { name: name.to_owned(), nearest }
+        })
+    }
+}
+
+/// Letters to insert, delete or replace to turn one name into another (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, letter) in a.chars().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, other) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(letter != other);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[row.len() - 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_found_by_name_and_a_wrong_name_tells_the_nearest() {
+        let channel = |name: &'static str| Channel { name: name.into(), unit: "N".into(), wraps: false };
+        let channels = ["R1.Fx", "R1.Fy", "R1.Fz"].map(channel).to_vec();
+        let run = Run { channels, times: vec![0.0], rows: vec![vec![1.0, 2.0, 3.0]], ..Run::default() };
+        assert_eq!(run.column("R1.Fy"), Ok(vec![2.0]));
+        assert_eq!(run.vector("R1.F"), Ok(vec![[1.0, 2.0, 3.0]]));
+        let error = run.column("R.Fz").unwrap_err();
+        assert_eq!(error.to_string(), "the run has no column `R.Fz`; did you mean `R1.Fz`?");
+        assert_eq!(distance("kitten", "sitting"), 3);
+    }
 }

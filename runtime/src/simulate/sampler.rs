@@ -8,12 +8,10 @@ use super::contacts::Follower;
 use super::motion::ConstrainedMotion;
 use super::run::{Run, Statistics};
 use super::schedule::Schedule;
-use crate::clearance_joint::ContactChannels;
+use crate::clearance_joint::Channels;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
-
-/// Called after every step with the finished part of the run (0 to 1); `Break` stops the run.
-pub type Progress<'p> = &'p mut dyn FnMut(f64) -> ControlFlow<()>;
+use crate::watch::Watch;
 
 /// Recorder of one run.
 pub(super) struct Sampler {
@@ -23,10 +21,8 @@ pub(super) struct Sampler {
     rows: Vec<Vec<f64>>,
     /// Last value of every channel, unwrapped.
     last: Option<Vec<f64>>,
-    wraps: Vec<bool>,
-    /// Values of all channels, those of contacts last.
+    columns: Channels,
     values: Vec<f64>,
-    contact_channels: ContactChannels,
     start_energy: f64,
     kinetic: f64,
     work: (f64, f64),
@@ -42,9 +38,7 @@ pub(super) struct Sampler {
 impl Sampler {
     pub(super) fn new(motion: &mut ConstrainedMotion<'_>, schedule: Schedule, state: &[f64]) -> Self {
         let description = motion.dynamics.evaluator.description();
-        let contact_channels = ContactChannels::new(description);
-        let channels = description.channels.iter().chain(contact_channels.channels());
-        let wraps: Vec<bool> = channels.map(|channel| channel.wraps).collect();
+        let columns = Channels::new(description);
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
         let (q, v, work) = motion.split(state);
@@ -57,9 +51,8 @@ impl Sampler {
             times: Vec::with_capacity(schedule.samples),
             rows: Vec::with_capacity(schedule.samples),
             last: None,
-            values: vec![0.0; wraps.len()],
-            wraps,
-            contact_channels,
+            values: vec![0.0; columns.channels.len()],
+            columns,
             start_energy: kinetic + potential + elastic,
             kinetic,
             work,
@@ -168,7 +161,7 @@ impl Sampler {
         motion.put_on(t, state)?;
         self.note_loop_error(motion.loop_error());
         self.note_energy(motion, t, state);
-        let mut row = vec![0.0; self.wraps.len()];
+        let mut row = vec![0.0; self.values.len()];
         self.observe(motion, t, state, Some(&mut row))?;
         self.times.push(t);
         self.rows.push(row);
@@ -193,7 +186,7 @@ impl Sampler {
         (self.kinetic, self.work, self.contact_loss) = (kinetic, work, contact_loss);
         motion.energy_scale = motion.energy_scale.max(kinetic);
         // Between samples an angle may turn more than once: follow it at every step.
-        if self.wraps.contains(&true) && !self.is_due(t) {
+        if self.columns.channels.iter().any(|channel| channel.wraps) && !self.is_due(t) {
             self.observe(motion, t, state, None)
         } else {
             Ok(())
@@ -201,8 +194,8 @@ impl Sampler {
     }
 
     /// Tells the caller how far the run is.
-    pub(super) fn report(&self, t: f64, progress: Progress<'_>) -> Result<(), RunError> {
-        match progress((t - self.schedule.begin) / self.duration()) {
+    pub(super) fn report(&self, t: f64, watch: Watch<'_>) -> Result<(), RunError> {
+        match watch.report((t - self.schedule.begin) / self.duration()) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RunError::Interrupted { t }),
         }
@@ -221,19 +214,17 @@ impl Sampler {
         let generated = motion.dynamics.evaluator.observe(t, q, v);
         let count = generated.len();
         self.values[..count].copy_from_slice(generated);
-        let touches = motion.dynamics.evaluator.clearances().contacts();
-        self.contact_channels.write(touches, &mut self.values[count..]);
+        let contacts = motion.dynamics.evaluator.clearances().contacts();
+        self.columns.write(contacts, &mut self.values[count..]);
         let values = &self.values;
         if row.is_some()
             && let Some(i) = values.iter().position(|x| !x.is_finite())
         {
-            let channels = motion.dynamics.evaluator.description().channels.iter();
-            let name = channels.chain(self.contact_channels.channels()).nth(i).map(|channel| &channel.name);
-            return Err(RunError::NonFinite { t, what: name.map(ToString::to_string).unwrap_or_default() });
+            return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
         }
         let last = self.last.get_or_insert_with(|| values.to_vec());
-        for ((last, value), wraps) in last.iter_mut().zip(values).zip(&self.wraps) {
-            let turns = if *wraps { ((*last - value) / (2.0 * PI)).round() } else { 0.0 };
+        for ((last, value), channel) in last.iter_mut().zip(values).zip(&self.columns.channels) {
+            let turns = if channel.wraps { ((*last - value) / (2.0 * PI)).round() } else { 0.0 };
             *last = value + 2.0 * PI * turns;
         }
         if let Some(row) = row {
@@ -271,8 +262,14 @@ impl Sampler {
         self.statistics.evaluations += motion.dynamics.evaluations;
         self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
         self.statistics.projections = motion.projections;
-        let mut run = Run { times: self.times, rows: self.rows, stopped, ..Run::default() };
-        run.statistics = self.statistics;
+        let mut run = Run {
+            channels: self.columns.channels,
+            times: self.times,
+            rows: self.rows,
+            statistics: self.statistics,
+            stopped,
+            ..Run::default()
+        };
         if let Some(follower) = self.follower {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
             run.turns = follower.into_measures();

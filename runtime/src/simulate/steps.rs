@@ -1,12 +1,13 @@
 //! Runs a schedule to its end, step by step. In: a start, a method. Out: samples. Never knows how a start is found.
 
 use super::motion::ConstrainedMotion;
-use super::sampler::{Progress, Sampler};
+use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
 use super::{events, implicit};
 use crate::error::RunError;
 use crate::integrate::{Dopri5, Rk4};
+use crate::watch::Watch;
 
 /// Runs a schedule to its end with a method; `state` is then where it got.
 pub(super) fn run(
@@ -14,16 +15,16 @@ pub(super) fn run(
     sampler: &mut Sampler,
     state: &mut [f64],
     integrator: Integrator,
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(), RunError> {
     match integrator {
-        Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, progress),
+        Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, watch),
         Integrator::Dopri5 { tolerance, max_step } => {
             let longest = max_step.unwrap_or(sampler.duration() / 10.0);
-            run_dopri5(motion, sampler, state, (tolerance, longest), progress)
+            run_dopri5(motion, sampler, state, (tolerance, longest), watch)
         }
         Integrator::GeneralizedAlpha { step, rho } => {
-            implicit::run_generalized_alpha(motion, sampler, state, (step, rho), progress)
+            implicit::run_generalized_alpha(motion, sampler, state, (step, rho), watch)
         }
     }
 }
@@ -34,7 +35,7 @@ fn run_rk4(
     sampler: &mut Sampler,
     state: &mut [f64],
     longest: f64,
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(), RunError> {
     let mut method = Rk4::new(state.len());
     let mut t = sampler.begin();
@@ -50,7 +51,7 @@ fn run_rk4(
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
             }
-            sampler.report(t, progress)?;
+            sampler.report(t, watch)?;
         }
     }
     Ok(())
@@ -61,7 +62,7 @@ fn run_dopri5(
     sampler: &mut Sampler,
     state: &mut [f64],
     (tolerance, longest): (f64, f64),
-    progress: Progress<'_>,
+    watch: Watch<'_>,
 ) -> Result<(), RunError> {
     let (begin, end) = (sampler.begin(), sampler.end());
     let mut between = state.to_vec();
@@ -83,7 +84,7 @@ fn run_dopri5(
             between.copy_from_slice(method.y());
             sampler.sample(motion, method.t(), &mut between)?;
         }
-        sampler.report(method.t(), progress)?;
+        sampler.report(method.t(), watch)?;
     }
     Ok(())
 }

@@ -1,10 +1,8 @@
 //! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
-//! In: a mechanism, a method, clearances. Out: [`TurnMeasure`]s. Never knows how wear follows from them.
+//! In: a mechanism, a method, clearances. Out: [`ContactMeasure`]s. Never knows how wear follows from them.
 
-use super::contacts::TurnMeasure;
 use super::motion::ConstrainedMotion;
 use super::run::Statistics;
-use super::sampler::Progress;
 use super::sampler::Sampler;
 use super::schedule::Schedule;
 use super::settings::{Integrator, Settings, Span};
@@ -18,7 +16,8 @@ use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
 use crate::evaluate::Evaluator;
 use crate::system::System;
-use crate::wear::Profile;
+use crate::watch::Watch;
+use crate::wear::{ContactMeasure, Profile};
 
 /// All that has to be kept to go on with a trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +37,7 @@ pub struct TurnState {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurnMeasures {
     /// One per joint with clearance.
-    pub joints: Vec<TurnMeasure>,
+    pub joints: Vec<ContactMeasure>,
     /// What is doubtful about the turn.
     pub warnings: Vec<RunWarning>,
     /// Cost and quality of the turn.
@@ -152,36 +151,36 @@ impl<'a> TurnRunner<'a> {
     ///
     /// # Errors
     /// As [`Self::measure`].
-    pub fn settle(&mut self, turns: u32, progress: Progress<'_>) -> Result<(), RunError> {
-        for _ in 0..turns {
-            self.measure(progress)?;
+    pub fn settle(&mut self, turns: u32, watch: Watch<'_>) -> Result<(), RunError> {
+        for turn in 0..turns {
+            let part = |turn: u32| f64::from(turn) / f64::from(turns);
+            self.measure(watch.piece(part(turn), part(turn + 1)))?;
         }
         Ok(())
     }
 
-    /// Runs one turn and says what it did; `progress` hears the finished part of this turn.
+    /// Runs one turn and says what it did; `watch` hears the finished part of this turn.
     ///
     /// # Errors
     /// Why the turn could not be finished, or [`RunError::Interrupted`]; the runner is then where it was before
     /// the turn.
-    pub fn measure(&mut self, progress: Progress<'_>) -> Result<TurnMeasures, RunError> {
+    pub fn measure(&mut self, watch: Watch<'_>) -> Result<TurnMeasures, RunError> {
         let schedule = Schedule::turn(&mut self.motion.dynamics.evaluator, self.t)?;
         let kept = self.motion.dynamics.evaluator.clearances().states().to_vec();
         let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
         let mut state = self.motion.join(&self.state);
         let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
-        if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, progress)
-        {
+        if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, watch) {
             self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept);
             return Err(error);
         }
         let (q, v, _) = self.motion.split(&state);
         self.state = State { q: q.to_vec(), v: v.to_vec() };
         self.t = schedule.end;
-        let run = sampler.finish(&self.motion, step_limits(self.integrator), None);
+        let mut run = sampler.finish(&self.motion, step_limits(self.integrator), None);
         let mut statistics = run.statistics;
         statistics.evaluations -= evaluations;
         statistics.projections -= projections;
-        Ok(TurnMeasures { joints: run.turns, warnings: run.warnings, statistics })
+        Ok(TurnMeasures { joints: run.turns.pop().unwrap_or_default(), warnings: run.warnings, statistics })
     }
 }

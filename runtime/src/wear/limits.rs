@@ -49,7 +49,19 @@ impl Observed {
         }
     }
 
-    /// Takes in what acts at one instant. The depth per cycle is for the caller to set.
+    /// The larger of every extreme; clearance and radius stay.
+    #[must_use]
+    pub fn larger(self, other: Self) -> Self {
+        Self {
+            pressure: Scalar::max(self.pressure, other.pressure),
+            pressure_speed: Scalar::max(self.pressure_speed, other.pressure_speed),
+            hertz_half_width: Scalar::max(self.hertz_half_width, other.hertz_half_width),
+            penetration: Scalar::max(self.penetration, other.penetration),
+            ..self
+        }
+    }
+
+    /// Accumulates what acts at one instant. The depth per cycle is for the caller to set.
     pub fn include(&mut self, area: Area, load: &Load<f64>, pair: &Pair<f64>) {
         let pressure = area.pressure(load, pair);
         let raise = |largest: &mut f64, value: f64| *largest = Scalar::max(value, *largest);

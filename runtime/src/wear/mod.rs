@@ -10,6 +10,8 @@ mod area;
 mod feedback;
 mod limits;
 #[cfg(feature = "std")]
+mod measure;
+#[cfg(feature = "std")]
 mod profile;
 #[cfg(feature = "std")]
 mod reach;
@@ -18,6 +20,8 @@ pub use archard::{Archard, WearRates};
 pub use area::{Area, Load, Pair};
 pub use feedback::{Measure, ScalarFeedback};
 pub use limits::{Limits, Observed, Warning};
+#[cfg(feature = "std")]
+pub use measure::ContactMeasure;
 #[cfg(feature = "std")]
 pub use profile::{DEFAULT_BINS, Profile, ProfileError};
 #[cfg(feature = "std")]

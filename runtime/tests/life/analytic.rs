@@ -1,13 +1,13 @@
 //! Fine scales that are formulas, and the lives that follow from them.
 
 use std::convert::Infallible;
-use std::ops::ControlFlow;
 
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
-    CycleRecord, Feedback, JointLife, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState,
-    MeanIncrement, RevolutionWear, WearOf, WearSource, WearStep, run_life,
+    Feedback, JointLife, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearOf,
+    WearSource, WearStep, run_life,
 };
-use linkwear_runtime::wear::{Limits, Observed, Profile, ScalarFeedback};
+use linkwear_runtime::wear::{ContactMeasure, Limits, Observed, Profile, ScalarFeedback};
 
 /// Clearance of the unworn joint [m].
 pub const C0: f64 = 10e-6;
@@ -40,16 +40,17 @@ impl Powers {
 }
 
 /// A revolution of a depth [m] at a clearance [m], with loads like those of the case study.
-pub fn revolution(depth: f64, clearance: f64) -> RevolutionWear {
-    RevolutionWear {
+pub fn revolution(depth: f64, clearance: f64) -> ContactMeasure {
+    ContactMeasure {
         wear_integral: 2.0053636 * (1.0 + 1e-4 * (clearance / C0 - 1.0)),
         depth,
-        profile: None,
         mean_force: 32.0,
         peak_force: 55.0,
-        contact_losses: 0.0,
-        separated: 0.0,
-        observed: Observed {
+        losses: 0.0,
+        touching: 1.0,
+        loss: 0.0,
+        deposit: None,
+        observed: Some(Observed {
             pressure: 2e6,
             pressure_speed: 2.5e5,
             hertz_half_width: 5e-4,
@@ -57,7 +58,7 @@ pub fn revolution(depth: f64, clearance: f64) -> RevolutionWear {
             depth_per_cycle: 0.0,
             clearance,
             journal_radius: 0.01,
-        },
+        }),
     }
 }
 
@@ -65,7 +66,7 @@ impl WearSource for Powers {
     type State = ();
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Infallible> {
         self.calls += 1;
         self.most_wear = joints.iter().map(|joint| joint.wear).fold(self.most_wear, f64::max);
         let sum: f64 = joints.iter().map(|joint| joint.clearance).sum();
@@ -132,15 +133,10 @@ pub type Lived<F> = (f64, LifeState<<F as WearSource>::State>);
 /// The deterministic life.
 pub fn live<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> Result<Lived<F>, LifeError<F::Error>> {
     let mut state = LifeState::new(settings, 0)?;
-    match run_life(settings, fine, &MeanIncrement, &mut state, &mut go_on)? {
+    match run_life(settings, fine, &MeanIncrement, &mut state, Watch::NONE)? {
         LifeOutcome::Failed(failure) => Ok((failure.cycles, state)),
         outcome => panic!("{outcome:?}"),
     }
-}
-
-/// An observer that never stops a life.
-pub fn go_on(_: &CycleRecord) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }
 
 /// Adaptive steps of a tolerance, as short as need be.

@@ -2,15 +2,14 @@
 
 use std::fmt;
 
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
     Feedback, IncrementModel, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState, MeanIncrement,
-    RevolutionWear, SettingsError, WearOf, WearSource, WearStep, run_life,
+    SettingsError, WearOf, WearSource, WearStep, run_life,
 };
-use linkwear_runtime::wear::{Measure, ScalarFeedback, Warning};
+use linkwear_runtime::wear::{ContactMeasure, Measure, Observed, ScalarFeedback, Warning};
 
-use crate::analytic::{
-    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, go_on, joint, live, revolution, settings,
-};
+use crate::analytic::{C0, DEPTH, Powers, THRESHOLD, adaptive, arc, joint, live, revolution, settings};
 
 /// A formula of the clearance [m] that may fail.
 struct By<F>(F);
@@ -24,17 +23,17 @@ impl fmt::Display for Broken {
     }
 }
 
-impl<F: FnMut(f64) -> Result<RevolutionWear, Broken>> WearSource for By<F> {
+impl<F: FnMut(f64) -> Result<ContactMeasure, Broken>> WearSource for By<F> {
     type State = ();
     type Error = Broken;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Broken> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Broken> {
         joints.iter().map(|joint| (self.0)(joint.clearance)).collect()
     }
 }
 
 /// A life of 25 cycles whose fine scale changes its mind above a clearance.
-fn life_until<E: Fn(RevolutionWear) -> Result<RevolutionWear, Broken>>(
+fn life_until<E: Fn(ContactMeasure) -> Result<ContactMeasure, Broken>>(
     limit: f64,
     then: E,
 ) -> (LifeError<Broken>, LifeState<()>) {
@@ -44,7 +43,7 @@ fn life_until<E: Fn(RevolutionWear) -> Result<RevolutionWear, Broken>>(
         let sound = revolution(DEPTH * (clearance / C0).sqrt(), clearance);
         if clearance > limit { then(sound) } else { Ok(sound) }
     });
-    (run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap_err(), state)
+    (run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::NONE).unwrap_err(), state)
 }
 
 #[test]
@@ -65,26 +64,26 @@ fn a_failed_life_goes_on_where_it_was_once_the_cause_is_gone() {
         calls += 1;
         if calls == 20 { Err(Broken) } else { Ok(revolution(DEPTH * (clearance / C0).sqrt(), clearance)) }
     });
-    let stop = run_life(&settings, &mut failing, &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    let stop = run_life(&settings, &mut failing, &MeanIncrement, &mut state, Watch::NONE).unwrap_err();
     assert!(matches!(stop, LifeError::Fine { .. }));
-    run_life(&settings, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap();
+    run_life(&settings, &mut Powers::one(0.5), &MeanIncrement, &mut state, Watch::NONE).unwrap();
     let (_, whole) = live(&settings, &mut Powers::one(0.5)).unwrap();
     assert_eq!(state, whole);
 }
 
 #[test]
 fn contact_lost_for_most_of_the_turn_stops_the_life() {
-    let (stop, state) = life_until(4.0 * C0, |sound| Ok(RevolutionWear { separated: 0.6, ..sound }));
-    assert!(matches!(stop, LifeError::ContactLost { separated: 0.6, .. }), "{stop}");
+    let (stop, state) = life_until(4.0 * C0, |sound| Ok(ContactMeasure { touching: 0.4, ..sound }));
+    assert!(matches!(stop, LifeError::ContactLost { touching: 0.4, .. }), "{stop}");
     assert!(stop.to_string().contains("`R1` is without contact for 60 %"), "{stop}");
     assert!(state.cycle > 3);
 }
 
 #[test]
 fn numbers_that_mean_nothing_stop_the_life() {
-    let (stop, _) = life_until(4.0 * C0, |sound| Ok(RevolutionWear { depth: f64::NAN, ..sound }));
+    let (stop, _) = life_until(4.0 * C0, |sound| Ok(ContactMeasure { depth: f64::NAN, ..sound }));
     assert!(matches!(stop, LifeError::Measured { name: "depth", .. }), "{stop}");
-    let (stop, _) = life_until(0.0, |sound| Ok(RevolutionWear { wear_integral: -1.0, ..sound }));
+    let (stop, _) = life_until(0.0, |sound| Ok(ContactMeasure { wear_integral: -1.0, ..sound }));
     assert!(matches!(stop, LifeError::Measured { name: "wear integral", cycle: 1, .. }), "{stop}");
 }
 
@@ -107,7 +106,7 @@ fn a_clearance_above_the_journal_is_told_at_once_and_on_the_way() {
     on_the_way.joints[0].feedback = Feedback::Scalar(ScalarFeedback::new(500.0).unwrap());
     let mut state = LifeState::new(&on_the_way, 0).unwrap();
     let stop =
-        run_life(&on_the_way, &mut Powers::one(0.0), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+        run_life(&on_the_way, &mut Powers::one(0.0), &MeanIncrement, &mut state, Watch::NONE).unwrap_err();
     // (0.01 - 1e-5)/500 of 80e-6 is a quarter of 25.1 cycles.
     assert!(matches!(stop, LifeError::ClearanceAboveJournal { cycle: 8, .. }) && state.cycle == 7, "{stop}");
 }
@@ -122,9 +121,9 @@ fn a_worn_profile_counts_for_the_clearance() {
     let mut settings = LifeSettings::new(vec![joint]);
     settings.joints[0].threshold = 1.0;
     let mut fine =
-        By(|clearance| Ok(RevolutionWear { profile: Some(arc(DEPTH)), ..revolution(DEPTH, clearance) }));
+        By(|clearance| Ok(ContactMeasure { deposit: Some(arc(DEPTH)), ..revolution(DEPTH, clearance) }));
     let mut state = LifeState::new(&settings, 0).unwrap();
-    let stop = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    let stop = run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::NONE).unwrap_err();
     assert!(matches!(stop, LifeError::ClearanceAboveJournal { .. }), "{stop}");
 }
 
@@ -141,10 +140,10 @@ fn a_life_longer_than_asked_for_can_go_on() {
     settings.most_cycles = 10;
     let mut state = LifeState::new(&settings, 0).unwrap();
     let mut fine = Powers::one(0.5);
-    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap();
+    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::NONE).unwrap();
     assert_eq!((outcome, state.cycle), (LifeOutcome::CycleLimit, 10));
     settings.most_cycles = 100;
-    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, &mut go_on).unwrap();
+    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::NONE).unwrap();
     assert!(matches!(outcome, LifeOutcome::Failed(_)));
 }
 
@@ -160,7 +159,7 @@ impl IncrementModel for Negative {
 fn a_negative_draw_is_refused_with_its_cycle() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
     let mut state = LifeState::new(&settings, 0).unwrap();
-    let stop = run_life(&settings, &mut Powers::one(0.5), &Negative, &mut state, &mut go_on).unwrap_err();
+    let stop = run_life(&settings, &mut Powers::one(0.5), &Negative, &mut state, Watch::NONE).unwrap_err();
     assert!(matches!(stop, LifeError::Drawn { cycle: 5, .. }) && state.cycle == 4, "{stop}");
 }
 
@@ -171,7 +170,8 @@ fn warnings_come_once_per_kind_and_joint_with_their_cycle() {
     let mut fine = By(|clearance: f64| {
         let mut wear = revolution(DEPTH, clearance);
         // From 3 C0 on; every cycle wears 3.25 µm, so that is the eighth.
-        wear.observed.pressure = if clearance > 3.0 * C0 { 4e9 } else { 2e6 };
+        let pressure = if clearance > 3.0 * C0 { 4e9 } else { 2e6 };
+        wear.observed = wear.observed.map(|seen| Observed { pressure, ..seen });
         Ok(wear)
     });
     let (_, state) = live(&settings, &mut fine).unwrap();
@@ -204,7 +204,7 @@ fn settings_and_states_that_make_no_sense_are_refused() {
         let error = refused(&change);
         assert!(error.to_string().starts_with(&format!("{name} of joint `R1` is ")), "{error}");
     }
-    assert!(matches!(refused(&|s| s.most_separated = 0.0), SettingsError::Run { .. }));
+    assert!(matches!(refused(&|s| s.least_touching = 1.0), SettingsError::Run { .. }));
     assert!(matches!(refused(&|s| s.step = adaptive(0.0)), SettingsError::Run { .. }));
     assert!(matches!(
         refused(&|s| s.joints[0].feedback = Feedback::Profile),
@@ -213,13 +213,13 @@ fn settings_and_states_that_make_no_sense_are_refused() {
 
     let mut state = LifeState::new(&sound, 0).unwrap();
     let other = LifeSettings::new(vec![joint("R1", 1.0, 1.0), joint("R2", 1.0, 1.0)]);
-    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, Watch::NONE).unwrap_err();
     assert!(
         matches!(stop, LifeError::Settings(SettingsError::State { expected: 2, found: 1, .. })),
         "{stop}"
     );
     // A fine scale of another mechanism.
     let mut state = LifeState::new(&other, 0).unwrap();
-    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, &mut go_on).unwrap_err();
+    let stop = run_life(&other, &mut Powers::one(0.5), &MeanIncrement, &mut state, Watch::NONE).unwrap_err();
     assert!(matches!(stop, LifeError::Shape { what: "joints", expected: 2, found: 1 }), "{stop}");
 }

@@ -1,14 +1,18 @@
 //! `table` against `full` coupling, and the calibration of a cycle.
 
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
     CalibrationError, DEFAULT_POINTS, Feedback, JointWear, LifeError, LifeOutcome, LifeSettings, LifeState,
-    MeanIncrement, RevolutionWear, SettingsError, WearOf, WearSource, WearStep, WearTable, calibrate,
-    run_life,
+    MeanIncrement, SettingsError, WearOf, WearSource, WearStep, WearTable, calibrate, run_life,
 };
+use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::wear::Measure;
 
 use crate::analytic::{
-    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, exact_revolutions, go_on, joint, live, revolution, settings,
+    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, exact_revolutions, joint, live, revolution, settings,
     with_profile,
 };
 
@@ -16,7 +20,7 @@ fn table<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> WearTable
 where
     F::Error: std::fmt::Debug,
 {
-    WearTable::measure(settings, fine, DEFAULT_POINTS, &mut |_| ()).unwrap()
+    WearTable::measure(settings, fine, DEFAULT_POINTS, Watch::NONE).unwrap()
 }
 
 #[test]
@@ -35,7 +39,7 @@ fn a_power_law_is_tabulated_exactly_and_lives_as_in_full_coupling() {
             let (full, _) = live(&settings, &mut Powers::one(exponent)).unwrap();
             // The same steps with values that differ by 1e-14.
             assert!((by_table - full).abs() < 1e-11, "{by_table} {full}");
-            assert!((state.cycles[3].joints[0].wear_integral / 2.0053636 - 1.0).abs() < 1e-3);
+            assert!((state.cycles[3].joints[0].revolution.wear_integral / 2.0053636 - 1.0).abs() < 1e-3);
         }
     }
 }
@@ -47,7 +51,7 @@ impl WearSource for Resonance {
     type State = ();
     type Error = std::convert::Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Self::Error> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Self::Error> {
         let clearance = joints[0].clearance;
         let tuned = 1.0 + 0.002 * (-((clearance / C0 - 4.0) / 0.5).powi(2)).exp();
         Ok(vec![revolution(DEPTH * tuned * (clearance / C0).sqrt(), clearance)])
@@ -132,10 +136,10 @@ impl WearSource for Arcs {
     type State = ();
     type Error = std::convert::Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Self::Error> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Self::Error> {
         let clearance = joints[0].clearance;
         let profile = arc(10.0 * DEPTH * (clearance / C0).sqrt());
-        Ok(vec![RevolutionWear { profile: Some(profile), ..revolution(DEPTH, clearance) }])
+        Ok(vec![ContactMeasure { deposit: Some(profile), ..revolution(DEPTH, clearance) }])
     }
 }
 
@@ -153,16 +157,20 @@ fn wear_by_profile_is_tabulated_if_it_feeds_back_as_one_number() {
     }
     let fed_back = with_profile(joint("R1", 1e7, 1.0), WearOf::Profile(Measure::Mean), Feedback::Profile);
     let settings = LifeSettings::new(vec![fed_back]);
-    let stop = WearTable::measure(&settings, &mut Arcs, DEFAULT_POINTS, &mut |_| ()).unwrap_err();
+    let stop = WearTable::measure(&settings, &mut Arcs, DEFAULT_POINTS, Watch::NONE).unwrap_err();
     assert!(matches!(stop, LifeError::Settings(SettingsError::TableOfProfile { .. })), "{stop}");
 }
 
 #[test]
 fn progress_of_a_table_ends_at_one() {
-    let mut seen = Vec::new();
+    let seen = Mutex::new(Vec::new());
+    let hear = |part| {
+        seen.lock().unwrap().push(part);
+        ControlFlow::Continue(())
+    };
     let settings = settings(0.5, 1.0, 25.1, WearStep::TABLE);
-    WearTable::measure(&settings, &mut Powers::one(0.5), 5, &mut |part| seen.push(part)).unwrap();
-    assert_eq!(seen, [0.25, 0.5, 0.75, 1.0]);
+    WearTable::measure(&settings, &mut Powers::one(0.5), 5, Watch::new(&hear)).unwrap();
+    assert_eq!(*seen.lock().unwrap(), [0.25, 0.5, 0.75, 1.0]);
 }
 
 #[test]
@@ -227,7 +235,7 @@ fn a_table_gives_the_same_bits_to_every_trajectory() {
     let table = table(&settings, &mut Powers::one(0.5));
     let end = |mut table: WearTable| {
         let mut state = LifeState::new(&settings, 0).unwrap();
-        match run_life(&settings, &mut table, &MeanIncrement, &mut state, &mut go_on).unwrap() {
+        match run_life(&settings, &mut table, &MeanIncrement, &mut state, Watch::NONE).unwrap() {
             LifeOutcome::Failed(failure) => failure.cycles.to_bits(),
             outcome => panic!("{outcome:?}"),
         }

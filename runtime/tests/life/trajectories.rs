@@ -3,14 +3,15 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
+use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
-    Feedback, IncrementModel, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, RevolutionWear,
-    WearOf, WearSource, WearStep, run_life,
+    Feedback, IncrementModel, JointWear, LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearOf,
+    WearSource, WearStep, run_life,
 };
-use linkwear_runtime::wear::{Measure, Profile};
+use linkwear_runtime::wear::{ContactMeasure, Measure, Profile};
 
 use crate::analytic::{
-    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, exact_revolutions, go_on, joint, live, revolution, settings,
+    C0, DEPTH, Powers, THRESHOLD, adaptive, arc, exact_revolutions, joint, live, revolution, settings,
     with_profile,
 };
 
@@ -104,7 +105,7 @@ fn records_are_those_of_whole_cycles_whatever_the_steps() {
     let (_, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
     assert_eq!(state.cycles.len(), 26);
     for (index, record) in state.cycles.iter().enumerate() {
-        let joint = record.joints[0];
+        let joint = &record.joints[0];
         assert_eq!(record.cycle, index as u64 + 1);
         // sqrt(x) grows evenly from 1 to 3 over 25.1 cycles; steps may err by their tolerance.
         let exact = C0 * ((1.0 + 2.0 * record.cycle as f64 / 25.1).powi(2) - 1.0);
@@ -172,13 +173,13 @@ impl WearSource for Arc {
     type State = ();
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<RevolutionWear>, Infallible> {
+    fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Infallible> {
         self.seen.push(joints[0].profile.clone());
         // The more the profile is worn, the less it wears: conformity.
         let worn = joints[0].profile.as_ref().map_or(0.0, |profile| profile.mean());
         let profile = arc(DEPTH / (1.0 + worn / THRESHOLD));
         let depth = 2.0 * profile.mean();
-        Ok(vec![RevolutionWear { profile: Some(profile), ..revolution(depth, joints[0].clearance) }])
+        Ok(vec![ContactMeasure { deposit: Some(profile), ..revolution(depth, joints[0].clearance) }])
     }
 }
 
@@ -231,7 +232,7 @@ impl WearSource for Remembering {
     type State = f64;
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], memory: &mut f64) -> Result<Vec<RevolutionWear>, Infallible> {
+    fn measure(&mut self, joints: &[JointWear], memory: &mut f64) -> Result<Vec<ContactMeasure>, Infallible> {
         *memory = 0.9 * *memory + 0.1 * (1e4 * joints[0].clearance).sin();
         let depth = DEPTH * (1.0 + 0.05 * *memory) * (joints[0].clearance / C0).sqrt();
         Ok(vec![revolution(depth, joints[0].clearance)])
@@ -253,11 +254,17 @@ fn a_life_that_was_stopped_goes_on_with_the_same_bits() {
         for draw in [&MeanIncrement as &dyn IncrementModel, &Scatter] {
             let settings = settings(0.5, 1.0, 25.1, step);
             let mut whole = LifeState::new(&settings, 3).unwrap();
-            run_life(&settings, &mut Remembering, draw, &mut whole, &mut go_on).unwrap();
+            run_life(&settings, &mut Remembering, draw, &mut whole, Watch::NONE).unwrap();
             let mut pieces = LifeState::new(&settings, 3).unwrap();
             let mut stops = 0;
-            while run_life(&settings, &mut Remembering, draw, &mut pieces, &mut |_| ControlFlow::Break(()))
-                .unwrap()
+            while run_life(
+                &settings,
+                &mut Remembering,
+                draw,
+                &mut pieces,
+                Watch::new(&|_| ControlFlow::Break(())),
+            )
+            .unwrap()
                 == LifeOutcome::Cancelled
             {
                 stops += 1;
@@ -272,10 +279,10 @@ fn a_life_that_was_stopped_goes_on_with_the_same_bits() {
 fn draws_feed_back_and_keep_the_mean_apart_from_the_wear() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::Cycle);
     let mut state = LifeState::new(&settings, 3).unwrap();
-    run_life(&settings, &mut Powers::one(0.5), &Scatter, &mut state, &mut go_on).unwrap();
+    run_life(&settings, &mut Powers::one(0.5), &Scatter, &mut state, Watch::NONE).unwrap();
     let mut clearance = C0;
     for (cycle, record) in state.cycles.iter().enumerate() {
-        let joint = record.joints[0];
+        let joint = &record.joints[0];
         let mean = settings.joints[0].revolutions_per_cycle * DEPTH * (clearance / C0).sqrt();
         // Increments are differences of wears of 1e-4 m: roundings of 1e-20 m.
         assert!((joint.mean_increment - mean).abs() < 1e-18, "{cycle}");
@@ -302,7 +309,7 @@ impl IncrementModel for Quiet {
 fn a_draw_equal_to_the_mean_lives_as_long_as_the_mean_path() {
     let settings = settings(0.5, 1.0, 25.1, adaptive(1e-6));
     let mut state = LifeState::new(&settings, 0).unwrap();
-    run_life(&settings, &mut Powers::one(0.5), &Quiet, &mut state, &mut go_on).unwrap();
+    run_life(&settings, &mut Powers::one(0.5), &Quiet, &mut state, Watch::NONE).unwrap();
     let (life, _) = live(&settings, &mut Powers::one(0.5)).unwrap();
     // Both within their tolerance of 25.1.
     assert!((state.failure.unwrap().cycles - life).abs() < 2.0 * 25.1 * 1e-6);
@@ -317,7 +324,7 @@ impl WearSource for Noisy {
     type State = u64;
     type Error = Infallible;
 
-    fn measure(&mut self, joints: &[JointWear], count: &mut u64) -> Result<Vec<RevolutionWear>, Infallible> {
+    fn measure(&mut self, joints: &[JointWear], count: &mut u64) -> Result<Vec<ContactMeasure>, Infallible> {
         self.calls += 1;
         *count += 1;
         let noise = (*count as f64 * 0.618_034).fract() - 0.5;

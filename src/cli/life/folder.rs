@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use linkwear_runtime::life::{CycleRecord, FailureEvent};
+use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 
 use super::super::failure::Failure;
 use super::super::file::{claim_folder, write_whole};
@@ -36,25 +36,15 @@ impl Folder {
         write_whole(&path, |file| {
             write!(file, "cycle,used [1]")?;
             for joint in joints {
-                for column in [
-                    "clearance [m]",
-                    "dLambda [m]",
-                    "W [m]",
-                    "S [J]",
-                    "Fn_mean [N]",
-                    "Fn_peak [N]",
-                    "losses [1]",
-                ] {
-                    write!(file, ",{joint}.{column}")?;
+                for column in CycleJoint::columns() {
+                    write!(file, ",{joint}.{}", column.head())?;
                 }
             }
             writeln!(file)?;
             for cycle in cycles {
                 write!(file, "{},{}", cycle.cycle, cycle.used)?;
                 for joint in &cycle.joints {
-                    let own = [joint.clearance, joint.mean_increment, joint.wear, joint.wear_integral];
-                    let loads = [joint.mean_force, joint.peak_force, joint.contact_losses];
-                    for value in own.iter().chain(&loads) {
+                    for value in joint.values() {
                         write!(file, ",{value}")?;
                     }
                 }

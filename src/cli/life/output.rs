@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use linkwear::life::{Coupling, JointProcess, LifeResult, LifeStudy};
 use linkwear::mechanism::Mechanism;
 use linkwear_gamma::life::{LifeStatistics, WithError};
-use linkwear_runtime::life::CycleRecord;
+use linkwear_runtime::Column;
+use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::{Value, json};
 
 use super::super::failure::entries;
@@ -207,39 +208,36 @@ pub fn cycle_entry(names: &[String], cycle: &CycleRecord) -> Value {
         .iter()
         .zip(&cycle.joints)
         .map(|(name, joint)| {
-            json!({
-                "joint": name, "clearance_m": joint.clearance, "dLambda_m": joint.mean_increment,
-                "wear_m": joint.wear, "wear_integral_J": joint.wear_integral,
-                "mean_force_N": joint.mean_force, "peak_force_N": joint.peak_force,
-                "contact_losses": joint.contact_losses,
-            })
+            let mut entry = json!({ "joint": name });
+            for (column, value) in CycleJoint::columns().zip(joint.values()) {
+                entry[column.key()] = json!(value);
+            }
+            entry
         })
         .collect();
     json!({ "cycle": cycle.cycle, "used": cycle.used, "joints": joints })
 }
 
-/// Cycles for people, thinned out.
+/// Cycles for people, thinned out: lengths in micrometres, without what hardly changes along a life.
 pub fn cycles_table(names: &[String], cycles: &[CycleRecord]) -> String {
+    let shown = |column: &Column| !["wear integral", "mean force"].contains(&column.name);
+    let cell = |(column, value): (Column, f64)| match (column.name, column.unit) {
+        ("dLambda", _) => format!("{:.4}", 1e6 * value),
+        (_, "m") => format!("{:.3}", 1e6 * value),
+        _ => number(value),
+    };
+    let title = |column: Column| column.title().replace("[m]", "[um]");
     let stride = cycles.len().div_ceil(SHOWN).max(1);
     let end = cycles.len().saturating_sub(1);
     let mut rows = Vec::new();
-    for (at, cycle) in cycles.iter().enumerate() {
-        if at % stride != 0 && at != end {
-            continue;
-        }
+    for (_, cycle) in cycles.iter().enumerate().filter(|(at, _)| at % stride == 0 || *at == end) {
         for (name, joint) in names.iter().zip(&cycle.joints) {
-            rows.push(vec![
-                cycle.cycle.to_string(),
-                name.clone(),
-                format!("{:.3}", 1e6 * joint.clearance),
-                format!("{:.4}", 1e6 * joint.mean_increment),
-                format!("{:.3}", 1e6 * joint.wear),
-                number(joint.peak_force),
-                number(joint.contact_losses),
-            ]);
+            let columns = CycleJoint::columns().zip(joint.values());
+            let cells = columns.filter(|(column, _)| shown(column)).map(cell);
+            rows.push([cycle.cycle.to_string(), name.clone()].into_iter().chain(cells).collect());
         }
     }
-    let head =
-        ["cycle", "joint", "clearance [um]", "dLambda [um]", "wear [um]", "peak force [N]", "contact losses"];
+    let titles = CycleJoint::columns().filter(shown).map(title);
+    let head: Vec<String> = ["cycle", "joint"].map(str::to_owned).into_iter().chain(titles).collect();
     table(&head, &rows)
 }

@@ -1,39 +1,9 @@
-//! Who watches a study: hears how far it is, may stop it; and how its jobs share the processors.
+//! How the jobs of a study share the processors.
 //! In: jobs. Out: their results in the order of the jobs, whatever the number of threads. Never knows what they do.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-
-/// Hears of finished work and may stop it.
-pub(super) struct Watch<'a> {
-    /// Gets the finished part, 0 to 1.
-    progress: &'a (dyn Fn(f64) + Sync),
-    /// Asked whether to stop.
-    stop: &'a (dyn Fn() -> bool + Sync),
-    total: f64,
-    sum: Mutex<f64>,
-}
-
-impl<'a> Watch<'a> {
-    /// `total`: all the work, in the units of [`Self::done`].
-    pub fn new(progress: &'a (dyn Fn(f64) + Sync), stop: &'a (dyn Fn() -> bool + Sync), total: f64) -> Self {
-        Self { progress, stop, total, sum: Mutex::new(0.0) }
-    }
-
-    /// So much more work is done.
-    pub fn done(&self, work: f64) {
-        let mut sum = self.sum.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        *sum += work;
-        // What is left is only estimated before.
-        (self.progress)((*sum / self.total).min(0.999));
-    }
-
-    /// Whether somebody asked to stop.
-    pub fn is_stopped(&self) -> bool {
-        (self.stop)()
-    }
-}
 
 /// A piece of work that may run in any thread.
 pub(super) type Job<'j, T> = Box<dyn FnOnce() -> T + Send + 'j>;
@@ -76,14 +46,5 @@ mod tests {
             assert_eq!(run_all(threads, jobs), (0..20).map(|i| i * i).collect::<Vec<_>>());
         }
         assert_eq!(run_all::<u8>(2, Vec::new()), Vec::<u8>::new());
-    }
-
-    #[test]
-    fn progress_never_reaches_the_end_before_the_study_does() {
-        let seen = Mutex::new(Vec::new());
-        let hear = |part| seen.lock().unwrap().push(part);
-        let watch = Watch::new(&hear, &|| false, 4.0);
-        (0..3).for_each(|_| watch.done(2.0));
-        assert_eq!(*seen.lock().unwrap(), [0.5, 0.999, 0.999]);
     }
 }

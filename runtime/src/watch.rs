@@ -1,0 +1,61 @@
+//! How long work tells how far it is and hears that it shall stop: one form for all of it.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+/// Hears of the finished part of long work, 0 to 1, from any thread; `Break` stops it.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync),
+    from: f64,
+    length: f64,
+}
+
+impl Watch<'_> {
+    /// Nobody watches, nothing stops.
+    pub const NONE: Self = Self { hear: &|_| ControlFlow::Continue(()), from: 0.0, length: 1.0 };
+}
+
+impl<'a> Watch<'a> {
+    /// A watch that calls `hear`.
+    #[must_use]
+    pub const fn new(hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync)) -> Self {
+        Self { hear, from: 0.0, length: 1.0 }
+    }
+
+    /// The same for a piece of the work, from one part of it to another.
+    #[must_use]
+    pub fn piece(self, from: f64, to: f64) -> Self {
+        Self { hear: self.hear, from: self.from + from * self.length, length: (to - from) * self.length }
+    }
+
+    /// Tells the finished part; answers whether to go on.
+    pub fn report(self, part: f64) -> ControlFlow<()> {
+        (self.hear)(self.from + part * self.length)
+    }
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Watch({}, {})", self.from, self.length)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[test]
+    fn pieces_of_pieces_are_parts_of_the_whole() {
+        let heard = Mutex::new(Vec::new());
+        let hear = |part: f64| {
+            heard.lock().unwrap().push(part);
+            if part < 0.7 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let half = Watch::new(&hear).piece(0.5, 1.0);
+        assert!(half.report(0.0).is_continue() && half.piece(0.5, 1.0).report(0.5).is_break());
+        assert_eq!(*heard.lock().unwrap(), [0.5, 0.875]);
+        assert!(Watch::NONE.report(1.0).is_continue());
+    }
+}

@@ -1,0 +1,135 @@
+//! What a contact did in a turn, or on average over several: the one measure of runs, revolutions and cycles.
+//! In: numbers of turns. Out: their mean. Never knows where they come from.
+
+use super::limits::Observed;
+use super::profile::Profile;
+use crate::column::{Column, Quantity};
+
+/// What a contact did in a turn of the turn driver, or in a settled revolution as the mean of several turns.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactMeasure {
+    /// Wear integral S = ∫ F_n |v_t| dt [J].
+    pub wear_integral: f64,
+    /// Depth by the model of the contact area, ∫ k/(H A) F_n |v_t| dt [m]; zero if the joint does not wear.
+    pub depth: f64,
+    /// Average over time of the normal force [N].
+    pub mean_force: f64,
+    /// Largest normal force at the end of a step [N].
+    pub peak_force: f64,
+    /// How often the bodies came apart [1]; not whole if it is a mean.
+    pub losses: f64,
+    /// Part of the time in which they touched, 0 to 1, by steps that ended in contact.
+    pub touching: f64,
+    /// Energy lost in damping and friction [J].
+    pub loss: f64,
+    /// Depth gained by the direction of the journal's offset: by bearing angle, where the bearing is round. Nothing
+    /// if the joint keeps no profile.
+    pub deposit: Option<Profile>,
+    /// Extremes, for warnings of the wear laws; nothing if the joint does not wear.
+    pub observed: Option<Observed>,
+}
+
+impl ContactMeasure {
+    /// Its numbers, as CSV, JSON and text name them.
+    pub const COLUMNS: [Quantity<Self>; 7] = [
+        (Column::new("wear integral", "S", "J"), |one| one.wear_integral),
+        (Column::new("depth", "h", "m").detail(), |one| one.depth),
+        (Column::new("mean force", "Fn_mean", "N"), |one| one.mean_force),
+        (Column::new("peak force", "Fn_peak", "N"), |one| one.peak_force),
+        (Column::new("contact losses", "losses", "1"), |one| one.losses),
+        (Column::new("touching part", "touching", "1").detail(), |one| one.touching),
+        (Column::new("loss", "E_lost", "J").detail(), |one| one.loss),
+    ];
+
+    /// Its numbers without the profile and the extremes.
+    #[must_use]
+    pub fn numbers(&self) -> Self {
+        Self { deposit: None, observed: None, ..*self }
+    }
+
+    /// The mean of turns of one joint; extremes are those of all turns.
+    #[must_use]
+    pub fn mean(turns: &[&Self]) -> Self {
+        let count = turns.len() as f64;
+        let mean = |of: fn(&Self) -> f64| turns.iter().map(|turn| of(turn)).sum::<f64>() / count;
+        Self {
+            wear_integral: mean(|turn| turn.wear_integral),
+            depth: mean(|turn| turn.depth),
+            mean_force: mean(|turn| turn.mean_force),
+            peak_force: turns.iter().map(|turn| turn.peak_force).fold(0.0, f64::max),
+            losses: mean(|turn| turn.losses),
+            touching: mean(|turn| turn.touching),
+            loss: mean(|turn| turn.loss),
+            deposit: mean_deposit(turns),
+            observed: turns.iter().filter_map(|turn| turn.observed).reduce(Observed::larger),
+        }
+    }
+
+    /// The first of its numbers that is not finite, by name; what is below zero counts too.
+    pub(crate) fn flaw(&self) -> Option<(&'static str, f64)> {
+        let seen = self.observed.iter().flat_map(|seen| {
+            [
+                ("pressure", seen.pressure),
+                ("pressure times speed", seen.pressure_speed),
+                ("half-width of the contact", seen.hertz_half_width),
+                ("penetration", seen.penetration),
+            ]
+        });
+        let numbers = Self::COLUMNS.iter().map(|(column, value)| (column.name, value(self))).chain(seen);
+        let depths = self.deposit.iter().flat_map(|deposit| deposit.depths());
+        // A largest penetration below zero is that of a joint that never touched; a loss may be rounding.
+        let wrong = |name: &str, value: f64| {
+            !value.is_finite() || (value < 0.0 && !["penetration", "loss"].contains(&name))
+        };
+        numbers
+            .chain(depths.map(|depth| ("depth of the profile", *depth)))
+            .find(|(name, value)| wrong(name, *value))
+    }
+}
+
+fn mean_deposit(turns: &[&ContactMeasure]) -> Option<Profile> {
+    let (first, rest) = turns.split_first()?;
+    let mut sum = first.deposit.clone()?;
+    for turn in rest {
+        let fits = sum.add_depths(turn.deposit.as_ref().map_or(&[], |deposit| deposit.depths()), 1.0);
+        debug_assert!(fits, "turns of one joint have profiles of one width");
+    }
+    let count = turns.len() as f64;
+    Profile::try_from(sum.depths().iter().map(|depth| depth / count).collect::<Vec<_>>()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turn(depth: f64, peak: f64) -> ContactMeasure {
+        let mut observed = Observed::nothing(1e-5, 1e-2);
+        observed.pressure = peak;
+        ContactMeasure {
+            wear_integral: 2.0 * depth,
+            depth,
+            peak_force: peak,
+            losses: 3.0,
+            touching: 1.0,
+            deposit: Profile::try_from(vec![depth; 4]).ok(),
+            observed: Some(observed),
+            ..ContactMeasure::default()
+        }
+    }
+
+    #[test]
+    fn turns_give_their_mean_and_the_largest_of_their_extremes() {
+        let mean = ContactMeasure::mean(&[&turn(1.0, 5.0), &turn(3.0, 4.0)]);
+        assert_eq!((mean.depth, mean.wear_integral, mean.losses), (2.0, 4.0, 3.0));
+        assert_eq!((mean.peak_force, mean.observed.map(|seen| seen.pressure)), (5.0, Some(5.0)));
+        assert_eq!(mean.deposit.expect("a profile").depths(), [2.0; 4]);
+    }
+
+    #[test]
+    fn columns_are_named_for_every_output() {
+        let (force, _) = ContactMeasure::COLUMNS[2];
+        let names = [force.key(), force.head(), force.title()];
+        assert_eq!(names, ["mean_force_N", "Fn_mean [N]", "mean force [N]"]);
+    }
+}
