@@ -85,7 +85,7 @@ pub fn coverage(intervals: &[(f64, f64, f64)]) -> Option<Coverage> {
     let part = held as f64 / count;
     let scale = 1.0 + Z * Z / count;
     let centre = (part + Z * Z / (2.0 * count)) / scale;
-    let half = Z / scale * (part * (1.0 - part) / count + (Z / (2.0 * count)).powi(2)).sqrt();
+    let half = Z / scale * (part * (1.0 - part) / count + Z * Z / (4.0 * count * count)).sqrt();
     Some(Coverage { held, count: intervals.len(), part, interval: (centre - half, centre + half) })
 }
 

@@ -1,5 +1,7 @@
 //! Lives by Monte Carlo: against the closed form where there is one, and the same bits for any number of threads.
 
+#![allow(clippy::disallowed_methods)]
+
 use std::convert::Infallible;
 use std::num::NonZero;
 use std::ops::ControlFlow;

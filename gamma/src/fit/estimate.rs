@@ -147,6 +147,7 @@ pub struct LikelihoodRatio {
 }
 
 /// The likelihood-ratio test of S. S. Wilks (1938).
+#[must_use]
 pub fn likelihood_ratio(wide: f64, narrow: f64, degrees: usize) -> LikelihoodRatio {
     let statistic = (2.0 * (wide - narrow)).max(0.0);
     LikelihoodRatio { statistic, degrees, p_value: gamma_q(degrees as f64 / 2.0, statistic / 2.0) }

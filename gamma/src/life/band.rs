@@ -71,15 +71,15 @@ enum Scale {
 impl Scale {
     fn out(self, value: f64) -> f64 {
         match self {
-            Self::Logit => value.ln() - (-value).ln_1p(),
-            Self::Log => value.ln(),
+            Self::Logit => libm::log(value) - libm::log1p(-value),
+            Self::Log => libm::log(value),
         }
     }
 
     fn back(self, value: f64) -> f64 {
         match self {
-            Self::Logit => 1.0 / (1.0 + (-value).exp()),
-            Self::Log => value.exp(),
+            Self::Logit => 1.0 / (1.0 + libm::exp(-value)),
+            Self::Log => libm::exp(value),
         }
     }
 }

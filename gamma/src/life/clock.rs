@@ -59,7 +59,7 @@ impl Clock {
     pub fn exposure(&self, t: f64) -> f64 {
         match self {
             Self::Power { rate, exponent } if *exponent == 1.0 => rate * t,
-            Self::Power { rate, exponent } => (rate * t).powf(*exponent),
+            Self::Power { rate, exponent } => libm::pow(rate * t, *exponent),
             Self::Table(rows) => {
                 let (a, b) = interval(rows, t);
                 a.1 + (b.1 - a.1) * ((t - a.0) / (b.0 - a.0))
@@ -71,7 +71,7 @@ impl Clock {
     #[must_use]
     pub fn rate(&self, t: f64) -> f64 {
         match self {
-            Self::Power { rate, exponent } => rate * exponent * (rate * t).powf(exponent - 1.0),
+            Self::Power { rate, exponent } => rate * exponent * libm::pow(rate * t, exponent - 1.0),
             Self::Table(rows) => {
                 let (a, b) = interval(rows, t);
                 (b.1 - a.1) / (b.0 - a.0)
@@ -83,7 +83,7 @@ impl Clock {
     #[must_use]
     pub fn time(&self, exposure: f64) -> f64 {
         match self {
-            Self::Power { rate, exponent } => exposure.powf(1.0 / exponent) / rate,
+            Self::Power { rate, exponent } => libm::pow(exposure, 1.0 / exponent) / rate,
             Self::Table(rows) => {
                 let at = rows.partition_point(|row| row.1 <= exposure).clamp(1, rows.len() - 1);
                 let (a, b) = (rows[at - 1], rows[at]);

@@ -65,7 +65,7 @@ pub trait Lifetime {
     fn hazard(&self, t: f64) -> f64 {
         let step = 1e-5 * self.typical();
         let (before, after) = ((t - step).max(0.0), t + step);
-        (self.reliability(before).ln() - self.reliability(after).ln()) / (after - before)
+        libm::log(self.reliability(before) / self.reliability(after)) / (after - before)
     }
 
     /// Probability density of the life at `t` [1/unit of time].
@@ -144,7 +144,7 @@ pub trait Lifetime {
 /// A time after which nothing counts, neither for the mean nor for the variance.
 fn end(reliability: &dyn Fn(f64) -> f64, scale: f64, gone: f64) -> f64 {
     let mut end = scale;
-    while reliability(end) * (end / scale).powi(2) > gone && end < 1e12 * scale {
+    while reliability(end) * (end / scale) * (end / scale) > gone && end < 1e12 * scale {
         end *= 1.5;
     }
     end

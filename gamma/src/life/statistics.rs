@@ -40,7 +40,14 @@ impl LifeStatistics {
         sorted.sort_by(f64::total_cmp);
         let count = sorted.len() as f64;
         let mean = sorted.iter().sum::<f64>() / count;
-        let central = [2, 3, 4].map(|k| sorted.iter().map(|life| (life - mean).powi(k)).sum::<f64>() / count);
+        let mut sums = [0.0; 3];
+        for life in &sorted {
+            let (off, square) = (life - mean, (life - mean) * (life - mean));
+            for (sum, power) in sums.iter_mut().zip([square, square * off, square * square]) {
+                *sum += power;
+            }
+        }
+        let central = sums.map(|sum| sum / count);
         Ok(Self { sorted, mean, central })
     }
 

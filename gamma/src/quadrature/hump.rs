@@ -22,7 +22,7 @@ pub struct Hump {
 impl Hump {
     /// ln of the integral by Laplace's method.
     pub fn ln_area(&self) -> f64 {
-        self.top + self.sigma.ln() + 0.5 * (2.0 * std::f64::consts::PI).ln()
+        self.top + libm::log(self.sigma) + 0.5 * libm::log(2.0 * std::f64::consts::PI)
     }
 
     /// Finds the hump of `ln_f` uphill from `start` with first steps of `step`. None if it still rises at `limit`.
@@ -57,14 +57,14 @@ impl Hump {
     /// The rule: (x, ln weight), ascending in x.
     pub fn points(&self, ln_f: &dyn Fn(f64) -> f64) -> Vec<(f64, f64)> {
         let scale = 2.0 * self.sigma;
-        let mut points = vec![(self.mode, (scale * STEP).ln())];
+        let mut points = vec![(self.mode, libm::log(scale * STEP))];
         for direction in [-1.0, 1.0] {
             for k in 1..=LONGEST {
                 let s = direction * STEP * k as f64;
-                let x = self.mode + scale * s.sinh();
-                let weight = (scale * STEP * s.cosh()).ln();
+                let x = self.mode + scale * libm::sinh(s);
+                let weight = libm::log(scale * STEP * libm::cosh(s));
                 // The factor cosh s counts: it widens the tail.
-                if ln_f(x) + s.cosh().ln() < self.top - DEPTH {
+                if ln_f(x) + libm::log(libm::cosh(s)) < self.top - DEPTH {
                     break;
                 }
                 points.push((x, weight));
