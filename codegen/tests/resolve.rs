@@ -4,8 +4,8 @@ use linkwear_codegen::diagnostic::{Code, Diagnostics};
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{
-    Amount, Axis, Carrier, Closure, Force, ForceKind, Function, Inertia, Joint, JointModel, Mechanism,
-    Overrides, Passive, Position, Term, resolve,
+    Amount, AppliedForce, AppliedTorque, Axis, Carrier, Closure, Force, ForceKind, Function, Inertia, Joint,
+    JointModel, Mechanism, Overrides, Passive, Position, Spring, Term, resolve,
 };
 use linkwear_codegen::source::SourceFile;
 use linkwear_codegen::spec;
@@ -205,18 +205,22 @@ turn = {{ torque = "bar", components = [0, 0, "1 N m*cos(2*pi*t*1 Hz)"] }}
 "#
     ));
     let values = m.parameter_values();
-    let ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } = &force(&m, "coil").kind else {
+    let ForceKind::Spring(Spring { bodies, at, stiffness, rest, damping, preload }) = &force(&m, "coil").kind
+    else {
         panic!()
     };
     assert_eq!((*bodies, *at), ([Carrier::Ground, body(0)], [PointId::new(0), PointId::new(1)]));
     let numbers = [stiffness, rest, damping, preload].map(|formula| formula.value(&values).unwrap());
     assert_eq!(numbers, [5000.0, 0.2, 0.0, 0.0]);
-    let ForceKind::Force { body: pushed, reaction, axes, components, .. } = &force(&m, "push").kind else {
+    let ForceKind::Force(AppliedForce { body: pushed, reaction, axes, components, .. }) =
+        &force(&m, "push").kind
+    else {
         panic!()
     };
     assert_eq!((*pushed, *reaction, *axes), (body(0), Carrier::Ground, body(0)));
     assert_eq!(components[0].value(&values), Some(1.0));
-    let ForceKind::Torque { components, axes: Carrier::Ground, .. } = &force(&m, "turn").kind else {
+    let ForceKind::Torque(AppliedTorque { components, axes: Carrier::Ground, .. }) = &force(&m, "turn").kind
+    else {
         panic!()
     };
     assert_eq!(components[2].value_at_time(&values, 0.5), Some(-1.0));

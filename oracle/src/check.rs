@@ -2,7 +2,7 @@
 //! coordinate acts on one that exists. In: a mechanism. Out: nothing, or an error. Never knows numbers.
 
 use linkwear_codegen::model::{
-    Amount, Body, ForceKind, Formula, Inertia, Joint, Mechanism, Passive, Position,
+    Amount, Body, ForceKind, Formula, Inertia, Joint, Mechanism, Passive, Position, Spring,
 };
 
 use crate::error::OracleError;
@@ -34,8 +34,20 @@ pub(crate) fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Resu
         check(&joint.name, &of_joint(joint))?;
     }
     for force in &mechanism.forces {
-        if let ForceKind::Spring { stiffness, rest, damping, preload, .. } = &force.kind {
-            check(&force.name, &[stiffness, rest, damping, preload])?;
+        match &force.kind {
+            ForceKind::Spring(Spring { stiffness, rest, damping, preload, .. }) => {
+                check(&force.name, &[stiffness, rest, damping, preload])?;
+            }
+            ForceKind::Bushing(bushing) => {
+                let lists = [
+                    &bushing.stiffness,
+                    &bushing.damping,
+                    &bushing.turning_stiffness,
+                    &bushing.turning_damping,
+                ];
+                lists.into_iter().try_for_each(|list| check(&force.name, &list.each_ref()))?;
+            }
+            ForceKind::Force(_) | ForceKind::Torque(_) => {}
         }
     }
     Ok(())

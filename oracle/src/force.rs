@@ -2,8 +2,10 @@
 //! potentials. In: a state. Out: loads on bodies, watts, joules. Never knows constraints.
 
 use linkwear_codegen::id::{JointId, PointId};
-use linkwear_codegen::model::{Carrier, Force, ForceKind, Formula, Passive};
-use nalgebra::{Matrix3, Vector3};
+use linkwear_codegen::model::{
+    AppliedForce, AppliedTorque, Bushing, Carrier, Force, ForceKind, Formula, Passive, Spring,
+};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::frame::{BodyState, Load};
 use crate::model::{Frames, Oracle};
@@ -109,7 +111,7 @@ impl Oracle {
             frames.of(axes).state.rotation * value
         };
         match &force.kind {
-            ForceKind::Spring { bodies, at, stiffness, rest, damping, preload } => {
+            ForceKind::Spring(Spring { bodies, at, stiffness, rest, damping, preload }) => {
                 let ends = [0, 1].map(|k| self.end(bodies[k], at[k], frames));
                 let apart = ends[1].position - ends[0].position;
                 let length = apart.norm();
@@ -123,7 +125,8 @@ impl Oracle {
                 applied.potential += 0.5 * k * stretch * stretch + p * length;
                 applied.power_dissipated += c * rate * rate;
             }
-            ForceKind::Force { body, reaction, at, components, axes } => {
+            ForceKind::Bushing(bushing) => self.add_bushing(bushing, frames, applied),
+            ForceKind::Force(AppliedForce { body, reaction, at, components, axes }) => {
                 let push = vector(components, *axes);
                 let place = self.end(*body, *at, frames);
                 let base = frames.of(*reaction);
@@ -132,7 +135,7 @@ impl Oracle {
                 let slip = place.velocity - base.velocity_at(&place.position);
                 applied.power_supplied += push.dot(&slip);
             }
-            ForceKind::Torque { body, reaction, components, axes } => {
+            ForceKind::Torque(AppliedTorque { body, reaction, components, axes }) => {
                 let torque = vector(components, *axes);
                 let load = Load { force: Vector3::zeros(), torque };
                 applied.load(*body, 1.0, &load);
@@ -141,6 +144,43 @@ impl Oracle {
                 applied.power_supplied += torque.dot(&slip);
             }
         }
+    }
+
+    /// Force along the first body's axes and moment `-dV/d(turn)` of the energy of the rotation vector, whose rate is
+    /// `(1 - [phi]/2 + (1/t² - (1 + cos t)/(2 t sin t)) [phi]²) omega` in the first body's axes, t = |phi|.
+    fn add_bushing(&self, bushing: &Bushing, frames: &Frames<'_>, applied: &mut Applied) {
+        let Bushing { bodies, at, axes, .. } = bushing;
+        let numbers = |list: &[Formula; 3]| Vector3::from(list.each_ref().map(|f| self.number(f)));
+        let [a, b] = bodies.map(|body| frames.of(body));
+        let ends = bodies.map(|body| self.end(body, *at, frames));
+        let directions = Matrix3::from_columns(&axes.map(Vector3::from));
+        let [first, second] = [a, b].map(|frame| frame.state.rotation * directions);
+        let apart = ends[1].position - ends[0].position;
+        let slip = ends[1].velocity - a.velocity_at(&ends[1].position);
+        let (d, rate) = (first.transpose() * apart, first.transpose() * slip);
+        let (k, c) = (numbers(&bushing.stiffness), numbers(&bushing.damping));
+        let force = -first * (k.component_mul(&d) + c.component_mul(&rate));
+        let phi = Rotation3::from_matrix_unchecked(first.transpose() * second).scaled_axis();
+        let angle = phi.norm();
+        // 1/12 is the limit; the next term is angle²/720.
+        let b2 = if angle < 1e-4 {
+            1.0 / 12.0
+        } else {
+            1.0 / (angle * angle) - (1.0 + angle.cos()) / (2.0 * angle * angle.sin())
+        };
+        let skew = phi.cross_matrix();
+        let jacobian = Matrix3::identity() - 0.5 * skew + b2 * skew * skew;
+        let omega = b.state.omega - a.state.omega;
+        let (kr, cr) = (numbers(&bushing.turning_stiffness), numbers(&bushing.turning_damping));
+        let own_rate = second.transpose() * omega;
+        let moment =
+            -first * jacobian.transpose() * kr.component_mul(&phi) - second * cr.component_mul(&own_rate);
+        applied.load(bodies[1], 1.0, &Load { force, torque: ends[1].arm.cross(&force) + moment });
+        let arm = ends[1].position - a.state.centre;
+        applied.load(bodies[0], -1.0, &Load { force, torque: arm.cross(&force) + moment });
+        applied.potential += 0.5 * (k.dot(&d.component_mul(&d)) + kr.dot(&phi.component_mul(&phi)));
+        applied.power_dissipated +=
+            c.dot(&rate.component_mul(&rate)) + cr.dot(&own_rate.component_mul(&own_rate));
     }
 
     fn end(&self, body: Carrier, point: PointId, frames: &Frames<'_>) -> crate::frame::MovingPoint {

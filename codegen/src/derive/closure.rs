@@ -6,16 +6,17 @@
 //! the joint screws moved to the closure point, read from the other side. `bias` is the row's
 //! acceleration for zero `v̇` of the free speeds, by the velocity-product recursion.
 
-use crate::expr::{Expr, Mat3, Scope, Vec3};
+use crate::expr::{Expr, Scope};
 use crate::model::{Closure, JointModel};
 
-use super::across::{Across, Place, Sides, joint_axes};
 use super::geometry::Geometry;
+use super::joint_markers::{joint_markers, split_body_markers};
 use super::joint_rows::RowMaker;
 use super::kinematics::Poses;
-use super::linkage::{Cut, LinkIndex, Linkage};
+use super::linkage::{Cut, Freedom, LinkIndex, Linkage};
 use super::log_closure::log_rows;
 use super::motion::Motion;
+use super::relative_motion::{Place, RelativeMotion, seen_from_child};
 use super::row::Row;
 use super::wrench::Wrench;
 
@@ -23,10 +24,8 @@ use super::wrench::Wrench;
 pub struct CutRows<'g> {
     /// The cut.
     pub cut: Cut,
-    /// Its sides.
-    pub sides: Sides,
-    /// Relative motion.
-    pub across: Across<'g>,
+    /// Motion of the child relative to the parent.
+    pub motion: RelativeMotion<'g>,
     /// Rows, in a fixed order: rotation first for `log`, translation first for `joint`.
     pub rows: Vec<Row<'g>>,
 }
@@ -57,36 +56,31 @@ fn rows_of<'g>(
     cut: Cut,
     exact: bool,
 ) -> CutRows<'g> {
-    let name = &geometry.mechanism.joint(cut.joint).name;
-    g.begin_section(format!("loop closure at {name}"));
+    let data = geometry.mechanism.joint(cut.joint);
+    g.begin_section(format!("loop closure at {}", data.name));
+    let (linkage, links) = (geometry.linkage, [cut.parent, cut.child]);
     if cut.closure == Closure::Log {
-        let sides = Sides { joint: cut.joint, parent: cut.parent, child: cut.child, in_child: true };
-        let across = Across::new(g, geometry, motion, sides, if exact { Place::Child } else { Place::Own });
-        let rows = log_rows(g, geometry, &across, sides, exact);
-        return CutRows { cut, sides, across, rows };
+        let markers = split_body_markers(geometry, cut.joint, links);
+        let place = if exact { Place::Child } else { Place::Own };
+        let motion = RelativeMotion::between(g, linkage, motion, markers, true, place);
+        let rows = log_rows(g, &motion, exact);
+        return CutRows { cut, motion, rows };
     }
-    let sides = Sides::choose(geometry.linkage, cut.joint, cut.parent, cut.child);
-    let joint = &geometry.mechanism.joint(cut.joint).model;
-    let slides = joint.rows() > 0 && joint.slides();
+    let in_child = seen_from_child(linkage, cut.parent, cut.child);
+    let slides = data.model.rows() > 0 && data.model.slides();
     let place = match (exact, slides) {
         (false, false) => Place::Own,
         // Directions that turn with the child measure its distance exactly at the parent's point.
-        (true, _) if sides.in_child => Place::Parent,
+        (true, _) if in_child => Place::Parent,
         _ => Place::Child,
     };
-    let across = Across::new(g, geometry, motion, sides, place);
-    let axes = joint_axes(geometry, sides);
-    let rows = RowMaker::new(g, &across, sides, axes, exact).joint(geometry, joint);
-    CutRows { cut, sides, across, rows }
+    let markers = joint_markers(geometry, cut.joint, links, in_child);
+    let motion = RelativeMotion::between(g, linkage, motion, markers, in_child, place);
+    let rows = RowMaker::new(g, &motion, exact).joint(geometry, &data.model);
+    CutRows { cut, motion, rows }
 }
 
 impl<'g> CutRows<'g> {
-    /// Wrenches on the child link and on the parent link, in their own frames about their origins, of a
-    /// wrench (moment, force) on the child at the joint point given in the common frame.
-    pub fn link_wrenches(&self, g: &'g Scope, moment: Vec3<'g>, force: Vec3<'g>) -> [Wrench<'g>; 2] {
-        link_wrenches(g, &self.across, moment, force)
-    }
-
     /// Jacobian of one row by all speeds.
     pub fn jacobian(
         &self,
@@ -95,66 +89,40 @@ impl<'g> CutRows<'g> {
         poses: &Poses<'g>,
         row: &Row<'g>,
     ) -> Vec<Expr<'g>> {
-        let zero = g.zero();
-        let mut columns = vec![zero; linkage.speeds()];
-        let [child, parent] = self.link_wrenches(g, row.moment, row.force);
-        let top = linkage.common_ancestor(self.sides.child, self.sides.parent);
-        let mut carrier = Carrier { linkage, poses, columns: &mut columns };
-        let (mut sum, child_lost) = carrier.carry(g, child, self.sides.child, top);
-        let (other, parent_lost) = carrier.carry(g, parent, self.sides.parent, top);
+        let mut columns = vec![g.zero(); linkage.speeds()];
+        let [parent, child] = self.motion.link_wrenches(row.moment, row.force);
+        let (parent_link, child_link) = (self.motion.parent.link, self.motion.child.link);
+        let top = linkage.common_ancestor(child_link, parent_link);
+        let mut carrier = WrenchCarrier { linkage, poses, columns: &mut columns };
+        let (mut sum, child_lost) = carrier.carry(child, child_link, top);
+        let (other, parent_lost) = carrier.carry(parent, parent_link, top);
         if child_lost || parent_lost {
             // The pair's forces cancel at the common ancestor; a moment stays because a ball link passed none.
-            sum = sum + other;
+            sum += other;
             sum.force = g.zero_vector();
-            carrier.carry(g, sum, top, None);
+            carrier.carry(sum, top, None);
         }
         columns
     }
 }
 
-/// See [`CutRows::link_wrenches`].
-pub fn link_wrenches<'g>(
-    g: &'g Scope,
-    across: &Across<'g>,
-    moment: Vec3<'g>,
-    force: Vec3<'g>,
-) -> [Wrench<'g>; 2] {
-    let side = |rotation: Mat3<'g>, point: Vec3<'g>| {
-        let force = g.transpose_mul_vec3(rotation, force);
-        let moment = g.transpose_mul_vec3(rotation, moment);
-        let lever = g.cross3(point, force);
-        Wrench { moment: g.add3(moment, lever), force }
-    };
-    let child = side(across.from_child, across.child_point);
-    let parent = side(across.from_parent, across.parent_point);
-    [child, -parent]
-}
-
-struct Carrier<'a, 'g> {
+struct WrenchCarrier<'a, 'g> {
     linkage: &'a Linkage,
     poses: &'a Poses<'g>,
     columns: &'a mut [Expr<'g>],
 }
 
-impl<'g> Carrier<'_, 'g> {
+impl<'g> WrenchCarrier<'_, 'g> {
     /// Carries a wrench inwards to `top` (exclusive), adding to the columns on the way. Returns the wrench on
     /// `top` and whether a ball or free link kept something back.
-    fn carry(
-        &mut self,
-        g: &'g Scope,
-        wrench: Wrench<'g>,
-        from: LinkIndex,
-        top: LinkIndex,
-    ) -> (Wrench<'g>, bool) {
-        use super::linkage::Freedom;
+    fn carry(&mut self, wrench: Wrench<'g>, from: LinkIndex, top: LinkIndex) -> (Wrench<'g>, bool) {
         let (mut carried, mut at, mut lost) = (wrench, from, false);
         while at != top {
             let index = at.expect("the ancestor lies on the path to the ground");
             let link = &self.linkage.links[index];
             let node = self.poses.nodes[index].as_ref();
             for (offset, entry) in carried.generalised(link.freedom, node).into_iter().enumerate() {
-                let column = &mut self.columns[link.first_speed + offset];
-                *column = g.add(*column, entry);
+                self.columns[link.first_speed + offset] += entry;
             }
             lost |= matches!(link.freedom, Freedom::Ball | Freedom::Free);
             carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);

@@ -9,10 +9,8 @@
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 
-use super::across::{joint_axes, sides_of};
 use super::joint_state::JointStates;
 use super::loads::Loads;
-use super::wrench::Wrench;
 
 /// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.
 #[derive(Clone, Copy, Debug)]
@@ -40,28 +38,27 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
         if let Some(ball) = linkage.ball_of(joint) {
             let relative = state.motion.relative_omega(linkage, ball);
             turn = if linkage.reversed[joint.index()] {
-                g.neg3(relative)
+                -relative
             } else {
-                g.mul_vec3(state.motion.poses.relative[ball].rotation, relative)
+                state.motion.poses.relative[ball].rotation * relative
             };
         } else {
             let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
             turn[2] = state.v[linkage.links[link].first_speed];
         }
     } else {
-        let across = state.across(g, joint);
-        let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
+        let motion = state.relative_motion(g, joint);
         let journal = !data.model.is_ball();
         for j in 0..3 {
-            let axis = across.parent_axis(g, &axes, j);
+            let axis = motion.parent_axis(j);
             if journal && j == 2 {
-                turn[2] = g.dot3(axis, across.omega);
+                turn[2] = axis.dot(motion.omega);
                 continue;
             }
-            offset[j] = g.dot3(axis, across.distance);
-            rate[j] = g.dot3(axis, across.slide);
+            offset[j] = axis.dot(motion.distance);
+            rate[j] = axis.dot(motion.slide);
             if !journal {
-                turn[j] = g.dot3(axis, across.omega);
+                turn[j] = axis.dot(motion.omega);
             }
         }
     }
@@ -83,48 +80,38 @@ pub fn contact_forces<'g>(
     let joint = contact.joint;
     let model = &state.geometry.mechanism.joint(joint).model;
     if linkage.link_of_joint[joint.index()].is_none() {
-        let across = state.across(g, joint);
-        let axes = joint_axes(&state.geometry, sides_of(&state.geometry, joint));
+        let motion = state.relative_motion(g, joint);
         let journal = !model.is_ball();
         let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
         for j in 0..3 {
-            let axis = across.parent_axis(g, &axes, j);
+            let axis = motion.parent_axis(j);
             if !journal || j < 2 {
-                let part = g.scale3(contact.force[j], axis);
-                force = g.add3(force, part);
+                force += contact.force[j] * axis;
             }
             if !journal || j == 2 {
-                let part = g.scale3(contact.moment[j], axis);
-                moment = g.add3(moment, part);
+                moment += contact.moment[j] * axis;
             }
         }
-        return loads.pair(g, state, joint, &across, moment, force);
+        return loads.pair(joint, &motion, moment, force);
     }
     for (axis, coordinate) in model.offsets().enumerate() {
         let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
         let speed = linkage.links[link].first_speed;
-        loads.joint[speed] = g.add(loads.joint[speed], contact.force[axis]);
+        loads.joint[speed] += contact.force[axis];
     }
     let Some(ball) = linkage.ball_of(joint) else {
         let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
         let speed = linkage.links[link].first_speed;
-        loads.joint[speed] = g.add(loads.joint[speed], contact.moment[2]);
+        loads.joint[speed] += contact.moment[2];
         return;
     };
     let rotation = state.motion.poses.relative[ball].rotation;
-    let (own, reaction) = if linkage.reversed[joint.index()] {
+    let (moment, reaction) = if linkage.reversed[joint.index()] {
         // The outboard body is the socket, which feels the opposite in its own frame.
-        (g.neg3(contact.moment), g.mul_vec3(rotation, contact.moment))
+        (-contact.moment, rotation * contact.moment)
     } else {
-        (g.transpose_mul_vec3(rotation, contact.moment), g.neg3(contact.moment))
+        (rotation.transpose() * contact.moment, -contact.moment)
     };
-    let first = linkage.links[ball].first_speed;
-    for (i, component) in own.into_iter().enumerate() {
-        loads.joint[first + i] = g.add(loads.joint[first + i], component);
-    }
-    if let Some(parent) = linkage.links[ball].parent {
-        let force = g.zero_vector();
-        let reaction = Wrench { moment: reaction, force };
-        loads.reactions[parent] = loads.reactions[parent] + reaction;
-    }
+    loads.turn(linkage, ball, moment);
+    loads.react(g, linkage, ball, reaction);
 }

@@ -1,12 +1,12 @@
-//! Coordinates of a joint recomputed from the motion across it, for joints that are no chain of the tree.
-//! In: [`Across`]. Out: positions, speeds, accelerations, and the wrench per unit of each coordinate's force.
+//! Coordinates of a joint recomputed from its relative motion, for joints that are no chain of the tree.
+//! In: [`RelativeMotion`]. Out: positions, speeds, accelerations, and the wrench per unit of each coordinate's force.
 
 use crate::expr::{Expr, Scope, Vec3};
-use crate::model::{Axis, Direction, Primitive};
+use crate::model::{Axis, Direction, JointModel, Primitive};
 
-use super::across::{Across, JointAxes, Sides, joint_axes};
 use super::frame::{Frame, cross, dot, scale, sub};
 use super::geometry::Geometry;
+use super::relative_motion::RelativeMotion;
 
 /// Coordinates of a joint with their first and second derivatives, recomputed from the motion across it.
 pub struct JointCoordinates<'g> {
@@ -26,12 +26,10 @@ pub struct JointCoordinates<'g> {
 pub fn joint_coordinates<'g>(
     g: &'g Scope,
     geometry: &Geometry<'g>,
-    across: &Across<'g>,
-    sides: Sides,
+    joint: &JointModel,
+    motion: &RelativeMotion<'g>,
 ) -> JointCoordinates<'g> {
-    let joint = &geometry.mechanism.joint(sides.joint).model;
-    let axes = joint_axes(geometry, sides);
-    let z = across.parent_axis(g, &axes, 2);
+    let z = motion.parent_axis(2);
     let mut list = JointCoordinates {
         position: Vec::new(),
         speed: Vec::new(),
@@ -40,16 +38,15 @@ pub fn joint_coordinates<'g>(
         duals: Vec::new(),
     };
     if let [_, Direction::X] = joint.turns()[..] {
-        let own = UniversalAxes::new(geometry, sides, joint.axes[0], joint.axes[1]);
-        universal(g, &mut list, across, &axes, &own);
+        let axes = UniversalAxes::new(geometry, motion, joint.axes[0], joint.axes[1]);
+        universal(g, &mut list, motion, &axes);
         return list;
     }
     for primitive in joint.kind.primitives {
         match primitive {
-            Primitive::Turn(_) | Primitive::Thread => turn(g, &mut list, across, &axes, z),
+            Primitive::Turn(_) | Primitive::Thread => turn(g, &mut list, motion, z),
             Primitive::Slide(direction) => {
-                let direction = across.parent_axis(g, &axes, direction.frame_axis());
-                slide(g, &mut list, across, direction);
+                slide(g, &mut list, motion, motion.parent_axis(direction.frame_axis()));
             }
             Primitive::Ball | Primitive::Shift | Primitive::Pose => {}
         }
@@ -57,36 +54,25 @@ pub fn joint_coordinates<'g>(
     list
 }
 
-/// Angle about an axis fixed in the parent: q = atan2 from the relative rotation.
-fn turn<'g>(
-    g: &'g Scope,
-    list: &mut JointCoordinates<'g>,
-    across: &Across<'g>,
-    axes: &JointAxes,
-    z: Vec3<'g>,
-) {
-    let rotation = across.rotation(g, axes);
-    list.position.push(g.atan2(rotation[1][0], rotation[0][0]));
+/// Angle about an axis z fixed in the parent: q = atan2 from the relative rotation.
+fn turn<'g>(g: &'g Scope, list: &mut JointCoordinates<'g>, motion: &RelativeMotion<'g>, z: Vec3<'g>) {
+    let rotation = motion.rotation();
+    list.position.push(rotation[1][0].atan2(rotation[0][0]));
     list.wraps.push(true);
-    list.speed.push(g.dot3(z, across.omega));
+    list.speed.push(z.dot(motion.omega));
     // d/dt (z . omega) with z turning with the parent.
-    let turned = g.cross3(across.parent_omega, across.omega);
-    let rate = g.sub3(across.alpha, turned);
-    list.acceleration.push(g.dot3(z, rate));
+    list.acceleration.push(z.dot(motion.alpha - motion.parent_omega.cross(motion.omega)));
     list.duals.push((z, g.zero_vector()));
 }
 
-/// Distance along a direction fixed in the parent.
-fn slide<'g>(g: &'g Scope, list: &mut JointCoordinates<'g>, across: &Across<'g>, direction: Vec3<'g>) {
-    list.position.push(g.dot3(direction, across.distance));
+/// Distance along a direction u fixed in the parent.
+fn slide<'g>(g: &'g Scope, list: &mut JointCoordinates<'g>, motion: &RelativeMotion<'g>, u: Vec3<'g>) {
+    list.position.push(u.dot(motion.distance));
     list.wraps.push(false);
-    list.speed.push(g.dot3(direction, across.slide));
-    let turned = g.cross3(across.parent_omega, across.slide);
-    let two = g.constant(2.0);
-    let coriolis = g.scale3(two, turned);
-    let rate = g.sub3(across.acceleration, coriolis);
-    list.acceleration.push(g.dot3(direction, rate));
-    list.duals.push((g.zero_vector(), direction));
+    list.speed.push(u.dot(motion.slide));
+    let coriolis = 2.0 * motion.parent_omega.cross(motion.slide);
+    list.acceleration.push(u.dot(motion.acceleration - coriolis));
+    list.duals.push((g.zero_vector(), u));
 }
 
 /// Numbers that describe a universal joint: second axis in the child's frame, and the angle between the axes.
@@ -97,8 +83,8 @@ struct UniversalAxes {
 }
 
 impl UniversalAxes {
-    fn new(geometry: &Geometry<'_>, sides: Sides, first: Axis, second: Axis) -> Self {
-        let frame = sides.child.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+    fn new(geometry: &Geometry<'_>, motion: &RelativeMotion<'_>, first: Axis, second: Axis) -> Self {
+        let frame = motion.child.link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
         let joint = Frame::with_z_and_x(first.child, second.child);
         Self { second_in_child: frame.local(second.child), second: joint.local(second.child) }
     }
@@ -108,46 +94,35 @@ impl UniversalAxes {
 fn universal<'g>(
     g: &'g Scope,
     list: &mut JointCoordinates<'g>,
-    across: &Across<'g>,
-    axes: &JointAxes,
-    own: &UniversalAxes,
+    motion: &RelativeMotion<'g>,
+    axes: &UniversalAxes,
 ) {
-    let a = across.parent_axis(g, axes, 2);
-    let b_child = g.vector(own.second_in_child);
-    let b = g.mul_vec3(across.from_child, b_child);
-    let [bx, _, cosine] = own.second;
-    let rotation = across.rotation(g, axes);
+    let a = motion.parent_axis(2);
+    let b = motion.from_child * g.vector(axes.second_in_child);
+    let [bx, _, cosine] = axes.second;
+    let rotation = motion.rotation();
     // b in the parent's joint axes turns about e_z by q1.
-    let b_joint = g.vector(own.second);
-    let seen = g.mul_vec3(rotation, b_joint);
-    list.position.push(g.atan2(seen[1], seen[0]));
+    let seen = rotation * g.vector(axes.second);
+    list.position.push(seen[1].atan2(seen[0]));
     // a in the child's joint axes turns about b by -q2; e_y is at right angles to both at q2 = 0.
     let seen = rotation[2];
-    let across_b = scale(1.0 / bx, sub([0.0, 0.0, 1.0], scale(cosine, own.second)));
-    let normal = cross(own.second, across_b);
+    let across_b = scale(1.0 / bx, sub([0.0, 0.0, 1.0], scale(cosine, axes.second)));
+    let normal = cross(axes.second, across_b);
     debug_assert!((dot(normal, normal) - 1.0).abs() < 1e-9);
-    let (normal, across_b) = (g.vector(normal), g.vector(across_b));
-    let (along_normal, along) = (g.dot3(normal, seen), g.dot3(across_b, seen));
-    let minus = g.neg(along_normal);
-    list.position.push(g.atan2(minus, along));
+    let (along_normal, along) = (g.vector(normal).dot(seen), g.vector(across_b).dot(seen));
+    list.position.push((-along_normal).atan2(along));
     list.wraps.extend([true, true]);
-    let scale_factor = g.constant(1.0 / (1.0 - cosine * cosine));
-    let cos = g.constant(cosine);
-    let dual = |g: &'g Scope, own: Vec3<'g>, other: Vec3<'g>| {
-        let part = g.scale3(cos, other);
-        let rest = g.sub3(own, part);
-        g.scale3(scale_factor, rest)
-    };
-    let duals = [dual(g, a, b), dual(g, b, a)];
-    let speeds = duals.map(|dual| g.dot3(dual, across.omega));
+    let (scale_factor, cosine) = (g.number(1.0 / (1.0 - cosine * cosine)), g.number(cosine));
+    let dual = |own: Vec3<'g>, other: Vec3<'g>| scale_factor * (own - cosine * other);
+    let duals = [dual(a, b), dual(b, a)];
+    let speeds = duals.map(|dual| dual.dot(motion.omega));
     // alpha = a1 a + v1 omega_p x a + a2 b + v2 omega_c x b
-    let (turned_a, turned_b) = (g.cross3(across.parent_omega, a), g.cross3(across.child_omega, b));
-    let (part_a, part_b) = (g.scale3(speeds[0], turned_a), g.scale3(speeds[1], turned_b));
-    let sum = g.add3(part_a, part_b);
-    let rate = g.sub3(across.alpha, sum);
+    let (a_dot, b_dot) = (motion.parent_omega.cross(a), motion.child_omega.cross(b));
+    let (first, second) = (speeds[0] * a_dot, speeds[1] * b_dot);
+    let rate = motion.alpha - (first + second);
     for (dual, speed) in duals.into_iter().zip(speeds) {
         list.speed.push(speed);
-        list.acceleration.push(g.dot3(dual, rate));
+        list.acceleration.push(dual.dot(rate));
         list.duals.push((dual, g.zero_vector()));
     }
 }

@@ -4,16 +4,15 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::JointModel;
 
-use super::across::{Across, JointAxes, Sides};
+use super::frame::Frame;
 use super::geometry::Geometry;
+use super::relative_motion::RelativeMotion;
 use super::row::Row;
 
 /// Makes the rows of one cut.
 pub struct RowMaker<'a, 'g> {
     g: &'g Scope,
-    across: &'a Across<'g>,
-    sides: Sides,
-    axes: JointAxes,
+    motion: &'a RelativeMotion<'g>,
     exact: bool,
     rows: Vec<Row<'g>>,
 }
@@ -21,16 +20,16 @@ pub struct RowMaker<'a, 'g> {
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 impl<'a, 'g> RowMaker<'a, 'g> {
-    /// For the cut between the given sides; with `exact` the moments hold off the closed positions too.
-    pub fn new(g: &'g Scope, across: &'a Across<'g>, sides: Sides, axes: JointAxes, exact: bool) -> Self {
-        Self { g, across, sides, axes, exact, rows: Vec::new() }
+    /// For the cut with this motion; with `exact` the moments hold off the closed positions too.
+    pub fn new(g: &'g Scope, motion: &'a RelativeMotion<'g>, exact: bool) -> Self {
+        Self { g, motion, exact, rows: Vec::new() }
     }
 
     /// The rows of a joint: no translation along axes that nothing slides along; no rotation but about the axes
     /// that something turns about; a thread ties both.
     pub fn joint(mut self, geometry: &Geometry<'g>, joint: &JointModel) -> Vec<Row<'g>> {
         let own = self.own_axes();
-        let frame = match (joint.axes.is_empty(), self.sides.beside()) {
+        let frame = match (joint.axes.is_empty(), self.motion.beside()) {
             (false, _) => "the joint",
             (true, None) => "ground",
             (true, Some(at)) => &geometry.mechanism.body(geometry.linkage.links[at].body).name,
@@ -49,154 +48,121 @@ impl<'a, 'g> RowMaker<'a, 'g> {
     }
 
     /// Joint axes of the side that lends its frame: constants.
-    fn own_axes(&mut self) -> [Vec3<'g>; 3] {
-        let frame = if self.sides.in_child { self.axes.child } else { self.axes.parent };
-        [0, 1, 2].map(|j| self.g.vector(frame.axis(j)))
+    fn own_axes(&self) -> [Vec3<'g>; 3] {
+        let side = if self.motion.in_child { &self.motion.child } else { &self.motion.parent };
+        [0, 1, 2].map(|j| self.g.vector(side.frame.axis(j)))
     }
 
     fn beside_omega(&self) -> Vec3<'g> {
-        if self.sides.in_child { self.across.child_omega } else { self.across.parent_omega }
+        if self.motion.in_child { self.motion.child_omega } else { self.motion.parent_omega }
     }
 
     fn translations(&mut self, which: &[usize], axes: [Vec3<'g>; 3], frame: &str) {
         for &j in which {
             let u = axes[j];
-            let residual = self.g.dot3(u, self.across.distance);
-            let meaning = format!("translation along {} of {frame}", NAMES[j]);
-            self.push_translation(meaning, residual, u);
+            let residual = u.dot(self.motion.distance);
+            let (bias, rate) = (self.translation_bias(u), u.dot(self.motion.slide));
+            self.rows.push(Row {
+                meaning: format!("translation along {} of {frame}", NAMES[j]),
+                angular: false,
+                residual,
+                moment: self.g.zero_vector(),
+                force: u,
+                rate,
+                bias,
+            });
         }
     }
 
     /// u . (a_C - a_P) - u . ((omega_beside + omega_P) x slide).
-    fn translation_bias(&mut self, u: Vec3<'g>) -> Expr<'g> {
-        let beside = self.beside_omega();
-        let sum = self.g.add3(beside, self.across.parent_omega);
-        let turned = self.g.cross3(sum, self.across.slide);
-        let rate = self.g.sub3(self.across.acceleration, turned);
-        self.g.dot3(u, rate)
+    fn translation_bias(&self, u: Vec3<'g>) -> Expr<'g> {
+        let turning = self.beside_omega() + self.motion.parent_omega;
+        u.dot(self.motion.acceleration - turning.cross(self.motion.slide))
     }
 
     /// u . (alpha_C - alpha_P) - u . (omega_beside x omega_rel).
-    fn rotation_bias(&mut self, u: Vec3<'g>) -> Expr<'g> {
-        let beside = self.beside_omega();
-        let turned = self.g.cross3(beside, self.across.omega);
-        let rate = self.g.sub3(self.across.alpha, turned);
-        self.g.dot3(u, rate)
-    }
-
-    fn push_translation(&mut self, meaning: String, residual: Expr<'g>, u: Vec3<'g>) {
-        let bias = self.translation_bias(u);
-        let rate = self.g.dot3(u, self.across.slide);
-        let moment = self.g.zero_vector();
-        self.rows.push(Row { meaning, angular: false, residual, moment, force: u, rate, bias });
+    fn rotation_bias(&self, u: Vec3<'g>) -> Expr<'g> {
+        u.dot(self.motion.alpha - self.beside_omega().cross(self.motion.omega))
     }
 
     fn push_rotation(&mut self, meaning: String, residual: Expr<'g>, u: Vec3<'g>) {
-        let bias = self.rotation_bias(u);
-        let rate = self.g.dot3(u, self.across.omega);
+        let (bias, rate) = (self.rotation_bias(u), u.dot(self.motion.omega));
         let force = self.g.zero_vector();
         self.rows.push(Row { meaning, angular: true, residual, moment: u, force, rate, bias });
     }
 
     /// The joint axis of the other side stays on that of this side: two rows.
     fn tilts(&mut self, own: [Vec3<'g>; 3]) {
-        let other = if self.sides.in_child {
-            self.across.parent_axis(self.g, &self.axes, 2)
-        } else {
-            self.across.child_axis(self.g, &self.axes, 2)
-        };
-        let (about_y, about_x) = (self.g.dot3(other, own[0]), self.g.dot3(other, own[1]));
-        let [x, y] =
-            if self.sides.in_child { [about_x, self.g.neg(about_y)] } else { [self.g.neg(about_x), about_y] };
+        let in_child = self.motion.in_child;
+        let other = if in_child { self.motion.parent_axis(2) } else { self.motion.child_axis(2) };
+        let (about_y, about_x) = (other.dot(own[0]), other.dot(own[1]));
+        let [x, y] = if in_child { [about_x, -about_y] } else { [-about_x, about_y] };
         // On closed positions `other` is own[2] and the moments are own[0] and own[1].
-        let moments = if self.exact {
-            [self.g.cross3(own[1], other), self.g.cross3(other, own[0])]
-        } else {
-            [own[0], own[1]]
-        };
+        let moments = if self.exact { [own[1].cross(other), other.cross(own[0])] } else { [own[0], own[1]] };
         self.push_rotation("tilt about x of the joint".to_owned(), x, moments[0]);
         self.push_rotation("tilt about y of the joint".to_owned(), y, moments[1]);
     }
 
     /// No relative rotation: three rows, the axial vector of the relative rotation matrix.
     fn rotations(&mut self, own: [Vec3<'g>; 3]) {
-        let rotation: Mat3<'g> = self.across.rotation(self.g, &self.axes);
-        let half = self.g.constant(0.5);
+        let rotation = self.motion.rotation();
         for (j, axis) in own.into_iter().enumerate() {
             let (k, l) = ((j + 1) % 3, (j + 2) % 3);
-            let difference = self.g.sub(rotation[l][k], rotation[k][l]);
-            let residual = self.g.mul(half, difference);
-            let axis = if self.exact { self.turned_axis(&rotation, j) } else { axis };
+            let residual = 0.5 * (rotation[l][k] - rotation[k][l]);
+            let axis = if self.exact { self.turned_axis(rotation, j) } else { axis };
             self.push_rotation(format!("rotation about {} of the joint", NAMES[j]), residual, axis);
         }
     }
 
     /// Row `j` of (tr(E) 1 - E) / 2 in the common frame: how the axial part of the relative rotation E changes.
-    fn turned_axis(&mut self, rotation: &Mat3<'g>, j: usize) -> Vec3<'g> {
-        let half = self.g.constant(0.5);
-        let partial = self.g.add(rotation[0][0], rotation[1][1]);
-        let trace = self.g.add(partial, rotation[2][2]);
+    fn turned_axis(&self, rotation: Mat3<'g>, j: usize) -> Vec3<'g> {
+        let trace = rotation.trace();
         let mut sum = self.g.zero_vector();
         for (k, entry) in rotation[j].into_iter().enumerate() {
-            let axis = self.across.parent_axis(self.g, &self.axes, k);
-            let minus = self.g.neg(entry);
-            let weight = if k == j { self.g.add(trace, minus) } else { minus };
-            let weight = self.g.mul(half, weight);
-            let part = self.g.scale3(weight, axis);
-            sum = self.g.add3(sum, part);
+            let axis = self.motion.parent_axis(k);
+            let minus = -entry;
+            let weight = if k == j { trace + minus } else { minus };
+            sum += 0.5 * weight * axis;
         }
         sum
     }
 
-    /// The two axes of a universal joint keep their angle: one row about their common normal.
+    /// The two axes a, b of a universal joint keep their angle: one row about their common normal u = a x b.
     fn cross(&mut self, geometry: &Geometry<'g>, second: [f64; 3]) {
-        let g = self.g;
-        let across = self.across;
-        let frame = match self.sides.child {
-            None => super::frame::Frame::IDENTITY,
-            Some(at) => geometry.linkage.links[at].frame,
-        };
-        let a = across.parent_axis(g, &self.axes, 2);
-        let b_child = g.vector(frame.local(second));
-        let b = g.mul_vec3(across.from_child, b_child);
-        let first_in_child = g.vector(self.axes.child.axis(2));
-        let angle = g.dot3(first_in_child, b_child);
-        let product = g.dot3(a, b);
-        let residual = g.sub(angle, product);
-        let u = g.cross3(a, b);
-        // du/dt = (omega_P x a) x b + a x (omega_C x b)
-        let (turned_a, turned_b) = (g.cross3(across.parent_omega, a), g.cross3(across.child_omega, b));
-        let (first, second) = (g.cross3(turned_a, b), g.cross3(a, turned_b));
-        let u_dot = g.add3(first, second);
-        let (moving, steady) = (g.dot3(u_dot, across.omega), g.dot3(u, across.alpha));
-        let bias = g.add(moving, steady);
-        let rate = g.dot3(u, across.omega);
-        let force = g.zero_vector();
-        let meaning = "twist about the common normal of both axes".to_owned();
-        self.rows.push(Row { meaning, angular: true, residual, moment: u, force, rate, bias });
+        let motion = self.motion;
+        let frame = motion.child.link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+        let a = motion.parent_axis(2);
+        let b_child = self.g.vector(frame.local(second));
+        let b = motion.from_child * b_child;
+        let a_child = self.g.vector(motion.child.frame.axis(2));
+        let residual = a_child.dot(b_child) - a.dot(b);
+        let u = a.cross(b);
+        let (a_dot, b_dot) = (motion.parent_omega.cross(a), motion.child_omega.cross(b));
+        let u_dot = a_dot.cross(b) + a.cross(b_dot);
+        let bias = u_dot.dot(motion.omega) + u.dot(motion.alpha);
+        self.rows.push(Row {
+            meaning: "twist about the common normal of both axes".to_owned(),
+            angular: true,
+            residual,
+            moment: u,
+            force: self.g.zero_vector(),
+            rate: u.dot(motion.omega),
+            bias,
+        });
     }
 
-    /// Advance and turn of a screw stay in proportion. The residual `-h sin(angle - stroke / h)` is smooth
-    /// over many turns.
-    fn thread(&mut self, z: Vec3<'g>, advance: f64) {
-        let rotation = self.across.rotation(self.g, &self.axes);
-        let g = self.g;
-        let (h, reciprocal) = (g.constant(advance), g.constant(1.0 / advance));
-        let stroke = g.dot3(z, self.across.distance);
-        let angle = g.mul(reciprocal, stroke);
-        let (sine, cosine) = (g.sin(angle), g.cos(angle));
-        let (turned, level) = (g.mul(rotation[1][0], cosine), g.mul(rotation[0][0], sine));
-        let difference = g.sub(level, turned);
-        let residual = g.mul(h, difference);
-        let minus_h = g.constant(-advance);
-        let moment = g.scale3(minus_h, z);
-        let (slid, spun) = (self.translation_bias(z), self.rotation_bias(z));
-        let g = self.g;
-        let part = g.mul(minus_h, spun);
-        let bias = g.add(slid, part);
-        let (along, about) = (g.dot3(z, self.across.slide), g.dot3(z, self.across.omega));
-        let part = g.mul(minus_h, about);
-        let rate = g.add(along, part);
+    /// Advance h (per angle) and turn of a screw stay in proportion. The residual `-h sin(angle - stroke / h)` is
+    /// smooth over many turns.
+    fn thread(&mut self, z: Vec3<'g>, h: f64) {
+        let rotation = self.motion.rotation();
+        let (scale, per_length) = (self.g.number(h), self.g.number(1.0 / h));
+        let angle = per_length * z.dot(self.motion.distance);
+        let (sine, cosine) = (angle.sin(), angle.cos());
+        let turned = rotation[1][0] * cosine;
+        let residual = scale * (rotation[0][0] * sine - turned);
+        let moment = -h * z;
+        let bias = self.translation_bias(z) + -h * self.rotation_bias(z);
+        let rate = z.dot(self.motion.slide) + -h * z.dot(self.motion.omega);
         let meaning = "advance against turn of the thread".to_owned();
         self.rows.push(Row { meaning, angular: false, residual, moment, force: z, rate, bias });
     }

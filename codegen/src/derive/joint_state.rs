@@ -5,10 +5,11 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{JointId, PointId};
 use crate::model::{Formula, Term};
 
-use super::across::{Across, Place, sides_of};
 use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
+use super::joint_markers::{joint_links, joint_markers};
 use super::motion::Motion;
+use super::relative_motion::{Place, RelativeMotion, seen_from_child};
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {
@@ -43,13 +44,17 @@ impl<'g> JointStates<'g> {
                 duals: Vec::new(),
             };
         }
-        let across = self.across(g, joint);
-        joint_coordinates(g, &self.geometry, &across, sides_of(&self.geometry, joint))
+        let motion = self.relative_motion(g, joint);
+        joint_coordinates(g, &self.geometry, &self.geometry.mechanism.joint(joint).model, &motion)
     }
 
-    /// Relative motion across any joint.
-    pub fn across(&self, g: &'g Scope, joint: JointId) -> Across<'g> {
-        Across::new(g, &self.geometry, &self.motion, sides_of(&self.geometry, joint), Place::Child)
+    /// Relative motion of the child of any joint.
+    pub fn relative_motion(&self, g: &'g Scope, joint: JointId) -> RelativeMotion<'g> {
+        let linkage = self.geometry.linkage;
+        let links = joint_links(&self.geometry, joint);
+        let in_child = seen_from_child(linkage, links[0], links[1]);
+        let markers = joint_markers(&self.geometry, joint, links, in_child);
+        RelativeMotion::between(g, linkage, &self.motion, markers, in_child, Place::Child)
     }
 
     /// Position of a named point in W [m].

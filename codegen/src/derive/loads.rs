@@ -4,10 +4,8 @@
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 
-use super::across::{Across, sides_of};
-use super::closure::link_wrenches;
-use super::joint_state::JointStates;
 use super::linkage::{LinkIndex, Linkage};
+use super::relative_motion::RelativeMotion;
 use super::wrench::Wrench;
 
 /// Everything that pushes, and what it does to energy.
@@ -19,7 +17,7 @@ pub struct Loads<'g> {
     /// Reactions of ball joints' moments on their parent links.
     pub reactions: Vec<Wrench<'g>>,
     /// Moment and force of forces in cut joints on the child at its joint point, in the frame of
-    /// [`super::across::Sides::beside`].
+    /// [`RelativeMotion::beside`].
     pub in_cuts: Vec<(JointId, Vec3<'g>, Vec3<'g>)>,
     /// Energy stored in springs [J].
     pub potential: Expr<'g>,
@@ -44,21 +42,33 @@ impl<'g> Loads<'g> {
         }
     }
 
-    /// A wrench on the child of a joint and its opposite on the parent.
-    pub fn pair(
-        &mut self,
-        g: &'g Scope,
-        state: &JointStates<'g>,
-        joint: JointId,
-        across: &Across<'g>,
-        moment: Vec3<'g>,
-        force: Vec3<'g>,
-    ) {
-        let sides = sides_of(&state.geometry, joint);
+    /// A wrench on the child of a cut joint and its opposite on the parent.
+    pub fn pair(&mut self, joint: JointId, motion: &RelativeMotion<'g>, moment: Vec3<'g>, force: Vec3<'g>) {
         self.in_cuts.push((joint, moment, force));
-        let [child, parent] = link_wrenches(g, across, moment, force);
-        self.push(sides.child, child);
-        self.push(sides.parent, parent);
+        self.between(motion, moment, force);
+    }
+
+    /// A wrench on the child of a relative motion at its chosen place, and its opposite on the parent.
+    pub fn between(&mut self, motion: &RelativeMotion<'g>, moment: Vec3<'g>, force: Vec3<'g>) {
+        let [parent, child] = motion.link_wrenches(moment, force);
+        self.push(motion.child.link, child);
+        self.push(motion.parent.link, parent);
+    }
+
+    /// A moment on a ball link, in its frame.
+    pub fn turn(&mut self, linkage: &Linkage, ball: usize, moment: Vec3<'g>) {
+        let first = linkage.links[ball].first_speed;
+        for (i, component) in moment.into_iter().enumerate() {
+            self.joint[first + i] += component;
+        }
+    }
+
+    /// The reaction of a moment on a ball link, in the frame of its parent link.
+    pub fn react(&mut self, g: &'g Scope, linkage: &Linkage, ball: usize, reaction: Vec3<'g>) {
+        if let Some(parent) = linkage.links[ball].parent {
+            let reaction = Wrench { moment: reaction, force: g.zero_vector() };
+            self.reactions[parent] += reaction;
+        }
     }
 
     /// Adds a wrench on a link; the ground takes any.

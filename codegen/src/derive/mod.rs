@@ -1,21 +1,22 @@
 //! Symbolic derivation: from a mechanism to named outputs over one expression graph.
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
-//! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `forces`,
+//! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
 //! `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
 
-mod across;
 mod attachment;
 mod closure;
 mod contacts;
 mod deformation;
 mod dynamics;
+mod element;
+mod elements;
 mod entries;
-mod forces;
 mod formula_to_expr;
 mod frame;
 mod geometry;
 mod joint_coordinates;
+mod joint_markers;
 mod joint_rows;
 mod joint_state;
 mod kinematics;
@@ -29,6 +30,7 @@ mod mass_properties;
 mod motion;
 mod observe;
 mod orientation;
+mod relative_motion;
 mod rigid_part;
 mod row;
 mod solve;

@@ -12,6 +12,7 @@ use crate::model::{Coordinate, Flexible};
 use super::attachment::{NodePose, NodeShape};
 use super::closure::CutRows;
 use super::dynamics::joint_wrenches;
+use super::joint_markers::joint_links;
 use super::joint_state::JointStates;
 use super::link_mass::LinkMass;
 use super::linkage::Freedom;
@@ -109,21 +110,19 @@ fn joint_coordinates<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut C
         list.push(format!("{name}.a{suffix}"), units[2], false, all.acceleration[coordinate]);
     }
     if data.model.turns_freely() {
-        let sides = super::across::sides_of(&observed.state.geometry, joint);
         let turned = |link| link_displacement(g, observed.state.geometry.linkage, &observed.state.q, link);
-        let (parent, child) = (turned(sides.parent), turned(sides.child));
+        let [parent, child] = joint_links(&observed.state.geometry, joint).map(turned);
         let relative = quaternion_product(conjugate(parent), child);
         for (index, component) in relative.into_iter().enumerate() {
             list.push(format!("{name}.q{index}"), "1", false, component);
         }
     }
     if data.model.is_free() {
-        let across = observed.state.across(g, joint);
-        let sides = super::across::sides_of(&observed.state.geometry, joint);
-        let rotation = observed.state.motion.poses.world_of(g, sides.beside()).rotation;
-        let place = rotation * across.distance;
+        let motion = observed.state.relative_motion(g, joint);
+        let rotation = observed.state.motion.poses.world_of(g, motion.beside()).rotation;
+        let place = rotation * motion.distance;
         list.vector(name, "", "m", place);
-        let velocity = rotation * across.slide;
+        let velocity = rotation * motion.slide;
         list.vector(name, "v", "m/s", velocity);
     }
 }
@@ -228,8 +227,8 @@ fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'
         first += cut.rows.len();
         let [moment, force] = constraint_wrench(g, cut, own);
         at_cuts.push([moment, force]);
-        let [child, parent] = cut.link_wrenches(g, moment, force);
-        for (link, wrench) in [(cut.sides.child, child), (cut.sides.parent, parent)] {
+        let [parent, child] = cut.motion.link_wrenches(moment, force);
+        for (link, wrench) in [(cut.motion.child.link, child), (cut.motion.parent.link, parent)] {
             if let Some(at) = link {
                 external[at] = external[at] + wrench;
             }
@@ -299,6 +298,6 @@ fn cut_wrench<'g>(
             force += *own_force;
         }
     }
-    let rotation = observed.state.motion.poses.world_of(g, cut.sides.beside()).rotation;
+    let rotation = observed.state.motion.poses.world_of(g, cut.motion.beside()).rotation;
     [moment, force].map(|part| rotation * part)
 }

@@ -12,11 +12,13 @@ use crate::source::Span;
 use crate::spec::Dimension;
 
 mod coordinate;
+mod force;
 mod formula;
 mod joint_kind;
 mod resolve;
 pub mod topology;
 pub use coordinate::Coordinate;
+pub use force::{AppliedForce, AppliedTorque, Bushing, Force, ForceKind, Spring};
 pub use formula::{Formula, Function, Term};
 pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Primitive};
 pub use resolve::{OverrideError, Overrides, resolve};
@@ -293,63 +295,6 @@ pub enum Passive {
         coordinate: usize,
         /// [N m] or [N], positive along the coordinate.
         force: Formula,
-    },
-}
-
-/// A force element between bodies.
-#[derive(Clone, Debug)]
-pub struct Force {
-    /// Name in the file.
-    pub name: String,
-    /// What acts.
-    pub kind: ForceKind,
-    /// Where it is written.
-    pub span: Span,
-}
-
-/// The kinds of force elements.
-#[derive(Clone, Debug)]
-pub enum ForceKind {
-    /// Linear spring and damper between two points: pull `k (l - rest) + c l̇` along the line, plus
-    /// `preload`.
-    Spring {
-        /// The two bodies.
-        bodies: [Carrier; 2],
-        /// Attachment point on each.
-        at: [PointId; 2],
-        /// [N/m].
-        stiffness: Formula,
-        /// Unloaded length [m].
-        rest: Formula,
-        /// [N s/m].
-        damping: Formula,
-        /// Constant pull [N].
-        preload: Formula,
-    },
-    /// A force on a body at a point, with its opposite on `reaction`.
-    Force {
-        /// Body that is pushed.
-        body: Carrier,
-        /// Body that takes the reaction at the same place; ground takes it silently.
-        reaction: Carrier,
-        /// Where it acts.
-        at: PointId,
-        /// Components [N] over coordinates, speeds and t.
-        components: [Formula; 3],
-        /// Axes in which the components are meant: W, or W-parallel at the reference pose and moving with
-        /// this body.
-        axes: Carrier,
-    },
-    /// A torque on a body, with its opposite on `reaction`.
-    Torque {
-        /// Body that is turned.
-        body: Carrier,
-        /// Body that takes the reaction.
-        reaction: Carrier,
-        /// Components [N m] over coordinates, speeds and t.
-        components: [Formula; 3],
-        /// As for `Force`.
-        axes: Carrier,
     },
 }
 

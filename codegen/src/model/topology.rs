@@ -6,7 +6,7 @@
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
 
-use super::{Carrier, ForceKind, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
+use super::{Carrier, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::id::{BodyId, JointId};
 
@@ -105,9 +105,7 @@ fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
         }
     }
     for force in &mechanism.forces {
-        if let ForceKind::Force { components, .. } | ForceKind::Torque { components, .. } = &force.kind {
-            components.iter().for_each(&mut note);
-        }
+        force.kind.laws().iter().for_each(&mut note);
     }
     mentioned
 }

@@ -8,19 +8,22 @@ use super::texts::{tables, texts_of};
 use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
-    /// A force element: exactly one of `spring`, `force`, `torque`.
+    /// A force element: exactly one of `spring`, `bushing`, `force`, `torque`.
     #[schemars(extend("oneOf" = [
-        { "required": ["spring", "at"] }, { "required": ["force", "at", "components"] },
+        { "required": ["spring", "at"] }, { "required": ["bushing", "at"] },
+        { "required": ["force", "at", "components"] },
         { "required": ["torque", "components"] }
     ]))]
     pub struct ForceSpec {
         /// Spring and damper between two bodies.
         pub spring: Option<Pair>,
+        /// Elastic mount between two bodies.
+        pub bushing: Option<Pair>,
         /// Body that is pushed.
         pub force: Option<Name>,
         /// Body that is turned.
         pub torque: Option<Name>,
-        /// Point of a force, or the two points of a spring.
+        /// Point of a force or bushing, or the two points of a spring.
         pub at: Option<Places>,
         /// Stiffness of a spring.
         pub stiffness: Option<Quantity>,
@@ -30,6 +33,12 @@ tables! {
         pub damping: Option<Quantity>,
         /// Constant pull of a spring.
         pub preload: Option<Quantity>,
+        /// Stiffness and damping of a bushing along its axes.
+        pub translation: Option<At<BushingPart>>,
+        /// Stiffness and damping of a bushing about its axes.
+        pub rotation: Option<At<BushingPart>>,
+        /// Axes of a bushing at the reference pose: two or three directions at right angles; those of the ground by default.
+        pub directions: Option<At<Vec<Triple>>>,
         /// Components of a force or torque.
         pub components: Option<Triple>,
         /// Axes of the components: "ground" (default) or a body they turn with.
@@ -40,6 +49,14 @@ tables! {
         pub assumed: bool,
         /// What it is.
         pub doc: Option<Doc>,
+    }
+
+    /// Stiffness and damping of a bushing, axis by axis.
+    pub struct BushingPart {
+        /// Stiffness; 0 by default.
+        pub stiffness: Option<Triple>,
+        /// Damping; 0 by default.
+        pub damping: Option<Triple>,
     }
 }
 

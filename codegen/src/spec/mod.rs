@@ -24,7 +24,7 @@ pub use body::{
 };
 pub use dimension::Dimension;
 pub use file::{ClearanceSpec, ClosureSpec, File, Parameter, PointSpec, RepeatSpec, WearSpec};
-pub use force::{ForceSpec, Places};
+pub use force::{BushingPart, ForceSpec, Places};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};
 pub use repeat::{expand, group_spans};

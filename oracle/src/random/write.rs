@@ -253,6 +253,14 @@ fn forces(recipe: &Recipe, dice: &mut Dice, text: &mut String) {
              length = \"0.3 m\", damping = \"1.5 N s/m\", preload = \"2 N\" }}"
         ),
     );
+    line(
+        text,
+        format_args!(
+            "mount = {{ bushing = [\"b{a}\", \"b{b}\"], at = \"e{a}\", directions = [[3, 4, 0], [-4, 3, 0]], \
+             translation = {{ stiffness = [\"30 N/m\", \"12 N/m\", \"7 N/m\"], damping = [\"0.3 N s/m\", 0, \"0.4 N s/m\"] }}, \
+             rotation = {{ stiffness = [\"stiff\", \"2*stiff\", 0], damping = [\"drag\", 0, \"drag\"] }} }}"
+        ),
+    );
     let (a, b) = two(dice);
     let components = format!("[\"3 N*cos(pace*t)\", \"-2 N*tanh(e{a}.vy/(1 m/s))\", \"4 N*e{a}.x/(1 m)\"]");
     line(

@@ -9,7 +9,7 @@ use super::names::variable_names;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
 use crate::derive::dynamics::Partition;
-use crate::derive::forces::loads;
+use crate::derive::elements::loads;
 use crate::derive::formula_to_expr::Inputs;
 use crate::derive::geometry::Geometry;
 use crate::derive::joint_state::JointStates;

@@ -6,7 +6,7 @@ use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Direction, Flexible, Force, ForceKind, Joint, Station};
+use crate::model::{Body, Carrier, Direction, Flexible, Force, Joint, Station};
 use crate::source::Span;
 use crate::spec::{At, BodySpec, Dimension, File, FlexibleSpec, Name, Quantity};
 
@@ -66,16 +66,9 @@ impl Resolver<'_> {
         for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
             add(joint.at, true, !joint.model.turns_freely());
         }
-        for force in forces {
-            match &force.kind {
-                ForceKind::Spring { bodies, at, .. } => {
-                    let ends = bodies.iter().zip(at).filter(|(body, _)| **body == carrier);
-                    ends.for_each(|(_, point)| add(*point, false, false));
-                }
-                ForceKind::Force { body, reaction, at, .. } if *body == carrier || *reaction == carrier => {
-                    add(*at, false, false);
-                }
-                _ => {}
+        for (body, point, turns) in forces.iter().flat_map(|force| force.kind.attachments()) {
+            if body == carrier {
+                add(point, false, turns);
             }
         }
         for point in body.inertia.points() {

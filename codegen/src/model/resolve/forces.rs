@@ -4,23 +4,24 @@ use super::quantity::Allowed;
 use super::{Resolver, inertia, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::PointId;
-use crate::model::{Carrier, Force, ForceKind, Formula};
+use crate::model::{AppliedForce, AppliedTorque, Bushing, Carrier, Force, ForceKind, Formula, Spring};
 use crate::source::Span;
-use crate::spec::{At, Dimension, ForceSpec, Name, Pair, Quantity, Table};
+use crate::spec::{At, BushingPart, Dimension, ForceSpec, Name, Pair, Quantity, Table};
 
 impl Resolver<'_> {
     pub(super) fn resolve_forces(&mut self, table: &Table<ForceSpec>) -> Vec<Force> {
         let mut forces = Vec::with_capacity(table.0.len());
         for (name, force) in &table.0 {
             let spec = &force.value;
-            let kind = match (&spec.spring, &spec.force, &spec.torque) {
-                (Some(pair), None, None) => self.spring(name, force, pair),
-                (None, Some(body), None) => self.push(name, force, body),
-                (None, None, Some(body)) => self.turn(name, force, body),
-                (None, None, None) => {
+            let kind = match (&spec.spring, &spec.bushing, &spec.force, &spec.torque) {
+                (Some(pair), None, None, None) => self.spring(name, force, pair),
+                (None, Some(pair), None, None) => self.bushing(name, force, pair),
+                (None, None, Some(body), None) => self.push(name, force, body),
+                (None, None, None, Some(body)) => self.turn(name, force, body),
+                (None, None, None, None) => {
                     self.missing(force.span, name.span, || {
                         Diagnostic::new(Code::NoKind, format!("nothing says what force `{}` is", name.value)).help(
-                            "write `spring = [\"ground\", \"rocker\"]`, `force = \"crank\"` or `torque = \"crank\"`",
+                            "write `spring = [\"ground\", \"rocker\"]`, `bushing = [\"ground\", \"engine\"]`, `force = \"crank\"` or `torque = \"crank\"`",
                         )
                     });
                     None
@@ -28,7 +29,9 @@ impl Resolver<'_> {
                 _ => {
                     let message = format!("force `{}` is of several kinds", name.value);
                     let fault = Diagnostic::new(Code::ConflictingKeys, message).at(name.span, "");
-                    self.report(fault.help("make one entry for each of `spring`, `force`, `torque`"));
+                    self.report(
+                        fault.help("make one entry for each of `spring`, `bushing`, `force`, `torque`"),
+                    );
                     None
                 }
             };
@@ -39,15 +42,19 @@ impl Resolver<'_> {
 
     /// Keys of another kind of force element.
     fn check_stray_keys(&mut self, name: &Name, kind: &str, spec: &ForceSpec) {
-        let spring = kind == "spring";
+        let (spring, bushing) = (kind == "spring", kind == "bushing");
+        let by_formula = !spring && !bushing;
         let keys = [
+            ("translation", spec.translation.as_ref().map(|part| part.span), bushing),
+            ("rotation", spec.rotation.as_ref().map(|part| part.span), bushing),
+            ("directions", spec.directions.as_ref().map(|list| list.span), bushing),
             ("stiffness", spec.stiffness.as_ref().map(|q| q.span), spring),
             ("length", spec.length.as_ref().map(|q| q.span), spring),
             ("damping", spec.damping.as_ref().map(|q| q.span), spring),
             ("preload", spec.preload.as_ref().map(|q| q.span), spring),
-            ("components", spec.components.as_ref().map(|triple| triple.0.span), !spring),
-            ("axes", spec.axes.as_ref().map(|axes| axes.span), !spring),
-            ("reaction", spec.reaction.as_ref().map(|body| body.span), !spring),
+            ("components", spec.components.as_ref().map(|triple| triple.0.span), by_formula),
+            ("axes", spec.axes.as_ref().map(|axes| axes.span), by_formula),
+            ("reaction", spec.reaction.as_ref().map(|body| body.span), by_formula),
             ("at", spec.at.as_ref().map(|at| at.0.span), kind != "torque"),
         ];
         for (key, span, fits) in keys {
@@ -91,22 +98,82 @@ impl Resolver<'_> {
         points.try_into().ok()
     }
 
-    fn spring(&mut self, name: &Name, force: &At<ForceSpec>, pair: &Pair) -> Option<ForceKind> {
-        let spec = &force.value;
-        self.check_stray_keys(name, "spring", spec);
+    /// The bodies that an element of some kind connects.
+    fn two_bodies<'n>(
+        &mut self,
+        name: &Name,
+        kind: &str,
+        pair: &'n Pair,
+    ) -> Option<[Option<(Carrier, &'n Name)>; 2]> {
         let what = format!("force `{}`", name.value);
         let [a, b] = pair.0.value.as_slice() else {
             self.wrong_count(pair.0.span, pair.0.value.len(), "2 bodies", &what);
             return None;
         };
-        let sides =
-            [self.carrier(a, &what).map(|body| (body, a)), self.carrier(b, &what).map(|body| (body, b))];
+        let sides = [a, b].map(|body| self.carrier(body, &what).map(|carrier| (carrier, body)));
         if let ([Some((first, _)), Some((second, _))], true) = (sides, a.value == b.value)
             && first == second
         {
-            let message = format!("the spring `{}` connects `{}` with itself", name.value, a.value);
+            let message = format!("the {kind} `{}` connects `{}` with itself", name.value, a.value);
             self.report(Diagnostic::new(Code::SameBody, message).at(pair.0.span, ""));
         }
+        Some(sides)
+    }
+
+    fn bushing(&mut self, name: &Name, force: &At<ForceSpec>, pair: &Pair) -> Option<ForceKind> {
+        let spec = &force.value;
+        self.check_stray_keys(name, "bushing", spec);
+        let sides = self.two_bodies(name, "bushing", pair)?;
+        let at = self.places(name, force, [sides[0]]);
+        if let (Some(places), Some(_)) = (&spec.at, at) {
+            self.point_on(&places.0.value[0], sides[1], &format!("force `{}`", name.value));
+        }
+        if spec.translation.is_none() && spec.rotation.is_none() {
+            self.missing(force.span, name.span, || {
+                let message = format!("the bushing `{}` has neither stiffness nor damping", name.value);
+                Diagnostic::new(Code::MissingKey, message).help(
+                    "add for example `translation = { stiffness = [\"1 kN/mm\", \"1 kN/mm\", \"2 kN/mm\"] }`",
+                )
+            });
+        }
+        let mut three = |part: Option<&At<BushingPart>>, key: &str, dimension: Dimension| {
+            let written = part.and_then(|part| match key {
+                "stiffness" => part.value.stiffness.as_ref(),
+                _ => part.value.damping.as_ref(),
+            });
+            let Some(written) = written else {
+                return std::array::from_fn(|_| Formula::number(0.0, dimension));
+            };
+            let what = place(key, "force", name);
+            let formulas = self.triple(written, dimension, Allowed::PARAMETERS, &what);
+            formulas.iter().for_each(|formula| self.check_positive(formula, true, &what));
+            formulas
+        };
+        let (translation, rotation) = (spec.translation.as_ref(), spec.rotation.as_ref());
+        let [stiffness, damping] = [("stiffness", -2), ("damping", -1)]
+            .map(|(key, time)| three(translation, key, Dimension::of(0, 1, time)));
+        let [turning_stiffness, turning_damping] = [("stiffness", -2), ("damping", -1)]
+            .map(|(key, time)| three(rotation, key, Dimension::of(2, 1, time)));
+        let axes = spec
+            .directions
+            .as_ref()
+            .map_or(inertia::AXES_OF_W, |axes| self.right_handed(axes, &place("directions", "force", name)));
+        let (bodies, [at]) = ([sides[0]?.0, sides[1]?.0], at?);
+        Some(ForceKind::Bushing(Bushing {
+            bodies,
+            at,
+            axes,
+            stiffness,
+            damping,
+            turning_stiffness,
+            turning_damping,
+        }))
+    }
+
+    fn spring(&mut self, name: &Name, force: &At<ForceSpec>, pair: &Pair) -> Option<ForceKind> {
+        let spec = &force.value;
+        self.check_stray_keys(name, "spring", spec);
+        let sides = self.two_bodies(name, "spring", pair)?;
         let at = self.places(name, force, sides);
         let or_zero =
             |this: &mut Self, quantity: &Option<Quantity>, key: &str, dimension: Dimension| match quantity {
@@ -142,7 +209,7 @@ impl Resolver<'_> {
         let bodies = [sides[0]?.0, sides[1]?.0];
         let at = at?;
         self.warn_no_direction(name, bodies, at);
-        Some(ForceKind::Spring { bodies, at, stiffness, rest, damping, preload })
+        Some(ForceKind::Spring(Spring { bodies, at, stiffness, rest, damping, preload }))
     }
 
     fn warn_no_direction(&mut self, name: &Name, bodies: [Carrier; 2], at: [PointId; 2]) {
@@ -165,7 +232,7 @@ impl Resolver<'_> {
         let components = self.components(name, force, Dimension::FORCE);
         let (reaction, axes) = self.sides(name, &force.value, pushed, body.span);
         let [at] = at?;
-        Some(ForceKind::Force { body: pushed?, reaction, at, components: components?, axes })
+        Some(ForceKind::Force(AppliedForce { body: pushed?, reaction, at, components: components?, axes }))
     }
 
     fn turn(&mut self, name: &Name, force: &At<ForceSpec>, body: &Name) -> Option<ForceKind> {
@@ -173,7 +240,7 @@ impl Resolver<'_> {
         let turned = self.carrier(body, &place("torque", "force", name));
         let components = self.components(name, force, Dimension::TORQUE);
         let (reaction, axes) = self.sides(name, &force.value, turned, body.span);
-        Some(ForceKind::Torque { body: turned?, reaction, components: components?, axes })
+        Some(ForceKind::Torque(AppliedTorque { body: turned?, reaction, components: components?, axes }))
     }
 
     fn components(

@@ -109,12 +109,16 @@ impl Resolver<'_> {
 
     /// Unit vectors along the axes in which the inertia is given.
     pub(super) fn axes(&mut self, name: &Name, written: &At<Vec<Triple>>) -> [[f64; 3]; 3] {
-        let what = place("axes", "body", name);
+        self.right_handed(written, &place("axes", "body", name))
+    }
+
+    /// Two or three directions at right angles: axes x, y and z.
+    pub(super) fn right_handed(&mut self, written: &At<Vec<Triple>>, what: &str) -> [[f64; 3]; 3] {
         if !matches!(written.value.len(), 2 | 3) {
-            self.wrong_count(written.span, written.value.len(), "2 or 3 directions", &what);
+            self.wrong_count(written.span, written.value.len(), "2 or 3 directions", what);
             return AXES_OF_W;
         }
-        let directions: Vec<_> = written.value.iter().map(|triple| self.direction(triple, &what)).collect();
+        let directions: Vec<_> = written.value.iter().map(|triple| self.direction(triple, what)).collect();
         let Some(directions) = directions.into_iter().collect::<Option<Vec<_>>>() else { return AXES_OF_W };
         let third = cross(directions[0], directions[1]);
         let given = directions.get(2).copied().unwrap_or(third);

@@ -1,0 +1,189 @@
+//! Relative motion of any two frames that are fixed to links, seen from one of the links.
+//! In: motion of the links. Out: [`RelativeMotion`]. Never knows joints and elements.
+
+use crate::expr::{Mat3, Scope, Vec3};
+
+use super::frame::Frame;
+use super::kinematics::Poses;
+use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::motion::Motion;
+use super::wrench::Wrench;
+
+/// A frame that is fixed to a link.
+#[derive(Clone, Copy, Debug)]
+pub struct Marker<'g> {
+    /// The link; nothing for the ground.
+    pub link: LinkIndex,
+    /// The marker's origin in the link's frame [m].
+    pub point: Vec3<'g>,
+    /// Columns: the marker's axes in the link's frame.
+    pub frame: Frame,
+}
+
+/// At which of the two origins both links are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Each at its own: right where nothing moves the origins apart.
+    Own,
+    /// Both where the child's is.
+    Child,
+    /// Both where the parent's is.
+    Parent,
+}
+
+/// Motion of one marker, the child, relative to another, the parent; all in the frame of [`Self::beside`].
+pub struct RelativeMotion<'g> {
+    /// The parent, its origin moved to the chosen place.
+    pub parent: Marker<'g>,
+    /// The child, its origin moved to the chosen place.
+    pub child: Marker<'g>,
+    /// Whether vectors are expressed in the frame of the child's link (else of the parent's).
+    pub in_child: bool,
+    /// Takes components in the frame of the parent's link to the common frame.
+    pub from_parent: Mat3<'g>,
+    /// Takes components in the frame of the child's link to the common frame.
+    pub from_child: Mat3<'g>,
+    /// Child's origin from the parent's [m].
+    pub distance: Vec3<'g>,
+    /// Angular velocity of the child relative to the parent.
+    pub omega: Vec3<'g>,
+    /// Velocity of the child at the chosen place relative to the parent there.
+    pub slide: Vec3<'g>,
+    /// Angular velocity of the parent.
+    pub parent_omega: Vec3<'g>,
+    /// Angular velocity of the child.
+    pub child_omega: Vec3<'g>,
+    /// Angular acceleration of the child minus that of the parent.
+    pub alpha: Vec3<'g>,
+    /// Acceleration of the child at the chosen place minus that of the parent there.
+    pub acceleration: Vec3<'g>,
+}
+
+/// Whether the frame of the child's link makes more Jacobian columns constant than that of the parent's: that of a
+/// ball or free link does best, then that of a moving link.
+#[must_use]
+pub fn seen_from_child(linkage: &Linkage, parent: LinkIndex, child: LinkIndex) -> bool {
+    fn rank(linkage: &Linkage, link: LinkIndex) -> usize {
+        let Some(at) = link else { return 0 };
+        let link = &linkage.links[at];
+        match link.freedom {
+            Freedom::Ball | Freedom::Free => 2,
+            // Parallel to the link that carries it.
+            Freedom::Flexible { .. } | Freedom::Node
+                if link.mount == Frame::IDENTITY
+                    && link.node.as_ref().is_none_or(|node| node.rotation.is_empty()) =>
+            {
+                rank(linkage, link.parent)
+            }
+            _ => 1,
+        }
+    }
+    rank(linkage, child) >= rank(linkage, parent)
+}
+
+impl<'g> RelativeMotion<'g> {
+    /// Computes everything for two markers.
+    pub fn between(
+        g: &'g Scope,
+        linkage: &Linkage,
+        motion: &Motion<'g>,
+        [mut parent, mut child]: [Marker<'g>; 2],
+        in_child: bool,
+        place: Place,
+    ) -> Self {
+        let (from_parent, from_child) = if in_child {
+            (motion.poses.rotation_between(g, linkage, parent.link, child.link), g.identity())
+        } else {
+            (g.identity(), motion.poses.rotation_between(g, linkage, child.link, parent.link))
+        };
+        let beside = if in_child { child.link } else { parent.link };
+        let distance = distance(g, linkage, &motion.poses, [&parent, &child], beside);
+        match place {
+            Place::Own => {}
+            Place::Child => parent.point += from_parent.transpose() * distance,
+            Place::Parent => child.point -= from_child.transpose() * distance,
+        }
+        let [parent_omega, parent_velocity] = motion.velocity(parent.link, parent.point, from_parent);
+        let [child_omega, child_velocity] = motion.velocity(child.link, child.point, from_child);
+        let [parent_alpha, parent_acceleration] = motion.acceleration(parent.link, parent.point, from_parent);
+        let [child_alpha, child_acceleration] = motion.acceleration(child.link, child.point, from_child);
+        Self {
+            parent,
+            child,
+            in_child,
+            from_parent,
+            from_child,
+            distance,
+            omega: child_omega - parent_omega,
+            slide: child_velocity - parent_velocity,
+            parent_omega,
+            child_omega,
+            alpha: child_alpha - parent_alpha,
+            acceleration: child_acceleration - parent_acceleration,
+        }
+    }
+
+    /// The link whose frame is used.
+    #[must_use]
+    pub fn beside(&self) -> LinkIndex {
+        if self.in_child { self.child.link } else { self.parent.link }
+    }
+
+    /// Axis of the parent in the common frame.
+    #[must_use]
+    pub fn parent_axis(&self, j: usize) -> Vec3<'g> {
+        self.from_parent * self.distance[0].scope().vector(self.parent.frame.axis(j))
+    }
+
+    /// Axis of the child in the common frame.
+    #[must_use]
+    pub fn child_axis(&self, j: usize) -> Vec3<'g> {
+        self.from_child * self.distance[0].scope().vector(self.child.frame.axis(j))
+    }
+
+    /// Rotation of the child relative to the parent: takes components along the child's axes to the parent's.
+    #[must_use]
+    pub fn rotation(&self) -> Mat3<'g> {
+        let parent = [0, 1, 2].map(|j| self.parent_axis(j));
+        let child = [0, 1, 2].map(|j| self.child_axis(j));
+        Mat3::from_fn(|i, j| parent[i].dot(child[j]))
+    }
+
+    /// Wrenches on the parent's link and on the child's, in their own frames about their origins, of a wrench
+    /// (moment, force) on the child at the chosen place, given in the common frame, and of its opposite.
+    #[must_use]
+    pub fn link_wrenches(&self, moment: Vec3<'g>, force: Vec3<'g>) -> [Wrench<'g>; 2] {
+        let side = |rotation: Mat3<'g>, point: Vec3<'g>| {
+            let force = rotation.transpose() * force;
+            Wrench { moment: rotation.transpose() * moment + point.cross(force), force }
+        };
+        let child = side(self.from_child, self.child.point);
+        let parent = side(self.from_parent, self.parent.point);
+        [-parent, child]
+    }
+}
+
+/// From the parent's origin to the child's, in the frame of `beside`, along the tree from the common ancestor, so
+/// that motion that both share cancels.
+fn distance<'g>(
+    g: &'g Scope,
+    linkage: &Linkage,
+    poses: &Poses<'g>,
+    [parent, child]: [&Marker<'g>; 2],
+    beside: LinkIndex,
+) -> Vec3<'g> {
+    let top = linkage.common_ancestor(parent.link, child.link);
+    let place = |marker: &Marker<'g>| {
+        let (mut at, mut place) = (marker.link, marker.point);
+        while at != top {
+            let inner = at.expect("the ancestor lies on the path to the ground");
+            let pose = poses.relative[inner];
+            place = pose.offset + pose.rotation * place;
+            at = linkage.links[inner].parent;
+        }
+        place
+    };
+    let (child, parent) = (place(child), place(parent));
+    let apart = child - parent;
+    poses.rotation_between(g, linkage, top, beside) * apart
+}
