@@ -187,6 +187,16 @@ fn the_command_line_knows_results_and_no_stages_between() {
 }
 
 #[test]
+fn the_command_line_asks_and_prints_and_does_not_compute() {
+    for file in rust_files(Path::new("src/cli")) {
+        for computed in ["MonteCarlo", "FirstPassage", "Posterior", "Particles", "run_life", "DynamicsSource"]
+        {
+            assert!(!code(&file).contains(computed), "{} uses {computed}", file.display());
+        }
+    }
+}
+
+#[test]
 fn the_reader_of_paths_sees_groups_and_skips_longer_names() {
     let code = "use crate::{a::{x, y}, b};\nlet v = crate::c::d();\nmy_crate::e(); $crate::f!();";
     assert_eq!(heads(code, "crate").into_iter().collect::<Vec<_>>(), ["a", "b", "c"]);
