@@ -7,7 +7,6 @@ mod build;
 mod diff;
 mod eval;
 mod expression;
-mod forward;
 mod scope;
 mod vector;
 

@@ -1,5 +1,6 @@
 //! Bodies as written: shape and mass, how they bend.
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,9 +10,9 @@ use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
     /// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` with `centre`.
-    #[schemars(extend("anyOf" = [
+    #[cfg_attr(feature = "schema", schemars(extend("anyOf" = [
         { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] }
-    ]))]
+    ])))]
     pub struct BodySpec {
         /// Solid cylinder between two points.
         pub rod: Option<Pair>,
@@ -47,7 +48,7 @@ tables! {
     }
 
     /// How a body bends: as a beam along its rod, tube or box, or by modal data from a file.
-    #[schemars(extend("anyOf" = [{ "required": ["modes", "young"] }, { "required": ["data"] }]))]
+    #[cfg_attr(feature = "schema", schemars(extend("anyOf" = [{ "required": ["modes", "young"] }, { "required": ["data"] }])))]
     pub struct FlexibleSpec {
         /// Number of bending modes kept, the lowest of both planes; 0 makes the body rigid.
         pub modes: Option<Quantity>,
@@ -88,7 +89,7 @@ tables! {
     }
 
     /// A section by its numbers.
-    #[schemars(extend("required" = ["area", "Iy", "Iz"]))]
+    #[cfg_attr(feature = "schema", schemars(extend("required" = ["area", "Iy", "Iz"])))]
     pub struct SectionSpec {
         /// Area.
         pub area: Option<Quantity>,
@@ -108,7 +109,7 @@ tables! {
     }
 
     /// A piece of a stepped link.
-    #[schemars(extend("required" = ["to"]))]
+    #[cfg_attr(feature = "schema", schemars(extend("required" = ["to"])))]
     pub struct StepSpec {
         /// Where the piece ends, from the first end of the link.
         pub to: Option<Quantity>,
@@ -121,7 +122,7 @@ tables! {
     }
 
     /// A mass fixed to the link's axis.
-    #[schemars(extend("required" = ["at", "mass"]))]
+    #[cfg_attr(feature = "schema", schemars(extend("required" = ["at", "mass"])))]
     pub struct PointMassSpec {
         /// Distance from the first end.
         pub at: Option<Quantity>,
@@ -131,7 +132,8 @@ tables! {
 }
 
 /// Bending theory.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum TheorySpec {
     /// Sections turn with the slope and have no rotary inertia.
@@ -144,7 +146,8 @@ pub enum TheorySpec {
 }
 
 /// How a link is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum HeldSpec {
     /// Frame through both ends, which do not move in it.

@@ -3,6 +3,7 @@
 
 use linkwear_runtime::contact::Restitution;
 use linkwear_runtime::wear::{Area, Measure};
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,9 +14,10 @@ use super::start::StartSpec;
 use super::written::{At, Name, PerBody, Quantity, Table, Triple};
 
 /// A mechanism file.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("required" = ["spec", "name", "bodies"]))]
+#[cfg_attr(feature = "schema", schemars(extend("required" = ["spec", "name", "bodies"])))]
 pub struct File {
     /// Version of this format: 1.
     pub spec: Option<At<i64>>,
@@ -50,9 +52,10 @@ pub struct File {
 }
 
 /// A joint with clearance: the joint's first body is the bearing or socket, its second the journal or ball.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("required" = ["radial", "journal_radius"]))]
+#[cfg_attr(feature = "schema", schemars(extend("required" = ["radial", "journal_radius"])))]
 pub struct ClearanceSpec {
     /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
     pub radial: Option<Quantity>,
@@ -87,9 +90,10 @@ pub struct ClearanceSpec {
 }
 
 /// How a joint with clearance wears, and when it has failed.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("required" = ["coefficient", "hardness", "threshold"]))]
+#[cfg_attr(feature = "schema", schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
 pub struct WearSpec {
     /// Dimensionless wear coefficient k of Archard's law.
     pub coefficient: Option<Quantity>,
@@ -120,7 +124,8 @@ pub struct WearSpec {
 }
 
 /// How loops are closed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ClosureSpec {
     /// Cut one joint and keep the rows it takes away.
@@ -131,9 +136,10 @@ pub enum ClosureSpec {
 }
 
 /// A parameter with its marks.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("required" = ["value"]))]
+#[cfg_attr(feature = "schema", schemars(extend("required" = ["value"])))]
 pub(super) struct ParameterTable {
     /// Quantity or formula over other parameters.
     pub value: Option<Quantity>,
@@ -170,9 +176,10 @@ pub struct PointSpec {
 }
 
 /// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "schema", derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[schemars(extend("required" = ["count"]))]
+#[cfg_attr(feature = "schema", schemars(extend("required" = ["count"])))]
 pub struct RepeatSpec {
     /// How many cells: a whole number or a formula over parameters.
     pub count: Option<Quantity>,

@@ -1,5 +1,6 @@
 //! Springs, forces and torques as written.
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,11 +10,11 @@ use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
     /// A force element: exactly one of `spring`, `bushing`, `force`, `torque`.
-    #[schemars(extend("oneOf" = [
+    #[cfg_attr(feature = "schema", schemars(extend("oneOf" = [
         { "required": ["spring", "at"] }, { "required": ["bushing", "at"] },
         { "required": ["force", "at", "components"] },
         { "required": ["torque", "components"] }
-    ]))]
+    ])))]
     pub struct ForceSpec {
         /// Spring and damper between two bodies.
         pub spring: Option<Pair>,

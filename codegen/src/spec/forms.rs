@@ -1,9 +1,11 @@
 //! Keys that may be written in several forms (a list or a table, a number or a list): how each form is read, and
 //! the schema that allows them.
 
+#[cfg(feature = "schema")]
 use std::borrow::Cow;
 use std::fmt;
 
+#[cfg(feature = "schema")]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
@@ -11,9 +13,15 @@ use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use super::body::{Centre, Widths};
 use super::file::{Parameter, ParameterTable, PointSpec};
 use super::force::Places;
-use super::joint::{ByCoordinate, EachCoordinate};
-use super::start::{StartSpec, StartTable};
-use super::written::{At, ByForm, Form, Literal, Name, PerBody, Triple, read_by_form, value_of};
+use super::joint::ByCoordinate;
+use super::start::StartSpec;
+use super::written::{At, ByForm, Form, Name, PerBody, read_by_form, value_of};
+#[cfg(feature = "schema")]
+use super::{
+    joint::EachCoordinate,
+    start::StartTable,
+    written::{Literal, Triple},
+};
 
 impl<'de> ByForm<'de> for Parameter {
     fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
@@ -116,6 +124,7 @@ macro_rules! written_in_forms {
                 read_by_form(deserializer)
             }
         }
+        #[cfg(feature = "schema")]
         impl JsonSchema for $type {
             fn schema_name() -> Cow<'static, str> {
                 stringify!($type).into()

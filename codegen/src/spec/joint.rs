@@ -1,5 +1,6 @@
 //! Joints as written.
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,11 +10,11 @@ use super::written::{At, Name, Pair, PerBody, Quantity};
 
 tables! {
     /// A joint: exactly one of the kinds, with the parent and the child.
-    #[schemars(extend("oneOf" = [
+    #[cfg_attr(feature = "schema", schemars(extend("oneOf" = [
         { "required": ["revolute"] }, { "required": ["prismatic"] }, { "required": ["cylindrical"] },
         { "required": ["screw"] }, { "required": ["universal"] }, { "required": ["spherical"] },
         { "required": ["inline"] }, { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
-    ], "required" = ["at"]))]
+    ], "required" = ["at"])))]
     pub struct JointSpec {
         /// Rotation about `axis`.
         pub revolute: Option<Pair>,
@@ -92,7 +93,7 @@ tables! {
     }
 
     /// A spring of one coordinate.
-    #[schemars(extend("required" = ["stiffness"]))]
+    #[cfg_attr(feature = "schema", schemars(extend("required" = ["stiffness"])))]
     pub struct SpringPart {
         /// Stiffness.
         pub stiffness: Option<Quantity>,

@@ -1,5 +1,6 @@
 //! Start values as written.
 
+#[cfg(feature = "schema")]
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -96,7 +96,8 @@ pub(super) use texts_of;
 macro_rules! tables {
     ($($(#[$about:meta])* pub struct $name:ident { $($(#[$of:meta])* pub $field:ident: $type:ty,)* })*) => {
         $(
-            #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+            #[derive(Clone, Debug, Default, Deserialize)]
+            #[cfg_attr(feature = "schema", derive(JsonSchema))]
             #[serde(default, deny_unknown_fields)]
             $(#[$about])*
             pub struct $name { $($(#[$of])* pub $field: $type,)* }

@@ -1,10 +1,12 @@
 //! Values of the file with their places: the small types that all tables are made of.
 //! In: any serde deserializer that answers the two private requests below (only [`super::read`] does).
 
+#[cfg(feature = "schema")]
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
+#[cfg(feature = "schema")]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
@@ -44,6 +46,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
     }
 }
 
+#[cfg(feature = "schema")]
 impl<T: JsonSchema> JsonSchema for At<T> {
     fn schema_name() -> Cow<'static, str> {
         T::schema_name()
@@ -88,6 +91,7 @@ impl<'de> Deserialize<'de> for Literal {
     }
 }
 
+#[cfg(feature = "schema")]
 impl JsonSchema for Literal {
     fn schema_name() -> Cow<'static, str> {
         "Quantity".into()
@@ -135,6 +139,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
     }
 }
 
+#[cfg(feature = "schema")]
 impl<T: JsonSchema> JsonSchema for Table<T> {
     fn schema_name() -> Cow<'static, str> {
         format!("TableOf{}", T::schema_name()).into()
@@ -198,6 +203,7 @@ impl<'de> Deserialize<'de> for Triple {
     }
 }
 
+#[cfg(feature = "schema")]
 impl JsonSchema for Triple {
     fn schema_name() -> Cow<'static, str> {
         "Triple".into()
@@ -234,6 +240,7 @@ impl<'de> Deserialize<'de> for PerBody {
     }
 }
 
+#[cfg(feature = "schema")]
 impl JsonSchema for PerBody {
     fn schema_name() -> Cow<'static, str> {
         "PerBody".into()
@@ -254,6 +261,7 @@ impl<'de> Deserialize<'de> for Pair {
     }
 }
 
+#[cfg(feature = "schema")]
 impl JsonSchema for Pair {
     fn schema_name() -> Cow<'static, str> {
         "Pair".into()
