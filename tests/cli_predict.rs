@@ -281,3 +281,36 @@ fn covariates_of_a_fit_are_asked_for_and_count() {
     folder.write("fit.json", &small);
     assert!(ask(&["--covariate", "load=3"]).0.contains("not one of 3 parameters"));
 }
+
+#[test]
+fn other_processes_are_predicted_from_as_they_are_fitted() {
+    let folder = Folder::new("predict-process");
+    let fit = folder.path("fit.json");
+    let data = "gamma/tests/data/gaas_lasers.csv";
+    let columns = ["--unit", "unit", "--wear", "current_increase_percent", "--exposure", "hours"];
+    // Log-likelihoods given to seven and to four digits. Mean lives from 4 to 10 percent in closed form: left / drift, and
+    // left / drift + drift / (2 spread) but for Phi(-left / drift sqrt(spread / left)).
+    for (process, log_likelihood, digits) in [("wiener", 45.567_70, 1e-5), ("inverse-gaussian", 75.03, 5e-3)]
+    {
+        let model = ["--process", process, "--out", &fit, "--format", "json"];
+        let found = linkwear(&[&["fit", data], &columns[..], &model[..]].concat()).json();
+        assert_eq!(found["process"], process);
+        assert!((number(&found["log_likelihood"]) - log_likelihood).abs() < digits, "{process}");
+        let asked = ["predict", &fit, "--threshold", "10", "--current", "4", "--format", "json"];
+        let life = linkwear(&asked).json();
+        let (drift, spread) = (number(&found["drift"]), number(&found["spread"]));
+        let more = if process == "wiener" { 0.0 } else { 0.5 * drift / spread };
+        assert!(
+            (number(&life["mean"]) / (6.0 / drift + more) - 1.0).abs() < 1e-8,
+            "{process}: {}",
+            life["mean"]
+        );
+        assert!(number(&life["budget"]["parameters"]["half_width"]) > 0.0);
+        // A wrong name is refused with the right ones.
+        let wrong = linkwear(&["fit", data, "--process", "levy"]);
+        assert!(wrong.code == 2 && wrong.err.contains("inverse-gaussian"), "{}", wrong.err);
+    }
+    folder.write("fit.json", r#"{ "process": "levy", "drift": 1, "spread": 1 }"#);
+    let (message, line) = refusal(&["predict", &fit, "--threshold", "10", "--format", "json"]);
+    assert!(message.contains("`process` is \"levy\"") && line == Some(1), "{message}");
+}
