@@ -5,7 +5,7 @@ use linkwear_codegen::id::{JointId, PointId};
 use linkwear_codegen::model::{
     AppliedForce, AppliedTorque, Bushing, Carrier, Force, ForceKind, Formula, Passive, Spring,
 };
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::frame::{BodyState, Load};
 use crate::model::{Frames, Oracle};
@@ -160,7 +160,9 @@ impl Oracle {
         let (d, rate) = (first.transpose() * apart, first.transpose() * slip);
         let (k, c) = (numbers(&bushing.stiffness), numbers(&bushing.damping));
         let force = -first * (k.component_mul(&d) + c.component_mul(&rate));
-        let phi = Rotation3::from_matrix_unchecked(first.transpose() * second).scaled_axis();
+        let turned = Rotation3::from_matrix_unchecked(first.transpose() * second);
+        // By the quaternion: an arc cosine of the trace is no number where rounding takes it past 1.
+        let phi = UnitQuaternion::from_rotation_matrix(&turned).scaled_axis();
         let angle = phi.norm();
         // 1/12 is the limit; the next term is angle²/720.
         let b2 = if angle < 1e-4 {

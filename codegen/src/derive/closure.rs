@@ -10,13 +10,13 @@ use crate::expr::{Expr, Scope};
 use crate::model::{Closure, JointModel};
 
 use super::geometry::Geometry;
-use super::joint_markers::{joint_markers, split_body_markers};
+use super::joint_markers::{joint_in_child, joint_markers, split_body_markers};
 use super::joint_rows::RowMaker;
 use super::kinematics::Poses;
 use super::linkage::{Cut, Freedom, LinkIndex, Linkage};
 use super::log_closure::log_rows;
 use super::motion::Motion;
-use super::relative_motion::{Place, RelativeMotion, seen_from_child};
+use super::relative_motion::{Place, RelativeMotion};
 use super::row::Row;
 use super::wrench::Wrench;
 
@@ -66,8 +66,8 @@ fn rows_of<'g>(
         let rows = log_rows(g, &motion, exact);
         return CutRows { cut, motion, rows };
     }
-    let in_child = seen_from_child(linkage, cut.parent, cut.child);
     let slides = data.model.rows() > 0 && data.model.slides();
+    let in_child = joint_in_child(geometry, cut.joint, links);
     let place = match (exact, slides) {
         (false, false) => Place::Own,
         // Directions that turn with the child measure its distance exactly at the parent's point.

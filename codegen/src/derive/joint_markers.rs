@@ -7,7 +7,7 @@ use crate::model::{Axis, Carrier};
 use super::frame::{Frame, canonical_frame};
 use super::geometry::Geometry;
 use super::linkage::LinkIndex;
-use super::relative_motion::Marker;
+use super::relative_motion::{Marker, seen_from_child};
 
 /// The links of a joint's parent and child, as the joint sees them (through a body's copy for closure `log`).
 #[must_use]
@@ -23,6 +23,15 @@ pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
     }
     debug_assert!(data.parent != Carrier::Ground || parent.is_none());
     [parent, child]
+}
+
+/// In whose link's frame a joint is looked at: see [`seen_from_child`]. But a line that holds a freely turning child
+/// is fixed in the parent.
+#[must_use]
+pub fn joint_in_child(geometry: &Geometry<'_>, joint: JointId, [parent, child]: [LinkIndex; 2]) -> bool {
+    let model = &geometry.mechanism.joint(joint).model;
+    let on_line = model.rows() > 0 && model.slides() && model.turns_freely();
+    !on_line && seen_from_child(geometry.linkage, parent, child)
 }
 
 /// Markers at a joint on the links of its parent and child. They are parallel when all coordinates are zero;

@@ -7,9 +7,9 @@ use crate::model::{Formula, Term};
 
 use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
-use super::joint_markers::{joint_links, joint_markers};
+use super::joint_markers::{joint_in_child, joint_links, joint_markers};
 use super::motion::Motion;
-use super::relative_motion::{Place, RelativeMotion, seen_from_child};
+use super::relative_motion::{Place, RelativeMotion};
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {
@@ -52,7 +52,7 @@ impl<'g> JointStates<'g> {
     pub fn relative_motion(&self, g: &'g Scope, joint: JointId) -> RelativeMotion<'g> {
         let linkage = self.geometry.linkage;
         let links = joint_links(&self.geometry, joint);
-        let in_child = seen_from_child(linkage, links[0], links[1]);
+        let in_child = joint_in_child(&self.geometry, joint, links);
         let markers = joint_markers(&self.geometry, joint, links, in_child);
         RelativeMotion::between(g, linkage, &self.motion, markers, in_child, Place::Child)
     }

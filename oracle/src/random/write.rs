@@ -287,7 +287,9 @@ fn starts(plan: &Plan, dice: &mut Dice, text: &mut String) {
         let coordinates = joint.kind.coordinates();
         let mut values = Vec::new();
         for (k, angle) in coordinates.iter().enumerate().filter(|(k, _)| joint.drive != Some(*k)) {
-            let suffix = if coordinates.len() > 1 { (k + 1).to_string() } else { String::new() };
+            // With the rotation vector, an inline joint starts from several values.
+            let several = coordinates.len() > 1 || joint.kind.is_round();
+            let suffix = if several { (k + 1).to_string() } else { String::new() };
             let unit = if *angle { "rad" } else { "m" };
             let reach = if *angle { 1.0 } else { 0.1 };
             let q = short(dice.between(-reach, reach));
