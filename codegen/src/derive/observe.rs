@@ -230,7 +230,7 @@ fn wrenches<'g>(g: &'g Scope, observed: &Observed<'_, 'g>, list: &mut Channels<'
         let [parent, child] = cut.motion.link_wrenches(moment, force);
         for (link, wrench) in [(cut.motion.child.link, child), (cut.motion.parent.link, parent)] {
             if let Some(at) = link {
-                external[at] = external[at] + wrench;
+                external[at] += wrench;
             }
         }
     }

@@ -17,7 +17,7 @@ mod elasticity;
 mod joint;
 mod spring;
 
-fn element<'m, 'g>(kind: &'m ForceKind) -> &'m dyn Element<'g> {
+fn element<'g>(kind: &ForceKind) -> &dyn Element<'g> {
     match kind {
         ForceKind::Spring(spring) => spring,
         ForceKind::Bushing(bushing) => bushing,
