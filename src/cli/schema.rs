@@ -5,5 +5,5 @@ use super::file::print;
 
 /// Answers `schema`; the answer is JSON whatever the format.
 pub fn run() -> Result<(), Failure> {
-    print(&linkwear_codegen::spec::json_schema())
+    print(&include_str!("../../docs/linkwear.schema.json").trim_end())
 }

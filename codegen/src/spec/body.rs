@@ -1,6 +1,6 @@
 //! Bodies as written: shape and mass, how they bend.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -10,7 +10,7 @@ use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
     /// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` with `centre`.
-    #[cfg_attr(feature = "schema", schemars(extend("anyOf" = [
+    #[cfg_attr(test, schemars(extend("anyOf" = [
         { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] }
     ])))]
     pub struct BodySpec {
@@ -48,7 +48,7 @@ tables! {
     }
 
     /// How a body bends: as a beam along its rod, tube or box, or by modal data from a file.
-    #[cfg_attr(feature = "schema", schemars(extend("anyOf" = [{ "required": ["modes", "young"] }, { "required": ["data"] }])))]
+    #[cfg_attr(test, schemars(extend("anyOf" = [{ "required": ["modes", "young"] }, { "required": ["data"] }])))]
     pub struct FlexibleSpec {
         /// Number of bending modes kept, the lowest of both planes; 0 makes the body rigid.
         pub modes: Option<Quantity>,
@@ -89,7 +89,7 @@ tables! {
     }
 
     /// A section by its numbers.
-    #[cfg_attr(feature = "schema", schemars(extend("required" = ["area", "Iy", "Iz"])))]
+    #[cfg_attr(test, schemars(extend("required" = ["area", "Iy", "Iz"])))]
     pub struct SectionSpec {
         /// Area.
         pub area: Option<Quantity>,
@@ -109,7 +109,7 @@ tables! {
     }
 
     /// A piece of a stepped link.
-    #[cfg_attr(feature = "schema", schemars(extend("required" = ["to"])))]
+    #[cfg_attr(test, schemars(extend("required" = ["to"])))]
     pub struct StepSpec {
         /// Where the piece ends, from the first end of the link.
         pub to: Option<Quantity>,
@@ -122,7 +122,7 @@ tables! {
     }
 
     /// A mass fixed to the link's axis.
-    #[cfg_attr(feature = "schema", schemars(extend("required" = ["at", "mass"])))]
+    #[cfg_attr(test, schemars(extend("required" = ["at", "mass"])))]
     pub struct PointMassSpec {
         /// Distance from the first end.
         pub at: Option<Quantity>,
@@ -133,7 +133,7 @@ tables! {
 
 /// Bending theory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum TheorySpec {
     /// Sections turn with the slope and have no rotary inertia.
@@ -147,7 +147,7 @@ pub enum TheorySpec {
 
 /// How a link is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum HeldSpec {
     /// Frame through both ends, which do not move in it.

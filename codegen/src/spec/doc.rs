@@ -1,6 +1,6 @@
 //! A sentence about a thing in the file, read and left alone.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -8,9 +8,9 @@ use super::texts::without_texts;
 
 /// What a thing is, in a sentence.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(transparent)]
-#[cfg_attr(feature = "schema", schemars(inline))]
+#[cfg_attr(test, schemars(inline))]
 pub struct Doc(String);
 
 without_texts!(Doc);

@@ -3,7 +3,7 @@
 
 use linkwear_runtime::contact::Restitution;
 use linkwear_runtime::wear::{Area, Measure};
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -15,9 +15,9 @@ use super::written::{At, Name, PerBody, Quantity, Table, Triple};
 
 /// A mechanism file.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(extend("required" = ["spec", "name", "bodies"])))]
+#[cfg_attr(test, schemars(extend("required" = ["spec", "name", "bodies"])))]
 pub struct File {
     /// Version of this format: 1.
     pub spec: Option<At<i64>>,
@@ -53,9 +53,9 @@ pub struct File {
 
 /// A joint with clearance: the joint's first body is the bearing or socket, its second the journal or ball.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(extend("required" = ["radial", "journal_radius"])))]
+#[cfg_attr(test, schemars(extend("required" = ["radial", "journal_radius"])))]
 pub struct ClearanceSpec {
     /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
     pub radial: Option<Quantity>,
@@ -91,9 +91,9 @@ pub struct ClearanceSpec {
 
 /// How a joint with clearance wears, and when it has failed.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
+#[cfg_attr(test, schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
 pub struct WearSpec {
     /// Dimensionless wear coefficient k of Archard's law.
     pub coefficient: Option<Quantity>,
@@ -125,7 +125,7 @@ pub struct WearSpec {
 
 /// How loops are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum ClosureSpec {
     /// Cut one joint and keep the rows it takes away.
@@ -137,9 +137,9 @@ pub enum ClosureSpec {
 
 /// A parameter with its marks.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(extend("required" = ["value"])))]
+#[cfg_attr(test, schemars(extend("required" = ["value"])))]
 pub(super) struct ParameterTable {
     /// Quantity or formula over other parameters.
     pub value: Option<Quantity>,
@@ -177,9 +177,9 @@ pub struct PointSpec {
 
 /// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.
 #[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(feature = "schema", derive(JsonSchema))]
+#[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(feature = "schema", schemars(extend("required" = ["count"])))]
+#[cfg_attr(test, schemars(extend("required" = ["count"])))]
 pub struct RepeatSpec {
     /// How many cells: a whole number or a formula over parameters.
     pub count: Option<Quantity>,

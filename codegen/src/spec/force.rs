@@ -1,6 +1,6 @@
 //! Springs, forces and torques as written.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -10,7 +10,7 @@ use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
     /// A force element: exactly one of `spring`, `bushing`, `force`, `torque`.
-    #[cfg_attr(feature = "schema", schemars(extend("oneOf" = [
+    #[cfg_attr(test, schemars(extend("oneOf" = [
         { "required": ["spring", "at"] }, { "required": ["bushing", "at"] },
         { "required": ["force", "at", "components"] },
         { "required": ["torque", "components"] }

@@ -1,11 +1,11 @@
 //! Keys that may be written in several forms (a list or a table, a number or a list): how each form is read, and
 //! the schema that allows them.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use std::borrow::Cow;
 use std::fmt;
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
@@ -16,7 +16,7 @@ use super::force::Places;
 use super::joint::ByCoordinate;
 use super::start::StartSpec;
 use super::written::{At, ByForm, Form, Name, PerBody, read_by_form, value_of};
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use super::{
     joint::EachCoordinate,
     start::StartTable,
@@ -124,7 +124,7 @@ macro_rules! written_in_forms {
                 read_by_form(deserializer)
             }
         }
-        #[cfg(feature = "schema")]
+        #[cfg(test)]
         impl JsonSchema for $type {
             fn schema_name() -> Cow<'static, str> {
                 stringify!($type).into()

@@ -1,6 +1,6 @@
 //! Joints as written.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -10,7 +10,7 @@ use super::written::{At, Name, Pair, PerBody, Quantity};
 
 tables! {
     /// A joint: exactly one of the kinds, with the parent and the child.
-    #[cfg_attr(feature = "schema", schemars(extend("oneOf" = [
+    #[cfg_attr(test, schemars(extend("oneOf" = [
         { "required": ["revolute"] }, { "required": ["prismatic"] }, { "required": ["cylindrical"] },
         { "required": ["screw"] }, { "required": ["universal"] }, { "required": ["spherical"] },
         { "required": ["inline"] }, { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
@@ -93,7 +93,7 @@ tables! {
     }
 
     /// A spring of one coordinate.
-    #[cfg_attr(feature = "schema", schemars(extend("required" = ["stiffness"])))]
+    #[cfg_attr(test, schemars(extend("required" = ["stiffness"])))]
     pub struct SpringPart {
         /// Stiffness.
         pub stiffness: Option<Quantity>,

@@ -12,7 +12,7 @@ mod joint;
 mod parse;
 mod read;
 mod repeat;
-#[cfg(feature = "schema")]
+#[cfg(test)]
 mod schema;
 mod start;
 mod syntax;
@@ -29,8 +29,6 @@ pub use force::{BushingPart, ForceSpec, Places};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};
 pub use repeat::{expand, group_spans};
-#[cfg(feature = "schema")]
-pub use schema::json_schema;
 pub use start::{StartSpec, StartTable};
 pub use syntax::{Expression, Form, Operator, SyntaxError, parse_expression};
 pub use written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

@@ -1,6 +1,6 @@
 //! Start values as written.
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -97,7 +97,7 @@ macro_rules! tables {
     ($($(#[$about:meta])* pub struct $name:ident { $($(#[$of:meta])* pub $field:ident: $type:ty,)* })*) => {
         $(
             #[derive(Clone, Debug, Default, Deserialize)]
-            #[cfg_attr(feature = "schema", derive(JsonSchema))]
+            #[cfg_attr(test, derive(JsonSchema))]
             #[serde(default, deny_unknown_fields)]
             $(#[$about])*
             pub struct $name { $($(#[$of])* pub $field: $type,)* }

@@ -1,12 +1,12 @@
 //! Values of the file with their places: the small types that all tables are made of.
 //! In: any serde deserializer that answers the two private requests below (only [`super::read`] does).
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
@@ -46,7 +46,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl<T: JsonSchema> JsonSchema for At<T> {
     fn schema_name() -> Cow<'static, str> {
         T::schema_name()
@@ -91,7 +91,7 @@ impl<'de> Deserialize<'de> for Literal {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl JsonSchema for Literal {
     fn schema_name() -> Cow<'static, str> {
         "Quantity".into()
@@ -139,7 +139,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl<T: JsonSchema> JsonSchema for Table<T> {
     fn schema_name() -> Cow<'static, str> {
         format!("TableOf{}", T::schema_name()).into()
@@ -203,7 +203,7 @@ impl<'de> Deserialize<'de> for Triple {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl JsonSchema for Triple {
     fn schema_name() -> Cow<'static, str> {
         "Triple".into()
@@ -240,7 +240,7 @@ impl<'de> Deserialize<'de> for PerBody {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl JsonSchema for PerBody {
     fn schema_name() -> Cow<'static, str> {
         "PerBody".into()
@@ -261,7 +261,7 @@ impl<'de> Deserialize<'de> for Pair {
     }
 }
 
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl JsonSchema for Pair {
     fn schema_name() -> Cow<'static, str> {
         "Pair".into()
