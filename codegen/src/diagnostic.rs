@@ -1,16 +1,14 @@
 //! Errors and warnings about a file: what is wrong, where, why, and what to do about it.
 //! In: [`crate::source`]. Out: [`Diagnostic`] and the collector [`Diagnostics`]. Never knows mechanics.
 
-use std::fmt;
-
-use serde::Serialize;
-
-use crate::source::{SourceFile, Span};
+use crate::source::Span;
 
 mod code;
+mod collector;
 mod render;
 
 pub use code::{Code, Severity};
+pub use collector::{Diagnostics, Entry};
 
 /// A place in the file with what there is to say about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -104,107 +102,6 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     best.map(|(_, name)| name)
 }
 
-/// All that is wrong with a file, in the order of the file once located.
-#[derive(Clone, Debug, Default)]
-pub struct Diagnostics {
-    list: Vec<Diagnostic>,
-    source: Option<SourceFile>,
-}
-
-/// One diagnostic as machines read it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Entry {
-    /// Code, e.g. `E0204`.
-    pub code: &'static str,
-    /// File as the user named it.
-    pub file: String,
-    /// Line from 1.
-    pub line: usize,
-    /// Column from 1, in characters.
-    pub column: usize,
-    /// What is wrong.
-    pub message: String,
-    /// What to do about it.
-    pub help: String,
-}
-
-impl Diagnostics {
-    /// An empty collector.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// A collector that holds `list`.
-    #[must_use]
-    pub fn from_list(list: Vec<Diagnostic>) -> Self {
-        Self { list, source: None }
-    }
-
-    /// Adds one.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.list.push(diagnostic);
-    }
-
-    /// Says which file the spans belong to, and sorts by place.
-    #[must_use]
-    pub fn located(mut self, source: &SourceFile) -> Self {
-        self.source = Some(source.clone());
-        self.list.sort_by_key(|diagnostic| diagnostic.span().map_or(usize::MAX, |span| span.start));
-        self
-    }
-
-    /// The diagnostics.
-    #[must_use]
-    pub fn list(&self) -> &[Diagnostic] {
-        &self.list
-    }
-
-    /// Whether there is nothing to say.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
-
-    /// Whether any of them is an error.
-    #[must_use]
-    pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
-    }
-
-    /// The same as data, for `--format json`. A fault without a place is put at line 1, column 1.
-    #[must_use]
-    pub fn entries(&self) -> Vec<Entry> {
-        let entry = |diagnostic: &Diagnostic| {
-            let start = diagnostic.span().map_or(0, |span| span.start);
-            let (line, column) = self.source.as_ref().map_or((1, 1), |source| source.line_column(start));
-            Entry {
-                code: diagnostic.code.as_str(),
-                file: self.source.as_ref().map_or(String::new(), |source| source.name.clone()),
-                line,
-                column,
-                message: diagnostic.message.clone(),
-                help: diagnostic.help.join("; "),
-            }
-        };
-        self.list.iter().map(entry).collect()
-    }
-}
-
-impl fmt::Display for Diagnostics {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (position, diagnostic) in self.list.iter().enumerate() {
-            if position > 0 {
-                formatter.write_str("\n\n")?;
-            }
-            formatter.write_str(&render::plain(diagnostic, self.source.as_ref()))?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Diagnostics {}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,30 +111,5 @@ mod tests {
         assert_eq!(nearest("crnak", ["coupler", "crank"]), Some("crank"));
         assert_eq!(nearest("rocker", ["coupler", "crank"]), None);
         assert_eq!(nearest("x", ["y", "xx"]), Some("y"));
-    }
-
-    #[test]
-    fn entries_count_lines_and_characters_from_one() {
-        let source = SourceFile { name: "a.toml".into(), text: "x = 1\nµ = y\n".into() };
-        let mut all = Diagnostics::new();
-        all.push(
-            Diagnostic::new(Code::UnknownName, "no `y`")
-                .at(Span { start: 11, end: 12 }, "")
-                .help("h1")
-                .help("h2"),
-        );
-        let entry = &all.located(&source).entries()[0];
-        assert_eq!((entry.line, entry.column), (2, 5));
-        assert_eq!((entry.code, entry.help.as_str()), ("E0204", "h1; h2"));
-    }
-
-    #[test]
-    fn a_file_is_shown_in_the_order_of_its_text() {
-        let source = SourceFile { name: "a.toml".into(), text: "abcdef".into() };
-        let mut all = Diagnostics::new();
-        all.push(Diagnostic::new(Code::ZeroAxis, "second").at(Span { start: 3, end: 4 }, ""));
-        all.push(Diagnostic::new(Code::ZeroAxis, "first").at(Span { start: 1, end: 2 }, ""));
-        let all = all.located(&source);
-        assert_eq!(all.list()[0].message, "first");
     }
 }

@@ -43,6 +43,12 @@ pub enum Cause {
         /// The wearing joints.
         known: Vec<String>,
     },
+    /// A fit is of another process than the Gamma process, or has an exponent of exposure.
+    #[error("the fit of `{joint}` is no plain Gamma process over Lambda, which random lives are drawn from")]
+    NotGamma {
+        /// The joint.
+        joint: String,
+    },
     /// A shared factor is given, but only the mean path is lived.
     #[error("a shared factor spreads random lives, and none are asked for")]
     NoRandomLives,

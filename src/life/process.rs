@@ -3,6 +3,7 @@
 
 use linkwear_gamma::life::{Estimate, LifeError as LawError};
 use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean, PER_METRE};
+use linkwear_gamma::process::{Gamma, Process as _};
 use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
 
@@ -48,6 +49,11 @@ impl Process {
         let known: Vec<String> = contacts().map(|contact| contact.joint.to_string()).collect();
         if let Some(fit) = study.fits.iter().find(|fit| !known.contains(&fit.joint)) {
             return Err(Cause::UnknownJoint { joint: fit.joint.clone(), known });
+        }
+        let is_gamma =
+            |estimate: &Estimate| estimate.process().name() == Gamma.name() && estimate.exponent().is_none();
+        if let Some(fit) = study.fits.iter().find(|fit| !is_gamma(&fit.estimate)) {
+            return Err(Cause::NotGamma { joint: fit.joint.clone() });
         }
         let shared = study.shared_factor.map(shared).transpose()?;
         let is_asked = study.trajectories.is_asked() || !study.fits.is_empty() || shared.is_some();

@@ -38,17 +38,6 @@ impl Graph {
         Self { arrows }
     }
 
-    /// The same with some arrows taken away.
-    pub fn without(&self, taken: &[(&str, &str)]) -> Self {
-        let mut arrows = self.arrows.clone();
-        for (from, to) in taken {
-            if let Some(targets) = arrows.get_mut(*from) {
-                targets.remove(*to);
-            }
-        }
-        Self { arrows }
-    }
-
     /// Whether this arrow exists, and its end leads back to its beginning.
     pub fn is_on_a_circle(&self, (from, to): &(&str, &str)) -> bool {
         let exists = self.arrows.get(*from).is_some_and(|targets| targets.contains(*to));

@@ -118,51 +118,12 @@ fn allowed_arrows_form_no_circle() {
     }
 }
 
-/// Arrows of files that are left on a circle: from, to, why. The list may only shrink.
-const EXCUSED: &[(&str, &str, &str)] = &[
-    ("codegen/src/diagnostic/render.rs", "codegen/src/diagnostic.rs", "the file of the folder uses it, too"),
-    (
-        "codegen/src/model/resolve/flexible.rs",
-        "codegen/src/model/resolve/mod.rs",
-        "the file of the folder uses it, too",
-    ),
-    (
-        "codegen/src/model/resolve/inertia.rs",
-        "codegen/src/model/resolve/mod.rs",
-        "the file of the folder uses it, too",
-    ),
-    (
-        "codegen/src/model/resolve/names.rs",
-        "codegen/src/model/resolve/mod.rs",
-        "the file of the folder uses it, too",
-    ),
-    (
-        "codegen/src/model/resolve/quantity.rs",
-        "codegen/src/model/resolve/mod.rs",
-        "the file of the folder uses it, too",
-    ),
-    ("codegen/src/spec/syntax/lex.rs", "codegen/src/spec/syntax.rs", "the file of the folder uses it, too"),
-    (
-        "codegen/src/spec/syntax/parser.rs",
-        "codegen/src/spec/syntax.rs",
-        "the file of the folder uses it, too",
-    ),
-];
-
 #[test]
 fn files_form_no_circle() {
-    let excused: Vec<(&str, &str)> = EXCUSED.iter().map(|(from, to, _)| (*from, *to)).collect();
-    let mut needed: BTreeSet<(&str, &str)> = BTreeSet::new();
-    let mut wrong = Vec::new();
-    for root in ["codegen/src", "runtime/src", "gamma/src", "oracle/src", "src", "case-study/src"] {
-        let graph = Graph::read(Path::new(root));
-        needed.extend(excused.iter().filter(|arrow| graph.is_on_a_circle(arrow)));
-        wrong.extend(graph.without(&excused).arrows_on_circles());
-    }
+    let roots = ["codegen/src", "runtime/src", "gamma/src", "oracle/src", "src", "case-study/src"];
+    let wrong: Vec<String> =
+        roots.iter().flat_map(|root| Graph::read(Path::new(root)).arrows_on_circles()).collect();
     assert!(wrong.is_empty(), "arrows on circles of files:\n{}", wrong.join("\n"));
-    let stale: Vec<&(&str, &str, &str)> =
-        EXCUSED.iter().filter(|(from, to, _)| !needed.contains(&(*from, *to))).collect();
-    assert!(stale.is_empty(), "no longer on a circle, delete from EXCUSED: {stale:#?}");
 }
 
 #[test]

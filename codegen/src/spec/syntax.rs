@@ -6,89 +6,15 @@
 //! `*` only if what follows is not a name of the file (`2 N*m`, but `2 Hz*t` is two hertz times the time).
 //! Angles are pure numbers; there is no product by a blank between a number and a name.
 
-use std::ops::Range;
-
-use super::Dimension;
-
+mod expression;
 mod lex;
 mod parser;
 mod units;
 
-/// An operator between two values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "named as in arithmetic")]
-pub enum Operator {
-    Add,
-    Sub,
-    Mul,
-    Div,
-}
+pub use expression::{Expression, Form, Operator, SyntaxError};
 
-/// What a piece of a formula is.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Form {
-    /// A number in SI; `bare` without a unit.
-    Number {
-        /// Value in SI.
-        value: f64,
-        /// Its dimension.
-        dimension: Dimension,
-        /// No unit is written.
-        bare: bool,
-    },
-    /// A parameter, `t` or `pi`.
-    Name(String),
-    /// `R4.q`.
-    Member(String, String),
-    /// `-a`.
-    Neg(Box<Expression>),
-    /// `a + b` and the like.
-    Binary(Operator, Box<Expression>, Box<Expression>),
-    /// `a ^ n`.
-    Power(Box<Expression>, i32),
-    /// `sin(a)`.
-    Call(String, Vec<Expression>),
-}
-
-/// A piece of a formula and its place in the text, in bytes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expression {
-    /// What it is.
-    pub form: Form,
-    /// Where it stands.
-    pub range: Range<usize>,
-    /// Units that are names of the file too, hence perhaps misread; only at the root.
-    pub shadowed: Vec<(String, Range<usize>)>,
-}
-
-impl Expression {
-    /// Value in SI and dimension, if the whole is one quantity, perhaps with a sign.
-    #[must_use]
-    pub fn quantity(&self) -> Option<(f64, Dimension)> {
-        match &self.form {
-            Form::Number { value, dimension, .. } => Some((*value, *dimension)),
-            Form::Neg(inner) => inner.quantity().map(|(value, dimension)| (-value, dimension)),
-            _ => None,
-        }
-    }
-}
-
-/// Why a formula cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SyntaxError {
-    /// What is wrong.
-    pub message: String,
-    /// What to do about it.
-    pub help: Option<String>,
-    /// Where [bytes of the text].
-    pub range: Range<usize>,
-    /// The fault is in a unit.
-    pub unit: bool,
-}
-
-/// Longest formula [bytes] and deepest nesting: far above any real one, and safe for the recursion over it.
+/// Longest formula [bytes]: far above any real one.
 const LONGEST: usize = 2000;
-const DEEPEST: usize = 60;
 
 /// Reads a formula. `is_name` says whether a word is a name of the file; it decides `2 N*m`.
 ///
@@ -109,6 +35,7 @@ pub fn parse_expression(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Ex
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spec::Dimension;
 
     fn read(text: &str) -> Result<Expression, SyntaxError> {
         parse_expression(text, &|name| ["m", "s", "L1", "speed", "t", "pi"].contains(&name))

@@ -203,6 +203,39 @@ mod tests {
     use super::*;
 
     #[test]
+    fn drawn_increments_have_mean_and_variance_of_the_law() {
+        // [CS (23)], [CS (24)]: alpha dLambda / beta and alpha dLambda / beta².
+        let (alpha, beta, exposure, n) = (3.0, 2.0, 0.7, 20_000);
+        let mut stream = Stream::new(9, 0, 0);
+        let drawn: Vec<f64> =
+            (0..n).map(|_| Gamma.draw([alpha, beta].map(f64::ln), exposure, &mut stream)).collect();
+        let mean = drawn.iter().sum::<f64>() / f64::from(n);
+        let variance = drawn.iter().map(|wear| (wear - mean) * (wear - mean)).sum::<f64>() / f64::from(n - 1);
+        let (shape, law) = (alpha * exposure, alpha * exposure / (beta * beta));
+        // Three standard errors of a fixed seed; the fourth central moment is (3 + 6 / shape) times the variance squared.
+        assert!((mean - shape / beta).abs() < 3.0 * (law / f64::from(n)).sqrt(), "{mean}");
+        assert!(
+            (variance - law).abs() < 3.0 * law * ((2.0 + 6.0 / shape) / f64::from(n)).sqrt(),
+            "{variance}"
+        );
+    }
+
+    #[test]
+    fn the_profile_equation_has_the_root_of_the_full_likelihood() {
+        let increments = [(1.0_f64, 0.8), (0.5, 0.7), (2.0, 2.9), (1.5, 1.1), (0.3, 0.2)];
+        let (exposures, wears): (Vec<f64>, Vec<f64>) = increments.into_iter().unzip();
+        let logs = Gamma.maximum(&exposures, &wears).expect("scatter");
+        let gradient = |k: usize| -> f64 {
+            let one = |(exposure, wear): (f64, f64)| {
+                Gamma.density([logs[0] + exposure.ln(), logs[1]], wear).gradient[k]
+            };
+            increments.into_iter().map(one).sum()
+        };
+        // Both derivatives vanish to rounding of terms of size 10.
+        assert!(gradient(0).abs() < 1e-12 && gradient(1).abs() < 1e-12, "{} {}", gradient(0), gradient(1));
+    }
+
+    #[test]
     fn increments_without_scatter_have_no_maximum() {
         assert_eq!(Gamma.maximum(&[1.0, 2.0, 1.0], &[1.0, 2.0, 1.0]), None);
     }

@@ -2,7 +2,8 @@
 //! Out: [`Flexible`]. The modes themselves are computed by [`crate::flexible`].
 
 use super::flexible::{Use, Written, hinges, section_axes};
-use super::{Resolver, inertia, place};
+use super::inertia;
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flexible::{
     Attachment, Beam, BeamError, BeamInput, ConcentratedMass, Counts, Hold, Material, ModalData, Node,

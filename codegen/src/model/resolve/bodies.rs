@@ -1,8 +1,9 @@
 //! Bodies: which of the four descriptions it is, and that its numbers are possible.
 
+use super::inertia;
 use super::names::Thing;
 use super::quantity::Allowed;
-use super::{Resolver, inertia, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{BodyId, PointId};
 use crate::model::{Amount, Body, Carrier, Formula, Inertia, Point, Position};

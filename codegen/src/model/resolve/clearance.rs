@@ -4,8 +4,9 @@ use linkwear_runtime::contact::{IMPACT_SPEED_FLOOR, Onset, Restitution, Stiffnes
 use linkwear_runtime::wear::{Area, DEFAULT_BINS};
 use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 
+use super::inertia;
 use super::quantity::Allowed;
-use super::{Resolver, inertia, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Axis, Clearance, Formula, Joint};
 use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity, WearSpec};

@@ -1,6 +1,6 @@
 //! Whether there are bodies at all, and whether joints connect each of them to the ground.
 
-use super::Resolver;
+use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Carrier, Joint};
 use crate::source::Span;

@@ -1,13 +1,13 @@
 //! Flexible bodies: which points need a node, where the floating frame lies, and the constants of the body,
 //! from a beam ([`super::beam`]) or from a file of modal data.
 
+use super::inertia;
 use super::quantity::Allowed;
-use super::{Resolver, inertia, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Direction, Flexible, Force, Joint, Station};
-use crate::source::Span;
 use crate::spec::{At, BodySpec, Dimension, File, FlexibleSpec, Name, Quantity};
 
 /// Nodes of modal data match points that are nearer than this share of the body's size: coordinates written
@@ -22,14 +22,6 @@ pub(super) struct Use {
     pub(super) held: bool,
     /// That joint constrains orientation.
     pub(super) turns: bool,
-}
-
-/// Start values of a flexible body's modes as written.
-pub(super) struct ModalStart {
-    pub(super) body: BodyId,
-    pub(super) position: Vec<f64>,
-    pub(super) speed: Vec<f64>,
-    pub(super) span: Span,
 }
 
 impl Resolver<'_> {

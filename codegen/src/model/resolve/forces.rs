@@ -1,7 +1,8 @@
 //! Force elements: springs between points, forces and torques by formula.
 
+use super::inertia;
 use super::quantity::Allowed;
-use super::{Resolver, inertia, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::PointId;
 use crate::model::{AppliedForce, AppliedTorque, Bushing, Carrier, Force, ForceKind, Formula, Spring};

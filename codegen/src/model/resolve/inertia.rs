@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::quantity::Allowed;
-use super::{Resolver, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Formula;
 use crate::spec::{At, BodySpec, Dimension, Name, Quantity, Triple};

@@ -1,7 +1,8 @@
 //! What kind a joint is, and its axes.
 
+use super::inertia;
 use super::quantity::Allowed;
-use super::{Resolver, inertia, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel};
 use crate::source::Span;

@@ -1,7 +1,7 @@
 //! Joints: which bodies and point, motion laws, damping, springs and actuators.
 
 use super::quantity::Allowed;
-use super::{Resolver, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::PointId;
 use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive};

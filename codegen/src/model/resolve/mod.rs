@@ -13,44 +13,26 @@ mod forces;
 mod inertia;
 mod joint_model;
 mod joints;
+mod lookup;
+mod modal_start;
 mod names;
 mod overrides;
 mod parameters;
 mod points;
 mod quantity;
+mod resolver;
 mod starts;
 mod term;
 
 pub use overrides::{OverrideError, Overrides};
 
-use std::path::PathBuf;
-
-use self::flexible::ModalStart;
 use self::names::Names;
 use self::quantity::Allowed;
-use super::{Closure, Formula, JointModel, Mechanism, Parameter, Point, Term};
+use self::resolver::Resolver;
+use super::{Closure, Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
-use crate::source::{SourceFile, Span};
-use crate::spec::{ClosureSpec, Dimension, File, Name, Spec, Triple};
-
-/// What the steps of the resolver share.
-struct Resolver<'a> {
-    source: &'a SourceFile,
-    skipped: &'a [Span],
-    diagnostics: Vec<Diagnostic>,
-    names: Names,
-    parameters: Vec<Parameter>,
-    /// Values of the parameters.
-    values: Vec<f64>,
-    /// Parameters that are not tunable but follow from tunable ones are written out where they are used.
-    written_out: Vec<Option<Term>>,
-    used: Vec<bool>,
-    points: Vec<Point>,
-    joint_models: Vec<JointModel>,
-    modal_starts: Vec<ModalStart>,
-    /// Other files that were read.
-    attached: Vec<PathBuf>,
-}
+use crate::source::Span;
+use crate::spec::{ClosureSpec, Dimension, File, Spec};
 
 /// Finds out what a file means.
 ///
@@ -164,67 +146,6 @@ impl Resolver<'_> {
         }
     }
 
-    fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
-    }
-
-    fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(diagnostic);
-    }
-
-    /// Reports what is missing within `whole`, unless something there was left out because it was wrong:
-    /// then that is the reason. The fault is shown at `at`.
-    fn missing(&mut self, whole: Span, at: Span, diagnostic: impl FnOnce() -> Diagnostic) {
-        if !self.skipped.iter().any(|skipped| whole.start <= skipped.start && skipped.end <= whole.end) {
-            self.report(diagnostic().at(at, ""));
-        }
-    }
-
-    /// Three formulas of one dimension.
-    fn triple(
-        &mut self,
-        triple: &Triple,
-        dimension: Dimension,
-        allowed: Allowed,
-        what: &str,
-    ) -> [Formula; 3] {
-        let items = &triple.0.value;
-        if items.len() != 3 {
-            self.wrong_count(triple.0.span, items.len(), "3", what);
-            return std::array::from_fn(|_| Formula::number(f64::NAN, dimension));
-        }
-        std::array::from_fn(|at| self.formula(&items[at], Some(dimension), allowed, what))
-    }
-
-    fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
-        let entries = if found == 1 { "entry" } else { "entries" };
-        let message = format!("{what} has {found} {entries}, not {needed}");
-        self.report(Diagnostic::new(Code::WrongCount, message).at(span, ""));
-    }
-
-    /// Value with the parameters of the file; NaN if it is not known before the motion.
-    fn value(&self, formula: &Formula) -> f64 {
-        formula.value(&self.values).unwrap_or(f64::NAN)
-    }
-
-    fn values_of<const N: usize>(&self, formulas: &[Formula; N]) -> [f64; N] {
-        std::array::from_fn(|at| self.value(&formulas[at]))
-    }
-
-    /// Reports unless `formula` is positive (or zero, if allowed).
-    fn check_positive(&mut self, formula: &Formula, zero_allowed: bool, what: &str) {
-        let value = self.value(formula);
-        if value < 0.0 || (value == 0.0 && !zero_allowed) {
-            let unit = match formula.dimension {
-                Dimension::NONE => String::new(),
-                dimension => format!(" {}", dimension.si_unit()),
-            };
-            let message = format!("{what} is {value}{unit}");
-            let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
-            self.report(Diagnostic::new(Code::NotPositive, message).at(formula.span, need));
-        }
-    }
-
     /// A fault in the text of a repeated group appears once per cell: keeps the first and counts the others.
     fn fold_cells(&mut self, file: &File) {
         let groups = crate::spec::group_spans(file);
@@ -248,9 +169,4 @@ impl Resolver<'_> {
             })
             .collect();
     }
-}
-
-/// `key` of `what` `name`, as messages call a place.
-fn place(key: &str, what: &str, name: &Name) -> String {
-    format!("`{key}` of {what} `{}`", name.value)
 }

@@ -1,8 +1,9 @@
 //! Parameters: in which order they follow from each other, their values, and `--set`.
 
 use super::names::Thing;
+use super::overrides::Overrides;
 use super::quantity::Allowed;
-use super::{Overrides, Resolver};
+use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::ParameterId;
 use crate::model;

@@ -1,7 +1,7 @@
 //! Points: positions, and the body that carries each.
 
 use super::quantity::Allowed;
-use super::{Resolver, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Formula, Inertia, Joint, Point, Position};

@@ -3,11 +3,11 @@
 
 use std::ops::Range;
 
-use super::Resolver;
+use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Formula, Term};
 use crate::source::Span;
-use crate::spec::{Dimension, Expression, Form, Literal, Quantity, SyntaxError, parse_expression};
+use crate::spec::{Dimension, Expression, Form, Literal, Quantity, SyntaxError, Triple, parse_expression};
 
 /// What may occur in a formula, by the place where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +47,22 @@ pub(super) struct Origin<'a> {
 pub(super) type Resolved = Option<(Term, Dimension)>;
 
 impl Resolver<'_> {
+    /// Three formulas of one dimension.
+    pub(super) fn triple(
+        &mut self,
+        triple: &Triple,
+        dimension: Dimension,
+        allowed: Allowed,
+        what: &str,
+    ) -> [Formula; 3] {
+        let items = &triple.0.value;
+        if items.len() != 3 {
+            self.wrong_count(triple.0.span, items.len(), "3", what);
+            return std::array::from_fn(|_| Formula::number(f64::NAN, dimension));
+        }
+        std::array::from_fn(|at| self.formula(&items[at], Some(dimension), allowed, what))
+    }
+
     /// The formula that `quantity` means; NaN where it is wrong, which is reported.
     /// `expected` is the dimension it must have, if that is known. `what` names the place: "`radius` of body `crank`".
     pub(super) fn formula(

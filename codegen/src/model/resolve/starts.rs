@@ -1,9 +1,9 @@
 //! Start values: `[assembly]` (guesses) and `[initial]` (met exactly).
 
-use super::flexible::ModalStart;
+use super::modal_start::ModalStart;
 use super::names::Thing;
 use super::quantity::Allowed;
-use super::{Resolver, place};
+use super::resolver::{Resolver, place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{BodyId, JointId};
 use crate::model::{Coordinate, Joint, JointModel, Start};

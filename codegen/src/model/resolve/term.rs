@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::Resolver;
 use super::names::Thing;
 use super::quantity::{Origin, Resolved};
+use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
 use crate::model::{Function, Term};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::SyntaxError;
+use super::expression::SyntaxError;
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]

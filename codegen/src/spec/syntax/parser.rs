@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
+use super::expression::{Expression, Form, Operator, SyntaxError};
 use super::lex::{Kind, Token};
-use super::{DEEPEST, Expression, Form, Operator, SyntaxError};
+
+/// Deepest nesting: far above any real formula, and safe for the recursion over it.
+const DEEPEST: usize = 60;
 
 pub(super) fn parse(
     tokens: &[Token],

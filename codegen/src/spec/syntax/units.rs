@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::super::unit::{Unit, suggestion, unit};
-use super::SyntaxError;
+use super::expression::SyntaxError;
 use super::lex::{Kind, Token};
 use super::parser::{Parser, fault};
 

@@ -1,0 +1,81 @@
+//! What the steps of the resolver share, and how they report.
+
+use std::path::PathBuf;
+
+use super::modal_start::ModalStart;
+use super::names::Names;
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::model::{Formula, JointModel, Parameter, Point, Term};
+use crate::source::{SourceFile, Span};
+use crate::spec::{Dimension, Name};
+
+/// What the steps of the resolver share.
+pub(super) struct Resolver<'a> {
+    pub(super) source: &'a SourceFile,
+    pub(super) skipped: &'a [Span],
+    pub(super) diagnostics: Vec<Diagnostic>,
+    pub(super) names: Names,
+    pub(super) parameters: Vec<Parameter>,
+    /// Values of the parameters.
+    pub(super) values: Vec<f64>,
+    /// Parameters that are not tunable but follow from tunable ones are written out where they are used.
+    pub(super) written_out: Vec<Option<Term>>,
+    pub(super) used: Vec<bool>,
+    pub(super) points: Vec<Point>,
+    pub(super) joint_models: Vec<JointModel>,
+    pub(super) modal_starts: Vec<ModalStart>,
+    /// Other files that were read.
+    pub(super) attached: Vec<PathBuf>,
+}
+
+impl Resolver<'_> {
+    pub(super) fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Reports what is missing within `whole`, unless something there was left out because it was wrong:
+    /// then that is the reason. The fault is shown at `at`.
+    pub(super) fn missing(&mut self, whole: Span, at: Span, diagnostic: impl FnOnce() -> Diagnostic) {
+        if !self.skipped.iter().any(|skipped| whole.start <= skipped.start && skipped.end <= whole.end) {
+            self.report(diagnostic().at(at, ""));
+        }
+    }
+
+    pub(super) fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
+        let entries = if found == 1 { "entry" } else { "entries" };
+        let message = format!("{what} has {found} {entries}, not {needed}");
+        self.report(Diagnostic::new(Code::WrongCount, message).at(span, ""));
+    }
+
+    /// Value with the parameters of the file; NaN if it is not known before the motion.
+    pub(super) fn value(&self, formula: &Formula) -> f64 {
+        formula.value(&self.values).unwrap_or(f64::NAN)
+    }
+
+    pub(super) fn values_of<const N: usize>(&self, formulas: &[Formula; N]) -> [f64; N] {
+        std::array::from_fn(|at| self.value(&formulas[at]))
+    }
+
+    /// Reports unless `formula` is positive (or zero, if allowed).
+    pub(super) fn check_positive(&mut self, formula: &Formula, zero_allowed: bool, what: &str) {
+        let value = self.value(formula);
+        if value < 0.0 || (value == 0.0 && !zero_allowed) {
+            let unit = match formula.dimension {
+                Dimension::NONE => String::new(),
+                dimension => format!(" {}", dimension.si_unit()),
+            };
+            let message = format!("{what} is {value}{unit}");
+            let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
+            self.report(Diagnostic::new(Code::NotPositive, message).at(formula.span, need));
+        }
+    }
+}
+
+/// `key` of `what` `name`, as messages call a place.
+pub(super) fn place(key: &str, what: &str, name: &Name) -> String {
+    format!("`{key}` of {what} `{}`", name.value)
+}

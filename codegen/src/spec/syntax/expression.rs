@@ -1,0 +1,77 @@
+//! A formula in pieces, each with its place in the text.
+
+use std::ops::Range;
+
+use crate::spec::dimension::Dimension;
+
+/// An operator between two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs, reason = "named as in arithmetic")]
+pub enum Operator {
+    Add,
+    Sub,
+    Mul,
+    Div,
+}
+
+/// What a piece of a formula is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// A number in SI; `bare` without a unit.
+    Number {
+        /// Value in SI.
+        value: f64,
+        /// Its dimension.
+        dimension: Dimension,
+        /// No unit is written.
+        bare: bool,
+    },
+    /// A parameter, `t` or `pi`.
+    Name(String),
+    /// `R4.q`.
+    Member(String, String),
+    /// `-a`.
+    Neg(Box<Expression>),
+    /// `a + b` and the like.
+    Binary(Operator, Box<Expression>, Box<Expression>),
+    /// `a ^ n`.
+    Power(Box<Expression>, i32),
+    /// `sin(a)`.
+    Call(String, Vec<Expression>),
+}
+
+/// A piece of a formula and its place in the text, in bytes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expression {
+    /// What it is.
+    pub form: Form,
+    /// Where it stands.
+    pub range: Range<usize>,
+    /// Units that are names of the file too, hence perhaps misread; only at the root.
+    pub shadowed: Vec<(String, Range<usize>)>,
+}
+
+impl Expression {
+    /// Value in SI and dimension, if the whole is one quantity, perhaps with a sign.
+    #[must_use]
+    pub fn quantity(&self) -> Option<(f64, Dimension)> {
+        match &self.form {
+            Form::Number { value, dimension, .. } => Some((*value, *dimension)),
+            Form::Neg(inner) => inner.quantity().map(|(value, dimension)| (-value, dimension)),
+            _ => None,
+        }
+    }
+}
+
+/// Why a formula cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Where [bytes of the text].
+    pub range: Range<usize>,
+    /// The fault is in a unit.
+    pub unit: bool,
+}
