@@ -2,7 +2,7 @@
 //! names. A re-export is followed to the file behind it and is no arrow itself.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::source::{code, identifier, rust_files};
 
@@ -71,7 +71,7 @@ fn is_test(file: &Path) -> bool {
 }
 
 /// `a/b.rs` and `a/b/mod.rs` are a::b; `lib.rs` and `main.rs` are the root.
-fn place(file: &PathBuf, root: &Path) -> Place {
+fn place(file: &Path, root: &Path) -> Place {
     let inside = file.strip_prefix(root).expect("inside").with_extension("");
     let mut place: Place = inside.iter().map(|part| part.to_string_lossy().into_owned()).collect();
     if place.last().is_some_and(|name| ["mod", "lib"].contains(&name.as_str())) {
