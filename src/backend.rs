@@ -51,7 +51,6 @@ impl Equations {
     }
 
     /// By interpreting the tapes.
-    #[must_use]
     pub fn interpreted(mechanism: &Compiled) -> Self {
         let system = mechanism.interpreter();
         Self { name: "interpreter", make: Box::new(move || Box::new(system.clone())) }
@@ -73,13 +72,11 @@ impl Equations {
     }
 
     /// `compiled` or `interpreter`.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         self.name
     }
 
     /// The equations, for one thread.
-    #[must_use]
     pub fn system(&self) -> Box<dyn System<f64>> {
         (self.make)()
     }

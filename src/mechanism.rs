@@ -64,27 +64,23 @@ impl Mechanism {
     }
 
     /// A shipped mechanism by its name; none if there is no such.
-    #[must_use]
     pub fn shipped(name: &str) -> Option<Self> {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name)?;
         Some(Self::new((shipped.description)().clone(), Equations::compiled(shipped.system)))
     }
 
     /// A mechanism that a program compiled in, every parameter at its default.
-    #[must_use]
     pub fn new(description: Description, equations: Equations) -> Self {
         let parameters = description.parameters.iter().map(|parameter| parameter.default).collect();
         Self { description, parameters, warnings: Diagnostics::default(), equations }
     }
 
     /// Its equations, for one thread.
-    #[must_use]
     pub fn system(&self) -> Box<dyn System<f64>> {
         self.equations.system()
     }
 
     /// What runs them: `compiled` or `interpreter`.
-    #[must_use]
     pub fn backend(&self) -> &'static str {
         self.equations.name()
     }
@@ -102,7 +98,6 @@ pub fn read_source(file: &Path) -> Result<SourceFile, LoadError> {
 }
 
 /// Remarks on a compiled file, with their places in its text.
-#[must_use]
 pub fn located_warnings(mechanism: &Compiled) -> Diagnostics {
     Diagnostics::from_list(mechanism.warnings.clone()).located(&mechanism.source)
 }

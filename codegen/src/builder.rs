@@ -26,6 +26,7 @@ const DEFAULT_RUNTIME: &str = "::linkwear_runtime";
 /// The name is the file's, without `.toml`. Options hold for every mechanism of one builder; use a
 /// second builder for other options.
 #[derive(Clone, Debug, Default)]
+#[must_use]
 pub struct Builder {
     mechanisms: Vec<PathBuf>,
     options: Options,
@@ -102,48 +103,41 @@ impl std::error::Error for BuildErrors {}
 
 impl Builder {
     /// A builder without mechanisms.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// Adds a mechanism; the path is relative to the package, as a build script sees it.
-    #[must_use]
     pub fn mechanism(mut self, path: impl Into<PathBuf>) -> Self {
         self.mechanisms.push(path.into());
         self
     }
 
     /// How loops are closed, whatever the files say.
-    #[must_use]
     pub fn closure(mut self, closure: Closure) -> Self {
         self.options.closure = Some(closure);
         self
     }
 
     /// Sets a parameter to a value with a unit, as in a file: `.parameter("L1", "130 mm")`.
-    #[must_use]
     pub fn parameter(mut self, name: impl Into<String>, value: impl Into<String>) -> Self {
         self.options.overrides.push((name.into(), value.into()));
         self
     }
 
     /// Path by which generated code finds the runtime, e.g. `crate::vendored::linkwear_runtime`.
-    #[must_use]
     pub fn runtime_path(mut self, path: impl Into<String>) -> Self {
         self.runtime_path = Some(path.into());
         self
     }
 
     /// Folder to write to instead of `OUT_DIR`.
-    #[must_use]
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());
         self
     }
 
     /// Folder for readable copies, instead of the one in the variable `LINKWEAR_EMIT_DIR`.
-    #[must_use]
     pub fn emit_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.emit_dir = Some(folder.into());
         self
@@ -217,7 +211,6 @@ impl Builder {
 impl Written {
     /// Lines for cargo: rerun when a file that was read, or the dump variable, changes; and the
     /// warnings. Names no folder and no output, which would rerun the script for nothing.
-    #[must_use]
     pub fn cargo_lines(&self) -> String {
         let mut lines = String::new();
         for path in &self.read {

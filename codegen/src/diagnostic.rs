@@ -23,6 +23,7 @@ pub struct Label {
 
 /// One error or warning.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Diagnostic {
     /// Which fault.
     pub code: Code,
@@ -38,7 +39,6 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// A diagnostic without a place yet.
-    #[must_use]
     pub fn new(code: Code, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -50,28 +50,24 @@ impl Diagnostic {
     }
 
     /// Adds the place of the fault.
-    #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into(), primary: true });
         self
     }
 
     /// Adds a related place.
-    #[must_use]
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into(), primary: false });
         self
     }
 
     /// Adds advice.
-    #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Self {
         self.help.push(text.into());
         self
     }
 
     /// Adds "did you mean" if one of `known` is close to `wrong`.
-    #[must_use]
     pub fn did_you_mean<'a>(self, wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         match nearest(wrong, known) {
             Some(name) => self.help(format!("did you mean `{name}`?")),
@@ -80,14 +76,12 @@ impl Diagnostic {
     }
 
     /// Where the fault is, if anywhere.
-    #[must_use]
     pub fn span(&self) -> Option<Span> {
         self.labels.iter().find(|label| label.primary).map(|label| label.span)
     }
 }
 
 /// The known name that a person most likely meant, if any is close.
-#[must_use]
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = wrong.to_lowercase();
     let mut best: Option<(usize, &str)> = None;

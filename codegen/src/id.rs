@@ -12,13 +12,11 @@ macro_rules! typed_index {
             ///
             /// # Panics
             /// Beyond 2^32 entries.
-            #[must_use]
             pub fn new(position: usize) -> Self {
                 Self(u32::try_from(position).expect("fewer than 2^32 entries"))
             }
 
             /// Position in the list that this index belongs to.
-            #[must_use]
             pub const fn index(self) -> usize {
                 self.0 as usize
             }

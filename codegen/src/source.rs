@@ -27,19 +27,16 @@ pub struct SourceFile {
 
 impl SourceFile {
     /// Path of a file named in this one: beside it, unless absolute.
-    #[must_use]
     pub fn beside(&self, file: &str) -> std::path::PathBuf {
         std::path::Path::new(&self.name).parent().map_or_else(|| file.into(), |folder| folder.join(file))
     }
 
     /// SHA-256 of the text, in hexadecimal.
-    #[must_use]
     pub fn sha256(&self) -> String {
         hmac_sha256::Hash::hash(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
     /// Line and column, both from 1, of a byte offset; columns count characters.
-    #[must_use]
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let offset = offset.min(self.text.len());
         let before = &self.text.as_bytes()[..offset];

@@ -162,7 +162,6 @@ fn listed(rows: &[NotIncreasing]) -> String {
 
 impl DataError {
     /// The row to look at first, when one is to blame.
-    #[must_use]
     pub fn row(&self) -> Option<usize> {
         match self {
             Self::Empty | Self::ConstantCovariate { .. } => None,
@@ -177,7 +176,6 @@ impl DataError {
     }
 
     /// What to do.
-    #[must_use]
     pub fn cure(&self) -> &'static str {
         match self {
             Self::Empty => "give at least two readings of a unit",

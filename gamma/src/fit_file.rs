@@ -67,7 +67,6 @@ pub struct FitFileError {
 
 impl FitFile {
     /// Of a fit: names of its covariates, what wear and exposure are counted in, whether exposure is Lambda already.
-    #[must_use]
     pub fn new(
         fit: &Fit,
         observations: &Observations,
@@ -95,7 +94,6 @@ impl FitFile {
 
     /// Names of the process's parameters, `exponent`, `power of` each covariate: those that were estimated, in the order of
     /// the covariance.
-    #[must_use]
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.process.parameters().map(str::to_owned).to_vec();
         names.extend(self.exponent.map(|_| "exponent".to_owned()));
@@ -104,7 +102,6 @@ impl FitFile {
     }
 
     /// As the file has it.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let mut file = Map::new();
         file.insert("process".into(), json!(self.process.name()));
@@ -159,7 +156,6 @@ impl FitFile {
     }
 
     /// What a reader of the answer has to know about the fit.
-    #[must_use]
     pub fn warning(&self) -> Option<&'static str> {
         let known = "the fit has no `covariance`: its parameters are taken as known, bands have no width";
         self.covariance.is_empty().then_some(known)
@@ -239,7 +235,6 @@ impl FitFile {
     }
 
     /// The fit does not do for what is asked; with the line where the key stands, if it does.
-    #[must_use]
     pub fn fault(&self, key: &str, message: &str, cure: &str) -> FitFileError {
         fault(&self.text, key, message, cure)
     }

@@ -2,8 +2,8 @@
 //! life. In: increments of wear and of exposure Lambda, in the units the caller counts in. Out: estimates, draws,
 //! laws of life. Never knows mechanisms, dynamics, files or terminals.
 
-#![warn(missing_docs, clippy::must_use_candidate)]
-#![cfg_attr(test, allow(clippy::disallowed_methods, clippy::must_use_candidate))]
+#![warn(missing_docs)]
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod data;
 mod error;

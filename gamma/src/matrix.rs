@@ -10,7 +10,6 @@ type Pivot = fn(f64, f64) -> Option<f64>;
 
 impl Factor {
     /// Of a positive definite matrix; None if it is not. NaN, too, is not positive definite.
-    #[must_use]
     pub fn definite(matrix: &[Vec<f64>]) -> Option<Self> {
         Self::with(matrix, |rest, _| (rest > 0.0).then(|| libm::sqrt(rest)))
     }
@@ -60,20 +59,17 @@ impl Factor {
     }
 
     /// Whether it is of no matrix at all.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
     /// L z; nothing for an empty factor.
-    #[must_use]
     pub fn times(&self, z: &[f64]) -> Vec<f64> {
         let row = |row: &Vec<f64>| row.iter().zip(z).map(|(a, b)| a * b).sum();
         self.0.iter().map(row).collect()
     }
 
     /// |L' g|²: variance of g · x.
-    #[must_use]
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let column = |j: usize| -> f64 { self.0.iter().zip(gradient).map(|(row, g)| row[j] * g).sum() };
         (0..self.0.len()).map(|j| column(j) * column(j)).sum()
@@ -93,13 +89,11 @@ impl Factor {
     }
 
     /// |L^-1 d|²: squared distance in standard deviations; None where a direction has no variance.
-    #[must_use]
     pub fn distance(&self, d: &[f64]) -> Option<f64> {
         Some(self.forward(d)?.iter().map(|x| x * x).sum())
     }
 
     /// Solution of L L' x = right; None where a direction has no variance.
-    #[must_use]
     pub fn solve(&self, right: &[f64]) -> Option<Vec<f64>> {
         let mut x = self.forward(right)?;
         for i in (0..x.len()).rev() {
@@ -110,7 +104,6 @@ impl Factor {
     }
 
     /// Inverse of L L', symmetric to the last bit; None where a direction has no variance.
-    #[must_use]
     pub fn inverse(&self) -> Option<Vec<Vec<f64>>> {
         let size = self.0.len();
         let column = |at: usize| {

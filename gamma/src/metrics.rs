@@ -11,7 +11,6 @@ use crate::special::{gamma_p, ln_gamma, normal_cdf, normal_density};
 
 /// CRPS of a sample: mean |X - y| - half the mean |X - X'|, over the empirical law. Same unit as the life; 0 is best.
 /// None for an empty sample.
-#[must_use]
 pub fn crps_sample(sample: &[f64], truth: f64) -> Option<f64> {
     if sample.is_empty() {
         return None;
@@ -26,7 +25,6 @@ pub fn crps_sample(sample: &[f64], truth: f64) -> Option<f64> {
 }
 
 /// CRPS of a normal law.
-#[must_use]
 pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
     let z = (truth - mean) / std;
     let pi = std::f64::consts::PI;
@@ -34,7 +32,6 @@ pub fn crps_normal(mean: f64, std: f64, truth: f64) -> f64 {
 }
 
 /// CRPS of a Gamma law of given shape and rate, for wear increments: `truth` in the unit of 1 / `rate`.
-#[must_use]
 pub fn crps_gamma(shape: f64, rate: f64, truth: f64) -> f64 {
     let x = rate * truth;
     // 1 / B(1/2, shape).
@@ -74,7 +71,6 @@ pub struct Coverage {
 }
 
 /// Coverage of (lower, upper, truth); an end counts as inside. None without intervals.
-#[must_use]
 pub fn coverage(intervals: &[(f64, f64, f64)]) -> Option<Coverage> {
     const Z: f64 = 1.959_963_984_540_054;
     let held = intervals.iter().filter(|(lower, upper, truth)| lower <= truth && truth <= upper).count();

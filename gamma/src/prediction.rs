@@ -155,7 +155,6 @@ impl Prediction {
     }
 
     /// One JSON object.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let moments = self.moments.as_ref();
         let ends = |band: &Band| json!({ "lower": band.lower, "upper": band.upper });

@@ -57,7 +57,6 @@ pub enum AssemblyError {
 impl Oracle {
     /// States of all bodies from the motions of some joints that connect them to the ground.
     /// Bodies that no given joint reaches rest in their reference pose.
-    #[must_use]
     pub fn place(&self, motions: &[(JointId, JointMotion)]) -> Vec<BodyState> {
         let mut states = self.reference_states();
         let mut placed = vec![false; states.len()];
@@ -69,7 +68,6 @@ impl Oracle {
 
     /// The start of the file at time 0: joints at their start values (drives at their laws), placed
     /// outwards in file order, not yet closed.
-    #[must_use]
     pub fn guess(&self) -> Vec<BodyState> {
         let mut states = self.reference_states();
         let mut placed = vec![false; states.len()];

@@ -15,7 +15,6 @@ impl Oracle {
     /// several), `S2.q0` to `S2.q3`, `coupler.wx` to `coupler.wz`, and for a free joint `.x`, `.vx` and so
     /// on. Bodies are placed outwards over the first joints, in file order, whose columns are there.
     /// `None` if some body cannot be reached.
-    #[must_use]
     pub fn states_from(&self, value: &dyn Fn(&str) -> Option<f64>) -> Option<Vec<BodyState>> {
         let motions: Vec<(JointId, JointMotion)> = (0..self.joints.len())
             .map(JointId::new)

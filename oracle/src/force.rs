@@ -30,13 +30,11 @@ pub(crate) struct Applied {
 impl Oracle {
     /// Potential energy of gravity, joint springs and spring elements [J]; zero for masses at W's origin
     /// and springs of rest length (of no length, for a preload).
-    #[must_use]
     pub fn potential_energy(&self, t: f64, states: &[BodyState]) -> f64 {
         self.applied(t, states).potential
     }
 
     /// Power that dampers take away [W].
-    #[must_use]
     pub fn power_dissipated(&self, t: f64, states: &[BodyState]) -> f64 {
         self.applied(t, states).power_dissipated
     }

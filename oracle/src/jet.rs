@@ -20,13 +20,11 @@ pub struct Jet {
 
 impl Jet {
     /// A number that does not change.
-    #[must_use]
     pub const fn constant(value: f64) -> Self {
         Self { value, first: 0.0, second: 0.0 }
     }
 
     /// Time itself.
-    #[must_use]
     pub const fn time(t: f64) -> Self {
         Self { value: t, first: 1.0, second: 0.0 }
     }

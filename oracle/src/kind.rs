@@ -37,7 +37,6 @@ impl Kind {
     ///
     /// # Panics
     /// If the joint has clearance, or is of a kind that the oracle does not know.
-    #[must_use]
     pub fn of(model: &JointModel) -> Self {
         assert!(!model.clearance, "the oracle knows ideal joints only");
         let known = Self::ALL.into_iter().find(|kind| kind.key() == model.kind.name);
@@ -45,7 +44,6 @@ impl Kind {
     }
 
     /// Key in the file.
-    #[must_use]
     pub const fn key(self) -> &'static str {
         match self {
             Self::Revolute => "revolute",
@@ -62,7 +60,6 @@ impl Kind {
     }
 
     /// Rotations and pure translations it leaves.
-    #[must_use]
     pub const fn freedoms(self) -> [usize; 2] {
         match self {
             Self::Revolute | Self::Screw => [1, 0],
@@ -78,19 +75,16 @@ impl Kind {
     }
 
     /// Whether the child turns in space: its orientation is a quaternion.
-    #[must_use]
     pub const fn is_round(self) -> bool {
         self.freedoms()[0] == 3
     }
 
     /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
-    #[must_use]
     pub const fn is_wide(self) -> bool {
         matches!(self, Self::Spherical | Self::Inline | Self::Planar)
     }
 
     /// Scalar coordinates that can be driven, sprung and damped; true for an angle.
-    #[must_use]
     pub const fn coordinates(self) -> &'static [bool] {
         match self {
             Self::Revolute | Self::Screw => &[true],

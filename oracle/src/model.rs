@@ -88,14 +88,12 @@ impl Oracle {
     }
 
     /// All bodies at rest in their reference poses; loops may be open.
-    #[must_use]
     pub fn reference_states(&self) -> Vec<BodyState> {
         let rest = Frame::ground().state;
         self.bodies.iter().map(|body| BodyState { centre: body.centre, ..rest }).collect()
     }
 
     /// Position [m] and velocity [m/s] in W of a named point, as material of its carrier.
-    #[must_use]
     pub fn point(&self, point: PointId, states: &[BodyState]) -> (Vector3<f64>, Vector3<f64>) {
         let frames = self.frames(states);
         let carrier = self.mechanism.point(point).carrier;
@@ -104,31 +102,26 @@ impl Oracle {
     }
 
     /// Coordinates and speeds of a joint, tree or cut alike.
-    #[must_use]
     pub fn joint_motion(&self, joint: JointId, states: &[BodyState]) -> JointMotion {
         self.joints[joint.index()].motion(&self.frames(states).pair(joint))
     }
 
     /// Position in W [m] of a joint's point on the child.
-    #[must_use]
     pub fn joint_point(&self, joint: JointId, states: &[BodyState]) -> Vector3<f64> {
         self.frames(states).pair(joint).child_point.position
     }
 
     /// Largest violation of joints and drives [m or rad] at time `t`.
-    #[must_use]
     pub fn constraint_residual(&self, t: f64, states: &[BodyState]) -> f64 {
         self.rows(t, states).iter().fold(0.0, |worst, (_, row)| worst.max(row.residual.abs()))
     }
 
     /// Largest violation of joints and drives by speeds [m/s or rad/s] at time `t`.
-    #[must_use]
     pub fn velocity_residual(&self, t: f64, states: &[BodyState]) -> f64 {
         self.rows(t, states).iter().fold(0.0, |worst, (_, row)| worst.max(row.rate.abs()))
     }
 
     /// Kinetic energy [J].
-    #[must_use]
     pub fn kinetic_energy(&self, states: &[BodyState]) -> f64 {
         let energy = |(body, s): (&MassProperties, &BodyState)| {
             let spin = s.rotation.transpose() * s.omega;

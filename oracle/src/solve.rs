@@ -109,7 +109,6 @@ impl Oracle {
     /// Accelerations, joint wrenches and drive forces at time `t`.
     ///
     /// The state must satisfy the constraints in position and speed (see [`Oracle::assemble`]).
-    #[must_use]
     pub fn accelerations(&self, t: f64, states: &[BodyState]) -> Solution {
         self.solve(t, states, None)
     }
@@ -160,7 +159,6 @@ impl Oracle {
     }
 
     /// Accelerations of a joint's scalar coordinates [rad/s² or m/s²]; none for spherical, fixed and free.
-    #[must_use]
     pub fn joint_accelerations(&self, joint: JointId, states: &[BodyState], solution: &Solution) -> Vec<f64> {
         let geometry = &self.joints[joint.index()];
         let pair = self.frames(states).pair(joint);

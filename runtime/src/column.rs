@@ -2,6 +2,7 @@
 
 /// The names of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Column {
     /// In words, as text shows it: `mean force`.
     pub name: &'static str,
@@ -18,32 +19,27 @@ pub type Quantity<T> = (Column, fn(&T) -> f64);
 
 impl Column {
     /// A quantity that is told in every table.
-    #[must_use]
     pub const fn new(name: &'static str, symbol: &'static str, unit: &'static str) -> Self {
         Self { name, symbol, unit, brief: true }
     }
 
     /// The same, left out where room is short.
-    #[must_use]
     pub const fn detail(self) -> Self {
         Self { brief: false, ..self }
     }
 
     /// Key in JSON: name and unit, `mean_force_N`.
-    #[must_use]
     pub fn key(&self) -> String {
         let name = self.name.replace(' ', "_");
         if self.unit == "1" { name } else { format!("{name}_{}", self.unit) }
     }
 
     /// Head of a CSV column: `Fn_mean [N]`.
-    #[must_use]
     pub fn head(&self) -> String {
         format!("{} [{}]", self.symbol, self.unit)
     }
 
     /// Head of a column of text: `mean force [N]`.
-    #[must_use]
     pub fn title(&self) -> String {
         if self.unit == "1" { self.name.to_owned() } else { format!("{} [{}]", self.name, self.unit) }
     }

@@ -11,7 +11,6 @@ use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 /// Frequency [Hz] of small vibrations of every contact along its normal, at one state; nothing where there is none.
 /// It grows with the force to the power 1/6 of a sphere's law, so that a state at rest tells that of a whole turn
 /// within tens of per cent.
-#[must_use]
 pub fn contact_frequencies(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) -> Vec<Option<f64>> {
     evaluator.evaluate_contacts(t, q, v);
     let touches = evaluator.clearances().contacts().to_vec();

@@ -170,7 +170,6 @@ pub struct WearInfo {
 
 impl WearInfo {
     /// Whether wear is kept by bearing angle.
-    #[must_use]
     pub fn keeps_profile(&self) -> bool {
         self.profile || self.measure.is_some()
     }
@@ -213,7 +212,6 @@ pub struct Tables {
 
 impl Description {
     /// The description that the tables of generated code stand for.
-    #[must_use]
     pub fn from_tables(name: &'static str, tables: Tables) -> Self {
         let variables = |table: &'static [(&'static str, &'static str, bool)]| -> List<VariableInfo> {
             let entry = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {

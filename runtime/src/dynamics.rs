@@ -38,7 +38,6 @@ pub struct Dynamics<'a> {
 
 impl<'a> Dynamics<'a> {
     /// Prepares storage; `singular_pivot` is the threshold, [`SINGULAR_PIVOT`] by default.
-    #[must_use]
     pub fn new(evaluator: Evaluator<'a>, singular_pivot: f64) -> Self {
         let solver = SingularSolver::new(&evaluator);
         let sizes = evaluator.sizes();
@@ -75,13 +74,11 @@ impl<'a> Dynamics<'a> {
 
     /// Smallest pivot at the last state, each relative to the largest value it has had (1: as regular as
     /// ever, 0: singular).
-    #[must_use]
     pub fn nearness(&self) -> f64 {
         self.nearness
     }
 
     /// Whether the last state counted as nearly singular.
-    #[must_use]
     pub fn is_near_singular(&self) -> bool {
         self.nearness < self.singular_pivot
     }

@@ -29,6 +29,7 @@ impl Default for RevolutionSettings {
 }
 
 /// Revolutions of one mechanism.
+#[must_use]
 pub struct DynamicsSource<'a> {
     runner: TurnRunner<'a>,
     description: &'a Description,
@@ -62,7 +63,6 @@ impl<'a> DynamicsSource<'a> {
 
     /// Hears of the finished part of every measurement; when it breaks, the measurement ends with
     /// [`RunError::Interrupted`].
-    #[must_use]
     pub fn watched_by(mut self, watch: Watch<'a>) -> Self {
         self.watch = watch;
         self
@@ -81,7 +81,6 @@ impl<'a> DynamicsSource<'a> {
     }
 
     /// What was doubtful in the runs so far, the first of each kind.
-    #[must_use]
     pub fn warnings(&self) -> &[RunWarning] {
         &self.warnings
     }

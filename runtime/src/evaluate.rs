@@ -157,25 +157,21 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The counts of the mechanism.
-    #[must_use]
     pub fn sizes(&self) -> Sizes {
         self.sizes
     }
 
     /// The mechanism's description.
-    #[must_use]
     pub fn description(&self) -> &'a Description {
         self.description
     }
 
     /// Places of the coordinates and speeds.
-    #[must_use]
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
     /// For every kept row, its row in the description.
-    #[must_use]
     pub fn kept(&self) -> &[usize] {
         &self.kept
     }
@@ -206,7 +202,6 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Joints with clearance: their laws, states, and contacts at the last evaluation.
-    #[must_use]
     pub fn clearances(&self) -> &Clearances {
         &self.clearances
     }
@@ -246,7 +241,6 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The last answer of [`Self::forward`] or the numbers put in its place.
-    #[must_use]
     pub fn last_forward(&self) -> Forward<'_> {
         let output = &self.outputs[Entry::ForwardDynamics as usize];
         let (accelerations, rest) = output.split_at(self.sizes.speeds);
@@ -287,7 +281,6 @@ impl<'a> Evaluator<'a> {
     /// Factors that make the kept rows of the Jacobian at most about as long as one, so that metres and
     /// radians count alike when rank is judged. They follow the longest each row has been: a row that
     /// vanishes at a singular position must not be blown up.
-    #[must_use]
     pub fn row_scales(&self) -> &[f64] {
         &self.row_scales
     }
@@ -319,7 +312,6 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The last answer of [`Self::closure`].
-    #[must_use]
     pub fn last_closure(&self) -> Closure<'_> {
         let (positions, rest) = self.outputs[Entry::Closure as usize].split_at(self.sizes.all_rows);
         let (speeds, jacobian) = rest.split_at(self.sizes.rows);
@@ -327,7 +319,6 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Loop error of the last answer of [`Self::closure`].
-    #[must_use]
     pub fn loop_error(&self) -> LoopError {
         let mut error = LoopError::default();
         let mut most = 0.0;
@@ -379,7 +370,6 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The last answer of [`Self::prescribed`].
-    #[must_use]
     pub fn last_prescribed(&self) -> &[f64] {
         &self.outputs[Entry::Prescribed as usize]
     }
@@ -399,13 +389,11 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Name of the free speed `index`.
-    #[must_use]
     pub fn speed_name(&self, index: usize) -> String {
         self.description.speeds[index].name.to_string()
     }
 
     /// Name of the joint of row `index` of the description.
-    #[must_use]
     pub fn joint_of_row(&self, index: usize) -> String {
         self.description.rows.get(index).map(|row| row.joint.to_string()).unwrap_or_default()
     }

@@ -37,7 +37,6 @@ pub struct Layout {
 
 impl Motion {
     /// Number of coordinates and speeds.
-    #[must_use]
     pub const fn lengths(self) -> (usize, usize) {
         match self {
             Self::Scalar { .. } => (1, 1),
@@ -47,7 +46,6 @@ impl Motion {
     }
 
     /// Index of the driver that prescribes it.
-    #[must_use]
     pub const fn driver(self) -> Option<usize> {
         match self {
             Self::Scalar { driver } => driver,
@@ -58,7 +56,6 @@ impl Motion {
 
 impl Layout {
     /// Places the motions one behind the other.
-    #[must_use]
     pub fn new(motions: &[Motion]) -> Self {
         let mut layout = Self::default();
         for motion in motions {
@@ -86,7 +83,6 @@ impl Layout {
     }
 
     /// Places among all speeds: of every free speed, and of every driver's speed.
-    #[must_use]
     pub fn speed_places(&self, drivers: usize) -> (Vec<usize>, Vec<usize>) {
         let (mut free, mut driven) = (Vec::with_capacity(self.speeds), vec![0; drivers]);
         for group in &self.groups {
@@ -180,7 +176,6 @@ fn displace(q: &mut [f64], angle: [f64; 3], shift: [f64; 3]) {
 }
 
 /// Rotates a vector from the body's frame to W by a unit quaternion.
-#[must_use]
 pub fn turn(q: [f64; 4], x: [f64; 3]) -> [f64; 3] {
     let axis = [q[1], q[2], q[3]];
     let once = cross3(axis, x);

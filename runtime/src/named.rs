@@ -16,7 +16,6 @@ macro_rules! named {
             pub const ALL: &[Self] = &[$(Self::$Variant),+];
 
             /// Its word in files.
-            #[must_use]
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$Variant => $word),+ }
             }

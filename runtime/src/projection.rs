@@ -43,7 +43,6 @@ pub struct Correction {
 
 impl Correction {
     /// Whether anything was moved.
-    #[must_use]
     pub fn moved(&self) -> bool {
         self.position > 0.0 || self.speed > 0.0
     }
@@ -84,7 +83,6 @@ enum Factored {
 
 impl Projector {
     /// Storage for the evaluator's mechanism.
-    #[must_use]
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let (m, n) = (evaluator.sizes().rows, evaluator.sizes().speeds);
         Self {
@@ -110,7 +108,6 @@ impl Projector {
     }
 
     /// Loop error over all rows after the last projection.
-    #[must_use]
     pub fn loop_error(&self) -> LoopError {
         self.error
     }

@@ -63,7 +63,6 @@ pub struct SingularSolver {
 
 impl SingularSolver {
     /// Storage for the evaluator's mechanism.
-    #[must_use]
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let sizes = evaluator.sizes();
         let (n, all, m) = (sizes.speeds, sizes.all_speeds, sizes.all_rows);

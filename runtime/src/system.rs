@@ -62,7 +62,6 @@ impl Entry {
     ];
 
     /// Name in snake case, as functions of generated code are called.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Prescribed => "prescribed",
@@ -107,7 +106,6 @@ pub struct Sizes {
 
 impl Sizes {
     /// Length of the input slice of `entry`.
-    #[must_use]
     pub const fn input(&self, entry: Entry) -> usize {
         let base = self.parameters + 1;
         let state = base + self.coordinates + self.speeds;
@@ -123,7 +121,6 @@ impl Sizes {
     }
 
     /// Length of the output slice of `entry`.
-    #[must_use]
     pub const fn output(&self, entry: Entry) -> usize {
         let n = self.all_speeds;
         match entry {

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 
 /// Hears of the finished part of long work, 0 to 1, from any thread; `Break` stops it.
 #[derive(Clone, Copy)]
+#[must_use]
 pub struct Watch<'a> {
     hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync),
     from: f64,
@@ -18,13 +19,11 @@ impl Watch<'_> {
 
 impl<'a> Watch<'a> {
     /// A watch that calls `hear`.
-    #[must_use]
     pub const fn new(hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync)) -> Self {
         Self { hear, from: 0.0, length: 1.0 }
     }
 
     /// The same for a piece of the work, from one part of it to another.
-    #[must_use]
     pub fn piece(self, from: f64, to: f64) -> Self {
         Self { hear: self.hear, from: self.from + from * self.length, length: (to - from) * self.length }
     }

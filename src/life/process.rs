@@ -27,7 +27,6 @@ pub struct JointProcess {
 
 impl JointProcess {
     /// alpha and beta [1/µm].
-    #[must_use]
     pub fn per_micrometre(&self) -> [f64; 2] {
         [self.rates.alpha / PER_METRE, self.rates.beta / PER_METRE]
     }

@@ -36,13 +36,11 @@ pub struct LifeResult {
 
 impl LifeResult {
     /// Names of the wearing joints.
-    #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.joints.iter().map(|joint| joint.joint.clone()).collect()
     }
 
     /// Statistics of the random lives with their standard errors [cycles]; none with fewer than two lives.
-    #[must_use]
     pub fn statistics(&self) -> Option<LifeStatistics> {
         let cycles: Vec<f64> = self.lives.iter().map(|end| end.cycles).collect();
         LifeStatistics::of(&cycles).ok()
@@ -54,19 +52,16 @@ impl LifeResult {
     }
 
     /// Mean life [cycles]; that of the mean path where no random lives were drawn.
-    #[must_use]
     pub fn mean(&self) -> f64 {
         self.ends().iter().map(|end| end.cycles).sum::<f64>() / self.ends().len() as f64
     }
 
     /// Mean life as inspections after whole cycles see it.
-    #[must_use]
     pub fn mean_whole_cycles(&self) -> f64 {
         self.ends().iter().map(|end| end.whole_cycles as f64).sum::<f64>() / self.ends().len() as f64
     }
 
     /// Part of the lives that each joint ended.
-    #[must_use]
     pub fn failed_first(&self) -> Vec<f64> {
         let count = self.ends().len() as f64;
         let ended_by = |joint| self.ends().iter().filter(|end| end.joint == joint).count() as f64;
@@ -74,13 +69,11 @@ impl LifeResult {
     }
 
     /// The joint that ends the mean path.
-    #[must_use]
     pub fn failed_joint(&self) -> &JointLife {
         &self.joints[self.end.joint]
     }
 
     /// Largest relative error of the table, if there is one.
-    #[must_use]
     pub fn table_error(&self) -> Option<f64> {
         let report = self.table.as_ref()?;
         let others = report.others.iter().flatten();
@@ -88,7 +81,6 @@ impl LifeResult {
     }
 
     /// How far off the mean life may be: that of the random lives, or of the mean path where there are none [cycles].
-    #[must_use]
     pub fn budget(&self) -> ErrorBudget {
         let (mean, monte_carlo) = match self.statistics() {
             Some(lives) => (lives.mean().value, ErrorBudget::monte_carlo(lives.mean())),

@@ -1,4 +1,4 @@
-//! Modules know only what the tables of ARCHITECTURE.md allow, and files form no circle.
+//! Modules know only what the tables of ARCHITECTURE.md allow, files form no circle, `#[must_use]` stands on types.
 //! Reads the paths in the source (tests inside modules excepted) and compares.
 
 mod graph;
@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 use graph::Graph;
-use source::{code, heads, rust_files};
+use source::{code, heads, must_use_functions, rust_files};
 
 type Arrows = BTreeMap<String, BTreeSet<String>>;
 
@@ -153,6 +153,20 @@ fn the_command_line_asks_and_prints_and_does_not_compute() {
         for computed in ["MonteCarlo", "FirstPassage", "Posterior", "Particles", "run_life", "DynamicsSource"]
         {
             assert!(!code(&file).contains(computed), "{} uses {computed}", file.display());
+        }
+    }
+}
+
+/// Generated code has its own dialect: its users lint it by theirs.
+#[test]
+fn must_use_stands_on_types() {
+    for root in ["codegen/src", "runtime/src", "gamma/src", "oracle/src", "src", "case-study/src"] {
+        for file in rust_files(Path::new(root)) {
+            if !file.starts_with("codegen/src/backend") {
+                let code = code(&file);
+                let wrong = must_use_functions(&code);
+                assert!(wrong.is_empty(), "{}: `#[must_use]` on `{}`", file.display(), wrong.join("`, `"));
+            }
         }
     }
 }

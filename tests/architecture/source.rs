@@ -65,6 +65,14 @@ fn group_heads(group: &str) -> Vec<String> {
     heads
 }
 
+/// First lines of functions that carry `#[must_use]`.
+pub fn must_use_functions(code: &str) -> Vec<&str> {
+    let marked = code.split("#[must_use").skip(1).filter_map(|rest| {
+        rest.lines().skip(1).map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))
+    });
+    marked.filter(|line| line.split(' ').any(|word| word == "fn")).collect()
+}
+
 /// The identifier that a text begins with.
 pub fn identifier(text: &str) -> Option<String> {
     let end = text.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(text.len());

@@ -45,7 +45,6 @@ enum Instruction {
 
 impl Interpreted {
     /// Prepares tapes in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
-    #[must_use]
     pub fn new(tapes: &[Tape], sizes: Sizes, description: Description) -> Self {
         let mut workspace = 0;
         let programs: Vec<Program> = tapes
@@ -64,7 +63,6 @@ impl Interpreted {
     }
 
     /// Names and units of what is evaluated.
-    #[must_use]
     pub fn description(&self) -> &Description {
         &self.description
     }

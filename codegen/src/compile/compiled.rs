@@ -49,25 +49,21 @@ pub struct FunctionCount {
 
 impl Compiled {
     /// Names, units, rows and channels.
-    #[must_use]
     pub fn description(&self) -> &Description {
         &self.description
     }
 
     /// Values of the tunable parameters, overrides included.
-    #[must_use]
     pub fn parameters(&self) -> Vec<f64> {
         self.description.parameters.iter().map(|parameter| parameter.default).collect()
     }
 
     /// The mechanism as a runtime system, without a compiler.
-    #[must_use]
     pub fn interpreter(&self) -> Interpreted {
         Interpreted::new(&self.tapes, self.sizes, self.description.clone())
     }
 
     /// Operations, statements and parts of every entry point.
-    #[must_use]
     pub fn operations(&self) -> Vec<FunctionCount> {
         self.tapes
             .iter()
@@ -81,25 +77,21 @@ impl Compiled {
     }
 
     /// All outputs with their costs before and after sharing.
-    #[must_use]
     pub fn outputs(&self) -> Vec<OutputInfo> {
         render::outputs(&self.equations, &self.tapes)
     }
 
     /// The equations for people; all outputs if `only` is empty.
-    #[must_use]
     pub fn equations_text(&self, only: &[String], format: TextFormat) -> String {
         render::render(&self.equations, &self.tapes, only, format)
     }
 
     /// The specialised source, for inclusion as the contents of a module.
-    #[must_use]
     pub fn rust_source(&self) -> String {
         self.rust_source_for("::linkwear_runtime")
     }
 
     /// As [`Compiled::rust_source`], with another path to the runtime crate.
-    #[must_use]
     pub fn rust_source_for(&self, runtime_path: &str) -> String {
         emit(&EmitInput {
             source_name: &self.file_name(),

@@ -24,7 +24,6 @@ pub struct NodeShape {
 
 impl NodeShape {
     /// Shapes at a node; `turns` asks for the section's orientation too.
-    #[must_use]
     pub fn new(node: &Node, turns: bool) -> Self {
         let still = node.rotation.iter().flatten().all(|x| *x == 0.0);
         Self {
@@ -36,7 +35,6 @@ impl NodeShape {
     }
 
     /// Whether the node moves relative to the floating frame at all.
-    #[must_use]
     pub fn moves(&self) -> bool {
         let second = self.second.iter().flatten();
         let moved = self.displacement.iter().chain(second).flatten().any(|x| *x != 0.0);

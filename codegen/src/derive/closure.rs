@@ -31,7 +31,6 @@ pub struct CutRows<'g> {
 }
 
 /// Number of rows of a cut, without deriving them.
-#[must_use]
 pub fn row_count(joint: &JointModel, closure: Closure) -> usize {
     match closure {
         Closure::Log => 6,

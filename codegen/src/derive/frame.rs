@@ -13,20 +13,17 @@ impl Frame {
     pub const IDENTITY: Self = Self([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 
     /// From three orthonormal axes.
-    #[must_use]
     pub fn from_axes(x: [f64; 3], y: [f64; 3], z: [f64; 3]) -> Self {
         Self(core::array::from_fn(|i| [x[i], y[i], z[i]])).snapped()
     }
 
     /// Rotation about e_z.
-    #[must_use]
     pub fn about_z(angle: f64) -> Self {
         let (s, c) = angle.sin_cos();
         Self([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     }
 
     /// A frame with e_x along `direction`; the other axes as near to the outer ones as possible.
-    #[must_use]
     pub fn with_x_along(direction: [f64; 3]) -> Self {
         let x = reduce(unit(direction));
         let least = (0..3).min_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs())).unwrap_or(2);
@@ -39,7 +36,6 @@ impl Frame {
     }
 
     /// The smallest rotation that takes unit vector `from` to unit vector `to`.
-    #[must_use]
     pub fn between(from: [f64; 3], to: [f64; 3]) -> Self {
         if from == to {
             return Self::IDENTITY;
@@ -55,7 +51,6 @@ impl Frame {
     }
 
     /// A frame with e_z along `z` and e_x as near to `x` as possible.
-    #[must_use]
     pub fn with_z_and_x(z: [f64; 3], x: [f64; 3]) -> Self {
         let z = unit(z);
         let x = unit(sub(x, scale(dot(x, z), z)));
@@ -63,25 +58,21 @@ impl Frame {
     }
 
     /// A frame with e_z along `z` and the cheapest e_x.
-    #[must_use]
     pub fn with_z_along(z: [f64; 3]) -> Self {
         canonical_frame(unit(z), |_| None).0
     }
 
     /// Components in this frame of a vector given in the outer one.
-    #[must_use]
     pub fn local(&self, v: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|j| (0..3).map(|i| self.0[i][j] * v[i]).sum())
     }
 
     /// Axis `j` in the outer frame.
-    #[must_use]
     pub fn axis(&self, j: usize) -> [f64; 3] {
         core::array::from_fn(|i| self.0[i][j])
     }
 
     /// Matrix product.
-    #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         Self(core::array::from_fn(|i| {
             core::array::from_fn(|j| (0..3).map(|k| self.0[i][k] * other.0[k][j]).sum())
@@ -89,19 +80,16 @@ impl Frame {
     }
 
     /// Inverse.
-    #[must_use]
     pub fn transposed(&self) -> Self {
         Self(core::array::from_fn(|i| core::array::from_fn(|j| self.0[j][i])))
     }
 
     /// With rounding dust set to exact zeros and ones.
-    #[must_use]
     pub fn snapped(&self) -> Self {
         Self(self.0.map(reduce))
     }
 
     /// The unit quaternion (scalar first, scalar part not negative) of this rotation.
-    #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         let r = &self.0;
         let squares = [
@@ -128,7 +116,6 @@ impl Frame {
 
 /// A frame with e_z = `axis` (unit, in the outer frame) made of as many zeros as possible, and the angle
 /// about e_z from it to the direction that `target` wants for e_x.
-#[must_use]
 pub fn canonical_frame(axis: [f64; 3], target: impl Fn([f64; 3]) -> Option<[f64; 3]>) -> (Frame, f64) {
     let z = reduce(axis);
     let mut candidates = Vec::new();
@@ -170,37 +157,31 @@ pub fn canonical_frame(axis: [f64; 3], target: impl Fn([f64; 3]) -> Option<[f64;
 }
 
 /// Scalar product.
-#[must_use]
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Cross product.
-#[must_use]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Difference.
-#[must_use]
 pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
 /// Product with a number.
-#[must_use]
 pub fn scale(factor: f64, a: [f64; 3]) -> [f64; 3] {
     a.map(|x| factor * x)
 }
 
 /// Scaled to length one.
-#[must_use]
 pub fn unit(a: [f64; 3]) -> [f64; 3] {
     scale(1.0 / dot(a, a).sqrt(), a)
 }
 
 /// A unit vector without rounding dust.
-#[must_use]
 pub fn reduce(a: [f64; 3]) -> [f64; 3] {
     a.map(snap)
 }

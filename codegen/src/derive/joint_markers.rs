@@ -10,7 +10,6 @@ use super::linkage::LinkIndex;
 use super::relative_motion::{Marker, seen_from_child};
 
 /// The links of a joint's parent and child, as the joint sees them (through a body's copy for closure `log`).
-#[must_use]
 pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
     let linkage = geometry.linkage;
     let data = geometry.mechanism.joint(joint);
@@ -27,7 +26,6 @@ pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
 
 /// In whose link's frame a joint is looked at: see [`seen_from_child`]. But a line that holds a freely turning child
 /// is fixed in the parent.
-#[must_use]
 pub fn joint_in_child(geometry: &Geometry<'_>, joint: JointId, [parent, child]: [LinkIndex; 2]) -> bool {
     let model = &geometry.mechanism.joint(joint).model;
     let on_line = model.rows() > 0 && model.slides() && model.turns_freely();

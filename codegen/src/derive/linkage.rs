@@ -49,7 +49,6 @@ pub enum Freedom {
 
 impl Freedom {
     /// Number of coordinates.
-    #[must_use]
     pub fn coordinates(self) -> usize {
         match self {
             Self::Rotation { .. } | Self::Translation { .. } => 1,
@@ -61,7 +60,6 @@ impl Freedom {
     }
 
     /// Number of speeds.
-    #[must_use]
     pub fn speeds(self) -> usize {
         match self {
             Self::Rotation { .. } | Self::Translation { .. } => 1,
@@ -107,13 +105,11 @@ pub struct Link {
 
 impl Link {
     /// Indices among all speeds that move the link relative to its parent.
-    #[must_use]
     pub fn speeds(&self) -> Range<usize> {
         self.first_speed..self.first_speed + self.modes_or(self.freedom.speeds())
     }
 
     /// Indices among all coordinates that place the link relative to its parent.
-    #[must_use]
     pub fn coordinates(&self) -> Range<usize> {
         self.first_coordinate..self.first_coordinate + self.modes_or(self.freedom.coordinates())
     }
@@ -169,7 +165,6 @@ pub struct Linkage {
 impl Linkage {
     /// The link that moves with a material point of a body: a node's, if the body is flexible there.
     /// `turns` asks for the orientation of the section at the point too.
-    #[must_use]
     pub fn link_at(&self, carrier: Carrier, point: PointId, turns: bool) -> LinkIndex {
         let Carrier::Body(body) = carrier else { return None };
         let same = |node: &&NodeLink| node.body == body && node.point == point && node.turns == turns;
@@ -177,7 +172,6 @@ impl Linkage {
     }
 
     /// The link that carries a body, on its own branch: its floating frame if it is flexible.
-    #[must_use]
     pub fn link(&self, carrier: Carrier) -> LinkIndex {
         match carrier {
             Carrier::Ground => None,
@@ -186,19 +180,16 @@ impl Linkage {
     }
 
     /// Number of all coordinates, driven ones included.
-    #[must_use]
     pub fn coordinates(&self) -> usize {
         self.links.iter().map(|link| link.freedom.coordinates()).sum()
     }
 
     /// Number of all speeds, driven ones included.
-    #[must_use]
     pub fn speeds(&self) -> usize {
         self.links.iter().map(|link| link.freedom.speeds()).sum()
     }
 
     /// Speeds of joints, those of modes left out, by index among all.
-    #[must_use]
     pub fn joint_speeds(&self) -> Vec<usize> {
         let links = self.links.iter().filter(|link| !matches!(link.freedom, Freedom::Flexible { .. }));
         links.flat_map(|link| link.first_speed..link.first_speed + link.freedom.speeds()).collect()
@@ -210,14 +201,12 @@ impl Linkage {
     }
 
     /// The last link that the paths of both have in common.
-    #[must_use]
     pub fn common_ancestor(&self, a: LinkIndex, b: LinkIndex) -> LinkIndex {
         let on_a: Vec<usize> = self.path(a).collect();
         self.path(b).find(|link| on_a.contains(link))
     }
 
     /// The link of a tree joint that turns like a ball.
-    #[must_use]
     pub fn ball_of(&self, joint: JointId) -> Option<usize> {
         let last = self.link_of_joint[joint.index()]?;
         self.path(Some(last))
@@ -226,7 +215,6 @@ impl Linkage {
     }
 
     /// The link whose motion carries this coordinate of a tree joint.
-    #[must_use]
     pub fn link_of_coordinate(&self, joint: JointId, coordinate: usize) -> Option<usize> {
         let last = self.link_of_joint[joint.index()]?;
         self.path(Some(last))

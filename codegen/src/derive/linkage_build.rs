@@ -9,7 +9,6 @@ use super::frame::{Frame, canonical_frame, cross, dot, reduce};
 use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage, NodeLink};
 
 /// Builds the tree of links. `parameters` are the default values, which only steer the choice of frames.
-#[must_use]
 pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -> Linkage {
     let mut builder = Builder {
         mechanism,

@@ -69,6 +69,7 @@ pub struct Function {
 
 /// A named vector or matrix of expressions (of symbols, for inputs).
 #[derive(Clone, Debug)]
+#[must_use]
 pub struct Block {
     /// Name, e.g. `phi_q`.
     pub name: String,
@@ -88,7 +89,6 @@ pub struct Block {
 
 impl Block {
     /// A column vector.
-    #[must_use]
     pub fn vector(
         name: &str,
         doc: &str,
@@ -100,7 +100,6 @@ impl Block {
     }
 
     /// A matrix, row major.
-    #[must_use]
     pub fn matrix(
         name: &str,
         doc: &str,
@@ -122,7 +121,6 @@ impl Block {
     }
 
     /// The block with a name for every entry.
-    #[must_use]
     pub fn named(self, names: Vec<String>) -> Self {
         Self { names, ..self }
     }

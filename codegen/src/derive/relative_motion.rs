@@ -61,7 +61,6 @@ pub struct RelativeMotion<'g> {
 
 /// Whether the frame of the child's link makes more Jacobian columns constant than that of the parent's: that of a
 /// ball or free link does best, then that of a moving link.
-#[must_use]
 pub fn seen_from_child(linkage: &Linkage, parent: LinkIndex, child: LinkIndex) -> bool {
     fn rank(linkage: &Linkage, link: LinkIndex) -> usize {
         let Some(at) = link else { return 0 };
@@ -124,25 +123,21 @@ impl<'g> RelativeMotion<'g> {
     }
 
     /// The link whose frame is used.
-    #[must_use]
     pub fn beside(&self) -> LinkIndex {
         if self.in_child { self.child.link } else { self.parent.link }
     }
 
     /// Axis of the parent in the common frame.
-    #[must_use]
     pub fn parent_axis(&self, j: usize) -> Vec3<'g> {
         self.from_parent * self.distance[0].scope().vector(self.parent.frame.axis(j))
     }
 
     /// Axis of the child in the common frame.
-    #[must_use]
     pub fn child_axis(&self, j: usize) -> Vec3<'g> {
         self.from_child * self.distance[0].scope().vector(self.child.frame.axis(j))
     }
 
     /// Rotation of the child relative to the parent: takes components along the child's axes to the parent's.
-    #[must_use]
     pub fn rotation(&self) -> Mat3<'g> {
         let parent = [0, 1, 2].map(|j| self.parent_axis(j));
         let child = [0, 1, 2].map(|j| self.child_axis(j));
@@ -151,7 +146,6 @@ impl<'g> RelativeMotion<'g> {
 
     /// Wrenches on the parent's link and on the child's, in their own frames about their origins, of a wrench
     /// (moment, force) on the child at the chosen place, given in the common frame, and of its opposite.
-    #[must_use]
     pub fn link_wrenches(&self, moment: Vec3<'g>, force: Vec3<'g>) -> [Wrench<'g>; 2] {
         let side = |rotation: Mat3<'g>, point: Vec3<'g>| {
             let force = rotation.transpose() * force;

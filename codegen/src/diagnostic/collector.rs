@@ -11,6 +11,7 @@ use crate::source::SourceFile;
 
 /// All that is wrong with a file, in the order of the file once located.
 #[derive(Clone, Debug, Default)]
+#[must_use]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     source: Option<SourceFile>,
@@ -35,13 +36,11 @@ pub struct Entry {
 
 impl Diagnostics {
     /// An empty collector.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// A collector that holds `list`.
-    #[must_use]
     pub fn from_list(list: Vec<Diagnostic>) -> Self {
         Self { list, source: None }
     }
@@ -52,7 +51,6 @@ impl Diagnostics {
     }
 
     /// Says which file the spans belong to, and sorts by place.
-    #[must_use]
     pub fn located(mut self, source: &SourceFile) -> Self {
         self.source = Some(source.clone());
         self.list.sort_by_key(|diagnostic| diagnostic.span().map_or(usize::MAX, |span| span.start));
@@ -60,25 +58,21 @@ impl Diagnostics {
     }
 
     /// The diagnostics.
-    #[must_use]
     pub fn list(&self) -> &[Diagnostic] {
         &self.list
     }
 
     /// Whether there is nothing to say.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
     /// Whether any of them is an error.
-    #[must_use]
     pub fn has_errors(&self) -> bool {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
     /// The same as data, for `--format json`. A fault without a place is put at line 1, column 1.
-    #[must_use]
     pub fn entries(&self) -> Vec<Entry> {
         let entry = |diagnostic: &Diagnostic| {
             let start = diagnostic.span().map_or(0, |span| span.start);

@@ -21,13 +21,11 @@ impl Graph {
     }
 
     /// Whether the node is the number zero.
-    #[must_use]
     pub fn is_zero(&self, id: ExprId) -> bool {
         self.as_constant(id) == Some(0.0)
     }
 
     /// Whether the node is the number `value`.
-    #[must_use]
     pub fn is_constant(&self, id: ExprId, value: f64) -> bool {
         self.as_constant(id) == Some(value)
     }

@@ -9,7 +9,6 @@ impl Graph {
     ///
     /// # Panics
     /// If `symbols` is shorter than the number of symbols made.
-    #[must_use]
     pub fn evaluate_all<T: Scalar>(&self, symbols: &[T]) -> Vec<T> {
         let mut values: Vec<T> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {

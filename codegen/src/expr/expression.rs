@@ -9,6 +9,7 @@ use super::{ExprId, Graph};
 
 /// An expression: a node and the graph that it belongs to.
 #[derive(Clone, Copy)]
+#[must_use]
 pub struct Expr<'g> {
     scope: &'g Scope,
     id: ExprId,
@@ -55,25 +56,21 @@ impl From<Expr<'_>> for ExprId {
 
 impl<'g> Expr<'g> {
     /// The node.
-    #[must_use]
     pub const fn id(self) -> ExprId {
         self.id
     }
 
     /// The graph under construction.
-    #[must_use]
     pub const fn scope(self) -> &'g Scope {
         self.scope
     }
 
     /// The number, if it is one.
-    #[must_use]
     pub fn as_number(self) -> Option<f64> {
         self.scope.make(|g| g.as_constant(self.id))
     }
 
     /// Whether it is the number zero.
-    #[must_use]
     pub fn is_zero(self) -> bool {
         self.as_number() == Some(0.0)
     }
@@ -88,73 +85,61 @@ impl<'g> Expr<'g> {
     }
 
     /// `1 / self`.
-    #[must_use]
     pub fn recip(self) -> Self {
         self.with(|g| g.reciprocal(self.id))
     }
 
     /// `self²`.
-    #[must_use]
     pub fn square(self) -> Self {
         self * self
     }
 
     /// `self ^ n` by repeated squaring.
-    #[must_use]
     pub fn powi(self, n: i32) -> Self {
         self.with(|g| g.power(self.id, n))
     }
 
     /// Square root.
-    #[must_use]
     pub fn sqrt(self) -> Self {
         self.with(|g| g.sqrt(self.id))
     }
 
     /// Sine of an angle [rad].
-    #[must_use]
     pub fn sin(self) -> Self {
         self.with(|g| g.sin(self.id))
     }
 
     /// Cosine of an angle [rad].
-    #[must_use]
     pub fn cos(self) -> Self {
         self.with(|g| g.cos(self.id))
     }
 
     /// Exponential.
-    #[must_use]
     pub fn exp(self) -> Self {
         self.with(|g| g.exp(self.id))
     }
 
     /// Natural logarithm.
-    #[must_use]
     pub fn ln(self) -> Self {
         self.with(|g| g.ln(self.id))
     }
 
     /// Angle of the vector (`x`, `self`) [rad].
-    #[must_use]
     pub fn atan2(self, x: Self) -> Self {
         self.with(|g| g.atan2(self.id, x.id))
     }
 
     /// theta / sin theta, where `self` is sin² theta; series-safe at zero.
-    #[must_use]
     pub fn angle_over_sine(self, cosine: Self) -> Self {
         self.with(|g| g.angle_over_sine(self.id, cosine.id))
     }
 
     /// Series-safe coefficient of the inverse Jacobian of SE(3) at theta² = `self`, `rank` times differentiated by it.
-    #[must_use]
     pub fn log_coefficient(self, rank: u8) -> Self {
         self.with(|g| g.log_coefficient(rank, self.id))
     }
 
     /// Derivative by the symbol `variable`.
-    #[must_use]
     pub fn derivative(self, variable: Self) -> Self {
         self.with(|g| g.derivative(self.id, variable.id))
     }

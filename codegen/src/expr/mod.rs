@@ -86,25 +86,21 @@ pub struct Graph {
 
 impl Graph {
     /// An empty graph.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The node behind an id.
-    #[must_use]
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
     }
 
     /// Number of nodes.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
     /// Whether there are no nodes.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
@@ -117,13 +113,11 @@ impl Graph {
     }
 
     /// Name of an input.
-    #[must_use]
     pub fn symbol_name(&self, id: SymbolId) -> &str {
         &self.symbols[id.index()]
     }
 
     /// The symbol behind a node, if it is one.
-    #[must_use]
     pub fn as_symbol(&self, id: ExprId) -> Option<SymbolId> {
         match self.node(id) {
             Node::Symbol(symbol) => Some(symbol),
@@ -132,7 +126,6 @@ impl Graph {
     }
 
     /// The number behind a node, if it is one.
-    #[must_use]
     pub fn as_constant(&self, id: ExprId) -> Option<f64> {
         match self.node(id) {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
@@ -141,7 +134,6 @@ impl Graph {
     }
 
     /// The node `-id`, if it has been made.
-    #[must_use]
     pub fn negation_of(&self, id: ExprId) -> Option<ExprId> {
         self.known.get(&Node::Unary(Unary::Neg, id)).copied()
     }
@@ -157,7 +149,6 @@ impl Graph {
     }
 
     /// Title of the section in which a node was first made.
-    #[must_use]
     pub fn section(&self, id: ExprId) -> &str {
         self.sections.get(self.section_of[id.index()].index()).map_or("", String::as_str)
     }
@@ -170,7 +161,6 @@ impl Graph {
     }
 
     /// The readable name of a node.
-    #[must_use]
     pub fn label_of(&self, id: ExprId) -> Option<&str> {
         self.labels.get(&id).map(String::as_str)
     }

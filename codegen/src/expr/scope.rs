@@ -11,13 +11,11 @@ pub struct Scope(RefCell<Graph>);
 
 impl Scope {
     /// An empty graph.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The finished graph.
-    #[must_use]
     pub fn into_graph(self) -> Graph {
         self.0.into_inner()
     }

@@ -9,10 +9,12 @@ use super::scope::Scope;
 
 /// Three components.
 #[derive(Clone, Copy, Debug)]
+#[must_use]
 pub struct Vec3<'g>(pub [Expr<'g>; 3]);
 
 /// Three rows of three.
 #[derive(Clone, Copy, Debug)]
+#[must_use]
 pub struct Mat3<'g>(pub [Vec3<'g>; 3]);
 
 impl Scope {
@@ -101,7 +103,6 @@ impl Neg for Mat3<'_> {
 
 impl<'g> Vec3<'g> {
     /// From its components by index.
-    #[must_use]
     pub fn from_fn(component: impl FnMut(usize) -> Expr<'g>) -> Self {
         Self(std::array::from_fn(component))
     }
@@ -110,31 +111,26 @@ impl<'g> Vec3<'g> {
     ///
     /// # Panics
     /// If the list is shorter.
-    #[must_use]
     pub fn first_of(list: &[Expr<'g>]) -> Self {
         Self::from_fn(|i| list[i])
     }
 
     /// The graph under construction.
-    #[must_use]
     pub const fn scope(self) -> &'g Scope {
         self.0[0].scope()
     }
 
     /// With a function applied to every component.
-    #[must_use]
     pub fn map(self, function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
         Self(self.0.map(function))
     }
 
     /// Scalar product.
-    #[must_use]
     pub fn dot(self, other: Self) -> Expr<'g> {
         self[0] * other[0] + self[1] * other[1] + self[2] * other[2]
     }
 
     /// Cross product.
-    #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -143,7 +139,6 @@ impl<'g> Vec3<'g> {
     }
 
     /// The matrix with `a.skew() * b = a.cross(b)`.
-    #[must_use]
     pub fn skew(self) -> Mat3<'g> {
         let (zero, minus) = (self.scope().zero(), -self);
         Mat3([
@@ -156,31 +151,26 @@ impl<'g> Vec3<'g> {
 
 impl<'g> Mat3<'g> {
     /// From its entries by row and column.
-    #[must_use]
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> Expr<'g>) -> Self {
         Self(std::array::from_fn(|i| Vec3::from_fn(|j| entry(i, j))))
     }
 
     /// Rows and columns exchanged.
-    #[must_use]
     pub fn transpose(self) -> Self {
         Self::from_fn(|i, j| self[j][i])
     }
 
     /// `turn m turnᵀ`.
-    #[must_use]
     pub fn turned_by(self, turn: Self) -> Self {
         turn * self * turn.transpose()
     }
 
     /// Sum of the diagonal.
-    #[must_use]
     pub fn trace(self) -> Expr<'g> {
         self[0][0] + self[1][1] + self[2][2]
     }
 
     /// `A_zy - A_yz`, and cyclic: the vector `a` with `A - Aᵀ = a.skew()`.
-    #[must_use]
     pub fn axial(self) -> Vec3<'g> {
         Vec3::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);

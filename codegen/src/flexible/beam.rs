@@ -99,7 +99,6 @@ pub struct BeamInput {
 
 impl BeamInput {
     /// Length of the beam [m].
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.segments.iter().map(|segment| segment.length).sum()
     }

@@ -199,7 +199,6 @@ impl ModalData {
 
     /// Mass matrix of the undeformed body over velocity of the origin, angular velocity and modal speeds:
     /// [m 1, -s0~, Γ; s0~, J, ∫ rbar x φ; Γᵀ, (∫ rbar x φ)ᵀ, M_ff]. Lists must have their lengths.
-    #[must_use]
     pub fn full_mass_matrix(&self) -> DMatrix<f64> {
         let n = self.mode_count();
         let mut full = DMatrix::zeros(6 + n, 6 + n);

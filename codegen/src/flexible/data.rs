@@ -113,13 +113,11 @@ pub enum Outline {
 
 impl ModalData {
     /// Number of modes n.
-    #[must_use]
     pub fn mode_count(&self) -> usize {
         self.modes.len()
     }
 
     /// The node of a name.
-    #[must_use]
     pub fn node(&self, name: &str) -> Option<&Node> {
         self.nodes.iter().find(|node| node.name == name)
     }
@@ -127,7 +125,6 @@ impl ModalData {
 
 impl Strain {
     /// Largest axial stress over the section [Pa] at modal coordinates `q`, as a magnitude.
-    #[must_use]
     pub fn largest_stress(&self, q: &[f64]) -> f64 {
         let sum = |list: &[f64]| -> f64 { list.iter().zip(q).map(|(each, q)| each * q).sum() };
         let (extension, about_y, about_z) =
@@ -142,7 +139,6 @@ impl Strain {
 
 impl ModalData {
     /// The same body without modes.
-    #[must_use]
     pub fn frozen(&self) -> Self {
         let still = |node: &Node| Node {
             name: node.name.clone(),
@@ -169,7 +165,6 @@ impl ModalData {
     }
 
     /// Unit of the modal coordinates, as far as it is known.
-    #[must_use]
     pub fn modal_unit(&self) -> &'static str {
         let unit = |k: usize, l: usize| f64::from(u8::from(k == l));
         let normalised = (0..self.modes.len())

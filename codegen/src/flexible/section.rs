@@ -64,7 +64,6 @@ impl Section {
     /// Properties of the section; `nu` enters Cowper's shear coefficients.
     ///
     /// G. R. Cowper, The Shear Coefficient in Timoshenko's Beam Theory, J. Appl. Mech. 33 (1966).
-    #[must_use]
     pub fn properties(&self, nu: f64) -> Properties {
         match *self {
             Self::Round { radius } => tube(radius, 0.0, nu),

@@ -52,13 +52,11 @@ impl Beam {
     }
 
     /// First frequencies left out, per family.
-    #[must_use]
     pub fn truncated(&self) -> Truncated {
         self.truncated
     }
 
     /// How finely the beam was cut.
-    #[must_use]
     pub fn resolution(&self) -> Resolution {
         let line = &self.motions.mesh().lines[0];
         Resolution {

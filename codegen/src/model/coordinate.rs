@@ -13,7 +13,6 @@ pub enum Coordinate {
 
 impl Coordinate {
     /// Dimension of the position.
-    #[must_use]
     pub const fn dimension(self) -> Dimension {
         match self {
             Self::Angle => Dimension::NONE,
@@ -22,7 +21,6 @@ impl Coordinate {
     }
 
     /// Dimension of the speed.
-    #[must_use]
     pub const fn speed(self) -> Dimension {
         match self {
             Self::Angle => Dimension::of(0, 0, -1),
@@ -31,7 +29,6 @@ impl Coordinate {
     }
 
     /// Dimension of the force along the coordinate.
-    #[must_use]
     pub const fn force(self) -> Dimension {
         match self {
             Self::Angle => Dimension::TORQUE,
@@ -40,7 +37,6 @@ impl Coordinate {
     }
 
     /// Dimension of force over speed.
-    #[must_use]
     pub const fn damping(self) -> Dimension {
         match self {
             Self::Angle => Dimension::of(2, 1, -1),
@@ -49,7 +45,6 @@ impl Coordinate {
     }
 
     /// Dimension of force over position.
-    #[must_use]
     pub const fn stiffness(self) -> Dimension {
         match self {
             Self::Angle => Dimension::TORQUE,

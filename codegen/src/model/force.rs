@@ -96,7 +96,6 @@ pub struct AppliedTorque {
 
 impl ForceKind {
     /// Points at which bodies are pushed, and whether they are turned there too.
-    #[must_use]
     pub fn attachments(&self) -> Vec<(Carrier, PointId, bool)> {
         match self {
             Self::Spring(Spring { bodies: [a, b], at, .. }) => vec![(*a, at[0], false), (*b, at[1], false)],
@@ -109,7 +108,6 @@ impl ForceKind {
     }
 
     /// Formulas over the state; those of springs and bushings are over parameters.
-    #[must_use]
     pub fn laws(&self) -> &[Formula] {
         match self {
             Self::Spring(_) | Self::Bushing(_) => &[],

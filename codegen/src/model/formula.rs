@@ -70,27 +70,23 @@ pub enum Function {
 
 impl Formula {
     /// A number without a place in a file.
-    #[must_use]
     pub fn number(value: f64, dimension: Dimension) -> Self {
         Self { term: Term::Number(value), dimension, span: Span::default() }
     }
 
     /// Value with the given parameter values (SI, all parameters in file order).
     /// `None` if it depends on time, coordinates or speeds.
-    #[must_use]
     pub fn value(&self, parameters: &[f64]) -> Option<f64> {
         self.term.value_at(parameters, None)
     }
 
     /// Value at time `t` [s] with the given parameter values.
     /// `None` if it depends on coordinates or speeds.
-    #[must_use]
     pub fn value_at_time(&self, parameters: &[f64], t: f64) -> Option<f64> {
         self.term.value_at(parameters, Some(t))
     }
 
     /// Whether a tunable parameter occurs, by `is_tunable`.
-    #[must_use]
     pub fn depends_on(&self, is_tunable: &dyn Fn(ParameterId) -> bool) -> bool {
         let mut found = false;
         self.term.visit(&mut |term| {
@@ -118,7 +114,6 @@ impl Term {
     }
 
     /// Number of terms.
-    #[must_use]
     pub fn size(&self) -> usize {
         let mut size = 0;
         self.visit(&mut |_| size += 1);

@@ -22,7 +22,6 @@ pub enum Direction {
 
 impl Direction {
     /// Which axis of the joint's frame lies on it: e_z on the first axis, e_x as near to the second as possible.
-    #[must_use]
     pub const fn frame_axis(self) -> usize {
         match self {
             X => 0,
@@ -51,7 +50,6 @@ pub enum Primitive {
 
 impl Primitive {
     /// What a start position of it consists of.
-    #[must_use]
     pub const fn values(self) -> &'static [Coordinate] {
         match self {
             Turn(_) | Thread => &[Angle],
@@ -110,7 +108,6 @@ pub static JOINT_KINDS: &[JointKind] = &[
 
 impl JointKind {
     /// The kind with this key.
-    #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         JOINT_KINDS.iter().find(|kind| kind.name == name)
     }
@@ -143,20 +140,17 @@ impl JointModel {
     ///
     /// # Panics
     /// If no kind has this name.
-    #[must_use]
     pub fn new(name: &str, axes: &[Axis]) -> Self {
         let kind = JointKind::named(name).expect("the name of a kind of joint");
         Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false }
     }
 
     /// A joint that takes nothing away.
-    #[must_use]
     pub fn free() -> Self {
         Self::new("free", &[])
     }
 
     /// Its primitives from parent to child, each with the number of its first coordinate.
-    #[must_use]
     pub fn primitives(&self) -> Vec<(usize, Primitive)> {
         let play: &[Primitive] = if self.clearance { self.kind.clearance } else { &[] };
         let number = |list: &[Primitive], mut first: usize| -> Vec<(usize, Primitive)> {
@@ -171,7 +165,6 @@ impl JointModel {
     }
 
     /// The scalar coordinates; none for spherical and free joints, whose position is no list of scalars.
-    #[must_use]
     pub fn coordinates(&self) -> Vec<Coordinate> {
         let scalars = self.kind.primitives.iter().filter(|primitive| primitive.values().len() == 1);
         scalars.flat_map(|primitive| primitive.values()).copied().collect()
@@ -179,13 +172,11 @@ impl JointModel {
 
     /// The values that a start position consists of: the coordinates, and for a rotation about a point a rotation
     /// vector; for a free joint a rotation vector and the displacement of the joint's point.
-    #[must_use]
     pub fn start_values(&self) -> Vec<Coordinate> {
         self.kind.primitives.iter().flat_map(|primitive| primitive.values()).copied().collect()
     }
 
     /// Numbers of the coordinates that clearance adds: the journal's offset.
-    #[must_use]
     pub fn offsets(&self) -> Range<usize> {
         let first = self.start_values().len();
         let play: usize = self.kind.clearance.iter().map(|primitive| primitive.values().len()).sum();
@@ -197,37 +188,31 @@ impl JointModel {
     }
 
     /// Whether the child can turn about any axis, its orientation being no list of scalars.
-    #[must_use]
     pub fn turns_freely(&self) -> bool {
         self.any(|primitive| matches!(primitive, Ball | Pose))
     }
 
     /// Whether the joint takes nothing away.
-    #[must_use]
     pub fn is_free(&self) -> bool {
         self.any(|primitive| primitive == Pose)
     }
 
     /// Whether the joint is a ball in a socket.
-    #[must_use]
     pub fn is_ball(&self) -> bool {
         self.kind.primitives == [Ball]
     }
 
     /// Whether the joint's only coordinate is a plain angle.
-    #[must_use]
     pub fn is_hinge(&self) -> bool {
         matches!(self.kind.primitives, [Turn(_)])
     }
 
     /// Whether the child's point leaves that of the parent by a coordinate.
-    #[must_use]
     pub fn slides(&self) -> bool {
         self.any(|primitive| matches!(primitive, Slide(_) | Thread | Shift))
     }
 
     /// The directions about which the child turns.
-    #[must_use]
     pub fn turns(&self) -> Vec<Direction> {
         let turn = |(_, primitive)| match primitive {
             Turn(direction) => Some(direction),
@@ -238,13 +223,11 @@ impl JointModel {
     }
 
     /// Advance of a thread per angle [m/rad]; nothing if the joint has none.
-    #[must_use]
     pub fn thread(&self) -> Option<f64> {
         self.any(|primitive| primitive == Thread).then_some(self.lead / TAU)
     }
 
     /// Axes of the joint's frame along which nothing moves freely.
-    #[must_use]
     pub fn held_axes(&self) -> Vec<usize> {
         let moves = |axis: usize| {
             self.any(|primitive| match primitive {
@@ -258,7 +241,6 @@ impl JointModel {
     }
 
     /// Number of constraint rows of the joint when it is cut.
-    #[must_use]
     pub fn rows(&self) -> usize {
         let turned = if self.turns_freely() { 3 } else { self.turns().len() };
         self.held_axes().len() + 3 - turned + usize::from(self.thread().is_some())

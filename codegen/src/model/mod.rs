@@ -100,7 +100,6 @@ pub enum Position {
 
 impl Point {
     /// Position in W at the reference pose of `carrier`'s branch.
-    #[must_use]
     pub fn position_for(&self, carrier: Carrier) -> &[Formula; 3] {
         match &self.position {
             Position::Shared(position) => position,
@@ -170,7 +169,6 @@ impl Flexible {
     ///
     /// # Panics
     /// If the point is not in `nodes`; the resolver lists every point that the body is used at.
-    #[must_use]
     pub fn node_at(&self, point: PointId) -> &Node {
         let found = self.nodes.iter().find(|(known, _)| *known == point);
         let (_, node) = found.expect("the resolver gives every point of a flexible body a node");
@@ -349,27 +347,22 @@ pub struct TreeJoint {
 
 impl Mechanism {
     /// The body with this index.
-    #[must_use]
     pub fn body(&self, id: BodyId) -> &Body {
         &self.bodies[id.index()]
     }
     /// The joint with this index.
-    #[must_use]
     pub fn joint(&self, id: JointId) -> &Joint {
         &self.joints[id.index()]
     }
     /// The point with this index.
-    #[must_use]
     pub fn point(&self, id: PointId) -> &Point {
         &self.points[id.index()]
     }
     /// The parameter with this index.
-    #[must_use]
     pub fn parameter(&self, id: ParameterId) -> &Parameter {
         &self.parameters[id.index()]
     }
     /// Values of all parameters in file order [SI], as [`Formula::value`] wants them.
-    #[must_use]
     pub fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.value).collect()
     }
@@ -384,7 +377,6 @@ impl Mechanism {
     }
 
     /// Name of a body, or `ground`.
-    #[must_use]
     pub fn carrier_name(&self, carrier: Carrier) -> &str {
         match carrier {
             Carrier::Ground => "ground",
@@ -394,7 +386,6 @@ impl Mechanism {
 }
 impl Inertia {
     /// The points that describe where the matter is.
-    #[must_use]
     pub fn points(&self) -> Vec<PointId> {
         match self {
             Self::Rod { ends, .. } | Self::Box { ends, .. } => ends.to_vec(),

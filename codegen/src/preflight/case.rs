@@ -80,7 +80,6 @@ impl Case<'_> {
 }
 
 /// The mechanism with its drivers taken off: what they prescribe at t = 0 becomes a demanded start value.
-#[must_use]
 pub fn released(mechanism: &Mechanism) -> Mechanism {
     let mut released = mechanism.clone();
     for (index, joint) in released.joints.iter_mut().enumerate() {

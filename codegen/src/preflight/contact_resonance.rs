@@ -14,7 +14,6 @@ const NEAR: f64 = 0.2;
 
 /// Warns for every flexible body with a frequency near to that of a resting contact at the start. A mechanism that
 /// does not assemble is told about elsewhere.
-#[must_use]
 pub fn contacts_near_modes(
     mechanism: &Mechanism,
     description: &Description,

@@ -13,7 +13,6 @@ pub struct Rows {
 
 impl Rows {
     /// Scales every row to its largest length over all positions, so that rad and m compare.
-    #[must_use]
     pub fn new(positions: &ClosedPositions, driven: Vec<usize>) -> Self {
         let m = positions.positions.first().map_or(0, |position| position.jacobian.nrows());
         let mut samples: Vec<DMatrix<f64>> =
@@ -33,7 +32,6 @@ impl Rows {
     }
 
     /// The rows by some speeds only.
-    #[must_use]
     pub fn of_speeds(positions: &ClosedPositions, speeds: &[usize]) -> Self {
         let mut chosen = Self::new(positions, Vec::new());
         for sample in &mut chosen.samples {
@@ -43,14 +41,12 @@ impl Rows {
     }
 
     /// Generic rank.
-    #[must_use]
     pub fn rank(&self) -> usize {
         self.samples.iter().map(rank).max().unwrap_or(0)
     }
 
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
     /// full rank; so the kept rows stay independent along the motion.
-    #[must_use]
     pub fn independent(&self) -> Vec<bool> {
         let m = self.samples.first().map_or(0, DMatrix::nrows);
         let generic = self.generic_samples();
@@ -84,7 +80,6 @@ impl Rows {
 
     /// Groups of drivers that the loops couple, each as small as one driver that breaks independence together
     /// with those it depends on.
-    #[must_use]
     pub fn driver_conflicts(&self) -> Vec<Vec<usize>> {
         let Some(at) = self.generic_samples().first().copied() else { return Vec::new() };
         let n = self.samples[at].ncols();

@@ -12,7 +12,6 @@ const HARMONICS: usize = 20;
 const NEAR: f64 = 0.03;
 
 /// Warns for every drive of constant speed and every frequency that one of its harmonics is near to.
-#[must_use]
 pub fn near_resonance(mechanism: &Mechanism) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
     for joint in &mechanism.joints {

@@ -32,7 +32,6 @@ pub struct OutputInfo {
 }
 
 /// All outputs with their costs, in the order of the functions.
-#[must_use]
 pub fn outputs(equations: &Equations, tapes: &[Tape]) -> Vec<OutputInfo> {
     let mut list = Vec::new();
     for (function, tape) in equations.functions.iter().zip(tapes) {
@@ -51,7 +50,6 @@ pub fn outputs(equations: &Equations, tapes: &[Tape]) -> Vec<OutputInfo> {
 }
 
 /// Whether a user's name means an output: its name, its function's, or `function.output`.
-#[must_use]
 pub fn is_meant(function: &str, output: &str, name: &str) -> bool {
     output == name || function == name || name.split_once('.') == Some((function, output))
 }
@@ -60,7 +58,6 @@ pub fn is_meant(function: &str, output: &str, name: &str) -> bool {
 const LONG: usize = 48;
 
 /// Writes the chosen outputs (all if `only` is empty).
-#[must_use]
 pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: TextFormat) -> String {
     let costs = outputs(equations, tapes);
     let mut text = String::new();

@@ -50,13 +50,11 @@ impl Dimension {
     pub const TORQUE: Self = Self::of(2, 1, -2);
 
     /// The dimension with these exponents of m, kg, s.
-    #[must_use]
     pub const fn of(length: i8, mass: i8, time: i8) -> Self {
         Self { length, mass, time }
     }
 
     /// Dimension of a product; `None` beyond exponents that any quantity has.
-    #[must_use]
     pub fn times(self, other: Self) -> Option<Self> {
         Some(Self {
             length: self.length.checked_add(other.length)?,
@@ -66,7 +64,6 @@ impl Dimension {
     }
 
     /// Dimension of a power; `None` beyond exponents that any quantity has.
-    #[must_use]
     pub fn to_power(self, exponent: i32) -> Option<Self> {
         let exponent = i8::try_from(exponent).ok();
         let scale = |value: i8| if value == 0 { Some(0) } else { value.checked_mul(exponent?) };
@@ -74,20 +71,17 @@ impl Dimension {
     }
 
     /// Dimension of a quotient; `None` beyond exponents that any quantity has.
-    #[must_use]
     pub fn over(self, other: Self) -> Option<Self> {
         self.times(other.to_power(-1)?)
     }
 
     /// Dimension of a square root; `None` if it has none.
-    #[must_use]
     pub fn root(self) -> Option<Self> {
         let even = [self.length, self.mass, self.time].iter().all(|exponent| exponent % 2 == 0);
         even.then_some(Self { length: self.length / 2, mass: self.mass / 2, time: self.time / 2 })
     }
 
     /// The SI unit as text, e.g. `N m`; `1` for pure numbers and angles.
-    #[must_use]
     pub fn si_unit(self) -> String {
         if let Some((_, unit, _, _)) = self.known() {
             return (*unit).to_owned();
@@ -112,7 +106,6 @@ impl Dimension {
     }
 
     /// What a quantity of this dimension is, with its unit: `a length [m]`.
-    #[must_use]
     pub fn description(self) -> String {
         match self.known() {
             Some((Self::NONE, _, what, _)) => (*what).to_owned(),
@@ -122,7 +115,6 @@ impl Dimension {
     }
 
     /// A quantity of this dimension as one would write it, for advice.
-    #[must_use]
     pub fn example(self) -> String {
         match self.known() {
             Some((_, _, _, example)) => (*example).to_owned(),

@@ -16,7 +16,6 @@ use super::{Op, Operand, Slot, Statement, Tape, Value};
 const READABLE: usize = 3000;
 
 /// Lowers every function of a set of equations.
-#[must_use]
 pub fn lower(equations: &Equations) -> Vec<Tape> {
     equations.functions.iter().map(|function| lower_function(&equations.graph, function)).collect()
 }

@@ -53,7 +53,6 @@ impl Op {
     }
 
     /// Number of values that the operation defines.
-    #[must_use]
     pub const fn results(&self) -> u32 {
         if matches!(self, Self::SinCos(_)) { 2 } else { 1 }
     }
@@ -93,13 +92,11 @@ pub struct Slot {
 
 impl Slot {
     /// Number of entries.
-    #[must_use]
     pub const fn len(&self) -> usize {
         self.rows * self.columns
     }
 
     /// Whether there are no entries.
-    #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -130,19 +127,16 @@ pub struct Tape {
 
 impl Tape {
     /// Length of the flat input.
-    #[must_use]
     pub fn input_len(&self) -> usize {
         self.input_names.len()
     }
 
     /// Length of the flat output.
-    #[must_use]
     pub fn output_len(&self) -> usize {
         self.outputs.iter().map(Slot::len).sum()
     }
 
     /// The tape as text, one statement a line, for dumps and comparisons.
-    #[must_use]
     pub fn text(&self) -> String {
         let mut lines = vec![format!("tape {} ({} -> {})", self.name, self.input_len(), self.output_len())];
         let stores = |list: &[(u32, Operand)]| -> String {

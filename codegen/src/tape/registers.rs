@@ -14,7 +14,6 @@ pub struct Registers {
 
 impl Registers {
     /// Assigns registers in statement order; a register is free again after its value's last use.
-    #[must_use]
     pub fn assign(tape: &Tape) -> Self {
         let last_use = last_uses(tape);
         let mut of_value = vec![0; tape.values as usize];

@@ -33,7 +33,6 @@ pub struct Split {
 }
 
 /// Cuts a tape into parts of at most `limit` statements, of equal length.
-#[must_use]
 pub fn split(tape: &Tape, limit: usize) -> Split {
     let count = tape.statements.len().div_ceil(limit).max(1);
     let length = tape.statements.len().div_ceil(count).max(1);

@@ -57,7 +57,6 @@ impl Operations {
 
 impl Tape {
     /// Operations of the whole tape.
-    #[must_use]
     pub fn operations(&self) -> Operations {
         let mut counts = Operations::default();
         for statement in &self.statements {
@@ -67,7 +66,6 @@ impl Tape {
     }
 
     /// Operations that one output block needs on its own.
-    #[must_use]
     pub fn operations_of(&self, output: usize) -> Operations {
         let slot = &self.outputs[output];
         let range = slot.first as u32..(slot.first + slot.len()) as u32;
@@ -97,7 +95,6 @@ impl Tape {
 }
 
 /// Operations of expressions written out in full, with nothing shared.
-#[must_use]
 pub fn unshared_operations(graph: &Graph, roots: &[ExprId]) -> Operations {
     let mut known: HashMap<ExprId, Operations> = HashMap::new();
     let mut sum = Operations::default();

@@ -26,7 +26,6 @@ pub struct Bootstrap {
 
 /// Draws data from the fit, with the spans, covariates and gauge of the observations, and estimates again.
 /// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i.
-#[must_use]
 pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: usize, seed: u64) -> Bootstrap {
     let mut drawn = Bootstrap {
         estimates: Vec::new(),
@@ -69,7 +68,6 @@ pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> 
 impl Bootstrap {
     /// The interval between the quantiles (1 -+ `level`) / 2 of the replicates' parameter `index`; none without
     /// replicates.
-    #[must_use]
     pub fn interval(&self, index: usize, level: f64) -> Option<Interval> {
         let mut values: Vec<f64> = self.estimates.iter().map(|estimate| estimate[index]).collect();
         values.sort_by(f64::total_cmp);
@@ -79,14 +77,12 @@ impl Bootstrap {
     }
 
     /// Mean of the replicates' parameter `index`; none without replicates.
-    #[must_use]
     pub fn mean(&self, index: usize) -> Option<f64> {
         let count = self.estimates.len();
         (count > 0).then(|| self.estimates.iter().map(|estimate| estimate[index]).sum::<f64>() / count as f64)
     }
 
     /// Probability of a distance at least as large, (1 + number of them) / (1 + replicates).
-    #[must_use]
     pub fn p_value(replicated: &[f64], seen: f64) -> f64 {
         let above = replicated.iter().filter(|value| **value >= seen).count();
         (1 + above) as f64 / (1 + replicated.len()) as f64

@@ -70,25 +70,21 @@ impl Fit {
     }
 
     /// The process's two parameters, then c, if it was estimated, and the b of each covariate.
-    #[must_use]
     pub fn parameters(&self) -> Vec<f64> {
         self.phi.iter().enumerate().map(|(at, value)| natural(at, *value)).collect()
     }
 
     /// Exponent c, if it was estimated.
-    #[must_use]
     pub fn exponent(&self) -> Option<f64> {
         self.model.power_law.then(|| self.phi[2])
     }
 
     /// Powers b of the covariates.
-    #[must_use]
     pub fn powers(&self) -> &[f64] {
         &self.phi[self.phi.len() - self.model.covariates..]
     }
 
     /// Covariance of [`Self::parameters`]. At the maximum the gradient is zero, so the change of variables is exact.
-    #[must_use]
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let slope = |at: usize| if at < 2 { libm::exp(self.phi[at]) } else { 1.0 };
         let size = self.phi.len();
@@ -96,19 +92,16 @@ impl Fit {
     }
 
     /// Standard errors of [`Self::parameters`].
-    #[must_use]
     pub fn standard_errors(&self) -> Vec<f64> {
         self.covariance().iter().enumerate().map(|(at, row)| libm::sqrt(row[at].max(0.0))).collect()
     }
 
     /// Akaike's criterion.
-    #[must_use]
     pub fn aic(&self) -> f64 {
         2.0 * self.phi.len() as f64 - 2.0 * self.log_likelihood
     }
 
     /// Schwarz's criterion, n = number of increments.
-    #[must_use]
     pub fn bic(&self) -> f64 {
         self.phi.len() as f64 * libm::log(self.increments as f64) - 2.0 * self.log_likelihood
     }
@@ -120,7 +113,6 @@ impl Fit {
 
     /// Bias of the estimates of the process's parameters to first order in 1/n; None with an exponent, covariates or a
     /// resolution, and where theory has none.
-    #[must_use]
     pub fn first_order_bias(&self, observations: &Observations) -> Option<[f64; 2]> {
         if self.phi.len() > 2 || self.model.resolution.is_some() {
             return None;
@@ -147,7 +139,6 @@ pub struct LikelihoodRatio {
 }
 
 /// The likelihood-ratio test of S. S. Wilks (1938).
-#[must_use]
 pub fn likelihood_ratio(wide: f64, narrow: f64, degrees: usize) -> LikelihoodRatio {
     let statistic = (2.0 * (wide - narrow)).max(0.0);
     LikelihoodRatio { statistic, degrees, p_value: gamma_q(degrees as f64 / 2.0, statistic / 2.0) }

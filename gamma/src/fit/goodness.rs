@@ -24,7 +24,6 @@ pub struct Goodness {
 
 /// Transforms each increment by its own law. An increment below the gauge's step is spread evenly over what it may
 /// be, with the seed's numbers.
-#[must_use]
 pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     let (process, logs) = (fit.model.process, fit.logs());
     let mut stream = Stream::new(seed, u64::MAX, 0);

@@ -18,7 +18,6 @@ pub struct Interval {
 
 impl Interval {
     /// Whether it holds a value.
-    #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }

@@ -41,13 +41,11 @@ pub struct Point {
 
 impl Model {
     /// Number of parameters: 2, and 1 for the exponent, and the covariates.
-    #[must_use]
     pub fn parameters(&self) -> usize {
         2 + usize::from(self.power_law) + self.covariates
     }
 
     /// Exponent of Lambda at phi.
-    #[must_use]
     pub fn exponent(&self, phi: &[f64]) -> f64 {
         if self.power_law { phi[2] } else { 1.0 }
     }
@@ -81,13 +79,11 @@ impl Model {
     }
 
     /// dLambda of an increment at phi: its shape is alpha times this.
-    #[must_use]
     pub fn lambda(&self, phi: &[f64], increment: &Increment) -> f64 {
         libm::exp(self.ln_lambda(phi, increment).0)
     }
 
     /// Log-likelihood alone.
-    #[must_use]
     pub fn value(&self, phi: &[f64], increments: &[Increment]) -> f64 {
         increments
             .iter()
@@ -104,7 +100,6 @@ impl Model {
     }
 
     /// Value, gradient and information.
-    #[must_use]
     pub fn point(&self, phi: &[f64], increments: &[Increment]) -> Point {
         let size = phi.len();
         let mut point =

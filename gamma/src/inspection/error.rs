@@ -96,7 +96,6 @@ pub enum InspectionError {
 
 impl InspectionError {
     /// The reading it is about, from 1.
-    #[must_use]
     pub fn row(&self) -> Option<usize> {
         match self {
             Self::NoNumber { row, .. }

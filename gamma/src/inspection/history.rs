@@ -68,13 +68,11 @@ impl History {
     }
 
     /// The readings.
-    #[must_use]
     pub fn readings(&self) -> &[Reading] {
         &self.readings
     }
 
     /// The last reading.
-    #[must_use]
     pub fn last(&self) -> Reading {
         self.readings[self.readings.len() - 1]
     }

@@ -118,7 +118,6 @@ impl Particles {
     }
 
     /// Mean and standard deviation of the wear at the last reading, given that the joint has not failed.
-    #[must_use]
     pub fn wear(&self) -> (f64, f64) {
         let count = self.wear.len() as f64;
         let mean = self.wear.iter().sum::<f64>() / count;
@@ -128,14 +127,12 @@ impl Particles {
 
     /// Probability that wear had passed the threshold at the last reading already. The law of life is that of joints
     /// that had not.
-    #[must_use]
     pub fn failed_already(&self) -> f64 {
         self.failed_already
     }
 
     /// Standard error of the mean life from the finite number of particles: the scatter of their mean wear paths over
     /// the different draws that are left.
-    #[must_use]
     pub fn mean_error(&self) -> f64 {
         let typical: Vec<f64> = self.lives.iter().map(Lifetime::typical).collect();
         let count = typical.len() as f64;
@@ -145,7 +142,6 @@ impl Particles {
     }
 
     /// Different draws of the prior that are left.
-    #[must_use]
     pub fn distinct(&self) -> usize {
         self.distinct
     }

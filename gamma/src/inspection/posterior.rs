@@ -97,13 +97,11 @@ impl Posterior {
     }
 
     /// Nodes of the quadrature.
-    #[must_use]
     pub fn nodes(&self) -> usize {
         self.nodes.len()
     }
 
     /// Logarithms of the process's parameters and perhaps of the exponent: mean and standard deviation.
-    #[must_use]
     pub fn parameters(&self) -> Vec<LogParameter> {
         let one = |at: usize| {
             let mean: f64 = self.nodes.iter().map(|node| node.weight * node.logs[at]).sum();

@@ -21,7 +21,6 @@ pub enum Prior {
 
 impl Prior {
     /// The process of the joint.
-    #[must_use]
     pub fn process(&self) -> &'static dyn Process {
         match self {
             Self::Flat { process, .. } => *process,

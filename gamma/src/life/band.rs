@@ -30,7 +30,6 @@ pub struct Band {
 
 impl Band {
     /// Half of the interval's width.
-    #[must_use]
     pub fn half_width(&self) -> f64 {
         0.5 * (self.upper - self.lower)
     }

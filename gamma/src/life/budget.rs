@@ -24,7 +24,6 @@ pub enum Contribution {
 
 impl Contribution {
     /// Half-width, 0 if the source does not arise.
-    #[must_use]
     pub fn half_width(self) -> f64 {
         match self {
             Self::Random(half) | Self::Bound(half) => half,
@@ -48,31 +47,26 @@ pub struct ErrorBudget {
 
 impl ErrorBudget {
     /// Monte-Carlo part of a statistic of lives.
-    #[must_use]
     pub fn monte_carlo(statistic: WithError) -> Contribution {
         Self::random(statistic.error)
     }
 
     /// Random part from a standard error.
-    #[must_use]
     pub fn random(standard_error: f64) -> Contribution {
         Contribution::Random(Z95 * standard_error)
     }
 
     /// Parameter part from a 95 % band.
-    #[must_use]
     pub fn parameters(band: Band) -> Contribution {
         Contribution::Random(band.half_width())
     }
 
     /// The parts with their names.
-    #[must_use]
     pub fn parts(&self) -> [(&'static str, Contribution); 3] {
         [("monte_carlo", self.monte_carlo), ("table", self.table), ("parameters", self.parameters)]
     }
 
     /// The contributions with their kinds and reasons, and the total.
-    #[must_use]
     pub fn to_json(&self) -> Value {
         let entry = |part: Contribution| match part {
             Contribution::Random(half) => json!({ "half_width": half, "kind": "random" }),
@@ -84,14 +78,12 @@ impl ErrorBudget {
     }
 
     /// The half-widths alone, as `life` has them, and the total.
-    #[must_use]
     pub fn half_widths_json(&self) -> Value {
         let parts = self.parts().into_iter().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
         json!({ "half_widths_95": parts.collect::<Map<_, _>>(), "total": self.total() })
     }
 
     /// Half-width of all together.
-    #[must_use]
     pub fn total(&self) -> f64 {
         let (mut squares, mut bounds) = (0.0, 0.0);
         for (_, part) in self.parts() {

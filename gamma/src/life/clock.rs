@@ -55,7 +55,6 @@ impl Clock {
     }
 
     /// Lambda at time `t`.
-    #[must_use]
     pub fn exposure(&self, t: f64) -> f64 {
         match self {
             Self::Power { rate, exponent } if *exponent == 1.0 => rate * t,
@@ -68,7 +67,6 @@ impl Clock {
     }
 
     /// dLambda/dt at time `t`; of a table, the slope on the right of `t`.
-    #[must_use]
     pub fn rate(&self, t: f64) -> f64 {
         match self {
             Self::Power { rate, exponent } => rate * exponent * libm::pow(rate * t, exponent - 1.0),
@@ -80,7 +78,6 @@ impl Clock {
     }
 
     /// Time at which Lambda is `exposure`.
-    #[must_use]
     pub fn time(&self, exposure: f64) -> f64 {
         match self {
             Self::Power { rate, exponent } => libm::pow(exposure, 1.0 / exponent) / rate,
@@ -93,7 +90,6 @@ impl Clock {
     }
 
     /// Power of time that Lambda grows with in the long run.
-    #[must_use]
     pub fn growth(&self) -> f64 {
         match self {
             Self::Power { exponent, .. } => *exponent,
@@ -102,7 +98,6 @@ impl Clock {
     }
 
     /// Times where the rate jumps, between which Lambda is smooth.
-    #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Power { .. } => Vec::new(),
@@ -111,7 +106,6 @@ impl Clock {
     }
 
     /// Last time of a table: beyond it Lambda is extrapolated.
-    #[must_use]
     pub fn end(&self) -> Option<f64> {
         match self {
             Self::Power { .. } => None,

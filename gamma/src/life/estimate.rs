@@ -70,32 +70,27 @@ impl Estimate {
     }
 
     /// The process.
-    #[must_use]
     pub fn process(&self) -> &'static dyn Process {
         self.process
     }
 
     /// The parameters, in the order of [`Process::parameters`].
-    #[must_use]
     pub fn parameters(&self) -> [f64; 2] {
         [libm::exp(self.logs[0]), libm::exp(self.logs[1])]
     }
 
     /// Exponent of exposure, if one was estimated.
-    #[must_use]
     pub fn exponent(&self) -> Option<f64> {
         self.logs.get(2).map(|log| libm::exp(*log))
     }
 
     /// Whether a covariance is known.
-    #[must_use]
     pub fn is_uncertain(&self) -> bool {
         !self.factor.is_empty()
     }
 
     /// Variance of a value to first order, from its derivatives by the logarithms of the parameters and of the exponent; 0
     /// if the parameters are taken as known. Derivatives left out count as 0.
-    #[must_use]
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let mut padded = gradient.to_vec();
         padded.resize(self.logs.len(), 0.0);

@@ -52,38 +52,32 @@ impl FirstPassage {
     }
 
     /// Exposure gained until `t` from now; none before.
-    #[must_use]
     pub fn exposure(&self, t: f64) -> f64 {
         (self.clock.exposure(self.now + t.max(0.0)) - self.exposure_now).max(0.0)
     }
 
     /// Reliability if exposure runs `factor` times as fast.
-    #[must_use]
     pub fn reliability_at(&self, t: f64, factor: f64) -> f64 {
         self.law.survival(factor * self.exposure(t), self.left)
     }
 
     /// Probability of failure until `t` if exposure runs `factor` times as fast.
-    #[must_use]
     pub fn failed_at(&self, t: f64, factor: f64) -> f64 {
         self.law.failure(factor * self.exposure(t), self.left)
     }
 
     /// Hazard if exposure runs `factor` times as fast.
-    #[must_use]
     pub fn hazard_at(&self, t: f64, factor: f64) -> f64 {
         let rate = factor * self.clock.rate(self.now + t.max(0.0));
         rate * self.law.hazard(factor * self.exposure(t), self.left)
     }
 
     /// The clock it wears by.
-    #[must_use]
     pub fn clock(&self) -> &Clock {
         &self.clock
     }
 
     /// Probability of outliving the clock's table, beyond which exposure is extrapolated; 0 without a table.
-    #[must_use]
     pub fn beyond_table(&self) -> f64 {
         self.clock.end().map_or(0.0, |end| self.reliability((end - self.now).max(0.0)))
     }

@@ -23,7 +23,6 @@ pub struct Moments {
 
 impl Moments {
     /// Coefficient of variation std / mean.
-    #[must_use]
     pub fn cov(&self) -> f64 {
         self.std / self.mean
     }

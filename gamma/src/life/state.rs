@@ -49,19 +49,16 @@ impl OperatingState {
     }
 
     /// Wear at failure.
-    #[must_use]
     pub fn threshold(&self) -> f64 {
         self.threshold
     }
 
     /// Wear now.
-    #[must_use]
     pub fn current(&self) -> f64 {
         self.current
     }
 
     /// Units of exposure per unit of time.
-    #[must_use]
     pub fn rate(&self) -> f64 {
         self.rate
     }

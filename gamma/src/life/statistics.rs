@@ -52,26 +52,22 @@ impl LifeStatistics {
     }
 
     /// Number of lives.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.sorted.len()
     }
 
     /// The lives, shortest first.
-    #[must_use]
     pub fn sorted(&self) -> &[f64] {
         &self.sorted
     }
 
     /// Mean; standard error s / sqrt(n).
-    #[must_use]
     pub fn mean(&self) -> WithError {
         let count = self.sorted.len() as f64;
         WithError { value: self.mean, error: self.deviation() / count.sqrt() }
     }
 
     /// Standard deviation (divisor n - 1); standard error sqrt((m4 - m2²) / n) / (2 s), the delta method.
-    #[must_use]
     pub fn std(&self) -> WithError {
         let [m2, _, m4] = self.central;
         let deviation = self.deviation();
@@ -81,7 +77,6 @@ impl LifeStatistics {
 
     /// Coefficient of variation s / mean; standard error by the delta method with the third and fourth moments:
     /// var(c) = c² [ (m4/m2² - 1)/4 - m3/(m2 mean) + m2/mean² ] / n.
-    #[must_use]
     pub fn cov(&self) -> WithError {
         let [m2, m3, m4] = self.central;
         let value = self.deviation() / self.mean;
@@ -107,7 +102,6 @@ impl LifeStatistics {
     }
 
     /// Share of the lives longer than `t`; binomial standard error.
-    #[must_use]
     pub fn reliability(&self, t: f64) -> WithError {
         let count = self.sorted.len() as f64;
         let value = (self.sorted.len() - self.sorted.partition_point(|life| *life <= t)) as f64 / count;

@@ -29,7 +29,6 @@ pub struct GammaDraw {
 
 impl GammaDraw {
     /// For these joints, in the order of the wearing joints.
-    #[must_use]
     pub fn new(seed: u64, joints: &[GammaRates]) -> Self {
         let joint = |rates: &GammaRates| (rates.alpha * MICRO, libm::log(rates.beta * MICRO));
         Self { seed, joints: joints.iter().map(joint).collect(), shared: None }
@@ -80,7 +79,6 @@ pub struct GammaMean {
 
 impl GammaMean {
     /// For these joints, in the order of the wearing joints.
-    #[must_use]
     pub fn new(joints: &[GammaRates]) -> Self {
         Self { joints: joints.iter().map(|rates| rates.alpha / rates.beta).collect() }
     }

@@ -110,13 +110,11 @@ pub struct Slice {
 
 impl Slice {
     /// The log-likelihood at u.
-    #[must_use]
     pub fn at(&self, u: f64) -> f64 {
         self.constant + self.slope * u - self.scale * libm::exp(self.power * u)
     }
 
     /// u where it is largest.
-    #[must_use]
     pub fn peak(&self) -> f64 {
         libm::log(self.slope / (self.scale * self.power)) / self.power
     }

@@ -19,7 +19,6 @@ pub use wiener::Wiener;
 pub static PROCESSES: [&dyn Process; 3] = [&Gamma, &Wiener, &InverseGaussian];
 
 /// The process of this name; see [`Process::name`].
-#[must_use]
 pub fn named(name: &str) -> Option<&'static dyn Process> {
     PROCESSES.into_iter().find(|process| process.name() == name)
 }

@@ -19,7 +19,6 @@ pub struct Stream {
 
 impl Stream {
     /// The stream of a joint in a trajectory, at the start of cycle 0.
-    #[must_use]
     pub fn new(seed: u64, trajectory: u64, joint: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());

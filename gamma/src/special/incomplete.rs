@@ -13,37 +13,31 @@ const MOST_TERMS: u32 = 200_000;
 const NEGLIGIBLE: f64 = 1.1e-16;
 
 /// P(shape, x): the probability that Gamma(shape, 1) is at most x. `shape` > 0.
-#[must_use]
 pub fn gamma_p(shape: f64, x: f64) -> f64 {
     libm::exp(ln_gamma_p(shape, x))
 }
 
 /// Q(shape, x) = 1 - P(shape, x), without subtracting from 1 where that would lose digits.
-#[must_use]
 pub fn gamma_q(shape: f64, x: f64) -> f64 {
     libm::exp(ln_gamma_q(shape, x))
 }
 
 /// ln P(shape, x); minus infinity for x <= 0.
-#[must_use]
 pub fn ln_gamma_p(shape: f64, x: f64) -> f64 {
     if x <= 0.0 { f64::NEG_INFINITY } else { ln_both(shape, x, libm::log(x)).0 }
 }
 
 /// ln Q(shape, x); 0 for x <= 0.
-#[must_use]
 pub fn ln_gamma_q(shape: f64, x: f64) -> f64 {
     if x <= 0.0 { 0.0 } else { ln_both(shape, x, libm::log(x)).1 }
 }
 
 /// ln P(shape, exp(ln_x)), also where x itself underflows: the law of ln G for shapes far below 1.
-#[must_use]
 pub fn ln_gamma_p_of_ln(shape: f64, ln_x: f64) -> f64 {
     ln_both(shape, libm::exp(ln_x), ln_x).0
 }
 
 /// ln Q(shape, exp(ln_x)), also where x itself underflows.
-#[must_use]
 pub fn ln_gamma_q_of_ln(shape: f64, ln_x: f64) -> f64 {
     ln_both(shape, libm::exp(ln_x), ln_x).1
 }

@@ -8,7 +8,6 @@ use super::normal::{normal_cdf, normal_density, normal_mills};
 /// J. Shuster, J. Am. Stat. Assoc. 63 (1968) 1514: P(X <= x) = Phi(z) + exp(2 shape / mean) Phi(-y), with
 /// z, y = sqrt(shape / x) (x / mean -+ 1). Because y² - z² = 4 shape / mean, the second part is phi(z) times Mills' ratio at
 /// y, which does not overflow.
-#[must_use]
 pub fn inverse_gaussian(mean: f64, shape: f64, x: f64) -> (f64, f64) {
     if x <= 0.0 {
         return (0.0, 1.0);

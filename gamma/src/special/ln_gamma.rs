@@ -4,13 +4,11 @@
 pub const EULER: f64 = 0.577_215_664_901_532_9;
 
 /// ln Gamma(x), x > 0.
-#[must_use]
 pub fn ln_gamma(x: f64) -> f64 {
     libm::lgamma(x)
 }
 
 /// ln Gamma(1 + x), x > -1, right to the last digits at tiny x, where ln Gamma(1 + x) as written has lost x.
-#[must_use]
 pub fn ln_gamma_1p(x: f64) -> f64 {
     if x.abs() >= 0.1 {
         return ln_gamma(1.0 + x);

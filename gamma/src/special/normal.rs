@@ -3,19 +3,16 @@
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Density of the standard normal law.
-#[must_use]
 pub fn normal_density(z: f64) -> f64 {
     libm::exp(-0.5 * z * z) / libm::sqrt(2.0 * PI)
 }
 
 /// Probability that a standard normal number is at most z.
-#[must_use]
 pub fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z * FRAC_1_SQRT_2)
 }
 
 /// Mills' ratio at z: the probability of a standard normal number above z over the density there; infinite far below 0.
-#[must_use]
 pub fn normal_mills(z: f64) -> f64 {
     /// From here on the continued fraction of P. S. Laplace has all digits after so many steps.
     const FAR: f64 = 25.0;
@@ -27,7 +24,6 @@ pub fn normal_mills(z: f64) -> f64 {
 }
 
 /// The p-quantile of the standard normal law: infinite at 0 and 1, NaN outside.
-#[must_use]
 pub fn normal_quantile(p: f64) -> f64 {
     if !(0.0..=1.0).contains(&p) {
         return f64::NAN;

@@ -7,7 +7,6 @@
 const LARGE: f64 = 12.0;
 
 /// Digamma function psi(x) = d ln Gamma(x) / dx, x > 0.
-#[must_use]
 pub fn digamma(x: f64) -> f64 {
     let (mut x, mut sum) = (x, 0.0);
     while x < LARGE {
@@ -22,7 +21,6 @@ pub fn digamma(x: f64) -> f64 {
 }
 
 /// Trigamma function psi'(x), x > 0.
-#[must_use]
 pub fn trigamma(x: f64) -> f64 {
     let (mut x, mut sum) = (x, 0.0);
     while x < LARGE {
@@ -36,7 +34,6 @@ pub fn trigamma(x: f64) -> f64 {
 }
 
 /// Tetragamma function psi''(x), x > 0.
-#[must_use]
 pub fn tetragamma(x: f64) -> f64 {
     let (mut x, mut sum) = (x, 0.0);
     while x < LARGE {

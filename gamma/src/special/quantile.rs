@@ -8,13 +8,11 @@ use super::ln_gamma::{EULER, ln_gamma, ln_gamma_1p};
 use super::normal::normal_quantile;
 
 /// The p-quantile of Gamma(shape, 1). It underflows to 0 at small shapes: see [`ln_gamma_quantile`].
-#[must_use]
 pub fn gamma_quantile(shape: f64, p: f64) -> f64 {
     libm::exp(ln_gamma_quantile(shape, p))
 }
 
 /// ln of the p-quantile of Gamma(shape, 1): minus infinity at p = 0, infinity at p = 1, NaN outside.
-#[must_use]
 pub fn ln_gamma_quantile(shape: f64, p: f64) -> f64 {
     if !(0.0..=1.0).contains(&p) || shape.is_nan() || shape <= 0.0 {
         f64::NAN
@@ -26,7 +24,6 @@ pub fn ln_gamma_quantile(shape: f64, p: f64) -> f64 {
 }
 
 /// ln of the x that Gamma(shape, 1) exceeds with probability q, right for tiny q.
-#[must_use]
 pub fn ln_gamma_quantile_upper(shape: f64, q: f64) -> f64 {
     if !(0.0..=1.0).contains(&q) || shape.is_nan() || shape <= 0.0 {
         f64::NAN

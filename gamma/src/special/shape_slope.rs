@@ -16,7 +16,6 @@ const NO_SHAPE: f64 = 1e-8;
 /// answer is the mean of psi(a+n+1) - ln x under weights t_n. Terms are taken relative to the largest, from which the
 /// sum goes both ways: nothing underflows however small P is. Where P is near 1 the differences cancel: there the change of
 /// ln Q, by a central difference, keeps the digits. Relative accuracy 1e-8.
-#[must_use]
 pub fn ln_gamma_p_slope(shape: f64, x: f64) -> f64 {
     let floored = shape.max(NO_SHAPE);
     let ln_failed = ln_gamma_q(floored, x);

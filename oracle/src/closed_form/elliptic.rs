@@ -1,7 +1,6 @@
 //! Elliptic functions by the arithmetic-geometric mean (Abramowitz and Stegun 16.4, 17.6).
 
 /// Arithmetic-geometric mean of two positive numbers.
-#[must_use]
 pub fn arithmetic_geometric_mean(mut a: f64, mut b: f64) -> f64 {
     // Convergence is quadratic: six rounds suffice for any ratio a test uses; ten cost nothing.
     for _ in 0..10 {
@@ -11,7 +10,6 @@ pub fn arithmetic_geometric_mean(mut a: f64, mut b: f64) -> f64 {
 }
 
 /// Jacobi's sn, cn, dn of `u` with modulus `k`, 0 <= k < 1.
-#[must_use]
 pub fn jacobi(u: f64, k: f64) -> (f64, f64, f64) {
     let mut a = vec![1.0];
     let mut c = vec![k];

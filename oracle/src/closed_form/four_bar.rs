@@ -29,7 +29,6 @@ pub struct FourBarMotion {
 impl FourBar {
     /// Motion of coupler and rocker for a motion of the crank; `open` chooses the branch whose links do
     /// not cross. NaN where the lengths do not close.
-    #[must_use]
     pub fn motion(&self, crank: Motion, open: bool) -> FourBarMotion {
         let Self { ground: d, crank: a, coupler: b, rocker: c } = *self;
         let (sin2, cos2) = crank.position.sin_cos();

@@ -22,13 +22,11 @@ pub struct NFourBar {
 
 impl NFourBar {
     /// Benchmark A02 with `cells` cells.
-    #[must_use]
     pub fn benchmark(cells: u32) -> Self {
         Self { cells, gravity: 9.81, tip_speed: 1.0 }
     }
 
     /// x, y [m], vx, vy [m/s] of the first tip B0 at time `t` [s].
-    #[must_use]
     pub fn tip(&self, t: f64) -> [f64; 4] {
         let n = f64::from(self.cells);
         let factor = ((n + 1.0) / 2.0 + n) / ((n + 1.0) / 3.0 + n) * self.gravity;

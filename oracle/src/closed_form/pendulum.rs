@@ -17,14 +17,12 @@ impl Pendulum {
     }
 
     /// Time of a full swing [s].
-    #[must_use]
     pub fn period(&self) -> f64 {
         let mean = arithmetic_geometric_mean(1.0, (0.5 * self.amplitude).cos());
         2.0 * std::f64::consts::PI / (self.frequency * mean)
     }
 
     /// Angle, speed and acceleration at time `t` [s].
-    #[must_use]
     pub fn motion(&self, t: f64) -> Motion {
         let k = self.modulus();
         let (sn, cn, _) = jacobi(self.frequency * (t + 0.25 * self.period()), k);

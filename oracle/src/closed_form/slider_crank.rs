@@ -24,7 +24,6 @@ pub struct SliderMotion {
 
 impl SliderCrank {
     /// Motion of rod and slider for a motion of the crank. NaN where the rod is too short.
-    #[must_use]
     pub fn motion(&self, crank: Motion) -> SliderMotion {
         let Self { crank: r, rod: l, offset } = *self;
         let (sin, cos) = crank.position.sin_cos();

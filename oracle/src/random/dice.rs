@@ -7,7 +7,6 @@ pub struct Dice(u64);
 
 impl Dice {
     /// Dice that start at `seed`.
-    #[must_use]
     pub const fn new(seed: u64) -> Self {
         Self(seed)
     }

@@ -14,7 +14,6 @@ pub use recipe::Recipe;
 
 impl Recipe {
     /// The mechanism as text.
-    #[must_use]
     pub fn toml(&self) -> String {
         let mut dice = Dice::new(self.seed);
         let plan = plan::Plan::new(self, &mut dice);

@@ -22,7 +22,6 @@ pub struct Recipe {
 
 impl Recipe {
     /// A tree of three to seven bodies with every joint kind, drives and forces.
-    #[must_use]
     pub fn tree(seed: u64) -> Self {
         let mut dice = Dice::new(seed ^ 0x7ee);
         let (bodies, drives) = (3 + dice.below(5), dice.below(3));
@@ -30,7 +29,6 @@ impl Recipe {
     }
 
     /// As [`Recipe::tree`], with one or two closed loops and no free joint.
-    #[must_use]
     pub fn closed(seed: u64) -> Self {
         let mut dice = Dice::new(seed ^ 0x100b);
         let (bodies, loops, drives) = (3 + dice.below(5), 1 + dice.below(2), dice.below(2));
@@ -39,7 +37,6 @@ impl Recipe {
     }
 
     /// Two bodies in a row, all joints of one kind; of fixed ones, one is made a revolute.
-    #[must_use]
     pub fn alone(kind: Kind, seed: u64) -> Self {
         Self { seed, bodies: 2, loops: 0, kinds: vec![kind], drives: 0, forces: true }
     }

@@ -91,7 +91,6 @@ pub fn place(evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, targets: 
 
 /// How the offset of every contact moves with every free speed: `[joint][axis][speed]`, exactly, because rates
 /// are linear in the speeds.
-#[must_use]
 pub fn offset_columns(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<[Vec<f64>; 3]> {
     let (n, contacts) = (evaluator.sizes().speeds, evaluator.sizes().contacts);
     let mut v = vec![0.0; n];

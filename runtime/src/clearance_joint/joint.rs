@@ -56,13 +56,11 @@ pub struct ContactState {
 
 impl ContactState {
     /// Minus the gap [m].
-    #[must_use]
     pub fn penetration(&self) -> f64 {
         -self.gap
     }
 
     /// Unit vector from the bearing's centre to the contact, in the bearing's frame; the first axis if centred.
-    #[must_use]
     pub fn normal(&self) -> [f64; 3] {
         let [x, y, z] = self.offset;
         let distance = (x * x + y * y + z * z).sqrt();
@@ -107,44 +105,37 @@ impl Clearance {
     }
 
     /// Directions in which the journal is free: two across the axis, or three of a ball.
-    #[must_use]
     pub fn freedoms(&self) -> usize {
         if self.ball { 3 } else { 2 }
     }
 
     /// Radius of the journal or ball [m].
-    #[must_use]
     pub fn journal_radius(&self) -> f64 {
         self.radius
     }
 
     /// Its law of normal force.
-    #[must_use]
     pub fn normal_law(&self) -> &Normal {
         &self.laws.normal
     }
 
     /// Archard's law and what was said about wear; nothing if it does not wear.
-    #[must_use]
     pub fn wear(&self) -> Option<&(Archard, WearInfo)> {
         self.wear.as_ref()
     }
 
     /// K at a clearance [m], [N/m^n].
-    #[must_use]
     pub fn stiffness(&self, clearance: f64) -> f64 {
         self.stiffness.value(self.radius, clearance)
     }
 
     /// Penetration [m] of a contact at rest that carries `force` [N] at a clearance [m].
-    #[must_use]
     pub fn resting_penetration(&self, clearance: f64, force: f64) -> f64 {
         self.laws.normal.resting_penetration(self.stiffness(clearance), force)
     }
 
     /// Distance [m] of the journal's centre from the bearing's, along the unit vector `direction`, at which the
     /// penetration is `penetration` [m]; `clearance` [m] is that of the round bearing, without the profile.
-    #[must_use]
     pub(super) fn distance(
         &self,
         clearance: f64,
@@ -161,7 +152,6 @@ impl Clearance {
     }
 
     /// Geometry for areas at a clearance [m].
-    #[must_use]
     pub fn pair(&self, clearance: f64) -> Pair<f64> {
         Pair { journal_radius: self.radius, length: self.length, clearance, modulus: self.modulus }
     }
@@ -171,7 +161,6 @@ impl Clearance {
     ///
     /// Stiffness and area go by the clearance plus the mean of the profile, which stays the same through a
     /// run: a stiffness that changed along the way would not give back the energy it took.
-    #[must_use]
     pub fn evaluate(
         &self,
         motion: &[f64],
@@ -264,7 +253,6 @@ impl Clearance {
     }
 
     /// What acts on the contact, for laws of wear.
-    #[must_use]
     pub fn load(touch: &ContactState) -> Load<f64> {
         Load {
             normal_force: touch.normal_force,

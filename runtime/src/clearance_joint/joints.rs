@@ -23,7 +23,6 @@ pub struct ClearanceState {
 
 impl ClearanceState {
     /// An unworn joint, apart.
-    #[must_use]
     pub fn unworn() -> Self {
         Self { memory: ImpactMemory::apart(), worn: 0.0, profile: None }
     }
@@ -58,19 +57,16 @@ impl Clearances {
     }
 
     /// Whether there are none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.joints.is_empty()
     }
 
     /// The joints.
-    #[must_use]
     pub fn joints(&self) -> &[Clearance] {
         &self.joints
     }
 
     /// What belongs to each between two steps.
-    #[must_use]
     pub fn states(&self) -> &[ClearanceState] {
         &self.states
     }
@@ -81,26 +77,22 @@ impl Clearances {
     }
 
     /// Every contact at the last evaluation.
-    #[must_use]
     pub fn contacts(&self) -> &[ContactState] {
         &self.contacts
     }
 
     /// The wrenches of the last evaluation, joint by joint.
-    #[must_use]
     pub fn wrenches(&self) -> &[f64] {
         &self.wrenches
     }
 
     /// Energy stored in all contacts at the last evaluation [J].
-    #[must_use]
     pub fn elastic_energy(&self) -> f64 {
         self.contacts.iter().map(|touch| touch.elastic_energy).sum()
     }
 
     /// Distance [m] of a journal's centre from the bearing's, along the unit vector `direction`, at which the
     /// penetration is `penetration` [m], worn as at the last evaluation.
-    #[must_use]
     pub fn distance(&self, index: usize, direction: [f64; 3], penetration: f64) -> f64 {
         let profile = self.states[index].profile.as_ref();
         let round = self.contacts[index].clearance - profile.map_or(0.0, Profile::mean);

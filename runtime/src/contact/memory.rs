@@ -8,6 +8,7 @@ use crate::scalar::Scalar;
 /// Memory of the current contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[must_use]
 pub struct ImpactMemory<T> {
     /// One while the bodies touch, zero while they are apart (a number, so that lanes can hold it).
     pub touching: T,
@@ -30,7 +31,6 @@ impl<T: Scalar> ImpactMemory<T> {
     /// `closing_speed` (see [`crossing_speed`]; at a located onset simply the penetration rate), a
     /// running one keeps what it has, a released one forgets.
     #[inline]
-    #[must_use]
     pub fn updated(self, penetration: T, closing_speed: T) -> Self {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let now = zero.lt(penetration);

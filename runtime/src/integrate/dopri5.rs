@@ -113,25 +113,21 @@ impl Dopri5 {
     }
 
     /// Time reached.
-    #[must_use]
     pub fn t(&self) -> f64 {
         self.t
     }
 
     /// Time at the beginning of the last accepted step.
-    #[must_use]
     pub fn before(&self) -> f64 {
         self.before
     }
 
     /// State reached.
-    #[must_use]
     pub fn y(&self) -> &[f64] {
         &self.y
     }
 
     /// Steps tried and not accepted.
-    #[must_use]
     pub fn rejected(&self) -> u64 {
         self.rejected
     }

@@ -41,6 +41,7 @@ impl Coefficients {
 }
 
 /// State and storage of the method.
+#[must_use]
 pub struct GeneralizedAlpha {
     coefficients: Coefficients,
     q: Vec<f64>,
@@ -89,7 +90,6 @@ struct Next {
 impl GeneralizedAlpha {
     /// Starts at coordinates `q`, speeds `v`, accelerations `v_dot`; `shifted`: accelerations at
     /// [`Self::shift`] steps after the start (`v_dot` again costs accuracy in the first steps only).
-    #[must_use]
     pub fn new(
         evaluator: &Evaluator<'_>,
         rho: f64,
@@ -139,38 +139,32 @@ impl GeneralizedAlpha {
 
     /// Sets the natural size of each free speed's motion, 1 unless told otherwise: difference quotients and the end
     /// of the iteration go by it. A contact is as stiff as its penetrations are small.
-    #[must_use]
     pub fn with_sizes(mut self, sizes: &[f64]) -> Self {
         self.sizes.copy_from_slice(sizes);
         self
     }
 
     /// Time to which the method's own accelerations belong, in steps after the state's time.
-    #[must_use]
     pub fn shift(rho: f64) -> f64 {
         (rho - 1.0) / (rho + 1.0)
     }
 
     /// Coordinates reached.
-    #[must_use]
     pub fn q(&self) -> &[f64] {
         &self.q
     }
 
     /// Speeds reached.
-    #[must_use]
     pub fn v(&self) -> &[f64] {
         &self.v
     }
 
     /// Newton iterations so far.
-    #[must_use]
     pub fn iterations(&self) -> u64 {
         self.iterations
     }
 
     /// Evaluations of the equations of motion so far.
-    #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }

@@ -13,7 +13,6 @@ pub struct Rk4 {
 
 impl Rk4 {
     /// Storage for states of `dimension` numbers.
-    #[must_use]
     pub fn new(dimension: usize) -> Self {
         Self { slopes: std::array::from_fn(|_| vec![0.0; dimension]), stage: vec![0.0; dimension] }
     }

@@ -76,6 +76,7 @@ pub struct JointLife {
 
 /// Everything about a life but its fine scale and its draws.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct LifeSettings {
     /// Wearing joints, in the order of the fine scale.
     pub joints: Vec<JointLife>,
@@ -150,7 +151,6 @@ impl LifeSettings {
     }
 
     /// The same life with the geometry of the unworn joints throughout: the paper's second baseline.
-    #[must_use]
     pub fn without_feedback(mut self) -> Self {
         for joint in &mut self.joints {
             joint.feedback = Feedback::Scalar(ScalarFeedback::NONE);
@@ -159,7 +159,6 @@ impl LifeSettings {
     }
 
     /// The same life with cycles of `factor` times as many revolutions.
-    #[must_use]
     pub fn with_longer_cycles(mut self, factor: f64) -> Self {
         for joint in &mut self.joints {
             joint.revolutions_per_cycle *= factor;

@@ -13,7 +13,6 @@ pub struct Cholesky {
 
 impl Cholesky {
     /// Storage for matrices of `size` rows.
-    #[must_use]
     pub fn new(size: usize) -> Self {
         Self { size, factors: vec![0.0; size * size], work: vec![0.0; size] }
     }

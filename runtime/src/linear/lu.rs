@@ -14,7 +14,6 @@ pub struct Lu {
 
 impl Lu {
     /// Storage for matrices of `size` rows.
-    #[must_use]
     pub fn new(size: usize) -> Self {
         Self { size, factors: vec![0.0; size * size], order: vec![0; size], work: vec![0.0; size] }
     }

@@ -23,7 +23,6 @@ pub struct Orthogonal {
 
 impl Orthogonal {
     /// Storage for matrices of up to `rows` x `columns`.
-    #[must_use]
     pub fn new(rows: usize, columns: usize) -> Self {
         let least = rows.min(columns);
         Self {
@@ -57,7 +56,6 @@ impl Orthogonal {
     }
 
     /// Number of directions that are not null.
-    #[must_use]
     pub fn rank(&self) -> usize {
         self.rank
     }

@@ -1,7 +1,6 @@
 //! Vectors as slices: scalar product, sum, largest magnitude. The order of summation is fixed.
 
 /// Scalar product, in four running sums.
-#[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a_blocks, a_rest) = a.as_chunks::<4>();
@@ -23,7 +22,6 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 }
 
 /// Largest magnitude; NaN if any entry is not a number.
-#[must_use]
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() + 0.0 * most })
 }

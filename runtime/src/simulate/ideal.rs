@@ -60,7 +60,6 @@ impl IdealJoint {
     }
 
     /// Normal force [N] and sliding speed [m/s] of one sampled row.
-    #[must_use]
     pub fn normal_force_and_speed(&self, row: &[f64]) -> (f64, f64) {
         let three = |at: usize| [row[at], row[at + 1], row[at + 2]];
         let force = three(self.force);
@@ -78,7 +77,6 @@ impl IdealJoint {
 
     /// What the joint did over the samples of a run. `wear`: laws of a joint and the clearance [m] whose contact area
     /// counts, the contact taken as resting at every instant.
-    #[must_use]
     pub fn measure(&self, run: &Run, wear: Option<(&Clearance, f64)>) -> ContactMeasure {
         let count = run.times.len();
         let mut measure = ContactMeasure::default();

@@ -62,7 +62,6 @@ impl Default for Settings {
 
 impl Settings {
     /// Settings without settling.
-    #[must_use]
     pub fn new(integrator: Integrator, span: Span, samples: usize) -> Self {
         Self { integrator, span, samples, settle: Span::Time(0.0), singular_pivot: SINGULAR_PIVOT }
     }

@@ -77,7 +77,6 @@ impl<'a> TurnRunner<'a> {
     }
 
     /// Everything that has to be kept to go on from here.
-    #[must_use]
     pub fn state(&self) -> TurnState {
         TurnState {
             t: self.t,

@@ -18,6 +18,7 @@ pub struct Limits {
 /// Extremes of a joint over a measured stretch of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[must_use]
 pub struct Observed {
     /// Largest mean contact pressure F_n/A [Pa].
     pub pressure: f64,
@@ -50,7 +51,6 @@ impl Observed {
     }
 
     /// The larger of every extreme; clearance and radius stay.
-    #[must_use]
     pub fn larger(self, other: Self) -> Self {
         Self {
             pressure: Scalar::max(self.pressure, other.pressure),

@@ -43,13 +43,11 @@ impl ContactMeasure {
     ];
 
     /// Its numbers without the profile and the extremes.
-    #[must_use]
     pub fn numbers(&self) -> Self {
         Self { deposit: None, observed: None, ..*self }
     }
 
     /// The mean of turns of one joint; extremes are those of all turns.
-    #[must_use]
     pub fn mean(turns: &[&Self]) -> Self {
         let count = turns.len() as f64;
         let mean = |of: fn(&Self) -> f64| turns.iter().map(|turn| of(turn)).sum::<f64>() / count;

@@ -156,13 +156,11 @@ impl Profile {
 
     /// Adds another profile with the same bins, times a factor; says whether the bins fit (if not,
     /// nothing changes).
-    #[must_use]
     pub fn add_scaled(&mut self, other: &Self, factor: f64) -> bool {
         self.add_depths(&other.depths, factor)
     }
 
     /// Adds a depth [m] to every bin, times a factor; says whether the bins fit (if not, nothing changes).
-    #[must_use]
     pub fn add_depths(&mut self, depths: &[f64], factor: f64) -> bool {
         let fits = self.depths.len() == depths.len();
         if fits {

@@ -48,7 +48,6 @@ struct Smooth {
 
 impl Grid {
     /// That of a profile with so many bins.
-    #[must_use]
     pub fn new(bins: usize) -> Self {
         let width = 2.0 * PI / bins as f64;
         let middle = |bin: usize| (bin as f64 + 0.5) * width - PI;
@@ -58,7 +57,6 @@ impl Grid {
 
     /// Penetration of a journal at an offset [m] into a bearing with a radial clearance [m], worn by a profile with
     /// the bins of this grid; exactly that of a round bearing where the depth is even.
-    #[must_use]
     pub fn support(&self, depths: &Profile, clearance: f64, offset: [f64; 2]) -> Support<f64> {
         let round = Support::round(offset, clearance);
         let scale = self.smoothing * clearance;
@@ -73,7 +71,6 @@ impl Grid {
 
     /// Distance [m] of the journal's centre from the bearing's, along a unit vector, at which the penetration is
     /// `penetration` [m].
-    #[must_use]
     pub fn distance(&self, depths: &Profile, clearance: f64, direction: [f64; 2], penetration: f64) -> f64 {
         // Newton comes from outside, where the penetration is too large: it is convex.
         let mut distance = clearance + penetration + depths.maximum();
@@ -108,7 +105,6 @@ impl Grid {
 impl Profile {
     /// Takes away wear that is given by the direction of the journal's offset, mean depths [m] of the bins, times a
     /// factor: where the journal touches when it points there. Says whether the bins fit (if not, nothing changes).
-    #[must_use]
     pub fn wear_in(&mut self, by_direction: &[f64], factor: f64, clearance: f64) -> bool {
         if self.depths.len() != by_direction.len() {
             return false;

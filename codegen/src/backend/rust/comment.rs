@@ -6,7 +6,6 @@ use crate::tape::Operations;
 pub const MARKER: &str = "__section";
 
 /// Replaces marker statements by comments.
-#[must_use]
 pub fn with_comments(text: &str, titles: &[String]) -> String {
     let mut result = String::with_capacity(text.len());
     for line in text.lines() {

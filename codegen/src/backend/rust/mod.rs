@@ -35,7 +35,6 @@ pub struct EmitInput<'a> {
 }
 
 /// The source of a mechanism, meant to be included as the contents of a module.
-#[must_use]
 pub fn emit(input: &EmitInput<'_>) -> String {
     let splits: Vec<Split> = input.tapes.iter().map(|tape| split(tape, STATEMENTS_PER_FUNCTION)).collect();
     let workspace = splits.iter().map(|split| split.slots as usize).max().unwrap_or(0);

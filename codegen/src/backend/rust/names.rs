@@ -6,7 +6,6 @@ use std::collections::HashSet;
 use proc_macro2::{Ident, Span};
 
 /// A valid identifier made of a name; keywords get an underscore.
-#[must_use]
 pub fn identifier(name: &str) -> Ident {
     Ident::new(&clean(name), Span::call_site())
 }

@@ -42,7 +42,6 @@ pub enum Purpose {
 
 /// Derives all entry points. `keep` says for every constraint row (cuts in topology order) whether it is
 /// kept; `None` keeps all.
-#[must_use]
 pub fn derive(
     mechanism: &Mechanism,
     topology: &Topology,

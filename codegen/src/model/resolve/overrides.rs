@@ -40,7 +40,6 @@ impl Overrides {
     }
 
     /// Names with their values.
-    #[must_use]
     pub fn from_pairs(pairs: &[(String, String)]) -> Self {
         Self(pairs.to_vec())
     }

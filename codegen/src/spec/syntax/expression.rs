@@ -53,7 +53,6 @@ pub struct Expression {
 
 impl Expression {
     /// Value in SI and dimension, if the whole is one quantity, perhaps with a sign.
-    #[must_use]
     pub fn quantity(&self) -> Option<(f64, Dimension)> {
         match &self.form {
             Form::Number { value, dimension, .. } => Some((*value, *dimension)),
