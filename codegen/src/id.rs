@@ -48,7 +48,3 @@ typed_index!(
     /// An input symbol of an expression graph.
     SymbolId
 );
-typed_index!(
-    /// A readable section of generated code.
-    SectionId
-);

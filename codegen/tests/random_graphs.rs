@@ -2,7 +2,7 @@
 
 use linkwear_codegen::backend::interp::Interpreted;
 use linkwear_codegen::derive::{Block, Equations, Function};
-use linkwear_codegen::expr::{ExprId, Graph};
+use linkwear_codegen::expr::{Expr, ExprId, Graph, Scope};
 use linkwear_codegen::tape::{lower, split, verify};
 use linkwear_runtime::{Description, Dual, Entry, Sizes, System};
 use proptest::prelude::*;
@@ -12,27 +12,39 @@ const SYMBOLS: usize = 4;
 /// One step of building: an operation and the places of its operands among what is there already.
 type Step = (u8, u16, u16);
 
-fn build(steps: &[Step]) -> (Graph, Vec<ExprId>, Vec<ExprId>) {
-    let mut g = Graph::new();
-    let symbols: Vec<ExprId> = (0..SYMBOLS).map(|i| g.symbol(format!("s{i}"))).collect();
+/// Symbols and outputs.
+fn build<'g>(g: &'g Scope, steps: &[Step]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+    let symbols: Vec<Expr<'g>> = (0..SYMBOLS).map(|i| g.symbol(format!("s{i}"))).collect();
     let mut made = symbols.clone();
     for constant in [0.0, 1.0, -1.0, 0.75, 2.5] {
-        made.push(g.constant(constant));
+        made.push(g.number(constant));
     }
     for (operation, a, b) in steps {
         let (a, b) = (made[*a as usize % made.len()], made[*b as usize % made.len()]);
         let next = match operation % 9 {
-            0 | 1 => g.add(a, b),
-            2 | 3 => g.sub(a, b),
-            4 | 5 => g.mul(a, b),
-            6 => g.neg(a),
-            7 => g.sin(a),
-            _ => g.cos(a),
+            0 | 1 => a + b,
+            2 | 3 => a - b,
+            4 | 5 => a * b,
+            6 => -a,
+            7 => a.sin(),
+            _ => a.cos(),
         };
         made.push(next);
     }
     let outputs = made[made.len() - 6.min(made.len())..].to_vec();
-    (g, symbols, outputs)
+    (symbols, outputs)
+}
+
+fn ids(expressions: Vec<Expr<'_>>) -> Vec<ExprId> {
+    expressions.into_iter().map(Expr::id).collect()
+}
+
+/// A finished graph with the ids of its symbols and outputs.
+fn built(steps: &[Step]) -> (Graph, Vec<ExprId>, Vec<ExprId>) {
+    let g = Scope::new();
+    let (symbols, outputs) = build(&g, steps);
+    let (symbols, outputs) = (ids(symbols), ids(outputs));
+    (g.into_graph(), symbols, outputs)
 }
 
 /// The same function under every entry point: the interpreter wants one tape for each.
@@ -40,8 +52,8 @@ fn equations(graph: Graph, symbols: &[ExprId], outputs: &[ExprId]) -> Equations 
     let function = |entry: &Entry| Function {
         name: entry.name().to_owned(),
         doc: String::new(),
-        inputs: vec![Block::vector("x", "", "", symbols.to_vec())],
-        outputs: vec![Block::vector("y", "", "", outputs.to_vec())],
+        inputs: vec![Block::vector("x", symbols.to_vec())],
+        outputs: vec![Block::vector("y", outputs.to_vec())],
     };
     Equations { graph, functions: Entry::ALL.iter().map(function).collect() }
 }
@@ -70,7 +82,7 @@ proptest! {
         steps in prop::collection::vec(any::<Step>(), 1..120),
         point in prop::array::uniform4(-2.0_f64..2.0),
     ) {
-        let (graph, symbols, outputs) = build(&steps);
+        let (graph, symbols, outputs) = built(&steps);
         let expected = graph.evaluate_all(&point);
         let expected: Vec<f64> = outputs.iter().map(|id| expected[id.index()]).collect();
         let tapes = lower(&equations(graph, &symbols, &outputs));
@@ -90,7 +102,7 @@ proptest! {
         steps in prop::collection::vec(any::<Step>(), 1..200),
         limit in 3_usize..40,
     ) {
-        let (graph, symbols, outputs) = build(&steps);
+        let (graph, symbols, outputs) = built(&steps);
         let tape = lower(&equations(graph, &symbols, &outputs)).remove(0);
         let split = split(&tape, limit);
         let mut slots = vec![None; split.slots as usize];
@@ -107,7 +119,7 @@ proptest! {
                         prop_assert!(known.contains(&value));
                     }
                 }
-                known.extend(statement.first..statement.first + statement.op.results());
+                known.extend(statement.results());
                 for operand in stored {
                     if let linkwear_codegen::tape::Operand::Value(value) = operand {
                         prop_assert!(known.contains(&value));
@@ -126,9 +138,11 @@ proptest! {
         point in prop::array::uniform4(-1.5_f64..1.5),
         by in 0..SYMBOLS,
     ) {
-        let (mut graph, symbols, outputs) = build(&steps);
-        let derivatives: Vec<ExprId> =
-            outputs.iter().map(|output| graph.derivative(*output, symbols[by])).collect();
+        let g = Scope::new();
+        let (symbols, outputs) = build(&g, &steps);
+        let derivatives = ids(outputs.iter().map(|output| output.derivative(symbols[by])).collect());
+        let outputs = ids(outputs);
+        let graph = g.into_graph();
         let values = graph.evaluate_all(&point);
         let duals: Vec<Dual<f64>> = point
             .iter()

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use linkwear_runtime::{Description, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
 
 use crate::expr::{Binary, Unary};
-use crate::tape::{Op, Operand, Registers, Tape};
+use crate::tape::{Op, Operand, Registers, Statement, Tape};
 
 /// A mechanism as tapes, ready to be evaluated on any scalar.
 #[derive(Clone, Debug)]
@@ -74,12 +74,8 @@ impl Program {
         let registers = Registers::assign(tape);
         let mut constants: Vec<f64> = Vec::new();
         let mut positions = std::collections::HashMap::new();
-        let every_operand = tape.direct.iter().map(|(_, operand)| *operand).chain(
-            tape.statements
-                .iter()
-                .flat_map(|s| s.op.operands().chain(s.stores.iter().map(|(_, operand)| *operand))),
-        );
-        for operand in every_operand {
+        let direct = tape.direct.iter().map(|(_, operand)| *operand);
+        for operand in direct.chain(tape.statements.iter().flat_map(Statement::reads)) {
             if let Operand::Constant(number) = operand {
                 positions.entry(number.to_bits()).or_insert_with(|| {
                     constants.push(number);

@@ -4,14 +4,14 @@
 use linkwear_runtime::{Description, Sizes};
 
 use crate::backend::interp::Interpreted;
-use crate::backend::rust::{EmitInput, STATEMENTS_PER_FUNCTION, emit};
+use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Mechanism, Topology};
 use crate::preflight::Analysis;
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
-use crate::tape::{self, Operations, Tape};
+use crate::tape::{self, Operations, PART_LIMIT, Tape};
 
 /// A mechanism, understood: equations, tapes and all that is known about it.
 #[derive(Clone, Debug)]
@@ -71,7 +71,7 @@ impl Compiled {
                 name: tape.name.clone(),
                 operations: tape.operations(),
                 statements: tape.statements.len(),
-                parts: tape::split(tape, STATEMENTS_PER_FUNCTION).parts.len(),
+                parts: tape::split(tape, PART_LIMIT).parts.len(),
             })
             .collect()
     }

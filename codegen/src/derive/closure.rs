@@ -6,14 +6,14 @@
 //! the joint screws moved to the closure point, read from the other side. `bias` is the row's
 //! acceleration for zero `v̇` of the free speeds, by the velocity-product recursion.
 
-use crate::expr::{Expr, Scope};
+use crate::expr::Expr;
 use crate::model::{Closure, JointModel};
 
 use super::geometry::Geometry;
 use super::joint_markers::{joint_in_child, joint_markers, split_body_markers};
 use super::joint_rows::RowMaker;
 use super::kinematics::Poses;
-use super::linkage::{Cut, Freedom, LinkIndex, Linkage};
+use super::linkage::{Cut, Freedom, LinkIndex};
 use super::log_closure::log_rows;
 use super::motion::Motion;
 use super::relative_motion::{Place, RelativeMotion};
@@ -39,30 +39,21 @@ pub fn row_count(joint: &JointModel, closure: Closure) -> usize {
 }
 
 /// Derives the rows of every cut. With `exact` the Jacobian is exact off the closed positions too.
-pub fn cut_rows<'g>(
-    g: &'g Scope,
-    geometry: &Geometry<'g>,
-    motion: &Motion<'g>,
-    exact: bool,
-) -> Vec<CutRows<'g>> {
-    geometry.linkage.cuts.iter().map(|cut| rows_of(g, geometry, motion, *cut, exact)).collect()
+pub fn cut_rows<'g>(motion: &Motion<'g>, exact: bool) -> Vec<CutRows<'g>> {
+    motion.poses.geometry.linkage.cuts.iter().map(|cut| rows_of(motion, *cut, exact)).collect()
 }
 
-fn rows_of<'g>(
-    g: &'g Scope,
-    geometry: &Geometry<'g>,
-    motion: &Motion<'g>,
-    cut: Cut,
-    exact: bool,
-) -> CutRows<'g> {
+fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool) -> CutRows<'g> {
+    let geometry = &motion.poses.geometry;
+    let g = geometry.g;
     let data = geometry.mechanism.joint(cut.joint);
     g.begin_section(format!("loop closure at {}", data.name));
-    let (linkage, links) = (geometry.linkage, [cut.parent, cut.child]);
+    let links = [cut.parent, cut.child];
     if cut.closure == Closure::Log {
         let markers = split_body_markers(geometry, cut.joint, links);
         let place = if exact { Place::Child } else { Place::Own };
-        let motion = RelativeMotion::between(g, linkage, motion, markers, true, place);
-        let rows = log_rows(g, &motion, exact);
+        let motion = RelativeMotion::between(motion, markers, true, place);
+        let rows = log_rows(&motion, exact);
         return CutRows { cut, motion, rows };
     }
     let slides = data.model.rows() > 0 && data.model.slides();
@@ -74,59 +65,48 @@ fn rows_of<'g>(
         _ => Place::Child,
     };
     let markers = joint_markers(geometry, cut.joint, links, in_child);
-    let motion = RelativeMotion::between(g, linkage, motion, markers, in_child, place);
-    let rows = RowMaker::new(g, &motion, exact).joint(geometry, &data.model);
+    let motion = RelativeMotion::between(motion, markers, in_child, place);
+    let rows = RowMaker::new(&motion, exact).joint(geometry, &data.model);
     CutRows { cut, motion, rows }
 }
 
 impl<'g> CutRows<'g> {
     /// Jacobian of one row by all speeds.
-    pub fn jacobian(
-        &self,
-        g: &'g Scope,
-        linkage: &Linkage,
-        poses: &Poses<'g>,
-        row: &Row<'g>,
-    ) -> Vec<Expr<'g>> {
+    pub fn jacobian(&self, poses: &Poses<'g>, row: &Row<'g>) -> Vec<Expr<'g>> {
+        let Geometry { g, linkage, .. } = poses.geometry;
         let mut columns = vec![g.zero(); linkage.speeds()];
         let [parent, child] = self.motion.link_wrenches(row.moment, row.force);
         let (parent_link, child_link) = (self.motion.parent.link, self.motion.child.link);
         let top = linkage.common_ancestor(child_link, parent_link);
-        let mut carrier = WrenchCarrier { linkage, poses, columns: &mut columns };
-        let (mut sum, child_lost) = carrier.carry(child, child_link, top);
-        let (other, parent_lost) = carrier.carry(parent, parent_link, top);
+        let (mut sum, child_lost) = carry(poses, &mut columns, child, child_link, top);
+        let (other, parent_lost) = carry(poses, &mut columns, parent, parent_link, top);
         if child_lost || parent_lost {
             // The pair's forces cancel at the common ancestor; a moment stays because a ball link passed none.
             sum += other;
             sum.force = g.zero_vector();
-            carrier.carry(sum, top, None);
+            carry(poses, &mut columns, sum, top, None);
         }
         columns
     }
 }
 
-struct WrenchCarrier<'a, 'g> {
-    linkage: &'a Linkage,
-    poses: &'a Poses<'g>,
-    columns: &'a mut [Expr<'g>],
-}
-
-impl<'g> WrenchCarrier<'_, 'g> {
-    /// Carries a wrench inwards to `top` (exclusive), adding to the columns on the way. Returns the wrench on
-    /// `top` and whether a ball or free link kept something back.
-    fn carry(&mut self, wrench: Wrench<'g>, from: LinkIndex, top: LinkIndex) -> (Wrench<'g>, bool) {
-        let (mut carried, mut at, mut lost) = (wrench, from, false);
-        while at != top {
-            let index = at.expect("the ancestor lies on the path to the ground");
-            let link = &self.linkage.links[index];
-            let node = self.poses.nodes[index].as_ref();
-            for (offset, entry) in carried.generalised(link.freedom, node).into_iter().enumerate() {
-                self.columns[link.first_speed + offset] += entry;
-            }
-            lost |= matches!(link.freedom, Freedom::Ball | Freedom::Free);
-            carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);
-            at = link.parent;
+/// Carries a wrench inwards to `top` (exclusive), adding to the columns on the way. Returns the wrench on
+/// `top` and whether a ball or free link kept something back.
+fn carry<'g>(
+    poses: &Poses<'g>,
+    columns: &mut [Expr<'g>],
+    wrench: Wrench<'g>,
+    from: LinkIndex,
+    top: LinkIndex,
+) -> (Wrench<'g>, bool) {
+    let (mut carried, mut lost) = (wrench, false);
+    for at in poses.geometry.linkage.between(from, top) {
+        let link = &poses.geometry.linkage.links[at];
+        for (speed, entry) in link.speeds().zip(carried.generalised(link.freedom, poses.nodes[at].as_ref())) {
+            columns[speed] += entry;
         }
-        (carried, lost)
+        lost |= matches!(link.freedom, Freedom::Ball | Freedom::Free);
+        carried = carried.passed_inwards(link.freedom, &poses.relative[at]);
     }
+    (carried, lost)
 }

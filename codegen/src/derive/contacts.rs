@@ -10,6 +10,7 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 
 use super::joint_state::JointStates;
+use super::linkage::{Link, Linkage};
 use super::loads::Loads;
 
 /// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.
@@ -23,6 +24,12 @@ pub struct ContactWrench<'g> {
     pub moment: Vec3<'g>,
 }
 
+/// The link that a coordinate of a tree joint moves.
+fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
+    let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
+    &linkage.links[link]
+}
+
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
 pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec<Expr<'g>> {
     let linkage = state.geometry.linkage;
@@ -30,10 +37,9 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
     if linkage.link_of_joint[joint.index()].is_some() {
         for (axis, coordinate) in data.model.offsets().enumerate() {
-            let link =
-                linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
-            offset[axis] = state.q[linkage.links[link].first_coordinate];
-            rate[axis] = state.v[linkage.links[link].first_speed];
+            let link = moved_link(linkage, joint, coordinate);
+            offset[axis] = state.q[link.first_coordinate];
+            rate[axis] = state.v[link.first_speed];
         }
         if let Some(ball) = linkage.ball_of(joint) {
             let relative = state.motion.relative_omega(linkage, ball);
@@ -43,11 +49,10 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
                 state.motion.poses.relative[ball].rotation * relative
             };
         } else {
-            let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
-            turn[2] = state.v[linkage.links[link].first_speed];
+            turn[2] = state.v[moved_link(linkage, joint, 0).first_speed];
         }
     } else {
-        let motion = state.relative_motion(g, joint);
+        let motion = state.relative_motion(joint);
         let journal = !data.model.is_ball();
         for j in 0..3 {
             let axis = motion.parent_axis(j);
@@ -80,7 +85,7 @@ pub fn contact_forces<'g>(
     let joint = contact.joint;
     let model = &state.geometry.mechanism.joint(joint).model;
     if linkage.link_of_joint[joint.index()].is_none() {
-        let motion = state.relative_motion(g, joint);
+        let motion = state.relative_motion(joint);
         let journal = !model.is_ball();
         let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
         for j in 0..3 {
@@ -95,14 +100,10 @@ pub fn contact_forces<'g>(
         return loads.pair(joint, &motion, moment, force);
     }
     for (axis, coordinate) in model.offsets().enumerate() {
-        let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
-        let speed = linkage.links[link].first_speed;
-        loads.joint[speed] += contact.force[axis];
+        loads.joint[moved_link(linkage, joint, coordinate).first_speed] += contact.force[axis];
     }
     let Some(ball) = linkage.ball_of(joint) else {
-        let link = linkage.link_of_coordinate(joint, 0).expect("a tree joint has its coordinates");
-        let speed = linkage.links[link].first_speed;
-        loads.joint[speed] += contact.moment[2];
+        loads.joint[moved_link(linkage, joint, 0).first_speed] += contact.moment[2];
         return;
     };
     let rotation = state.motion.poses.relative[ball].rotation;

@@ -7,16 +7,18 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
-use crate::expr::{Expr, Scope, Vec3};
+use crate::expr::{Expr, Vec3};
 
 use super::closure::CutRows;
+use super::geometry::Geometry;
 use super::kinematics::Acceleration;
 use super::link_mass::LinkMass;
-use super::linkage::{Freedom, Linkage};
+use super::linkage::Freedom;
 use super::loads::Loads;
 use super::mass_matrix::mass_matrix;
 use super::mass_properties::MassProperties;
 use super::motion::Motion;
+use super::row::Row;
 use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
@@ -39,13 +41,8 @@ fn rigid_wrench<'g>(mass: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wre
 
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
 /// and loads. Left side of [CS (6)].
-pub fn bias_forces<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
-    motion: &Motion<'g>,
-    masses: &[LinkMass<'g>],
-    loads: &Loads<'g>,
-) -> Vec<Expr<'g>> {
+pub fn bias_forces<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], loads: &Loads<'g>) -> Vec<Expr<'g>> {
+    let Geometry { g, linkage, .. } = motion.poses.geometry;
     let mut forces = vec![g.zero(); linkage.speeds()];
     let mut carried = vec![Wrench::zero(g); linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
@@ -71,12 +68,11 @@ pub fn bias_forces<'g>(
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the
 /// link's origin, in its frame. `external` is everything but joints of the tree.
 pub fn joint_wrenches<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     external: &[Wrench<'g>],
 ) -> Vec<Wrench<'g>> {
+    let Geometry { g, linkage, .. } = motion.poses.geometry;
     let mut totals = vec![Wrench::zero(g); linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
         totals[at] += inertial_wrench(motion, masses, at) + -external[at];
@@ -89,7 +85,8 @@ pub fn joint_wrenches<'g>(
 }
 
 /// Kinetic energy [J].
-pub fn kinetic_energy<'g>(g: &'g Scope, masses: &[LinkMass<'g>], motion: &Motion<'g>) -> Expr<'g> {
+pub fn kinetic_energy<'g>(masses: &[LinkMass<'g>], motion: &Motion<'g>) -> Expr<'g> {
+    let g = motion.poses.geometry.g;
     let half = g.number(0.5);
     let mut sum = g.zero();
     for (at, (mass, twist)) in masses.iter().zip(&motion.twists).enumerate() {
@@ -109,13 +106,9 @@ pub fn kinetic_energy<'g>(g: &'g Scope, masses: &[LinkMass<'g>], motion: &Motion
 }
 
 /// Potential energy of weight [J], zero at the origin of W.
-pub fn weight_energy<'g>(
-    g: &'g Scope,
-    motion: &Motion<'g>,
-    masses: &[LinkMass<'g>],
-    gravity: Vec3<'g>,
-) -> Expr<'g> {
-    masses.iter().zip(&motion.poses.world).fold(g.zero(), |sum, (LinkMass { rigid, .. }, pose)| {
+pub fn weight_energy<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], gravity: Vec3<'g>) -> Expr<'g> {
+    let none = motion.poses.geometry.g.zero();
+    masses.iter().zip(&motion.poses.world).fold(none, |sum, (LinkMass { rigid, .. }, pose)| {
         sum - gravity.dot(rigid.mass * pose.offset + pose.rotation * rigid.first)
     })
 }
@@ -131,61 +124,48 @@ pub struct Partition {
 
 /// Accelerations of free speeds, multipliers of `rows`, and drive forces.
 pub struct Forward<'g> {
-    /// Accelerations, multipliers, pivots.
     pub solution: Solution<'g>,
     /// Generalised force of every driver.
     pub drive: Vec<Expr<'g>>,
 }
 
 /// A kept row with its Jacobian by all speeds.
-pub struct KeptRow<'g> {
+pub struct KeptRow<'a, 'g> {
+    /// The row.
+    pub row: &'a Row<'g>,
     /// Columns by all speeds.
     pub jacobian: Vec<Expr<'g>>,
-    /// Acceleration bias.
-    pub bias: Expr<'g>,
-    /// Position residual.
-    pub residual: Expr<'g>,
-    /// Velocity residual.
-    pub rate: Expr<'g>,
 }
 
 /// Picks the rows that are kept, in order, with their Jacobians.
-pub fn kept_rows<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
+pub fn kept_rows<'a, 'g>(
     motion: &Motion<'g>,
-    cuts: &[CutRows<'g>],
+    cuts: &'a [CutRows<'g>],
     keep: &[bool],
-) -> Vec<KeptRow<'g>> {
+) -> Vec<KeptRow<'a, 'g>> {
     let rows = cuts.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
     rows.zip(keep)
         .filter(|(_, keep)| **keep)
-        .map(|((cut, row), _)| KeptRow {
-            jacobian: cut.jacobian(g, linkage, &motion.poses, row),
-            bias: row.bias,
-            residual: row.residual,
-            rate: row.rate,
-        })
+        .map(|((cut, row), _)| KeptRow { row, jacobian: cut.jacobian(&motion.poses, row) })
         .collect()
 }
 
 /// Forward dynamics by the structured elimination of [`solve`].
 pub fn forward<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
-    (rows, partition): (&[KeptRow<'g>], &Partition),
+    (rows, partition): (&[KeptRow<'_, 'g>], &Partition),
 ) -> Forward<'g> {
-    let h = bias_forces(g, linkage, motion, masses, loads);
+    let g = motion.poses.geometry.g;
+    let h = bias_forces(motion, masses, loads);
     g.begin_section("mass matrix by composite bodies");
-    let mass = mass_matrix(g, linkage, &motion.poses, masses);
+    let mass = mass_matrix(&motion.poses, masses);
     let pick = |row: &[Expr<'g>]| -> Vec<Expr<'g>> { partition.free.iter().map(|j| row[*j]).collect() };
     let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| pick(&mass[*i])).collect();
     let jacobian: Vec<Vec<Expr<'g>>> = rows.iter().map(|row| pick(&row.jacobian)).collect();
     let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
-    let target: Vec<Expr<'g>> = rows.iter().map(|row| -row.bias).collect();
+    let target: Vec<Expr<'g>> = rows.iter().map(|kept| -kept.row.bias).collect();
     let solution = solve(g, &block, &jacobian, &force, &target);
     g.begin_section("drive forces");
     let drive = partition

@@ -72,14 +72,12 @@ impl Frame {
         core::array::from_fn(|i| self.0[i][j])
     }
 
-    /// Matrix product.
     pub fn times(&self, other: &Self) -> Self {
         Self(core::array::from_fn(|i| {
             core::array::from_fn(|j| (0..3).map(|k| self.0[i][k] * other.0[k][j]).sum())
         }))
     }
 
-    /// Inverse.
     pub fn transposed(&self) -> Self {
         Self(core::array::from_fn(|i| core::array::from_fn(|j| self.0[j][i])))
     }
@@ -156,22 +154,18 @@ pub fn canonical_frame(axis: [f64; 3], target: impl Fn([f64; 3]) -> Option<[f64;
     (frame, angle_to(&best))
 }
 
-/// Scalar product.
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Cross product.
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Difference.
 pub fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     core::array::from_fn(|i| a[i] - b[i])
 }
 
-/// Product with a number.
 pub fn scale(factor: f64, a: [f64; 3]) -> [f64; 3] {
     a.map(|x| factor * x)
 }

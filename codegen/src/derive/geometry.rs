@@ -16,13 +16,9 @@ const DUST: f64 = 1e-14;
 /// Where points of bodies are in the frames of their links.
 #[derive(Clone, Copy)]
 pub struct Geometry<'g> {
-    /// The graph that all expressions go to.
     pub g: &'g Scope,
-    /// The mechanism.
     pub mechanism: &'g Mechanism,
-    /// Its links.
     pub linkage: &'g Linkage,
-    /// Parameters and time.
     pub inputs: &'g Inputs<'g>,
 }
 

@@ -10,11 +10,9 @@ use super::relative_motion::RelativeMotion;
 
 /// Coordinates of a joint with their first and second derivatives, recomputed from the motion across it.
 pub struct JointCoordinates<'g> {
-    /// `q`, one per freedom (empty for spherical, fixed and free joints).
+    /// One per freedom (empty for spherical, fixed and free joints).
     pub position: Vec<Expr<'g>>,
-    /// `v`.
     pub speed: Vec<Expr<'g>>,
-    /// `a`.
     pub acceleration: Vec<Expr<'g>>,
     /// Which positions are angles from atan2.
     pub wraps: Vec<bool>,

@@ -21,8 +21,8 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 
 impl<'a, 'g> RowMaker<'a, 'g> {
     /// For the cut with this motion; with `exact` the moments hold off the closed positions too.
-    pub fn new(g: &'g Scope, motion: &'a RelativeMotion<'g>, exact: bool) -> Self {
-        Self { g, motion, exact, rows: Vec::new() }
+    pub fn new(motion: &'a RelativeMotion<'g>, exact: bool) -> Self {
+        Self { g: motion.distance.scope(), motion, exact, rows: Vec::new() }
     }
 
     /// The rows of a joint: no translation along axes that nothing slides along; no rotation but about the axes
@@ -62,15 +62,9 @@ impl<'a, 'g> RowMaker<'a, 'g> {
             let u = axes[j];
             let residual = u.dot(self.motion.distance);
             let (bias, rate) = (self.translation_bias(u), u.dot(self.motion.slide));
-            self.rows.push(Row {
-                meaning: format!("translation along {} of {frame}", NAMES[j]),
-                angular: false,
-                residual,
-                moment: self.g.zero_vector(),
-                force: u,
-                rate,
-                bias,
-            });
+            let (meaning, moment) =
+                (format!("translation along {} of {frame}", NAMES[j]), self.g.zero_vector());
+            self.rows.push(Row { meaning, angular: false, residual, moment, force: u, rate, bias });
         }
     }
 
@@ -85,10 +79,10 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         u.dot(self.motion.alpha - self.beside_omega().cross(self.motion.omega))
     }
 
-    fn push_rotation(&mut self, meaning: String, residual: Expr<'g>, u: Vec3<'g>) {
-        let (bias, rate) = (self.rotation_bias(u), u.dot(self.motion.omega));
-        let force = self.g.zero_vector();
-        self.rows.push(Row { meaning, angular: true, residual, moment: u, force, rate, bias });
+    fn push_rotation(&mut self, meaning: &str, residual: Expr<'g>, moment: Vec3<'g>, bias: Expr<'g>) {
+        let (meaning, force) = (meaning.to_owned(), self.g.zero_vector());
+        let rate = moment.dot(self.motion.omega);
+        self.rows.push(Row { meaning, angular: true, residual, moment, force, rate, bias });
     }
 
     /// The joint axis of the other side stays on that of this side: two rows.
@@ -99,8 +93,8 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let [x, y] = if in_child { [about_x, -about_y] } else { [-about_x, about_y] };
         // On closed positions `other` is own[2] and the moments are own[0] and own[1].
         let moments = if self.exact { [own[1].cross(other), other.cross(own[0])] } else { [own[0], own[1]] };
-        self.push_rotation("tilt about x of the joint".to_owned(), x, moments[0]);
-        self.push_rotation("tilt about y of the joint".to_owned(), y, moments[1]);
+        self.push_rotation("tilt about x of the joint", x, moments[0], self.rotation_bias(moments[0]));
+        self.push_rotation("tilt about y of the joint", y, moments[1], self.rotation_bias(moments[1]));
     }
 
     /// No relative rotation: three rows, the axial vector of the relative rotation matrix.
@@ -110,7 +104,8 @@ impl<'a, 'g> RowMaker<'a, 'g> {
             let (k, l) = ((j + 1) % 3, (j + 2) % 3);
             let residual = 0.5 * (rotation[l][k] - rotation[k][l]);
             let axis = if self.exact { self.turned_axis(rotation, j) } else { axis };
-            self.push_rotation(format!("rotation about {} of the joint", NAMES[j]), residual, axis);
+            let meaning = format!("rotation about {} of the joint", NAMES[j]);
+            self.push_rotation(&meaning, residual, axis, self.rotation_bias(axis));
         }
     }
 
@@ -140,15 +135,7 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let (a_dot, b_dot) = (motion.parent_omega.cross(a), motion.child_omega.cross(b));
         let u_dot = a_dot.cross(b) + a.cross(b_dot);
         let bias = u_dot.dot(motion.omega) + u.dot(motion.alpha);
-        self.rows.push(Row {
-            meaning: "twist about the common normal of both axes".to_owned(),
-            angular: true,
-            residual,
-            moment: u,
-            force: self.g.zero_vector(),
-            rate: u.dot(motion.omega),
-            bias,
-        });
+        self.push_rotation("twist about the common normal of both axes", residual, u, bias);
     }
 
     /// Advance h (per angle) and turn of a screw stay in proportion. The residual `-h sin(angle - stroke / h)` is

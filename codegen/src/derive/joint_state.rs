@@ -13,13 +13,9 @@ use super::relative_motion::{Place, RelativeMotion};
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {
-    /// Places and links.
     pub geometry: Geometry<'g>,
-    /// Motion of the links.
     pub motion: Motion<'g>,
-    /// All coordinates.
     pub q: Vec<Expr<'g>>,
-    /// All speeds.
     pub v: Vec<Expr<'g>>,
     /// All speed derivatives (zero where they are not asked for).
     pub v_dot: Vec<Expr<'g>>,
@@ -44,17 +40,16 @@ impl<'g> JointStates<'g> {
                 duals: Vec::new(),
             };
         }
-        let motion = self.relative_motion(g, joint);
+        let motion = self.relative_motion(joint);
         joint_coordinates(g, &self.geometry, &self.geometry.mechanism.joint(joint).model, &motion)
     }
 
     /// Relative motion of the child of any joint.
-    pub fn relative_motion(&self, g: &'g Scope, joint: JointId) -> RelativeMotion<'g> {
-        let linkage = self.geometry.linkage;
+    pub fn relative_motion(&self, joint: JointId) -> RelativeMotion<'g> {
         let links = joint_links(&self.geometry, joint);
         let in_child = joint_in_child(&self.geometry, joint, links);
         let markers = joint_markers(&self.geometry, joint, links, in_child);
-        RelativeMotion::between(g, linkage, &self.motion, markers, in_child, Place::Child)
+        RelativeMotion::between(&self.motion, markers, in_child, Place::Child)
     }
 
     /// Position of a named point in W [m].

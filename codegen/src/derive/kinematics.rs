@@ -6,10 +6,11 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::attachment::{NodeMotion, NodePose};
 use super::frame::Frame;
-use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::geometry::Geometry;
+use super::linkage::{Freedom, LinkIndex};
 use super::orientation::rotation_of_quaternion;
 
-/// Relative pose of a link to its parent link.
+/// Pose of a link relative to its parent link or to W.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose<'g> {
     /// Takes components in this link's frame to the parent's.
@@ -18,32 +19,27 @@ pub struct Pose<'g> {
     pub offset: Vec3<'g>,
 }
 
-/// Twist of a link, in its own frame.
+/// Twist of a link, in its own frame [rad/s, m/s].
 #[derive(Clone, Copy, Debug)]
 pub struct Twist<'g> {
-    /// Angular velocity [rad/s].
     pub omega: Vec3<'g>,
-    /// Velocity of the origin [m/s].
     pub origin: Vec3<'g>,
 }
 
-/// Inertial acceleration of a link, in its own frame.
+/// Inertial acceleration of a link, in its own frame [rad/s², m/s²].
 #[derive(Clone, Copy, Debug)]
 pub struct Acceleration<'g> {
     /// `skew(omega_dot) + skew(omega)²` [1/s²]: acceleration of the point r is `origin + spin r`.
     pub spin: Mat3<'g>,
-    /// Angular acceleration [rad/s²].
     pub alpha: Vec3<'g>,
-    /// Acceleration of the origin [m/s²].
     pub origin: Vec3<'g>,
 }
 
 /// Poses of all links for given coordinates.
-#[derive(Clone, Debug)]
 pub struct Poses<'g> {
-    /// Relative to the parent link.
+    /// The links and the places of their joints.
+    pub geometry: Geometry<'g>,
     pub relative: Vec<Pose<'g>>,
-    /// Relative to W.
     pub world: Vec<Pose<'g>>,
     /// Of floating frames and node links: the node's motion relative to the floating frame.
     pub nodes: Vec<Option<NodePose<'g>>>,
@@ -69,6 +65,10 @@ impl<'g> Pose<'g> {
 }
 
 impl<'g> Twist<'g> {
+    pub fn none(g: &'g Scope) -> Self {
+        Self { omega: g.zero_vector(), origin: g.zero_vector() }
+    }
+
     /// Velocity of a point of the link, in the link's frame.
     pub fn at(&self, point: Vec3<'g>) -> Vec3<'g> {
         self.origin + self.omega.cross(point)
@@ -90,9 +90,10 @@ fn rotation_about_z(angle: Expr<'_>) -> Mat3<'_> {
 }
 
 impl<'g> Poses<'g> {
-    /// All poses. `mounts` are the positions of the joints in their parent links' frames.
-    pub fn new(g: &'g Scope, linkage: &Linkage, mounts: &[Vec3<'g>], q: &[Expr<'g>]) -> Self {
-        let mut poses = Self { relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
+    pub fn new(geometry: Geometry<'g>, q: &[Expr<'g>]) -> Self {
+        let Geometry { g, linkage, .. } = geometry;
+        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
+        let mut poses = Self { geometry, relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
         for (at, link) in linkage.links.iter().enumerate() {
             let q = &q[link.coordinates()];
             let node = link.node.as_ref().map(|shape| NodePose::new(g, shape, q));
@@ -137,32 +138,19 @@ impl<'g> Poses<'g> {
     }
 
     /// Takes components in the frame of `from` to the frame of `to`, along the tree.
-    pub fn rotation_between(
-        &self,
-        g: &'g Scope,
-        linkage: &Linkage,
-        from: LinkIndex,
-        to: LinkIndex,
-    ) -> Mat3<'g> {
-        let top = linkage.common_ancestor(from, to);
-        let down = self.rotation_up(g, linkage, from, top);
-        let up = self.rotation_up(g, linkage, to, top);
-        up.transpose() * down
+    pub fn rotation_between(&self, from: LinkIndex, to: LinkIndex) -> Mat3<'g> {
+        let top = self.geometry.linkage.common_ancestor(from, to);
+        let down = self.rotation_up(from, top);
+        self.rotation_up(to, top).transpose() * down
     }
 
     /// Takes components in the frame of `from` to that of its ancestor `to`.
-    fn rotation_up(&self, g: &'g Scope, linkage: &Linkage, from: LinkIndex, to: LinkIndex) -> Mat3<'g> {
+    fn rotation_up(&self, from: LinkIndex, to: LinkIndex) -> Mat3<'g> {
+        let Geometry { g, linkage, .. } = self.geometry;
         if to.is_none() {
             return self.world_of(g, from).rotation;
         }
-        let mut rotation = g.identity();
-        let mut at = from;
-        while at != to {
-            let link = at.expect("the ancestor lies on the path to the ground");
-            rotation = self.relative[link].rotation * rotation;
-            at = linkage.links[link].parent;
-        }
-        rotation
+        linkage.between(from, to).fold(g.identity(), |turn, at| self.relative[at].rotation * turn)
     }
 
     /// Position in W of a point given in a link's frame [m].
@@ -204,31 +192,25 @@ fn node_pose<'g>(g: &'g Scope, freedom: Freedom, mount: &Frame, node: &NodePose<
 }
 
 /// Twists of all links for given speeds.
-pub fn twists<'g>(g: &'g Scope, linkage: &Linkage, poses: &Poses<'g>, v: &[Expr<'g>]) -> Vec<Twist<'g>> {
+pub fn twists<'g>(poses: &Poses<'g>, v: &[Expr<'g>]) -> Vec<Twist<'g>> {
+    let Geometry { g, linkage, .. } = poses.geometry;
     let mut twists: Vec<Twist<'g>> = Vec::new();
     for (at, link) in linkage.links.iter().enumerate() {
         let v = &v[link.speeds()];
-        let carried = || carried_twist(g, link.parent.map(|parent| twists[parent]), &poses.relative[at]);
+        let parent = link.parent.map_or_else(|| Twist::none(g), |parent| twists[parent]);
+        let carried = || carried_twist(parent, &poses.relative[at]);
         let twist = match link.freedom {
             Freedom::Free => Twist { omega: Vec3::first_of(v), origin: Vec3::first_of(&v[3..]) },
             Freedom::Ball => Twist { omega: Vec3::first_of(v), origin: carried().origin },
-            Freedom::Rotation { advance, .. } => {
-                let mut moved = carried();
-                let slide = advance * v[0];
-                moved.omega[2] += v[0];
-                moved.origin[2] += slide;
-                moved
-            }
-            Freedom::Translation { axis } => {
-                let carried = carried();
-                let slide = v[0] * g.vector(axis);
-                Twist { omega: carried.omega, origin: carried.origin + slide }
-            }
-            Freedom::Flexible { .. } | Freedom::Node => {
-                let node = poses.nodes[at].as_ref().expect("a floating frame or node has shapes");
-                deformed_twist(link.freedom, carried(), node, v)
-            }
-            Freedom::Weld => carried(),
+            _ => match (&poses.nodes[at], link.freedom.screw()) {
+                (Some(node), _) => deformed_twist(link.freedom, carried(), node, v),
+                (None, Some(screw)) => {
+                    let carried = carried();
+                    let [turn, slide] = screw.map(|axis| v[0] * g.vector(axis));
+                    Twist { omega: carried.omega + turn, origin: carried.origin + slide }
+                }
+                (None, None) => carried(),
+            },
         };
         twists.push(twist);
     }
@@ -252,10 +234,7 @@ fn deformed_twist<'g>(
 }
 
 /// Twist that a link would have if it were fixed to its parent.
-pub fn carried_twist<'g>(g: &'g Scope, parent: Option<Twist<'g>>, pose: &Pose<'g>) -> Twist<'g> {
-    let Some(parent) = parent else {
-        return Twist { omega: g.zero_vector(), origin: g.zero_vector() };
-    };
+pub fn carried_twist<'g>(parent: Twist<'g>, pose: &Pose<'g>) -> Twist<'g> {
     let at_joint = parent.at(pose.offset);
     Twist { omega: pose.inwards(parent.omega), origin: pose.inwards(at_joint) }
 }
@@ -277,25 +256,29 @@ fn spin<'g>(omega: Vec3<'g>, alpha: Vec3<'g>) -> Mat3<'g> {
 /// Accelerations of all links for given speeds and speed derivatives. `ground` is the acceleration of
 /// the ground: minus gravity, so that weight is carried along.
 pub fn accelerations<'g>(
-    linkage: &Linkage,
     poses: &Poses<'g>,
     twists: &[Twist<'g>],
     (v, v_dot): (&[Expr<'g>], &[Expr<'g>]),
     ground: Vec3<'g>,
 ) -> Vec<Acceleration<'g>> {
+    let g = poses.geometry.g;
+    let still = Acceleration { spin: g.matrix([[0.0; 3]; 3]), alpha: g.zero_vector(), origin: ground };
     let mut list: Vec<Acceleration<'g>> = Vec::new();
-    for (at, link) in linkage.links.iter().enumerate() {
+    for (at, link) in poses.geometry.linkage.links.iter().enumerate() {
         let (speed, rate) = (&v[link.speeds()], &v_dot[link.speeds()]);
         let (twist, pose) = (twists[at], &poses.relative[at]);
+        let (outer, parent) = match link.parent {
+            Some(parent) => (twists[parent], list[parent]),
+            None => (Twist::none(g), still),
+        };
         let (alpha, origin) = if let Some(node) = &poses.nodes[at] {
-            let parent = link.parent.expect("a floating frame or node has an inboard link");
             let shape = link.node.as_ref().expect("it has shapes");
             let moved = node.acceleration(shape, speed, rate);
             let velocity = node.velocity(speed);
             if link.freedom == Freedom::Node {
-                node_acceleration(node, (twists[parent], list[parent]), velocity, moved)
+                node_acceleration(node, (outer, parent), velocity, moved)
             } else {
-                floating_acceleration(node, (pose, twist), list[parent], velocity, moved)
+                floating_acceleration(node, (pose, twist), parent, velocity, moved)
             }
         } else if link.freedom == Freedom::Free {
             let turned = twist.omega.cross(twist.origin);
@@ -303,8 +286,7 @@ pub fn accelerations<'g>(
             let weight = poses.world[at].inwards(ground);
             (Vec3::first_of(rate), Vec3::first_of(&rate[3..]) + turned + weight)
         } else {
-            let parent = link.parent.map(|parent| (twists[parent], list[parent]));
-            relative_acceleration(link.freedom, pose, parent, ground, (speed, rate))
+            relative_acceleration(link.freedom, pose, (outer, parent), (speed, rate))
         };
         list.push(Acceleration { spin: spin(twist.omega, alpha), alpha, origin });
     }
@@ -342,36 +324,22 @@ fn floating_acceleration<'g>(
 fn relative_acceleration<'g>(
     freedom: Freedom,
     pose: &Pose<'g>,
-    parent: Option<(Twist<'g>, Acceleration<'g>)>,
-    ground: Vec3<'g>,
+    (twist, parent): (Twist<'g>, Acceleration<'g>),
     (speed, rate): (&[Expr<'g>], &[Expr<'g>]),
 ) -> (Vec3<'g>, Vec3<'g>) {
-    let g = ground.scope();
-    let zero = g.zero_vector();
-    let (outer_omega, outer_alpha, at_joint) = match parent {
-        Some((twist, acceleration)) => {
-            let at_joint = acceleration.at(pose.offset);
-            (pose.inwards(twist.omega), pose.inwards(acceleration.alpha), at_joint)
-        }
-        None => (zero, zero, ground),
-    };
+    let g = twist.omega.scope();
+    let at_joint = parent.at(pose.offset);
+    let (omega, alpha) = (pose.inwards(twist.omega), pose.inwards(parent.alpha));
     let carried = pose.inwards(at_joint);
-    match freedom {
-        Freedom::Ball => (Vec3::first_of(rate), carried),
-        Freedom::Rotation { advance, .. } => {
-            let mut alpha = outer_alpha + outer_omega.cross(Vec3([zero[0], zero[0], speed[0]]));
-            alpha[2] += rate[0];
-            let slide = Vec3([zero[0], zero[0], advance * speed[0]]);
-            let mut origin = carried + coriolis(outer_omega, slide);
-            origin[2] += advance * rate[0];
-            (alpha, origin)
+    match (freedom, freedom.screw()) {
+        (Freedom::Ball, _) => (Vec3::first_of(rate), carried),
+        (_, Some(screw)) => {
+            let [turn, slide] = screw.map(|axis| g.vector(axis));
+            let turned = alpha + omega.cross(speed[0] * turn) + rate[0] * turn;
+            let moved = carried + coriolis(omega, speed[0] * slide) + rate[0] * slide;
+            (turned, moved)
         }
-        Freedom::Translation { axis } => {
-            let axis = g.vector(axis);
-            let slid = carried + coriolis(outer_omega, speed[0] * axis);
-            (outer_alpha, slid + rate[0] * axis)
-        }
-        Freedom::Weld | Freedom::Free | Freedom::Flexible { .. } | Freedom::Node => (outer_alpha, carried),
+        (_, None) => (alpha, carried),
     }
 }
 

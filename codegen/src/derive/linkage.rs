@@ -59,6 +59,16 @@ impl Freedom {
         }
     }
 
+    /// Angular velocity and velocity relative to the parent per unit of the one speed, in this link's frame; of
+    /// joints with one freedom.
+    pub fn screw(self) -> Option<[[f64; 3]; 2]> {
+        match self {
+            Self::Rotation { advance, .. } => Some([[0.0, 0.0, 1.0], [0.0, 0.0, advance]]),
+            Self::Translation { axis } => Some([[0.0; 3], axis]),
+            _ => None,
+        }
+    }
+
     /// Number of speeds.
     pub fn speeds(self) -> usize {
         match self {
@@ -198,6 +208,11 @@ impl Linkage {
     /// Links from `link` to the root, itself first.
     pub fn path(&self, link: LinkIndex) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(link, |at| self.links[*at].parent)
+    }
+
+    /// Links from `link` to its ancestor `top`, itself first, `top` left out.
+    pub fn between(&self, link: LinkIndex, top: LinkIndex) -> impl Iterator<Item = usize> + '_ {
+        self.path(link).take_while(move |at| Some(*at) != top)
     }
 
     /// The last link that the paths of both have in common.

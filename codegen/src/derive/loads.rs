@@ -28,7 +28,6 @@ pub struct Loads<'g> {
 }
 
 impl<'g> Loads<'g> {
-    /// No loads.
     pub fn none(g: &'g Scope, linkage: &Linkage) -> Self {
         let (zero, none) = (g.zero(), Wrench::zero(g));
         Self {

@@ -12,18 +12,10 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 use super::relative_motion::RelativeMotion;
 use super::row::Row;
 
-const NAMES: [&str; 6] = [
-    "rotation about x of the end body",
-    "rotation about y of the end body",
-    "rotation about z of the end body",
-    "translation along x of the end body",
-    "translation along y of the end body",
-    "translation along z of the end body",
-];
-
 /// The six rows of a split end body; `motion` is in the frame of the copy (branch a). Without `exact`
 /// the Jacobian is that of closed positions, where `J_r^-1` is the identity.
-pub fn log_rows<'g>(g: &'g Scope, motion: &RelativeMotion<'g>, exact: bool) -> Vec<Row<'g>> {
+pub fn log_rows<'g>(motion: &RelativeMotion<'g>, exact: bool) -> Vec<Row<'g>> {
+    let g = motion.distance.scope();
     let logarithm = Logarithm::new(g, motion.rotation(), motion.distance);
     let zero = g.zero_vector();
     let (a, b) = if exact { logarithm.inverse_jacobian(g) } else { (g.identity(), Mat3([zero; 3])) };
@@ -32,8 +24,10 @@ pub fn log_rows<'g>(g: &'g Scope, motion: &RelativeMotion<'g>, exact: bool) -> V
     (0..6)
         .map(|i| {
             let (moment, force) = if i < 3 { (a[i], zero) } else { (b[i - 3], a[i - 3]) };
+            let (way, axis) =
+                (if i < 3 { "rotation about" } else { "translation along" }, ["x", "y", "z"][i % 3]);
             Row {
-                meaning: NAMES[i].to_owned(),
+                meaning: format!("{way} {axis} of the end body"),
                 angular: i < 3,
                 residual: residual[i],
                 moment,

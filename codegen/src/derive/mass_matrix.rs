@@ -8,9 +8,10 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::attachment::NodePose;
 use super::deformation::ModalMass;
+use super::geometry::Geometry;
 use super::kinematics::{Pose, Poses};
 use super::link_mass::LinkMass;
-use super::linkage::{Freedom, LinkIndex, Linkage};
+use super::linkage::{Freedom, LinkIndex};
 use super::wrench::Wrench;
 
 /// Composite rigid body: everything outboard of a link's joint, as if its joints were locked.
@@ -22,14 +23,10 @@ struct Composite<'g> {
 }
 
 /// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
-pub fn mass_matrix<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
-    poses: &Poses<'g>,
-    masses: &[LinkMass<'g>],
-) -> Vec<Vec<Expr<'g>>> {
+pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>]) -> Vec<Vec<Expr<'g>>> {
+    let Geometry { g, linkage, .. } = poses.geometry;
     let n = linkage.speeds();
-    let mut columns = Columns { linkage, poses, matrix: vec![vec![g.zero(); n]; n] };
+    let mut columns = Columns { poses, matrix: vec![vec![g.zero(); n]; n] };
     let mut composites: Vec<Composite<'g>> = masses
         .iter()
         .map(|LinkMass { rigid, .. }| Composite {
@@ -126,7 +123,7 @@ impl<'g> ModalColumns<'g> {
     }
 
     fn fill(self, columns: &mut Columns<'_, 'g>, at: usize) {
-        let link = &columns.linkage.links[at];
+        let link = &columns.poses.geometry.linkage.links[at];
         let first = link.first_speed;
         for (k, row) in self.block.into_iter().enumerate() {
             // Entries with speeds outboard of the body's nodes are there already.
@@ -198,7 +195,6 @@ impl<'g> Composite<'g> {
 
 /// The columns of M as they fill.
 struct Columns<'a, 'g> {
-    linkage: &'a Linkage,
     poses: &'a Poses<'g>,
     matrix: Vec<Vec<Expr<'g>>>,
 }
@@ -206,7 +202,7 @@ struct Columns<'a, 'g> {
 impl<'g> Columns<'_, 'g> {
     /// Fills the column of one speed of a link, down to the link and on to the ground.
     fn fill(&mut self, from: usize, column: usize, wrench: Wrench<'g>) {
-        let link = &self.linkage.links[from];
+        let link = &self.poses.geometry.linkage.links[from];
         for (row, entry) in wrench.generalised(link.freedom, None).into_iter().enumerate() {
             let row = link.first_speed + row;
             // Within a link, keep the entry computed first, so that M is symmetric to the bit.
@@ -220,20 +216,18 @@ impl<'g> Columns<'_, 'g> {
 
     /// Carries a momentum column from a link to the ground and reads off the entries of M.
     fn carry(&mut self, from: LinkIndex, column: usize, wrench: Wrench<'g>) {
+        let linkage = self.poses.geometry.linkage;
         let mut carried = wrench;
-        let mut at = from;
-        while let Some(index) = at {
-            let link = &self.linkage.links[index];
+        for index in linkage.path(from) {
+            let link = &linkage.links[index];
             let node = self.poses.nodes[index].as_ref();
-            for (row, entry) in carried.generalised(link.freedom, node).into_iter().enumerate() {
+            for (row, entry) in link.speeds().zip(carried.generalised(link.freedom, node)) {
                 // A flexible body is met twice: at its node and at its frame.
-                let row = link.first_speed + row;
                 let sum = self.matrix[row][column] + entry;
                 self.matrix[row][column] = sum;
                 self.matrix[column][row] = sum;
             }
             carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);
-            at = link.parent;
         }
     }
 }

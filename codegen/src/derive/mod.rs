@@ -28,7 +28,6 @@ mod log_closure;
 mod mass_matrix;
 mod mass_properties;
 mod motion;
-mod observe;
 mod orientation;
 mod relative_motion;
 mod rigid_part;
@@ -68,7 +67,7 @@ pub struct Function {
 }
 
 /// A named vector or matrix of expressions (of symbols, for inputs).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[must_use]
 pub struct Block {
     /// Name, e.g. `phi_q`.
@@ -89,39 +88,39 @@ pub struct Block {
 
 impl Block {
     /// A column vector.
-    pub fn vector(
-        name: &str,
-        doc: &str,
-        citation: &str,
-        entries: impl IntoIterator<Item = impl Into<ExprId>>,
-    ) -> Self {
+    pub fn vector(name: &str, entries: impl IntoIterator<Item = impl Into<ExprId>>) -> Self {
         let entries: Vec<ExprId> = entries.into_iter().map(Into::into).collect();
-        Self::matrix(name, doc, citation, (entries.len(), 1), entries)
+        Self::matrix(name, (entries.len(), 1), entries)
     }
 
     /// A matrix, row major.
     pub fn matrix(
         name: &str,
-        doc: &str,
-        citation: &str,
         (rows, columns): (usize, usize),
         entries: impl IntoIterator<Item = impl Into<ExprId>>,
     ) -> Self {
         let entries: Vec<ExprId> = entries.into_iter().map(Into::into).collect();
         debug_assert_eq!(rows * columns, entries.len());
-        Self {
-            name: name.to_owned(),
-            doc: doc.to_owned(),
-            citation: citation.to_owned(),
-            rows,
-            columns,
-            entries,
-            names: Vec::new(),
-        }
+        Self { name: name.to_owned(), rows, columns, entries, ..Self::default() }
     }
 
-    /// The block with a name for every entry.
-    pub fn named(self, names: Vec<String>) -> Self {
-        Self { names, ..self }
+    /// With a sentence about what it is.
+    pub fn doc(self, doc: &str) -> Self {
+        Self { doc: doc.to_owned(), ..self }
+    }
+
+    /// With the equation of the paper.
+    pub fn cites(self, citation: &str) -> Self {
+        Self { citation: citation.to_owned(), ..self }
+    }
+
+    /// `n` for a column vector, `m x n` for a matrix.
+    pub fn shape(&self) -> String {
+        if self.columns == 1 { self.rows.to_string() } else { format!("{} x {}", self.rows, self.columns) }
+    }
+
+    /// The citation after a space, or nothing.
+    pub fn cited(&self) -> String {
+        if self.citation.is_empty() { String::new() } else { format!(" {}", self.citation) }
     }
 }

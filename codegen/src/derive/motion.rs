@@ -8,9 +8,7 @@ use super::linkage::{LinkIndex, Linkage};
 
 /// Kinematics of all links at one instant.
 pub struct Motion<'g> {
-    /// Poses.
     pub poses: Poses<'g>,
-    /// Twists.
     pub twists: Vec<Twist<'g>>,
     /// Accelerations, gravity included (the ground accelerates by minus gravity).
     pub accelerations: Vec<Acceleration<'g>>,
@@ -23,20 +21,21 @@ pub struct Motion<'g> {
 /// Modal coordinates of a flexible body with their derivatives.
 #[derive(Clone, Debug, Default)]
 pub struct ModalState<'g> {
-    /// Coordinates.
     pub q: Vec<Expr<'g>>,
-    /// Speeds.
     pub v: Vec<Expr<'g>>,
-    /// Accelerations.
     pub v_dot: Vec<Expr<'g>>,
 }
 
 impl<'g> Motion<'g> {
+    fn twist(&self, link: LinkIndex) -> Twist<'g> {
+        link.map_or_else(|| Twist::none(self.ground.scope()), |at| self.twists[at])
+    }
+
     /// Angular velocity of a link and velocity of a point of it, turned by `rotation`.
     pub fn velocity(&self, link: LinkIndex, point: Vec3<'g>, rotation: Mat3<'g>) -> [Vec3<'g>; 2] {
-        let Some(at) = link else { return [self.ground.scope().zero_vector(); 2] };
-        let velocity = self.twists[at].at(point);
-        [self.twists[at].omega, velocity].map(|v| rotation * v)
+        let twist = self.twist(link);
+        let velocity = twist.at(point);
+        [twist.omega, velocity].map(|v| rotation * v)
     }
 
     /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
@@ -56,8 +55,7 @@ impl<'g> Motion<'g> {
 
     /// Angular velocity of a ball link relative to its parent, in the ball link's frame.
     pub fn relative_omega(&self, linkage: &Linkage, at: usize) -> Vec3<'g> {
-        let parent = linkage.links[at].parent.map(|p| self.twists[p]);
-        let carried = carried_twist(self.ground.scope(), parent, &self.poses.relative[at]);
+        let carried = carried_twist(self.twist(linkage.links[at].parent), &self.poses.relative[at]);
         self.twists[at].omega - carried.omega
     }
 }

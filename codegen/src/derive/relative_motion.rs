@@ -1,7 +1,7 @@
 //! Relative motion of any two frames that are fixed to links, seen from one of the links.
 //! In: motion of the links. Out: [`RelativeMotion`]. Never knows joints and elements.
 
-use crate::expr::{Mat3, Scope, Vec3};
+use crate::expr::{Mat3, Vec3};
 
 use super::frame::Frame;
 use super::kinematics::Poses;
@@ -83,20 +83,19 @@ pub fn seen_from_child(linkage: &Linkage, parent: LinkIndex, child: LinkIndex) -
 impl<'g> RelativeMotion<'g> {
     /// Computes everything for two markers.
     pub fn between(
-        g: &'g Scope,
-        linkage: &Linkage,
         motion: &Motion<'g>,
         [mut parent, mut child]: [Marker<'g>; 2],
         in_child: bool,
         place: Place,
     ) -> Self {
+        let g = motion.poses.geometry.g;
         let (from_parent, from_child) = if in_child {
-            (motion.poses.rotation_between(g, linkage, parent.link, child.link), g.identity())
+            (motion.poses.rotation_between(parent.link, child.link), g.identity())
         } else {
-            (g.identity(), motion.poses.rotation_between(g, linkage, child.link, parent.link))
+            (g.identity(), motion.poses.rotation_between(child.link, parent.link))
         };
         let beside = if in_child { child.link } else { parent.link };
-        let distance = distance(g, linkage, &motion.poses, [&parent, &child], beside);
+        let distance = distance(&motion.poses, [&parent, &child], beside);
         match place {
             Place::Own => {}
             Place::Child => parent.point += from_parent.transpose() * distance,
@@ -159,25 +158,14 @@ impl<'g> RelativeMotion<'g> {
 
 /// From the parent's origin to the child's, in the frame of `beside`, along the tree from the common ancestor, so
 /// that motion that both share cancels.
-fn distance<'g>(
-    g: &'g Scope,
-    linkage: &Linkage,
-    poses: &Poses<'g>,
-    [parent, child]: [&Marker<'g>; 2],
-    beside: LinkIndex,
-) -> Vec3<'g> {
+fn distance<'g>(poses: &Poses<'g>, [parent, child]: [&Marker<'g>; 2], beside: LinkIndex) -> Vec3<'g> {
+    let linkage = poses.geometry.linkage;
     let top = linkage.common_ancestor(parent.link, child.link);
     let place = |marker: &Marker<'g>| {
-        let (mut at, mut place) = (marker.link, marker.point);
-        while at != top {
-            let inner = at.expect("the ancestor lies on the path to the ground");
-            let pose = poses.relative[inner];
-            place = pose.offset + pose.rotation * place;
-            at = linkage.links[inner].parent;
-        }
-        place
+        let path = linkage.between(marker.link, top);
+        path.fold(marker.point, |place, at| poses.relative[at].position(place))
     };
     let (child, parent) = (place(child), place(parent));
     let apart = child - parent;
-    poses.rotation_between(g, linkage, top, beside) * apart
+    poses.rotation_between(top, beside) * apart
 }

@@ -6,15 +6,13 @@ use crate::model::{Carrier, Formula, Start};
 
 use super::frame::Frame;
 use super::geometry::Geometry;
-use super::kinematics::{Poses, carried_twist, twists};
+use super::kinematics::{Poses, Twist, carried_twist, twists};
 use super::linkage::{Freedom, Link};
 use super::orientation::{link_displacement, quaternion_of_vector, quaternion_product};
 
 /// Start coordinates and speeds of all, driven ones included, and which of them the file demands.
 pub struct StartValues<'g> {
-    /// Coordinates.
     pub q: Vec<Expr<'g>>,
-    /// Speeds.
     pub v: Vec<Expr<'g>>,
     /// Whether each coordinate is demanded exactly.
     pub held_q: Vec<bool>,
@@ -25,7 +23,7 @@ pub struct StartValues<'g> {
 /// Start values; `driven` gives driven coordinates and speeds by their index among all.
 pub fn start_values<'g>(
     geometry: &Geometry<'g>,
-    driven: &[(usize, usize, [Expr<'g>; 2])],
+    driven: impl Iterator<Item = (usize, usize, [Expr<'g>; 3])>,
 ) -> StartValues<'g> {
     let linkage = geometry.linkage;
     let zero = geometry.g.zero();
@@ -38,9 +36,9 @@ pub fn start_values<'g>(
     for at in 0..linkage.links.len() {
         values.position(geometry, at);
     }
-    for (coordinate, speed, [position, rate]) in driven {
-        values.q[*coordinate] = *position;
-        values.v[*speed] = *rate;
+    for (coordinate, speed, [position, rate, _]) in driven {
+        values.q[coordinate] = position;
+        values.v[speed] = rate;
     }
     // Orientations of ball links depend on the angles inboard of them, driven ones included.
     for at in 0..linkage.links.len() {
@@ -143,8 +141,7 @@ impl<'g> StartValues<'g> {
     /// Speeds of ball and free links are absolute: what the parent carries plus what the file demands.
     fn absolute_speeds(&mut self, geometry: &Geometry<'g>) {
         let (g, linkage) = (geometry.g, geometry.linkage);
-        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
-        let poses = Poses::new(g, linkage, &mounts, &self.q);
+        let poses = Poses::new(*geometry, &self.q);
         for (at, link) in linkage.links.iter().enumerate() {
             if !matches!(link.freedom, Freedom::Ball | Freedom::Free) {
                 continue;
@@ -153,8 +150,9 @@ impl<'g> StartValues<'g> {
                 (0..link.freedom.speeds()).map(|i| wished_speed(geometry, link, i)).unzip();
             let relative = Vec3::first_of(&wished);
             let relative = if linkage.reversed[link.joint.index()] { -relative } else { relative };
-            let all = twists(g, linkage, &poses, &self.v);
-            let carried = carried_twist(g, link.parent.map(|p| all[p]), &poses.relative[at]);
+            let all = twists(&poses, &self.v);
+            let parent = link.parent.map_or_else(|| Twist::none(g), |parent| all[parent]);
+            let carried = carried_twist(parent, &poses.relative[at]);
             // Wished components are along axes that move with the parent and are parallel to W at the reference pose.
             let parent_frame = link.parent.map_or(Frame::IDENTITY, |p| linkage.links[p].frame);
             let turning = poses.relative[at].inwards(geometry.turn(&parent_frame, relative));

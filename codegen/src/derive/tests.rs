@@ -102,7 +102,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
 fn run(derived: &Derived, entry: Entry, input: &[f64]) -> Vec<Vec<f64>> {
     let graph = &derived.equations.graph;
     let function = derived.equations.functions.iter().find(|f| f.name == entry.name()).unwrap();
-    let mut symbols = vec![0.0; graph.len()];
+    let mut symbols = vec![0.0; graph.uses(&[]).len()];
     let names: Vec<_> = function.inputs.iter().flat_map(|block| block.entries.iter()).collect();
     assert_eq!(names.len(), input.len());
     for (id, value) in names.into_iter().zip(input) {

@@ -39,7 +39,6 @@ impl Neg for Wrench<'_> {
 }
 
 impl<'g> Wrench<'g> {
-    /// No wrench.
     pub fn zero(g: &'g Scope) -> Self {
         Self { moment: g.zero_vector(), force: g.zero_vector() }
     }
@@ -66,12 +65,14 @@ impl<'g> Wrench<'g> {
         if let Some(node) = node {
             return self.on_node(freedom, node);
         }
+        if let Some(screw) = freedom.screw() {
+            let [turn, slide] = screw.map(|axis| self.force.scope().vector(axis));
+            return vec![self.power(turn, slide)];
+        }
         match freedom {
-            Freedom::Rotation { advance, .. } => vec![self.moment[2] + advance * self.force[2]],
-            Freedom::Translation { axis } => vec![self.force.scope().vector(axis).dot(self.force)],
             Freedom::Ball => self.moment.0.to_vec(),
             Freedom::Free => [self.moment.0, self.force.0].concat(),
-            Freedom::Weld | Freedom::Flexible { .. } | Freedom::Node => Vec::new(),
+            _ => Vec::new(),
         }
     }
 

@@ -12,39 +12,25 @@ impl Graph {
     pub fn evaluate_all<T: Scalar>(&self, symbols: &[T]) -> Vec<T> {
         let mut values: Vec<T> = Vec::with_capacity(self.nodes.len());
         for node in &self.nodes {
-            let at = |id: &ExprId| values[id.index()];
-            values.push(match node {
-                Node::Constant(bits) => T::constant(f64::from_bits(*bits)),
+            let at = |id: ExprId| values[id.index()];
+            values.push(match *node {
+                Node::Constant(bits) => T::constant(f64::from_bits(bits)),
                 Node::Symbol(symbol) => symbols[symbol.index()],
-                Node::Unary(operation, a) => unary(*operation, at(a)),
-                Node::Binary(operation, a, b) => binary(*operation, at(a), at(b)),
+                Node::Unary(Unary::Neg, a) => -at(a),
+                Node::Unary(Unary::Sqrt, a) => at(a).sqrt(),
+                Node::Unary(Unary::Sin, a) => at(a).sin_cos().0,
+                Node::Unary(Unary::Cos, a) => at(a).sin_cos().1,
+                Node::Unary(Unary::Exp, a) => at(a).exp(),
+                Node::Unary(Unary::Ln, a) => at(a).ln(),
+                Node::Unary(Unary::LogCoefficient(rank), a) => log_coefficient(rank, at(a)),
+                Node::Binary(Binary::Add, a, b) => at(a) + at(b),
+                Node::Binary(Binary::Sub, a, b) => at(a) - at(b),
+                Node::Binary(Binary::Mul, a, b) => at(a) * at(b),
+                Node::Binary(Binary::Div, a, b) => at(a) / at(b),
+                Node::Binary(Binary::Atan2, a, b) => at(a).atan2(at(b)),
+                Node::Binary(Binary::AngleOverSine, a, b) => angle_over_sine(at(a), at(b)),
             });
         }
         values
-    }
-}
-
-/// Applies a function of one value.
-pub fn unary<T: Scalar>(operation: Unary, a: T) -> T {
-    match operation {
-        Unary::Neg => -a,
-        Unary::Sqrt => a.sqrt(),
-        Unary::Sin => a.sin_cos().0,
-        Unary::Cos => a.sin_cos().1,
-        Unary::Exp => a.exp(),
-        Unary::Ln => a.ln(),
-        Unary::LogCoefficient(rank) => log_coefficient(rank, a),
-    }
-}
-
-/// Applies a function of two values.
-pub fn binary<T: Scalar>(operation: Binary, a: T, b: T) -> T {
-    match operation {
-        Binary::Add => a + b,
-        Binary::Sub => a - b,
-        Binary::Mul => a * b,
-        Binary::Div => a / b,
-        Binary::Atan2 => a.atan2(b),
-        Binary::AngleOverSine => angle_over_sine(a, b),
     }
 }

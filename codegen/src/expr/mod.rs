@@ -3,7 +3,6 @@
 //!
 //! Children are always created before their parents, so node order is a topological order.
 
-mod build;
 mod diff;
 mod eval;
 mod expression;
@@ -12,7 +11,7 @@ mod vector;
 
 use std::collections::HashMap;
 
-pub use crate::id::{ExprId, SectionId, SymbolId};
+pub use crate::id::{ExprId, SymbolId};
 pub use expression::Expr;
 pub use scope::Scope;
 pub use vector::{Mat3, Vec3};
@@ -80,33 +79,36 @@ pub struct Graph {
     symbols: Vec<String>,
     labels: HashMap<ExprId, String>,
     sections: Vec<String>,
-    section_of: Vec<SectionId>,
-    current_section: Option<SectionId>,
+    /// Index of the section of every node.
+    section_of: Vec<usize>,
+    current_section: usize,
 }
 
 impl Graph {
-    /// An empty graph.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// The node behind an id.
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
     }
 
-    /// Number of nodes.
-    pub fn len(&self) -> usize {
-        self.nodes.len()
+    /// How often each node is read: by nodes that `roots` need, and as one of them. 0: nothing needs it.
+    pub fn uses(&self, roots: &[ExprId]) -> Vec<u32> {
+        let mut uses = vec![0_u32; self.nodes.len()];
+        for root in roots {
+            uses[root.index()] += 1;
+        }
+        // Children come before parents, so one sweep from the end counts every use.
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if uses[index] > 0 {
+                for child in node.children() {
+                    uses[child.index()] += 1;
+                }
+            }
+        }
+        uses
     }
 
-    /// Whether there are no nodes.
-    pub fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
-    }
-
-    /// A new input, `name` as it reads in generated code (a valid Rust identifier is made of it later).
-    pub fn symbol(&mut self, name: impl Into<String>) -> ExprId {
+    /// A new input; a valid Rust identifier is made of its name later.
+    fn symbol(&mut self, name: impl Into<String>) -> ExprId {
         let id = SymbolId::new(self.symbols.len());
         self.symbols.push(name.into());
         self.intern(Node::Symbol(id))
@@ -138,23 +140,19 @@ impl Graph {
         self.known.get(&Node::Unary(Unary::Neg, id)).copied()
     }
 
-    /// Starts a section: nodes first made from here on belong to it.
-    pub fn begin_section(&mut self, title: impl Into<String>) {
-        let title = title.into();
-        let position = self.sections.iter().position(|known| *known == title).unwrap_or_else(|| {
+    fn begin_section(&mut self, title: String) {
+        self.current_section = self.sections.iter().position(|known| *known == title).unwrap_or_else(|| {
             self.sections.push(title);
             self.sections.len() - 1
         });
-        self.current_section = Some(SectionId::new(position));
     }
 
     /// Title of the section in which a node was first made.
     pub fn section(&self, id: ExprId) -> &str {
-        self.sections.get(self.section_of[id.index()].index()).map_or("", String::as_str)
+        self.sections.get(self.section_of[id.index()]).map_or("", String::as_str)
     }
 
-    /// Gives a node a readable name, unless it is a constant, an input or named already.
-    pub fn label(&mut self, id: ExprId, name: impl Into<String>) {
+    fn label(&mut self, id: ExprId, name: impl Into<String>) {
         if matches!(self.node(id), Node::Unary(..) | Node::Binary(..)) {
             self.labels.entry(id).or_insert_with(|| name.into());
         }
@@ -171,7 +169,7 @@ impl Graph {
         }
         let id = ExprId::new(self.nodes.len());
         self.nodes.push(node);
-        self.section_of.push(self.current_section.unwrap_or(SectionId::new(0)));
+        self.section_of.push(self.current_section);
         self.known.insert(node, id);
         id
     }

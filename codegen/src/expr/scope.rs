@@ -27,6 +27,6 @@ impl Scope {
 
     /// Starts a section: nodes first made from here on belong to it.
     pub fn begin_section(&self, title: impl Into<String>) {
-        self.make(|g| g.begin_section(title));
+        self.make(|g| g.begin_section(title.into()));
     }
 }

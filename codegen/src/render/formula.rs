@@ -172,15 +172,14 @@ fn unary_name(function: Unary) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::expr::Scope;
 
     fn text(format: TextFormat) -> String {
-        let mut g = Graph::new();
+        let g = Scope::new();
         let (a, b) = (g.symbol("a_1"), g.symbol("b"));
-        let sum = g.add(a, b);
-        let product = g.mul(a, sum);
-        let angle = g.sin(product);
-        let quotient = g.div(angle, sum);
-        Formula { graph: &g, names: &HashMap::new(), format }.write(quotient)
+        let sum = a + b;
+        let quotient = ((a * sum).sin() / sum).id();
+        Formula { graph: &g.into_graph(), names: &HashMap::new(), format }.write(quotient)
     }
 
     #[test]

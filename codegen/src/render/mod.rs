@@ -112,16 +112,12 @@ impl<'a> Writer<'a> {
 
     /// Shared, labelled and long formulas become steps.
     fn choose_steps(&mut self) {
-        let mut live: BTreeSet<ExprId> = BTreeSet::new();
-        let mut uses: HashMap<ExprId, usize> = HashMap::new();
-        let mut stack: Vec<ExprId> = self.chosen.iter().flat_map(|block| block.entries.clone()).collect();
-        while let Some(id) = stack.pop() {
-            if live.insert(id) {
-                for child in self.graph.node(id).children() {
-                    *uses.entry(child).or_default() += 1;
-                    stack.push(child);
-                }
-            }
+        let roots: Vec<ExprId> = self.chosen.iter().flat_map(|block| block.entries.clone()).collect();
+        let mut uses = self.graph.uses(&roots);
+        let live: Vec<ExprId> = (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect();
+        // An output is written where it stands: that is no use of a name.
+        for root in &roots {
+            uses[root.index()] -= 1;
         }
         let mut taken: BTreeSet<String> = BTreeSet::new();
         let mut lengths: HashMap<ExprId, usize> = HashMap::new();
@@ -134,7 +130,7 @@ impl<'a> Writer<'a> {
                 continue;
             }
             let length = below.iter().map(|child| lengths[child]).sum::<usize>() + 3;
-            let shared = uses.get(&id).copied().unwrap_or(0) > 1 && !self.is_cheap(id);
+            let shared = uses[id.index()] > 1 && !self.is_cheap(id);
             if shared || self.graph.label_of(id).is_some() || length > LONG {
                 let wanted = self.graph.label_of(id).map_or_else(
                     || {
@@ -181,13 +177,7 @@ impl<'a> Writer<'a> {
                 .iter()
                 .find(|info| info.function == self.function.name && info.name == block.name)
                 .expect("every output has a cost");
-            let shape = if block.columns == 1 {
-                block.rows.to_string()
-            } else {
-                format!("{} x {}", block.rows, block.columns)
-            };
-            let citation =
-                if block.citation.is_empty() { String::new() } else { format!(" {}", block.citation) };
+            let (shape, citation) = (block.shape(), block.cited());
             self.comment(
                 text,
                 &format!(

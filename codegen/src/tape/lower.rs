@@ -7,10 +7,10 @@
 
 use std::collections::HashMap;
 
-use crate::derive::{Block, Equations, Function};
+use crate::derive::{Equations, Function};
 use crate::expr::{Binary, ExprId, Graph, Node, Unary};
 
-use super::{Op, Operand, Slot, Statement, Tape, Value};
+use super::{Op, Operand, Statement, Tape, verify};
 
 /// Above this many live nodes order serves the machine, not the reader.
 const READABLE: usize = 3000;
@@ -23,94 +23,75 @@ pub fn lower(equations: &Equations) -> Vec<Tape> {
 fn lower_function(graph: &Graph, function: &Function) -> Tape {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
-    let live = Live::new(graph, &roots);
-    let mut lowerer = Lowerer::new(graph, function, &live);
-    for id in live.order(graph, &roots) {
+    let uses = graph.uses(&roots);
+    let mut lowerer = Lowerer::new(graph, function, &uses);
+    for id in order(graph, &uses, &roots) {
         lowerer.node(id);
     }
-    lowerer.finish(function, &roots)
+    lowerer.finish(&roots)
 }
 
-/// Which nodes are needed and how often.
-struct Live {
-    uses: Vec<u32>,
-}
-
-impl Live {
-    fn new(graph: &Graph, roots: &[ExprId]) -> Self {
-        let mut uses = vec![0_u32; graph.len()];
-        for root in roots {
-            uses[root.index()] += 1;
-        }
-        // Children come before parents, so one sweep from the end counts every use.
-        for index in (0..graph.len()).rev() {
-            if uses[index] > 0 {
-                for child in graph.node(ExprId::new(index)).children() {
-                    uses[child.index()] += 1;
-                }
+/// The needed nodes, each after those that it is computed from.
+fn order(graph: &Graph, uses: &[u32], roots: &[ExprId]) -> Vec<ExprId> {
+    let by_creation: Vec<ExprId> =
+        (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect();
+    if by_creation.len() <= READABLE {
+        return by_creation;
+    }
+    let mut done = vec![false; uses.len()];
+    let mut order = Vec::with_capacity(by_creation.len());
+    let mut stack: Vec<(ExprId, bool)> = Vec::new();
+    for root in roots {
+        stack.push((*root, false));
+        while let Some((id, visited)) = stack.pop() {
+            if done[id.index()] {
+                continue;
+            }
+            if visited {
+                done[id.index()] = true;
+                order.push(id);
+            } else {
+                stack.push((id, true));
+                let mut below: Vec<ExprId> = graph.node(id).children().collect();
+                below.reverse();
+                stack.extend(below.into_iter().map(|child| (child, false)));
             }
         }
-        Self { uses }
     }
-
-    fn order(&self, graph: &Graph, roots: &[ExprId]) -> Vec<ExprId> {
-        let by_creation: Vec<ExprId> =
-            (0..graph.len()).filter(|index| self.uses[*index] > 0).map(ExprId::new).collect();
-        if by_creation.len() <= READABLE {
-            return by_creation;
-        }
-        let mut done = vec![false; graph.len()];
-        let mut order = Vec::with_capacity(by_creation.len());
-        let mut stack: Vec<(ExprId, bool)> = Vec::new();
-        for root in roots {
-            stack.push((*root, false));
-            while let Some((id, visited)) = stack.pop() {
-                if done[id.index()] {
-                    continue;
-                }
-                if visited {
-                    done[id.index()] = true;
-                    order.push(id);
-                } else {
-                    stack.push((id, true));
-                    let mut below: Vec<ExprId> = graph.node(id).children().collect();
-                    below.reverse();
-                    stack.extend(below.into_iter().map(|child| (child, false)));
-                }
-            }
-        }
-        order
-    }
+    order
 }
 
 struct Lowerer<'a> {
     graph: &'a Graph,
-    live: &'a Live,
+    /// See [`Graph::uses`].
+    uses: &'a [u32],
     inputs: HashMap<ExprId, u32>,
     operands: HashMap<ExprId, Operand>,
     /// Statement of the sine and cosine of an angle.
     angles: HashMap<ExprId, usize>,
     /// Statement that defines a node.
     defined: HashMap<ExprId, usize>,
-    statements: Vec<Statement>,
-    sections: Vec<String>,
-    values: Value,
+    tape: Tape,
 }
 
 impl<'a> Lowerer<'a> {
-    fn new(graph: &'a Graph, function: &Function, live: &'a Live) -> Self {
-        let inputs = function.inputs.iter().flat_map(|block| block.entries.iter().copied());
-        Self {
-            graph,
-            live,
-            inputs: (0..).zip(inputs).map(|(index, id)| (id, index)).collect(),
-            operands: HashMap::new(),
-            angles: HashMap::new(),
-            defined: HashMap::new(),
+    fn new(graph: &'a Graph, function: &Function, uses: &'a [u32]) -> Self {
+        let inputs = || function.inputs.iter().flat_map(|block| block.entries.iter().copied());
+        let name = |id| graph.symbol_name(graph.as_symbol(id).expect("inputs are symbols")).to_owned();
+        let tape = Tape {
+            name: function.name.clone(),
+            doc: function.doc.clone(),
+            inputs: function.inputs.clone(),
+            input_names: inputs().map(name).collect(),
+            outputs: function.outputs.clone(),
+            direct: Vec::new(),
             statements: Vec::new(),
             sections: Vec::new(),
             values: 0,
-        }
+        };
+        let inputs = (0..).zip(inputs()).map(|(index, id)| (id, index)).collect();
+        let (operands, angles, defined) = (HashMap::new(), HashMap::new(), HashMap::new());
+        Self { graph, uses, inputs, operands, angles, defined, tape }
     }
 
     fn node(&mut self, id: ExprId) {
@@ -134,7 +115,7 @@ impl<'a> Lowerer<'a> {
 
     /// Whether the node's only user is a negation that can absorb its sign.
     fn made_by_negative(&self, id: ExprId) -> bool {
-        self.live.uses[id.index()] == 1 && self.absorbs_sign(id) && self.negated_only(id)
+        self.uses[id.index()] == 1 && self.absorbs_sign(id) && self.negated_only(id)
     }
 
     fn absorbs_sign(&self, id: ExprId) -> bool {
@@ -148,7 +129,7 @@ impl<'a> Lowerer<'a> {
     }
 
     fn negated_only(&self, id: ExprId) -> bool {
-        self.graph.negation_of(id).is_some_and(|negation| self.live.uses[negation.index()] > 0)
+        self.graph.negation_of(id).is_some_and(|negation| self.uses[negation.index()] > 0)
     }
 
     fn negated(&mut self, id: ExprId, inner: ExprId) -> Operand {
@@ -179,14 +160,14 @@ impl<'a> Lowerer<'a> {
             Some(statement) => *statement,
             None => {
                 self.push(id, Op::SinCos(self.operands[&angle]));
-                let statement = self.statements.len() - 1;
-                self.statements[statement].labels = [None, None];
+                let statement = self.tape.statements.len() - 1;
+                self.tape.statements[statement].labels = [None, None];
                 self.angles.insert(angle, statement);
                 statement
             }
         };
         let label = self.graph.label_of(id).map(str::to_owned);
-        let entry = &mut self.statements[statement];
+        let entry = &mut self.tape.statements[statement];
         entry.labels[which as usize] = label;
         self.defined.insert(id, statement);
         Operand::Value(entry.first + which)
@@ -194,88 +175,54 @@ impl<'a> Lowerer<'a> {
 
     fn push(&mut self, id: ExprId, op: Op) -> Operand {
         let title = self.graph.section(id);
-        let section = self.sections.iter().position(|known| known == title).unwrap_or_else(|| {
-            self.sections.push(title.to_owned());
-            self.sections.len() - 1
+        let sections = &mut self.tape.sections;
+        let section = sections.iter().position(|known| known == title).unwrap_or_else(|| {
+            sections.push(title.to_owned());
+            sections.len() - 1
         });
         let label = self.graph.label_of(id).map(str::to_owned);
-        let first = self.values;
-        self.values += op.results();
-        self.defined.insert(id, self.statements.len());
-        self.statements.push(Statement { op, first, labels: [label, None], section, stores: Vec::new() });
+        let first = self.tape.values;
+        let statement = Statement { op, first, labels: [label, None], section, stores: Vec::new() };
+        self.tape.values = statement.results().end;
+        self.defined.insert(id, self.tape.statements.len());
+        self.tape.statements.push(statement);
         Operand::Value(first)
     }
 
-    fn finish(mut self, function: &Function, roots: &[ExprId]) -> Tape {
-        let mut direct = Vec::new();
+    fn finish(mut self, roots: &[ExprId]) -> Tape {
         for (index, root) in (0..).zip(roots) {
-            let operand = self.operands[root];
+            let store = (index, self.operands[root]);
             match self.defined.get(root) {
-                Some(statement) => self.statements[*statement].stores.push((index, operand)),
-                None => direct.push((index, operand)),
+                Some(statement) => self.tape.statements[*statement].stores.push(store),
+                None => self.tape.direct.push(store),
             }
         }
-        let input_names = function.inputs.iter().flat_map(|block| {
-            block.entries.iter().map(|id| {
-                let symbol = self.graph.as_symbol(*id).expect("inputs are symbols");
-                self.graph.symbol_name(symbol).to_owned()
-            })
-        });
-        Tape {
-            name: function.name.clone(),
-            doc: function.doc.clone(),
-            inputs: slots(&function.inputs),
-            input_names: input_names.collect(),
-            outputs: slots(&function.outputs),
-            direct,
-            statements: self.statements,
-            sections: self.sections,
-            values: self.values,
-        }
+        debug_assert_eq!(verify(&self.tape), Ok(()));
+        self.tape
     }
-}
-
-fn slots(blocks: &[Block]) -> Vec<Slot> {
-    let mut first = 0;
-    blocks
-        .iter()
-        .map(|block| {
-            let slot = Slot {
-                name: block.name.clone(),
-                doc: block.doc.clone(),
-                citation: block.citation.clone(),
-                first,
-                rows: block.rows,
-                columns: block.columns,
-            };
-            first += slot.len();
-            slot
-        })
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tape::verify;
+    use crate::derive::Block;
+    use crate::expr::{Expr, Scope};
 
-    fn function(outputs: Vec<ExprId>, inputs: Vec<ExprId>) -> Function {
-        Function {
-            name: "test".into(),
-            doc: String::new(),
-            inputs: vec![Block::vector("x", "", "", inputs)],
-            outputs: vec![Block::vector("y", "", "", outputs)],
-        }
+    fn lowered<const N: usize>(
+        build: impl for<'g> Fn(&'g Scope, Expr<'g>, Expr<'g>) -> [Expr<'g>; N],
+    ) -> Tape {
+        let g = Scope::new();
+        let (a, b) = (g.symbol("a"), g.symbol("b"));
+        let outputs = vec![Block::vector("y", build(&g, a, b))];
+        let inputs = vec![Block::vector("x", [a, b])];
+        let function = Function { name: "test".into(), doc: String::new(), inputs, outputs };
+        lower_function(&g.into_graph(), &function)
     }
 
     #[test]
     fn a_negated_difference_is_one_operation() {
-        let mut g = Graph::new();
-        let (a, b) = (g.symbol("a"), g.symbol("b"));
-        let backward = g.sub(b, a);
-        let tape = lower_function(&g, &function(vec![backward], vec![a, b]));
+        let tape = lowered(|_, a, b| [b - a]);
         assert_eq!(tape.statements.len(), 1);
-        assert_eq!(verify(&tape), Ok(()));
         assert!(matches!(
             tape.statements[0].op,
             Op::Binary(Binary::Sub, Operand::Input(1), Operand::Input(0))
@@ -284,20 +231,14 @@ mod tests {
 
     #[test]
     fn sine_and_cosine_of_one_angle_are_one_operation() {
-        let mut g = Graph::new();
-        let a = g.symbol("a");
-        let (s, c) = (g.sin(a), g.cos(a));
-        let tape = lower_function(&g, &function(vec![s, c], vec![a]));
+        let tape = lowered(|_, a, _| [a.sin(), a.cos()]);
         assert_eq!(tape.statements.len(), 1);
         assert_eq!(tape.values, 2);
     }
 
     #[test]
     fn outputs_that_are_numbers_or_inputs_need_no_statement() {
-        let mut g = Graph::new();
-        let a = g.symbol("a");
-        let two = g.constant(2.0);
-        let tape = lower_function(&g, &function(vec![two, a], vec![a]));
+        let tape = lowered(|g, a, _| [g.number(2.0), a]);
         assert_eq!(tape.direct, vec![(0, Operand::Constant(2.0)), (1, Operand::Input(0))]);
     }
 }

@@ -15,6 +15,9 @@ pub use split::{PART_LIMIT, Part, Split, split};
 pub use stats::{Operations, unshared_operations};
 pub use verify::{Defect, verify};
 
+use std::ops::Range;
+
+use crate::derive::Block;
 use crate::expr::{Binary, Unary};
 
 /// A value computed by a statement.
@@ -51,11 +54,6 @@ impl Op {
         };
         std::iter::once(first).chain(second)
     }
-
-    /// Number of values that the operation defines.
-    pub const fn results(&self) -> u32 {
-        if matches!(self, Self::SinCos(_)) { 2 } else { 1 }
-    }
 }
 
 /// A statement: an operation, its first result, and what a reader should know.
@@ -73,32 +71,15 @@ pub struct Statement {
     pub stores: Vec<(u32, Operand)>,
 }
 
-/// A named part of the flat input or output.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Slot {
-    /// Name.
-    pub name: String,
-    /// What it is: unit, frame.
-    pub doc: String,
-    /// Equation of the paper, or empty.
-    pub citation: String,
-    /// First index in the flat slice.
-    pub first: usize,
-    /// Rows.
-    pub rows: usize,
-    /// Columns.
-    pub columns: usize,
-}
-
-impl Slot {
-    /// Number of entries.
-    pub const fn len(&self) -> usize {
-        self.rows * self.columns
+impl Statement {
+    /// The values defined.
+    pub const fn results(&self) -> Range<Value> {
+        self.first..self.first + if matches!(self.op, Op::SinCos(_)) { 2 } else { 1 }
     }
 
-    /// Whether there are no entries.
-    pub const fn is_empty(&self) -> bool {
-        self.len() == 0
+    /// Operands of the operation, then of the stores.
+    pub fn reads(&self) -> impl Iterator<Item = Operand> {
+        self.op.operands().chain(self.stores.iter().map(|(_, operand)| *operand))
     }
 }
 
@@ -110,11 +91,11 @@ pub struct Tape {
     /// What it answers.
     pub doc: String,
     /// Parts of the flat input.
-    pub inputs: Vec<Slot>,
+    pub inputs: Vec<Block>,
     /// Name of every entry of the flat input.
     pub input_names: Vec<String>,
     /// Parts of the flat output.
-    pub outputs: Vec<Slot>,
+    pub outputs: Vec<Block>,
     /// Outputs that need no statement: numbers and inputs.
     pub direct: Vec<(u32, Operand)>,
     /// The statements.
@@ -133,38 +114,6 @@ impl Tape {
 
     /// Length of the flat output.
     pub fn output_len(&self) -> usize {
-        self.outputs.iter().map(Slot::len).sum()
-    }
-
-    /// The tape as text, one statement a line, for dumps and comparisons.
-    pub fn text(&self) -> String {
-        let mut lines = vec![format!("tape {} ({} -> {})", self.name, self.input_len(), self.output_len())];
-        let stores = |list: &[(u32, Operand)]| -> String {
-            list.iter().map(|(index, operand)| format!("  y{index} = {}", show(*operand))).collect()
-        };
-        lines.push(format!("direct{}", stores(&self.direct)));
-        for statement in &self.statements {
-            let operands: Vec<String> = statement.op.operands().map(show).collect();
-            let name = match statement.op {
-                Op::Unary(op, _) => format!("{op:?}"),
-                Op::Binary(op, ..) => format!("{op:?}"),
-                Op::SinCos(_) => "SinCos".to_owned(),
-            };
-            lines.push(format!(
-                "v{} = {name} {}{}",
-                statement.first,
-                operands.join(" "),
-                stores(&statement.stores)
-            ));
-        }
-        lines.join("\n") + "\n"
-    }
-}
-
-fn show(operand: Operand) -> String {
-    match operand {
-        Operand::Value(value) => format!("v{value}"),
-        Operand::Input(index) => format!("x{index}"),
-        Operand::Constant(number) => format!("{number:?}"),
+        self.outputs.iter().map(|block| block.entries.len()).sum()
     }
 }

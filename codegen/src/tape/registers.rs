@@ -1,7 +1,7 @@
 //! Packs the values of a tape into as few registers as their lifetimes allow.
 //! In: a tape. Out: a register per value. Serves the interpreter's cache.
 
-use super::{Operand, Tape, Value};
+use super::{Operand, Statement, Tape, Value};
 
 /// Which register each value lives in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,25 +20,15 @@ impl Registers {
         let mut free: Vec<u32> = Vec::new();
         let mut count = 0;
         for (at, statement) in tape.statements.iter().enumerate() {
-            for value in statement.first..statement.first + statement.op.results() {
+            for value in statement.results() {
                 of_value[value as usize] = free.pop().unwrap_or_else(|| {
                     count += 1;
                     count - 1
                 });
             }
             // Freed after the results are placed: an operation never overwrites its own operands.
-            let mut ending: Vec<Value> = statement
-                .op
-                .operands()
-                .filter_map(|operand| match operand {
-                    Operand::Value(value) if last_use[value as usize] == at => Some(value),
-                    _ => None,
-                })
-                .collect();
-            ending.extend(
-                (statement.first..statement.first + statement.op.results())
-                    .filter(|value| last_use[*value as usize] == at),
-            );
+            let mut ending: Vec<Value> =
+                touched(statement).filter(|value| last_use[*value as usize] == at).collect();
             ending.sort_unstable();
             ending.dedup();
             free.extend(ending.into_iter().map(|value| of_value[value as usize]));
@@ -47,17 +37,21 @@ impl Registers {
     }
 }
 
+/// Values that a statement reads or defines.
+fn touched(statement: &Statement) -> impl Iterator<Item = Value> {
+    let read = statement.op.operands().filter_map(|operand| match operand {
+        Operand::Value(value) => Some(value),
+        _ => None,
+    });
+    read.chain(statement.results())
+}
+
 /// Statement of the last use of every value; its own where nothing uses it later.
 fn last_uses(tape: &Tape) -> Vec<usize> {
     let mut last = vec![0; tape.values as usize];
     for (at, statement) in tape.statements.iter().enumerate() {
-        for value in statement.first..statement.first + statement.op.results() {
+        for value in touched(statement) {
             last[value as usize] = at;
-        }
-        for operand in statement.op.operands() {
-            if let Operand::Value(value) = operand {
-                last[value as usize] = at;
-            }
         }
     }
     last

@@ -41,11 +41,10 @@ pub fn split(tape: &Tape, limit: usize) -> Split {
     let mut users: BTreeMap<Value, Vec<usize>> = BTreeMap::new();
     for (at, statement) in tape.statements.iter().enumerate() {
         let part = part_of_statement(at);
-        for value in statement.first..statement.first + statement.op.results() {
+        for value in statement.results() {
             home[value as usize] = part;
         }
-        let stored = statement.stores.iter().map(|(_, operand)| *operand);
-        for operand in statement.op.operands().chain(stored) {
+        for operand in statement.reads() {
             if let Operand::Value(value) = operand
                 && home[value as usize] != part
             {
@@ -99,27 +98,21 @@ fn assign_slots(home: &[usize], users: &BTreeMap<Value, Vec<usize>>, parts: &mut
 mod tests {
     use super::*;
     use crate::derive::{Block, Equations, Function};
-    use crate::expr::Graph;
+    use crate::expr::Scope;
 
     #[test]
     fn parts_keep_the_limit_and_values_cross_once() {
-        let mut g = Graph::new();
+        let g = Scope::new();
         let x = g.symbol("x");
-        let mut chain = vec![x];
-        for k in 1..=100 {
-            let number = g.constant(f64::from(k));
-            let last = *chain.last().unwrap();
-            let next = g.add(last, number);
-            let next = g.mul(next, next);
-            chain.push(next);
-        }
+        let end = (1..=100).fold(x, |last, k| (last + f64::from(k)).square());
         let function = Function {
             name: "chain".into(),
             doc: String::new(),
-            inputs: vec![Block::vector("x", "", "", vec![x])],
-            outputs: vec![Block::vector("y", "", "", vec![*chain.last().unwrap()])],
+            inputs: vec![Block::vector("x", [x])],
+            outputs: vec![Block::vector("y", [end])],
         };
-        let tape = super::super::lower(&Equations { graph: g, functions: vec![function] }).remove(0);
+        let equations = Equations { graph: g.into_graph(), functions: vec![function] };
+        let tape = super::super::lower(&equations).remove(0);
         let split = split(&tape, 30);
         assert!(split.parts.iter().all(|part| part.statements.len() <= 30));
         assert_eq!(

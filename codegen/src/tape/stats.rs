@@ -1,14 +1,13 @@
 //! Operation counts of tapes, and of expressions before sharing.
 //! In: tapes or graph nodes. Out: [`Operations`].
 
-use std::collections::HashMap;
 use std::ops::AddAssign;
 
 use serde::Serialize;
 
 use crate::expr::{Binary, ExprId, Graph, Node, Unary};
 
-use super::{Op, Tape};
+use super::{Op, Operand, Tape};
 
 /// Operations by kind. Counts before sharing can be astronomic: sums saturate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -67,23 +66,22 @@ impl Tape {
 
     /// Operations that one output block needs on its own.
     pub fn operations_of(&self, output: usize) -> Operations {
-        let slot = &self.outputs[output];
-        let range = slot.first as u32..(slot.first + slot.len()) as u32;
+        let first: usize = self.outputs[..output].iter().map(|block| block.entries.len()).sum();
+        let range = first..first + self.outputs[output].entries.len();
         let mut needed = vec![false; self.values as usize];
-        let mark = |needed: &mut Vec<bool>, operand: super::Operand| {
-            if let super::Operand::Value(value) = operand {
+        let mark = |needed: &mut Vec<bool>, operand: Operand| {
+            if let Operand::Value(value) = operand {
                 needed[value as usize] = true;
             }
         };
         let mut counts = Operations::default();
         for statement in self.statements.iter().rev() {
             for (index, operand) in &statement.stores {
-                if range.contains(index) {
+                if range.contains(&(*index as usize)) {
                     mark(&mut needed, *operand);
                 }
             }
-            let results = statement.first..statement.first + statement.op.results();
-            if results.into_iter().any(|value| needed[value as usize]) {
+            if statement.results().any(|value| needed[value as usize]) {
                 counts.count(&statement.op);
                 for operand in statement.op.operands() {
                     mark(&mut needed, operand);
@@ -96,43 +94,27 @@ impl Tape {
 
 /// Operations of expressions written out in full, with nothing shared.
 pub fn unshared_operations(graph: &Graph, roots: &[ExprId]) -> Operations {
-    let mut known: HashMap<ExprId, Operations> = HashMap::new();
+    let uses = graph.uses(roots);
+    let zero = Operand::Constant(0.0);
+    let mut known: Vec<Operations> = Vec::with_capacity(uses.len());
+    for (index, used) in uses.iter().enumerate() {
+        let mut counts = Operations::default();
+        if *used > 0 {
+            let node = graph.node(ExprId::new(index));
+            match node {
+                Node::Unary(operation, _) => counts.count(&Op::Unary(operation, zero)),
+                Node::Binary(operation, ..) => counts.count(&Op::Binary(operation, zero, zero)),
+                Node::Constant(_) | Node::Symbol(_) => {}
+            }
+            for child in node.children() {
+                counts += known[child.index()];
+            }
+        }
+        known.push(counts);
+    }
     let mut sum = Operations::default();
     for root in roots {
-        sum += tree(graph, *root, &mut known);
+        sum += known[root.index()];
     }
     sum
-}
-
-fn tree(graph: &Graph, root: ExprId, known: &mut HashMap<ExprId, Operations>) -> Operations {
-    let mut stack = vec![root];
-    while let Some(id) = stack.last().copied() {
-        if known.contains_key(&id) {
-            stack.pop();
-            continue;
-        }
-        let below: Vec<ExprId> = match graph.node(id) {
-            Node::Constant(_) | Node::Symbol(_) => Vec::new(),
-            Node::Unary(_, a) => vec![a],
-            Node::Binary(_, a, b) => vec![a, b],
-        };
-        let missing: Vec<ExprId> = below.iter().copied().filter(|child| !known.contains_key(child)).collect();
-        if !missing.is_empty() {
-            stack.extend(missing);
-            continue;
-        }
-        let mut counts = Operations::default();
-        let zero = super::Operand::Constant(0.0);
-        match graph.node(id) {
-            Node::Unary(operation, _) => counts.count(&Op::Unary(operation, zero)),
-            Node::Binary(operation, ..) => counts.count(&Op::Binary(operation, zero, zero)),
-            _ => {}
-        }
-        for child in below {
-            counts += known[&child];
-        }
-        known.insert(id, counts);
-        stack.pop();
-    }
-    known[&root]
 }

@@ -47,7 +47,7 @@ pub fn verify(tape: &Tape) -> Result<(), Defect> {
         for operand in statement.op.operands() {
             check(operand, defined, at)?;
         }
-        defined = statement.first + statement.op.results();
+        defined = statement.results().end;
         for (index, operand) in &statement.stores {
             check(*operand, defined, at)?;
             written[*index as usize] += 1;

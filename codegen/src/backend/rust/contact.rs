@@ -26,7 +26,8 @@ fn with_fields<const N: usize>(name: &str, fields: [(&str, f64); N]) -> TokenStr
     quote!(#name { #(#fields),* })
 }
 
-fn option(value: Option<impl ToTokens>) -> TokenStream {
+/// `Some` of a value, or `None`.
+pub fn option(value: Option<impl ToTokens>) -> TokenStream {
     value.map_or_else(|| quote!(None), |value| quote!(Some(#value)))
 }
 

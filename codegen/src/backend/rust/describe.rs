@@ -1,47 +1,11 @@
-//! The mechanism's description and sizes as Rust expressions.
+//! The mechanism's description as a Rust expression.
 //! In: [`Description`]. Out: tokens. User text becomes string literals, which quote escapes.
 
-use linkwear_runtime::{Description, Motion, Sizes};
+use linkwear_runtime::{Description, Motion};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// A `Sizes` literal.
-pub fn sizes(sizes: Sizes, runtime: &TokenStream) -> TokenStream {
-    let Sizes {
-        parameters,
-        coordinates,
-        speeds,
-        all_coordinates,
-        all_speeds,
-        rows,
-        all_rows,
-        drivers,
-        contacts,
-        channels,
-        workspace,
-    } = sizes;
-    let numbers = [
-        parameters,
-        coordinates,
-        speeds,
-        all_coordinates,
-        all_speeds,
-        rows,
-        all_rows,
-        drivers,
-        contacts,
-        channels,
-        workspace,
-    ]
-    .map(Literal::usize_unsuffixed);
-    let [p, q, v, aq, av, r, ar, d, k, c, w] = numbers;
-    quote! {
-        #runtime::Sizes {
-            parameters: #p, coordinates: #q, speeds: #v, all_coordinates: #aq, all_speeds: #av,
-            rows: #r, all_rows: #ar, drivers: #d, contacts: #k, channels: #c, workspace: #w,
-        }
-    }
-}
+use super::contact::{contact, option};
 
 /// A function that returns the description. Lists are tables of plain tuples, which read and format well.
 pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
@@ -56,7 +20,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     };
     let motions = own.motions.iter().map(|motion| match motion {
         Motion::Scalar { driver } => {
-            let driver = option(*driver);
+            let driver = index(*driver);
             quote!(#runtime::Motion::Scalar { driver: #driver })
         }
         Motion::Rotation => quote!(#runtime::Motion::Rotation),
@@ -64,7 +28,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     });
     let quaternions = own.quaternions.iter().map(|index| Literal::usize_unsuffixed(*index));
     let rows = own.rows.iter().map(|row| {
-        let (joint, meaning, angular, kept) = (&*row.joint, &*row.meaning, row.angular, option(row.kept));
+        let (joint, meaning, angular, kept) = (&*row.joint, &*row.meaning, row.angular, index(row.kept));
         quote!((#joint, #meaning, #angular, #kept))
     });
     let drivers = own.drivers.iter().map(|driver| {
@@ -75,8 +39,8 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         let (name, unit, wraps) = (&*channel.name, &*channel.unit, channel.wraps);
         quote!((#name, #unit, #wraps))
     });
-    let contacts = own.contacts.iter().map(|contact| super::contact::contact(contact, runtime));
-    let turn_driver = option(own.turn_driver);
+    let contacts = own.contacts.iter().map(|info| contact(info, runtime));
+    let turn_driver = index(own.turn_driver);
     let tables = [
         table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
         table("COORDINATES", quote!((&str, &str, bool)), own.coordinates.iter().map(variable).collect()),
@@ -123,12 +87,6 @@ fn table(name: &str, of: TokenStream, entries: Vec<TokenStream>) -> TokenStream 
     quote!(static #name: [#of; #length] = [#(#entries),*];)
 }
 
-fn option(index: Option<usize>) -> TokenStream {
-    match index {
-        Some(index) => {
-            let index = Literal::usize_unsuffixed(index);
-            quote!(Some(#index))
-        }
-        None => quote!(None),
-    }
+fn index(value: Option<usize>) -> TokenStream {
+    option(value.map(Literal::usize_unsuffixed))
 }

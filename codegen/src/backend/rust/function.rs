@@ -6,8 +6,9 @@ use std::collections::HashMap;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use crate::derive::Block;
 use crate::expr::{Binary, Unary};
-use crate::tape::{Op, Operand, Part, Slot, Split, Statement, Tape};
+use crate::tape::{Op, Operand, Part, Split, Statement, Tape};
 
 use super::comment::{MARKER, count_text, one_line};
 use super::names::Names;
@@ -61,24 +62,17 @@ fn bounds(inputs: usize, outputs: usize, slots: usize) -> TokenStream {
 
 fn documentation(tape: &Tape, split: &Split) -> Vec<String> {
     let mut lines = vec![format!(" {}", one_line(&tape.doc)), String::new()];
-    let mut list = |title: &str, slots: &[Slot]| {
-        for slot in slots {
-            let range = if slot.is_empty() {
-                "empty".to_owned()
-            } else {
-                format!("{}..{}", slot.first, slot.first + slot.len())
-            };
-            let shape = if slot.columns == 1 {
-                format!("{}", slot.rows)
-            } else {
-                format!("{} x {}", slot.rows, slot.columns)
-            };
-            let citation =
-                if slot.citation.is_empty() { String::new() } else { format!(" {}", slot.citation) };
-            let text = format!("{}{citation}", slot.doc);
+    let mut list = |title: &str, blocks: &[Block]| {
+        let mut first = 0;
+        for block in blocks {
+            let end = first + block.entries.len();
+            let range = if first == end { "empty".to_owned() } else { format!("{first}..{end}") };
+            first = end;
+            let text = format!("{}{}", block.doc, block.cited());
             lines.push(format!(
-                " - `{title}[{range}]` {} ({shape}): {}",
-                slot.name,
+                " - `{title}[{range}]` {} ({}): {}",
+                block.name,
+                block.shape(),
                 one_line(&text.replace('[', "\\[").replace(']', "\\]"))
             ));
         }
@@ -104,8 +98,7 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
     let mut tokens = TokenStream::new();
     let statements = &tape.statements[part.statements.clone()];
     for statement in statements {
-        let stored = statement.stores.iter().map(|(_, operand)| *operand);
-        for operand in statement.op.operands().chain(stored) {
+        for operand in statement.reads() {
             if let Operand::Input(index) = operand {
                 let entry = &mut inputs[index as usize];
                 if entry.is_none() {

@@ -11,12 +11,9 @@ use linkwear_runtime::{Description, Entry, Sizes};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::tape::{Split, Tape, split};
+use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use comment::one_line;
-
-/// Statements of one emitted function at most; see [`split`].
-pub use crate::tape::PART_LIMIT as STATEMENTS_PER_FUNCTION;
 
 /// What is emitted.
 pub struct EmitInput<'a> {
@@ -36,7 +33,7 @@ pub struct EmitInput<'a> {
 
 /// The source of a mechanism, meant to be included as the contents of a module.
 pub fn emit(input: &EmitInput<'_>) -> String {
-    let splits: Vec<Split> = input.tapes.iter().map(|tape| split(tape, STATEMENTS_PER_FUNCTION)).collect();
+    let splits: Vec<Split> = input.tapes.iter().map(|tape| split(tape, PART_LIMIT)).collect();
     let workspace = splits.iter().map(|split| split.slots as usize).max().unwrap_or(0);
     let sizes = Sizes { workspace, ..input.sizes };
     let runtime: TokenStream = input.runtime_path.parse().unwrap_or_else(|_| quote!(::linkwear_runtime));
@@ -91,7 +88,8 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
         .map(|parameter| format!(" [{}], {:?} in the file.", one_line(&parameter.unit), parameter.default));
     let defaults = parameters.map(|parameter| Literal::f64_unsuffixed(parameter.default));
     let count = Literal::usize_unsuffixed(fields.len());
-    let sizes_tokens = describe::sizes(sizes, runtime);
+    // As `Debug` writes a struct of numbers, so does Rust.
+    let sizes: TokenStream = format!("{sizes:?}").parse().expect("a literal");
     let description = describe::description(input.description, runtime);
     let arms = Entry::ALL.iter().map(|entry| {
         let variant = format_ident!("{}", format!("{entry:?}"));
@@ -105,7 +103,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
         /// SHA-256 of the file that this was generated from.
         pub const SOURCE_SHA256: &str = #sha;
         /// Layout of inputs and outputs.
-        pub const SIZES: #runtime::Sizes = #sizes_tokens;
+        pub const SIZES: #runtime::Sizes = #runtime::#sizes;
         #[doc = #title]
         #derives
         pub struct Mechanism { #(#[doc = #docs] pub #fields: f64,)* }
@@ -137,7 +135,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
 mod tests {
     use super::*;
     use crate::derive::{Block, Equations, Function};
-    use crate::expr::Graph;
+    use crate::expr::Scope;
     use crate::tape::lower;
 
     fn input_for(tapes: &[Tape], description: &Description) -> String {
@@ -168,26 +166,21 @@ mod tests {
     }
 
     fn tapes(length: u32) -> Vec<Tape> {
-        let mut g = Graph::new();
+        let g = Scope::new();
         g.begin_section("a section");
         let x = g.symbol("type");
-        let mut value = x;
-        for k in 0..length {
-            let number = g.constant(f64::from(k) + 0.5);
-            let sum = g.add(value, number);
-            value = g.mul(sum, sum);
-        }
-        g.label(value, "fn");
-        let functions = Entry::ALL
+        let value = (0..length).fold(x, |value, k| (value + (f64::from(k) + 0.5)).square());
+        value.label("fn");
+        let functions: Vec<Function> = Entry::ALL
             .iter()
             .map(|entry| Function {
                 name: entry.name().into(),
                 doc: "A test.".into(),
-                inputs: vec![Block::vector("x", "", "", vec![x])],
-                outputs: vec![Block::vector("y", "", "", vec![value])],
+                inputs: vec![Block::vector("x", [x])],
+                outputs: vec![Block::vector("y", [value])],
             })
             .collect();
-        lower(&Equations { graph: g, functions })
+        lower(&Equations { graph: g.into_graph(), functions })
     }
 
     #[test]

@@ -35,7 +35,7 @@ impl<'g> Element<'g> for BallDamper<'_> {
             sections.bend(loads, g, Side::Inboard, reaction);
             loads.react(g, linkage, ball, reaction);
         } else {
-            let motion = state.relative_motion(g, self.joint);
+            let motion = state.relative_motion(self.joint);
             let child = motion.from_child * sections.rate(g, state, Side::Outboard);
             let parent = motion.from_parent * sections.rate(g, state, Side::Inboard);
             let slopes = child - parent;

@@ -24,7 +24,7 @@ impl<'g> Element<'g> for Bushing {
             let frame = outer.transposed().times(&axes).snapped();
             Marker { link, point: geometry.local(link, self.at), frame }
         });
-        let motion = RelativeMotion::between(g, linkage, &state.motion, markers, true, Place::Child);
+        let motion = RelativeMotion::between(&state.motion, markers, true, Place::Child);
         let rotation = motion.rotation();
         let logarithm = Logarithm::new(g, rotation, motion.distance);
         let [stiffness, damping, turning_stiffness, turning_damping] =

@@ -49,7 +49,7 @@ impl<'g> Element<'g> for JointElement<'_> {
             loads.joint[linkage.links[link].first_speed] += force;
         } else {
             let (moment, direction) = coordinates.duals[coordinate];
-            let motion = state.relative_motion(g, joint);
+            let motion = state.relative_motion(joint);
             loads.pair(joint, &motion, force * moment, force * direction);
         }
     }

@@ -39,13 +39,10 @@ pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<
 
 /// A prescribed coordinate with its place and its law.
 pub struct Driver<'g> {
-    /// Its joint.
     pub joint: JointId,
     /// Its number among the joint's coordinates.
     pub joint_coordinate: usize,
-    /// Its index among all coordinates.
     pub coordinate: usize,
-    /// Its index among all speeds.
     pub speed: usize,
     /// Position, speed, acceleration over parameters and t.
     pub law: [Expr<'g>; 3],
@@ -53,11 +50,9 @@ pub struct Driver<'g> {
 
 /// A mechanism with the symbols of its equations.
 pub struct Deriver<'g> {
-    /// Mechanism, links, parameters and time.
     pub geometry: Geometry<'g>,
     /// Symbols of the tunable parameters.
     pub parameters: Vec<Expr<'g>>,
-    /// Driven coordinates.
     pub drivers: Vec<Driver<'g>>,
     /// Symbols of all coordinates, driven ones included.
     pub q_all: Vec<Expr<'g>>,
@@ -65,27 +60,21 @@ pub struct Deriver<'g> {
     pub v_all: Vec<Expr<'g>>,
     /// Free coordinates, by index among all.
     pub free_q: Vec<usize>,
-    /// Free and driven speeds.
     pub partition: Partition,
     /// Symbols of the accelerations of the free speeds.
     pub v_dot: Vec<Expr<'g>>,
     /// Symbols of the multipliers of all rows.
     pub lambda: Vec<Expr<'g>>,
-    /// Symbols of the drivers' forces.
     pub drive: Vec<Expr<'g>>,
     /// Symbols of the wrenches that contact laws hand in.
     pub contacts: Vec<ContactWrench<'g>>,
-    /// Whether each constraint row is kept.
     pub keep: Vec<bool>,
 }
 
 /// Link motion with what depends on it.
 pub struct Instant<'g> {
-    /// Coordinates and motion.
     pub state: JointStates<'g>,
-    /// Applied loads.
     pub loads: Loads<'g>,
-    /// Constraint rows of every cut.
     pub cuts: Vec<CutRows<'g>>,
 }
 
@@ -194,7 +183,6 @@ impl<'g> Deriver<'g> {
         self.geometry.inputs.lower3(&self.geometry.mechanism.gravity)
     }
 
-    /// Mass properties of all links.
     pub fn masses(&self) -> Vec<LinkMass<'g>> {
         self.geometry.g.begin_section("mass properties");
         // Modes are never driven: the symbols of all coordinates are those of the free ones.
@@ -206,14 +194,13 @@ impl<'g> Deriver<'g> {
         let geometry = self.geometry;
         let Geometry { g, linkage, .. } = geometry;
         g.begin_section("poses of the links, [CS (2)]");
-        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
-        let poses = Poses::new(g, linkage, &mounts, &q);
+        let poses = Poses::new(geometry, &q);
         self.label_poses(&poses, &q);
         g.begin_section("twists of the links, [CS (5)]");
-        let twists = twists(g, linkage, &poses, &v);
+        let twists = twists(&poses, &v);
         g.begin_section("accelerations of the links");
         let ground = -self.gravity();
-        let accelerations = accelerations(linkage, &poses, &twists, (&v, &v_dot), ground);
+        let accelerations = accelerations(&poses, &twists, (&v, &v_dot), ground);
         for (link, (twist, acceleration)) in linkage.links.iter().zip(twists.iter().zip(&accelerations)) {
             for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
                 twist.omega[i].label(format!("{}_w{axis}", link.name));
@@ -226,7 +213,7 @@ impl<'g> Deriver<'g> {
         let motion = Motion { poses, twists, accelerations, ground, modes };
         let state = JointStates { geometry, motion, q, v, v_dot };
         let loads = loads(g, &state, &self.contacts);
-        let cuts = cut_rows(g, &geometry, &state.motion, exact);
+        let cuts = cut_rows(&state.motion, exact);
         Instant { state, loads, cuts }
     }
 

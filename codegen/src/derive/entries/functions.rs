@@ -4,121 +4,92 @@
 use linkwear_runtime::{Channel, Entry, RowInfo};
 
 use super::deriver::{Deriver, Instant};
+use super::observe::Channels;
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
-use crate::derive::geometry::Geometry;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
-use crate::derive::observe::{Observed, channels};
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
 use crate::derive::start::{StartValues, start_values};
 use crate::derive::{Block, Function};
 use crate::expr::{Expr, Vec3};
-use crate::id::JointId;
+
+pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
+    Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs }
+}
 
 impl<'g> Deriver<'g> {
     fn base_inputs(&self) -> Vec<Block> {
         vec![
-            Block::vector("parameters", "Tunable parameters, SI.", "", self.parameters.iter().copied()),
-            Block::vector("t", "Time [s].", "", [self.geometry.inputs.time]),
+            Block::vector("parameters", self.parameters.iter().copied()).doc("Tunable parameters, SI."),
+            Block::vector("t", [self.geometry.inputs.time]).doc("Time [s]."),
         ]
     }
 
-    fn state_inputs(&self) -> Vec<Block> {
+    /// Inputs of the entry points that ask for the state, and those after it.
+    fn state_inputs(&self, further: impl IntoIterator<Item = Block>) -> Vec<Block> {
         let q = self.free_q.iter().map(|i| self.q_all[*i]);
         let v = self.partition.free.iter().map(|i| self.v_all[*i]);
         let mut blocks = self.base_inputs();
-        blocks.push(Block::vector("q", "Free coordinates [rad, m, quaternions].", "", q));
-        blocks.push(Block::vector("v", "Free speeds [rad/s, m/s].", "", v));
+        blocks.push(Block::vector("q", q).doc("Free coordinates [rad, m, quaternions]."));
+        blocks.push(Block::vector("v", v).doc("Free speeds [rad/s, m/s]."));
+        blocks.extend(further);
         blocks
     }
 
     fn drive_input(&self) -> Block {
-        Block::vector("drive", "Drive forces from forward_dynamics.", "", self.drive.iter().copied())
+        Block::vector("drive", self.drive.iter().copied()).doc("Drive forces from forward_dynamics.")
     }
 
     fn contact_input(&self) -> Block {
-        let entries =
-            self.contacts.iter().flat_map(|contact| contact.force.into_iter().chain(contact.moment));
-        let doc =
-            "Per joint with clearance: force on the journal and moment about its centre, bearing frame.";
-        Block::vector("contact", doc, "[CS (17)]", entries)
-    }
-
-    pub(super) fn function(
-        &self,
-        entry: Entry,
-        doc: &str,
-        inputs: Vec<Block>,
-        outputs: Vec<Block>,
-    ) -> Function {
-        Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs }
+        let wrenches = self.contacts.iter().flat_map(|contact| [contact.force.0, contact.moment.0].concat());
+        Block::vector("contact", wrenches)
+            .doc("Per joint with clearance: force on the journal and moment about its centre, bearing frame.")
+            .cites("[CS (17)]")
     }
 
     pub(super) fn prescribed(&self) -> Function {
         let entries = self.drivers.iter().flat_map(|driver| driver.law);
         let doc =
             "Position, speed and acceleration of every driver, driver by driver [rad or m, per s, per s²].";
-        let outputs = vec![Block::matrix("prescribed", doc, "", (self.drivers.len(), 3), entries)];
-        self.function(Entry::Prescribed, "Motion that the drivers prescribe.", self.base_inputs(), outputs)
+        let outputs = vec![Block::matrix("prescribed", (self.drivers.len(), 3), entries).doc(doc)];
+        function(Entry::Prescribed, "Motion that the drivers prescribe.", self.base_inputs(), outputs)
     }
 
     pub(super) fn start(&self) -> (Function, StartValues<'g>) {
-        let driven: Vec<(usize, usize, [Expr<'g>; 2])> = self
-            .drivers
-            .iter()
-            .map(|driver| (driver.coordinate, driver.speed, [driver.law[0], driver.law[1]]))
-            .collect();
+        let driven = self.drivers.iter().map(|driver| (driver.coordinate, driver.speed, driver.law));
         self.geometry.g.begin_section("start values");
-        let values = start_values(&self.geometry, &driven);
+        let values = start_values(&self.geometry, driven);
         let q = self.free_q.iter().map(|i| values.q[*i]);
         let v = self.partition.free.iter().map(|i| values.v[*i]);
         let outputs = vec![
-            Block::vector("q", "Start values of the free coordinates, before the loops are closed.", "", q),
-            Block::vector("v", "Wishes for the free speeds.", "", v),
+            Block::vector("q", q).doc("Start values of the free coordinates, before the loops are closed."),
+            Block::vector("v", v).doc("Wishes for the free speeds."),
         ];
-        let function =
-            self.function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs);
-        (function, values)
+        (function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs), values)
     }
 
     pub(super) fn forward_dynamics(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
-        let Geometry { g, linkage, .. } = self.geometry;
         let motion = &instant.state.motion;
-        g.begin_section("loop Jacobian");
-        let rows = kept_rows(g, linkage, motion, &instant.cuts, &self.keep);
-        let result = forward(g, linkage, motion, masses, &instant.loads, (&rows, &self.partition));
+        self.geometry.g.begin_section("loop Jacobian");
+        let rows = kept_rows(motion, &instant.cuts, &self.keep);
+        let result = forward(motion, masses, &instant.loads, (&rows, &self.partition));
         let outputs = vec![
-            Block::vector(
-                "v_dot",
-                "Accelerations of the free speeds [rad/s², m/s²].",
-                "[CS (6)]",
-                result.solution.accelerations,
-            ),
-            Block::vector(
-                "lambda",
-                "Multipliers of the kept rows [N, N m], on the joint's child.",
-                "[CS (6)]",
-                result.solution.multipliers,
-            ),
-            Block::vector(
-                "drive",
-                "Generalised force of every driver on the child [N m, N].",
-                "",
-                result.drive,
-            ),
-            Block::vector(
-                "pivots",
+            Block::vector("v_dot", result.solution.accelerations)
+                .doc("Accelerations of the free speeds [rad/s², m/s²].")
+                .cites("[CS (6)]"),
+            Block::vector("lambda", result.solution.multipliers)
+                .doc("Multipliers of the kept rows [N, N m], on the joint's child.")
+                .cites("[CS (6)]"),
+            Block::vector("drive", result.drive)
+                .doc("Generalised force of every driver on the child [N m, N]."),
+            Block::vector("pivots", result.solution.pivots).doc(
                 "Pivots of the loop rows, positive; small next to their usual size near a singular position.",
-                "",
-                result.solution.pivots,
             ),
         ];
         let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
-        let mut inputs = self.state_inputs();
-        inputs.push(self.contact_input());
-        self.function(Entry::ForwardDynamics, doc, inputs, outputs)
+        function(Entry::ForwardDynamics, doc, self.state_inputs([self.contact_input()]), outputs)
     }
 
     pub(super) fn rates(&self, instant: &Instant<'g>) -> Function {
@@ -136,102 +107,69 @@ impl<'g> Deriver<'g> {
             supplied += *force * driver.law[1];
         }
         let q_dot = self.free_q.iter().map(|i| q_dot[*i]);
-        let mut inputs = self.state_inputs();
-        inputs.push(self.drive_input());
         let outputs = vec![
-            Block::vector("q_dot", "Rates of the free coordinates.", "", q_dot),
-            Block::vector("supplied", "Power of drivers and applied forces [W].", "", [supplied]),
-            Block::vector("dissipated", "Power lost in dampers [W].", "", [instant.loads.dissipated]),
+            Block::vector("q_dot", q_dot).doc("Rates of the free coordinates."),
+            Block::vector("supplied", [supplied]).doc("Power of drivers and applied forces [W]."),
+            Block::vector("dissipated", [instant.loads.dissipated]).doc("Power lost in dampers [W]."),
         ];
-        self.function(Entry::Rates, "Rates of the coordinates, power in and power lost.", inputs, outputs)
+        let doc = "Rates of the coordinates, power in and power lost.";
+        function(Entry::Rates, doc, self.state_inputs([self.drive_input()]), outputs)
     }
 
     pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
         let Instant { state, cuts, .. } = self.instant(self.driven_state(&[]), true);
-        let rows = kept_rows(self.geometry.g, self.geometry.linkage, &state.motion, &cuts, &self.keep);
+        let rows = kept_rows(&state.motion, &cuts, &self.keep);
         let all = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual));
         let free = &self.partition.free;
         let jacobian = rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]));
         let outputs = vec![
-            Block::vector(
-                "phi",
-                "Position residuals of all rows, dropped ones included [rad, m].",
-                "[CS (3)]",
-                all,
-            ),
-            Block::vector(
-                "phi_dot",
-                "Velocity residuals of the kept rows [rad/s, m/s].",
-                "[CS (3)]",
-                rows.iter().map(|row| row.rate),
-            ),
-            Block::matrix(
-                "phi_q",
-                "Jacobian of the kept rows by the free speeds.",
-                "[CS (3)]",
-                (rows.len(), free.len()),
-                jacobian,
-            ),
+            Block::vector("phi", all)
+                .doc("Position residuals of all rows, dropped ones included [rad, m].")
+                .cites("[CS (3)]"),
+            Block::vector("phi_dot", rows.iter().map(|kept| kept.row.rate))
+                .doc("Velocity residuals of the kept rows [rad/s, m/s].")
+                .cites("[CS (3)]"),
+            Block::matrix("phi_q", (rows.len(), free.len()), jacobian)
+                .doc("Jacobian of the kept rows by the free speeds.")
+                .cites("[CS (3)]"),
         ];
         let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        (self.function(Entry::Closure, doc, self.state_inputs(), outputs), self.row_infos(&cuts))
+        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&cuts))
     }
 
     fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
-        let (g, motion) = (self.geometry.g, &instant.state.motion);
-        g.begin_section("energies");
-        let kinetic = kinetic_energy(g, masses, motion);
-        let weight = weight_energy(g, motion, masses, self.gravity());
+        let motion = &instant.state.motion;
+        self.geometry.g.begin_section("energies");
+        let kinetic = kinetic_energy(masses, motion);
+        let weight = weight_energy(motion, masses, self.gravity());
         [kinetic, weight + instant.loads.potential]
     }
 
     pub(super) fn energy(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
         let [kinetic, potential] = self.energies(instant, masses);
         let outputs = vec![
-            Block::vector("kinetic", "Kinetic energy [J].", "", [kinetic]),
-            Block::vector("potential", "Energy of weight and springs [J].", "", [potential]),
+            Block::vector("kinetic", [kinetic]).doc("Kinetic energy [J]."),
+            Block::vector("potential", [potential]).doc("Energy of weight and springs [J]."),
         ];
-        self.function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs(), outputs)
+        function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs([]), outputs)
     }
 
     pub(super) fn observe(&self, masses: &[LinkMass<'g>]) -> (Function, Vec<Channel>) {
         let instant = self.instant(self.driven_state(&self.v_dot), false);
-        let energy = self.energies(&instant, masses);
-        let drives: Vec<(JointId, usize, Expr<'g>)> = self
-            .drivers
-            .iter()
-            .zip(&self.drive)
-            .map(|(driver, force)| (driver.joint, driver.joint_coordinate, *force))
-            .collect();
-        let list = channels(
-            self.geometry.g,
-            &Observed {
-                state: &instant.state,
-                masses,
-                loads: &instant.loads,
-                cuts: &instant.cuts,
-                multipliers: &self.lambda,
-                keep: &self.keep,
-                drives: &drives,
-                energy,
-            },
-        );
-        let mut inputs = self.state_inputs();
-        let rates = self.v_dot.iter().copied();
-        inputs.push(Block::vector("v_dot", "Accelerations from forward_dynamics.", "", rates));
-        inputs.push(Block::vector(
-            "lambda",
-            "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
-            "",
-            self.lambda.iter().copied(),
-        ));
-        inputs.push(self.drive_input());
-        inputs.push(self.contact_input());
+        let list = Channels::new(self, &instant, masses, self.energies(&instant, masses));
+        let inputs = self.state_inputs([
+            Block::vector("v_dot", self.v_dot.iter().copied()).doc("Accelerations from forward_dynamics."),
+            Block::vector("lambda", self.lambda.iter().copied()).doc(
+                "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
+            ),
+            self.drive_input(),
+            self.contact_input(),
+        ]);
         let names = list.channels.iter().map(|channel| channel.name.to_string()).collect();
-        let doc = "One value per output column, SI, components in W.";
-        let outputs = vec![Block::vector("channels", doc, "", list.values).named(names)];
+        let values =
+            Block::vector("channels", list.values).doc("One value per output column, SI, components in W.");
         let doc = "Everything a user may want to see or record.";
-        (self.function(Entry::Observe, doc, inputs, outputs), list.channels)
+        (function(Entry::Observe, doc, inputs, vec![Block { names, ..values }]), list.channels)
     }
 
     pub(super) fn contacts(&self, instant: &Instant<'g>) -> Function {
@@ -241,60 +179,49 @@ impl<'g> Deriver<'g> {
             self.geometry.g.begin_section(format!("motion in the clearance of {name}"));
             entries.extend(contact_motion(self.geometry.g, &instant.state, contact.joint));
         }
-        let doc = "Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.";
-        let shape = (self.contacts.len(), 10);
-        let outputs = vec![Block::matrix("contacts", doc, "[CS (7)-(12)]", shape, entries)];
+        let outputs = Block::matrix("contacts", (self.contacts.len(), 10), entries)
+            .doc("Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.")
+            .cites("[CS (7)-(12)]");
         let doc = "How the journals of joints with clearance lie and move in their bearings.";
-        self.function(Entry::Contacts, doc, self.state_inputs(), outputs)
+        function(Entry::Contacts, doc, self.state_inputs([]), vec![outputs])
     }
 
     pub(super) fn equations_of_motion(&self, masses: &[LinkMass<'g>]) -> Function {
-        let Geometry { g, linkage, .. } = self.geometry;
-        let (q, v) = (self.q_all.clone(), self.v_all.clone());
-        let n = v.len();
-        let instant = self.instant([q, v, vec![g.zero(); n]], false);
+        let g = self.geometry.g;
+        let n = self.v_all.len();
+        let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
         let motion = &instant.state.motion;
-        let h = bias_forces(g, linkage, motion, masses, &instant.loads);
+        let h = bias_forces(motion, masses, &instant.loads);
         g.begin_section("mass matrix by composite bodies");
-        let mass = mass_matrix(g, linkage, &motion.poses, masses);
+        let mass = mass_matrix(&motion.poses, masses);
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
-        let rows = kept_rows(g, linkage, motion, &instant.cuts, &vec![true; self.keep.len()]);
+        let rows = kept_rows(motion, &instant.cuts, &vec![true; self.keep.len()]);
+        let jacobian = rows.iter().flat_map(|row| row.jacobian.iter().copied());
         let outputs = vec![
-            Block::vector(
-                "mass",
-                "Upper triangle of M, row by row [kg m², kg m, kg].",
-                "[CS (6)]",
-                (0..n).flat_map(|i| mass[i][i..].to_vec()),
-            ),
-            Block::vector("h", "Left side besides M v̇: inertia, weight, springs, damping.", "[CS (6)]", h),
-            Block::vector(
-                "phi",
-                "Position residuals of all rows [rad, m].",
-                "[CS (3)]",
-                rows.iter().map(|row| row.residual),
-            ),
-            Block::matrix(
-                "phi_q",
-                "Jacobian of all rows by all speeds.",
-                "[CS (3)]",
-                (rows.len(), n),
-                rows.iter().flat_map(|row| row.jacobian.iter().copied()),
-            ),
-            Block::vector(
-                "gamma",
-                "Right side of phi_q v̇ = gamma.",
-                "[CS (6)]",
-                rows.iter().map(|row| -row.bias),
-            ),
+            Block::vector("mass", (0..n).flat_map(|i| mass[i][i..].to_vec()))
+                .doc("Upper triangle of M, row by row [kg m², kg m, kg].")
+                .cites("[CS (6)]"),
+            Block::vector("h", h)
+                .doc("Left side besides M v̇: inertia, weight, springs, damping.")
+                .cites("[CS (6)]"),
+            Block::vector("phi", rows.iter().map(|kept| kept.row.residual))
+                .doc("Position residuals of all rows [rad, m].")
+                .cites("[CS (3)]"),
+            Block::matrix("phi_q", (rows.len(), n), jacobian)
+                .doc("Jacobian of all rows by all speeds.")
+                .cites("[CS (3)]"),
+            Block::vector("gamma", rows.iter().map(|kept| -kept.row.bias))
+                .doc("Right side of phi_q v̇ = gamma.")
+                .cites("[CS (6)]"),
         ];
         let mut inputs = self.base_inputs();
         let (q, v) = (instant.state.q, instant.state.v);
-        inputs.push(Block::vector("q", "All coordinates, driven ones included.", "", q));
-        inputs.push(Block::vector("v", "All speeds, driven ones included.", "", v));
+        inputs.push(Block::vector("q", q).doc("All coordinates, driven ones included."));
+        inputs.push(Block::vector("v", v).doc("All speeds, driven ones included."));
         inputs.push(self.contact_input());
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
-        self.function(Entry::EquationsOfMotion, doc, inputs, outputs)
+        function(Entry::EquationsOfMotion, doc, inputs, outputs)
     }
 }
 

@@ -6,6 +6,7 @@ mod deriver;
 mod description;
 mod functions;
 mod names;
+mod observe;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 
@@ -17,6 +18,7 @@ use super::linkage::Linkage;
 use super::linkage_build::linkage;
 use super::{Equations, Function};
 use deriver::{Deriver, inputs};
+use functions::function;
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
@@ -68,7 +70,7 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let (start, start_values) = deriver.start();
     let forward_dynamics = match purpose {
         Purpose::Everything => deriver.forward_dynamics(&dynamic, &masses),
-        Purpose::Analysis => deriver.function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
+        Purpose::Analysis => function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
     };
     let rates = deriver.rates(&dynamic);
     let (closure, rows) = deriver.closure();

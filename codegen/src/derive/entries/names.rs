@@ -21,18 +21,10 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
                     continue;
                 }
                 let coordinates = joint.model.coordinates();
-                let suffix = if coordinates.len() > 1 {
-                    (link.joint_coordinate + 1).to_string()
-                } else {
-                    String::new()
-                };
-                let units = if coordinates[link.joint_coordinate] == Coordinate::Angle {
-                    ("rad", "rad/s")
-                } else {
-                    ("m", "m/s")
-                };
-                positions.push((format!("{name}.q{suffix}"), units.0));
-                speeds.push((format!("{name}.v{suffix}"), units.1));
+                let suffix = number_among(coordinates.len(), link.joint_coordinate);
+                let [unit, rate, _] = units(coordinates[link.joint_coordinate]);
+                positions.push((format!("{name}.q{suffix}"), unit));
+                speeds.push((format!("{name}.v{suffix}"), rate));
             }
             Freedom::Ball | Freedom::Free => {
                 positions.extend((0..4).map(|i| (format!("{name}.q{i}"), "1")));
@@ -53,4 +45,17 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
         }
     }
     (positions, speeds)
+}
+
+/// What follows the name of one of several coordinates: its number, from 1. A single one needs none.
+pub(super) fn number_among(count: usize, index: usize) -> String {
+    if count > 1 { (index + 1).to_string() } else { String::new() }
+}
+
+/// Units of a coordinate, its rate and the rate of that.
+pub(super) fn units(coordinate: Coordinate) -> [&'static str; 3] {
+    match coordinate {
+        Coordinate::Angle => ["rad", "rad/s", "rad/s^2"],
+        _ => ["m", "m/s", "m/s^2"],
+    }
 }

@@ -1,0 +1,267 @@
+//! Output columns: coordinates, angular velocities, points, joint wrenches, drives, multipliers, energies.
+//! In: link motion with true accelerations, multipliers, drive forces. Out: channels with expressions.
+//! Never knows files. Names and units follow the command line's contract for sampled output.
+
+use linkwear_runtime::Channel;
+
+use super::deriver::{Deriver, Instant};
+use super::names::{number_among, units};
+use crate::derive::attachment::{NodePose, NodeShape};
+use crate::derive::closure::CutRows;
+use crate::derive::dynamics::joint_wrenches;
+use crate::derive::joint_markers::joint_links;
+use crate::derive::link_mass::LinkMass;
+use crate::derive::linkage::Freedom;
+use crate::derive::orientation::{conjugate, link_displacement, quaternion_product};
+use crate::derive::wrench::Wrench;
+use crate::expr::{Expr, Scope, Vec3};
+use crate::flexible::ModalData;
+use crate::id::{JointId, PointId};
+use crate::model::{Coordinate, Flexible};
+
+/// The columns so far, and what they are made from.
+pub(super) struct Channels<'a, 'g> {
+    /// Multipliers, drive forces, and which rows are kept.
+    deriver: &'a Deriver<'g>,
+    /// Motion with the true accelerations.
+    instant: &'a Instant<'g>,
+    /// Names, units.
+    pub channels: Vec<Channel>,
+    /// Values.
+    pub values: Vec<Expr<'g>>,
+}
+
+const XYZ: [&str; 3] = ["x", "y", "z"];
+
+impl<'a, 'g> Channels<'a, 'g> {
+    /// Derives all columns; `energy` is kinetic and potential [J].
+    pub(super) fn new(
+        deriver: &'a Deriver<'g>,
+        instant: &'a Instant<'g>,
+        masses: &[LinkMass<'g>],
+        energy: [Expr<'g>; 2],
+    ) -> Self {
+        let mut list = Self { deriver, instant, channels: Vec::new(), values: Vec::new() };
+        let mechanism = deriver.geometry.mechanism;
+        for index in 0..mechanism.joints.len() {
+            list.joint_coordinates(JointId::new(index));
+        }
+        list.bodies();
+        for (index, point) in mechanism.points.iter().enumerate() {
+            deriver.geometry.g.begin_section(format!("point {}", point.name));
+            let id = PointId::new(index);
+            let position = instant.state.point(id);
+            list.vector(&point.name, "", "m", position);
+            let velocity = instant.state.point_velocity(id);
+            list.vector(&point.name, "v", "m/s", velocity);
+        }
+        list.wrenches(masses);
+        for (driver, force) in deriver.drivers.iter().zip(&deriver.drive) {
+            let data = mechanism.joint(driver.joint);
+            let coordinates = data.model.coordinates();
+            let unit = force_unit(coordinates[driver.joint_coordinate] == Coordinate::Angle);
+            let suffix = number_among(coordinates.len(), driver.joint_coordinate);
+            list.push(format!("{}.drive{suffix}", data.name), unit, *force);
+        }
+        list.multipliers();
+        list.push("energy.kinetic".to_owned(), "J", energy[0]);
+        list.push("energy.potential".to_owned(), "J", energy[1]);
+        list
+    }
+
+    fn push(&mut self, name: String, unit: &'static str, value: Expr<'g>) {
+        self.channels.push(Channel { name: name.into(), unit: unit.into(), wraps: false });
+        self.values.push(value);
+    }
+
+    fn vector(&mut self, name: &str, prefix: &str, unit: &'static str, value: Vec3<'g>) {
+        for (axis, component) in XYZ.iter().zip(value) {
+            self.push(format!("{name}.{prefix}{axis}"), unit, component);
+        }
+    }
+
+    fn joint_coordinates(&mut self, joint: JointId) {
+        let (state, geometry) = (&self.instant.state, self.deriver.geometry);
+        let g = geometry.g;
+        let data = geometry.mechanism.joint(joint);
+        let name = &data.name;
+        g.begin_section(format!("coordinates of {name}"));
+        let all = state.coordinates(g, joint);
+        for coordinate in 0..all.position.len() {
+            let suffix = number_among(all.position.len(), coordinate);
+            let [unit, per_second, per_second2] = units(data.model.coordinates()[coordinate]);
+            self.push(format!("{name}.q{suffix}"), unit, all.position[coordinate]);
+            if let Some(position) = self.channels.last_mut() {
+                position.wraps = all.wraps[coordinate];
+            }
+            self.push(format!("{name}.v{suffix}"), per_second, all.speed[coordinate]);
+            self.push(format!("{name}.a{suffix}"), per_second2, all.acceleration[coordinate]);
+        }
+        if data.model.turns_freely() {
+            let turned = |link| link_displacement(g, geometry.linkage, &state.q, link);
+            let [parent, child] = joint_links(&geometry, joint).map(turned);
+            let relative = quaternion_product(conjugate(parent), child);
+            for (index, component) in relative.into_iter().enumerate() {
+                self.push(format!("{name}.q{index}"), "1", component);
+            }
+        }
+        if data.model.is_free() {
+            let motion = state.relative_motion(joint);
+            let rotation = state.motion.poses.world_of(g, motion.beside()).rotation;
+            self.vector(name, "", "m", rotation * motion.distance);
+            self.vector(name, "v", "m/s", rotation * motion.slide);
+        }
+    }
+
+    fn bodies(&mut self) {
+        let geometry = self.deriver.geometry;
+        let motion = &self.instant.state.motion;
+        for (index, body) in geometry.mechanism.bodies.iter().enumerate() {
+            geometry.g.begin_section(format!("angular velocity of {}", body.name));
+            let at = geometry.linkage.link_of_body[index];
+            self.vector(&body.name, "w", "rad/s", motion.poses.world[at].rotation * motion.twists[at].omega);
+            if let Some(flexible) = &body.flexible {
+                self.modes(&body.name, flexible, at);
+            }
+        }
+    }
+
+    /// Modal coordinates, displacement and bending stress at the stations, energy of the modes.
+    fn modes(&mut self, name: &str, flexible: &Flexible, at: usize) {
+        let g = self.deriver.geometry.g;
+        g.begin_section(format!("deformation of {name}"));
+        let state = &self.instant.state.motion.modes[at];
+        for (k, eta) in state.q.iter().enumerate() {
+            self.push(format!("{name}.eta{}", k + 1), flexible.data.modal_unit(), *eta);
+        }
+        for station in &flexible.stations {
+            let shape = NodeShape::new(&flexible.data.nodes[station.node], false);
+            let rest = g.vector(shape.position);
+            let place = NodePose::new(g, &shape, &state.q).place;
+            let suffix = if station.name.is_empty() { String::new() } else { format!("_{}", station.name) };
+            for (axis, component) in XYZ.iter().zip(place - rest) {
+                // A linear beam does not move along itself.
+                if *axis != "x" || !component.is_zero() {
+                    self.push(format!("{name}.u{axis}{suffix}"), "m", component);
+                }
+            }
+            if let Some(stress) = &station.stress {
+                for (side, axis) in ["y", "z"].iter().enumerate() {
+                    let value = g.weighted(stress.iter().map(|per| per[side]), &state.q);
+                    self.push(format!("{name}.stress_{axis}{suffix}"), "Pa", value);
+                }
+            }
+        }
+        if !state.q.is_empty() {
+            let energy = modal_energy(g, &flexible.data, &state.q, &state.v);
+            self.push(format!("{name}.modal_energy"), "J", energy);
+        }
+    }
+
+    /// Multipliers of the kept rows.
+    fn multipliers(&mut self) {
+        let (deriver, instant) = (self.deriver, self.instant);
+        let mut all = deriver.keep.iter().zip(&deriver.lambda);
+        for cut in &instant.cuts {
+            let name = &deriver.geometry.mechanism.joint(cut.cut.joint).name;
+            let kept = cut.rows.iter().zip(&mut all).filter(|(_, (keep, _))| **keep);
+            for (index, (row, (_, multiplier))) in kept.enumerate() {
+                self.push(format!("{name}.lambda{}", index + 1), force_unit(row.angular), *multiplier);
+            }
+        }
+    }
+
+    fn wrenches(&mut self, masses: &[LinkMass<'g>]) {
+        let (deriver, instant) = (self.deriver, self.instant);
+        let (state, geometry) = (&instant.state, deriver.geometry);
+        geometry.g.begin_section("constraint forces of the loops");
+        let mut external = instant.loads.external.clone();
+        let mut multipliers = deriver.lambda.iter();
+        let mut at_cuts = Vec::new();
+        for cut in &instant.cuts {
+            let mut sum = [geometry.g.zero_vector(); 2];
+            for (row, multiplier) in cut.rows.iter().zip(&mut multipliers) {
+                let [moment, force] = [row.moment, row.force].map(|part| *multiplier * part);
+                sum = [sum[0] + moment, sum[1] + force];
+            }
+            at_cuts.push(sum);
+            let [parent, child] = cut.motion.link_wrenches(sum[0], sum[1]);
+            for (link, wrench) in [(cut.motion.child.link, child), (cut.motion.parent.link, parent)] {
+                if let Some(at) = link {
+                    external[at] += wrench;
+                }
+            }
+        }
+        geometry.g.begin_section("joint wrenches, from the leaves of the tree to its root");
+        let transmitted = joint_wrenches(&state.motion, masses, &external);
+        for (index, joint) in geometry.mechanism.joints.iter().enumerate() {
+            let id = JointId::new(index);
+            geometry.g.begin_section(format!("wrench at {}", joint.name));
+            let [moment, force] = match geometry.linkage.link_of_joint[index] {
+                Some(at) => self.tree_wrench(id, at, transmitted[at]),
+                None => {
+                    let position = instant.cuts.iter().position(|cut| cut.cut.joint == id);
+                    let position = position.expect("a joint is in the tree or a cut");
+                    self.cut_wrench(&instant.cuts[position], at_cuts[position])
+                }
+            };
+            self.vector(&joint.name, "F", "N", force);
+            self.vector(&joint.name, "M", "N m", moment);
+        }
+    }
+
+    /// Wrench by parent on child in W at the child's joint point, without the drives.
+    fn tree_wrench(&self, joint: JointId, at: usize, total: Wrench<'g>) -> [Vec3<'g>; 2] {
+        let (poses, geometry) = (&self.instant.state.motion.poses, self.deriver.geometry);
+        let linkage = geometry.linkage;
+        let pose = poses.world[at];
+        let mut moment = pose.rotation * total.moment;
+        let mut force = pose.rotation * total.force;
+        let reversed = linkage.reversed[joint.index()];
+        let data = geometry.mechanism.joint(joint);
+        if reversed && data.model.slides() {
+            // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
+            let link = linkage.link_at(data.child, data.at, true);
+            let place = poses.position(link, geometry.local(link, data.at));
+            moment += (pose.offset - place).cross(force);
+        }
+        for (driver, drive) in self.deriver.drivers.iter().zip(&self.deriver.drive) {
+            if driver.joint != joint {
+                continue;
+            }
+            let Some(link) = linkage.link_of_coordinate(joint, driver.joint_coordinate) else { continue };
+            let along = |axis: [f64; 3]| *drive * (poses.world[link].rotation * geometry.g.vector(axis));
+            match linkage.links[link].freedom {
+                Freedom::Translation { axis } => force -= along(axis),
+                _ => moment -= along([0.0, 0.0, 1.0]),
+            }
+        }
+        // The child of a reversed joint feels the opposite.
+        if reversed { [-moment, -force] } else { [moment, force] }
+    }
+
+    fn cut_wrench(&self, cut: &CutRows<'g>, [mut moment, mut force]: [Vec3<'g>; 2]) -> [Vec3<'g>; 2] {
+        for (joint, own_moment, own_force) in &self.instant.loads.in_cuts {
+            if *joint == cut.cut.joint {
+                moment += *own_moment;
+                force += *own_force;
+            }
+        }
+        let poses = &self.instant.state.motion.poses;
+        let rotation = poses.world_of(self.deriver.geometry.g, cut.motion.beside()).rotation;
+        [moment, force].map(|part| rotation * part)
+    }
+}
+
+fn force_unit(angular: bool) -> &'static str {
+    if angular { "N m" } else { "N" }
+}
+
+/// Strain energy and kinetic energy of the deformation relative to the floating frame [J].
+fn modal_energy<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>], v: &[Expr<'g>]) -> Expr<'g> {
+    let parts = [(&data.stiffness, q), (&data.mass_matrix, v)];
+    let terms = parts.into_iter().flat_map(|(matrix, x)| {
+        matrix.iter().zip(x).map(move |(row, one)| *one * g.weighted(row.iter().copied(), x))
+    });
+    0.5 * g.sum(terms)
+}
