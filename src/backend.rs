@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use linkwear_codegen::{Compiled, Options, compile};
+use linkwear_codegen::{Compiled, Options};
 use linkwear_runtime::System;
 use thiserror::Error;
 
@@ -99,12 +99,8 @@ fn compiled_in(mechanism: &Compiled, options: &Options) -> Result<&'static Shipp
     if !folded.is_empty() {
         return Err(format!("{} is folded into the compiled code", folded.join(", ")));
     }
-    if options.closure.is_some() {
-        // The compiled code has the closure of the file, which only a second reading without the option tells.
-        let as_written = compile(&mechanism.source, &Options::default());
-        if !as_written.is_ok_and(|written| written.mechanism.closure == mechanism.mechanism.closure) {
-            return Err("it is compiled with another closure".to_owned());
-        }
+    if mechanism.mechanism.closure != mechanism.closure_in_file {
+        return Err("it is compiled with another closure".to_owned());
     }
     Ok(shipped)
 }

@@ -7,7 +7,7 @@ use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
 use crate::diagnostic::Diagnostic;
-use crate::model::{Mechanism, Topology};
+use crate::model::{Closure, Mechanism, Topology};
 use crate::preflight::Analysis;
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
@@ -20,6 +20,8 @@ pub struct Compiled {
     pub source: SourceFile,
     /// The mechanism.
     pub mechanism: Mechanism,
+    /// The closure that the file asks for, whatever [`crate::Options::closure`] made of it.
+    pub closure_in_file: Closure,
     /// Spanning tree and cuts.
     pub topology: Topology,
     /// Freedoms and redundancies.

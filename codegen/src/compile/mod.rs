@@ -33,9 +33,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
     let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
-    if let Some(closure) = options.closure {
-        mechanism.closure = closure;
-    }
+    let closure_in_file = mechanism.closure;
+    mechanism.closure = options.closure.unwrap_or(closure_in_file);
     if options.rigid {
         mechanism.freeze();
     }
@@ -47,6 +46,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let mut compiled = Compiled {
         source: source.clone(),
         mechanism,
+        closure_in_file,
         topology,
         analysis,
         warnings,
