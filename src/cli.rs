@@ -2,14 +2,13 @@
 //! In: arguments. Out: text or one JSON object on stdout, everything else on stderr, an exit code
 //! (0 done, 1 the input or the run failed, 2 wrong usage). Never knows how a stage works.
 
+mod answer;
 mod arguments;
 mod check;
 mod csv_table;
 mod equations;
 mod failure;
-mod file;
 mod fit;
-mod fit_file;
 mod generate;
 mod input;
 mod life;
@@ -17,8 +16,6 @@ mod new;
 mod packaging;
 mod plot;
 mod predict;
-mod readings;
-mod schema;
 mod simulate;
 mod summary;
 mod table;
@@ -29,47 +26,46 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use answer::Answer;
 use arguments::{Arguments, Command, Format};
 use failure::Failure;
 
 /// Reads the arguments of this process, answers, and says how it ended.
 pub fn run() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
+    let format = if wants_json(&arguments) { Format::Json } else { Format::Text };
     let parsed = match Arguments::try_parse_from(&arguments) {
         Ok(parsed) => parsed,
-        Err(error) => return failure::wrong_arguments(&error, wants_json(&arguments)),
+        Err(error) => return failure::wrong_arguments(&error, format),
     };
-    let format = if wants_json(&arguments) { Format::Json } else { parsed.format };
-    match answer(parsed) {
+    let format = if format == Format::Json { format } else { parsed.format };
+    match answer(&parsed.command).and_then(|answer| Ok(answer.print(format)?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(format),
     }
 }
 
-fn answer(arguments: Arguments) -> Result<(), Failure> {
-    let format = arguments.format;
-    match arguments.command {
-        Command::Check(input) => check::run(&input, format),
-        Command::Equations(arguments) => equations::run(&arguments, format),
-        Command::Generate(arguments) => generate::run(&arguments, format),
-        Command::Simulate(arguments) => simulate::run(&arguments, format),
-        Command::Life(arguments) => life::run(&arguments, format),
-        Command::CaseStudy { arguments } => Err(moved_case_study(&arguments)),
-        Command::Predict(arguments) => predict::run(&arguments, format),
-        Command::Fit(arguments) => fit::run(&arguments, format),
-        Command::New(arguments) => new::run(&arguments, format),
-        Command::Schema => schema::run(),
-        Command::Completions { shell } => packaging::completions(shell, format),
-        Command::Man => packaging::manual(format),
+fn answer(command: &Command) -> Result<Answer, Failure> {
+    match command {
+        Command::Check(input) => check::run(input),
+        Command::Equations(arguments) => equations::run(arguments),
+        Command::Generate(arguments) => generate::run(arguments),
+        Command::Simulate(arguments) => simulate::run(arguments),
+        Command::Life(arguments) => life::run(arguments),
+        Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
+        Command::Predict(arguments) => predict::run(arguments),
+        Command::Fit(arguments) => fit::run(arguments),
+        Command::New(arguments) => new::run(arguments),
+        Command::Schema => Ok(packaging::schema()),
+        Command::Completions { shell } => Ok(packaging::completions(*shell)),
+        Command::Man => packaging::manual(),
     }
 }
 
 fn moved_case_study(arguments: &[String]) -> Failure {
     let arguments = if arguments.is_empty() { "--out study".to_owned() } else { arguments.join(" ") };
-    Failure::Usage {
-        message: "the case study is a program of its own".to_owned(),
-        help: format!("cargo run --release -p linkwear-case-study -- {arguments}"),
-    }
+    let help = format!("cargo run --release -p linkwear-case-study -- {arguments}");
+    Failure::usage("the case study is a program of its own", help)
 }
 
 /// Whether JSON was asked for, on a command line that clap could not read, or that belongs to another program.

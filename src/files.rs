@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -11,21 +11,35 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// It exists, or has something in it, and is left as it is.
-    #[error("it exists and would be overwritten")]
-    Exists,
+    #[error("`{}` exists and would be overwritten", .0.display())]
+    Exists(PathBuf),
     /// The system refuses.
-    #[error(transparent)]
-    System(#[from] io::Error),
+    #[error("cannot write `{}`: {error}", .file.display())]
+    System {
+        /// The file or folder; `stdout`.
+        file: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+}
+
+impl WriteError {
+    /// What the system says of a file.
+    pub fn of(file: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
+        |error| Self::System { file: file.to_path_buf(), error }
+    }
 }
 
 /// Writes to stdout and ends the line. A closed pipe (`| head`) is no failure.
 ///
 /// # Errors
 /// If stdout cannot be written for another reason.
-pub fn print(text: &impl Display) -> io::Result<()> {
+pub fn print(text: &impl Display) -> Result<(), WriteError> {
     let mut out = BufWriter::new(io::stdout().lock());
     match writeln!(out, "{text:#}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(WriteError::of(Path::new("stdout"))(error))
+        }
         _ => Ok(()),
     }
 }
@@ -36,9 +50,11 @@ pub fn print(text: &impl Display) -> io::Result<()> {
 /// If there is something in it, so that no result is mixed with another; if it cannot be made or read.
 pub fn claim_folder(path: &Path) -> Result<(), WriteError> {
     match fs::read_dir(path) {
-        Ok(mut entries) => entries.next().map_or(Ok(()), |_| Err(WriteError::Exists)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(fs::create_dir_all(path)?),
-        Err(error) => Err(error.into()),
+        Ok(mut entries) => entries.next().map_or(Ok(()), |_| Err(WriteError::Exists(path.to_path_buf()))),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            fs::create_dir_all(path).map_err(WriteError::of(path))
+        }
+        Err(error) => Err(WriteError::of(path)(error)),
     }
 }
 
@@ -46,7 +62,10 @@ pub fn claim_folder(path: &Path) -> Result<(), WriteError> {
 ///
 /// # Errors
 /// Those of `fill` and of the system. The old file is left as it was.
-pub fn write_whole(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+pub fn write_whole(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<(), WriteError> {
     let beside = beside(path);
     let write = || {
         let mut out = BufWriter::new(File::create(&beside)?);
@@ -54,13 +73,14 @@ pub fn write_whole(path: &Path, fill: impl FnOnce(&mut BufWriter<File>) -> io::R
         out.into_inner()?.sync_all()?;
         fs::rename(&beside, path)
     };
-    write().inspect_err(|_| {
+    write().map_err(|error| {
         let _ = fs::remove_file(&beside);
+        WriteError::of(path)(error)
     })
 }
 
 /// A name in the same folder, so that the rename stays on one file system; of this process alone.
-fn beside(path: &Path) -> std::path::PathBuf {
+fn beside(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
 }

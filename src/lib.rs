@@ -11,8 +11,10 @@ pub mod files;
 pub mod life;
 pub mod mechanism;
 pub mod mechanisms;
+pub mod number;
 #[cfg(feature = "cli")]
 pub mod progress;
+pub mod table;
 
 pub use linkwear_codegen as codegen;
 pub use linkwear_runtime as runtime;

@@ -68,6 +68,27 @@ fn rows_are_evenly_spaced_with_both_ends() {
 }
 
 #[test]
+fn an_array_of_numpy_has_the_columns_and_the_numbers_of_the_csv() {
+    let folder = Folder::new("npy");
+    for name in ["p.csv", "p.npy"] {
+        let out = folder.path(name);
+        let answer = linkwear(&["simulate", PENDULUM, "--time", "0.1", "--samples", "11", "--out", &out]);
+        assert_eq!(answer.code, 0, "{}", answer.err);
+    }
+    let (titles, rows) = table(&folder.read("p.csv"));
+    let bytes = std::fs::read(folder.path("p.npy")).expect("a file");
+    let length = u32::from_le_bytes(bytes[8..12].try_into().expect("four bytes")) as usize;
+    let (header, values) = bytes[12..].split_at(length);
+    let header = std::str::from_utf8(header).expect("UTF-8");
+    assert!(titles.iter().all(|title| header.contains(&format!("('{title}', '<f8')"))), "{header}");
+    assert!(header.contains("'shape': (11,)"), "{header}");
+    let value = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().expect("eight bytes"));
+    assert_eq!(values.chunks(8).map(value).collect::<Vec<_>>(), rows.concat());
+    let help = linkwear(&["simulate", "--help"]).out;
+    assert!(help.contains(".csv (text), .npy (NumPy structured array)"), "{help}");
+}
+
+#[test]
 fn one_turn_turns_the_crank_once() {
     let folder = Folder::new("turn");
     let out = folder.path("rssr.csv");

@@ -1,27 +1,48 @@
 //! Lives from Rust, by `linkwear::life`: what the command line would refuse, the library refuses too.
 
-use linkwear::life::{JointFit, LifeStudy};
+use linkwear::life::{JointFit, LifeStudy, UnfitForLife};
 use linkwear::mechanism::Mechanism;
-use linkwear_gamma::life::Estimate;
-use linkwear_gamma::process::{Gamma, Process, Wiener};
+use linkwear_gamma::FitFile;
 
-fn refusal(estimate: Estimate, joint: &str) -> String {
-    let mechanism = Mechanism::shipped("rssr").expect("a shipped mechanism");
-    let fit = JointFit { joint: joint.to_owned(), from: "test".to_owned(), estimate };
-    let study = LifeStudy { fits: vec![fit], ..LifeStudy::new(&mechanism) };
-    study.run().expect_err("no life").to_string()
+fn joint_fit(joint: &str, text: &str) -> Result<JointFit, UnfitForLife> {
+    JointFit::new(joint, "test", &FitFile::parse(text).expect("a fit"))
 }
 
-fn exact(process: &'static dyn Process, exponent: Option<f64>) -> Estimate {
-    Estimate::new(process, [10.0, 12.0], exponent).expect("positive parameters")
+const PLAIN: &str = r#"{ "alpha": 10, "beta": 12, "over_lambda": true }"#;
+
+#[test]
+fn a_fit_that_no_life_can_be_drawn_from_is_none_of_a_joint() {
+    let refused = |text: &str| joint_fit("R1", text).expect_err("no fit for a life");
+    let wiener = refused(r#"{ "process": "wiener", "drift": 10, "spread": 12 }"#);
+    assert!(matches!(wiener, UnfitForLife::Process(process) if process.name() == "wiener"), "{wiener}");
+    let exponent = r#"{ "alpha": 10, "beta": 12, "exponent": 0.7 }"#;
+    assert_eq!(refused(exponent), UnfitForLife::Exponent);
+    let covariates = r#"{ "alpha": 10, "beta": 12, "covariates": [{ "name": "load", "coefficient": 1 }] }"#;
+    assert_eq!(refused(covariates), UnfitForLife::Covariates);
+    assert_eq!(refused(r#"{ "alpha": 10, "beta": 12, "over_lambda": false }"#), UnfitForLife::Exposure);
+    let units = refused(r#"{ "alpha": 10, "beta": 10e3 }"#);
+    assert_eq!(units.to_string(), "by this fit wear grows 1.000e-3 times as fast as Lambda");
+    let covariance = r#"{ "alpha": 10, "beta": 12, "covariance": [[1]] }"#;
+    assert!(matches!(refused(covariance), UnfitForLife::File(_)));
+    assert!(joint_fit("R1", PLAIN).is_ok());
 }
 
 #[test]
-fn fits_that_no_life_can_be_drawn_from_are_refused() {
-    let message = refusal(exact(&Wiener, None), "R1");
-    assert!(message.contains("`R1` is no plain Gamma process"), "{message}");
-    let message = refusal(exact(&Gamma, Some(0.7)), "R1");
-    assert!(message.contains("`R1` is no plain Gamma process"), "{message}");
-    let message = refusal(exact(&Gamma, None), "R4");
-    assert!(message.contains("`R4` is no joint that wears; there are: R1"), "{message}");
+fn what_is_wrong_with_a_fit_has_its_line_and_a_cure() {
+    let fit = FitFile::parse("{ \"alpha\": 10,\n\"beta\": 12,\n\"exponent\": 0.7 }").expect("a fit");
+    let error = JointFit::new("R1", "test", &fit).expect_err("an exponent").located(&fit);
+    assert_eq!(error.line, Some(3));
+    assert!(error.cure.contains("--lambda life.json"), "{}", error.cure);
+}
+
+#[test]
+fn fits_belong_to_joints_that_wear_one_to_each() {
+    let mechanism = Mechanism::shipped("rssr").expect("a shipped mechanism");
+    let refusal = |joints: &[&str]| {
+        let fits = joints.iter().map(|joint| joint_fit(joint, PLAIN).expect("a fit")).collect();
+        let study = LifeStudy { fits, ..LifeStudy::new(&mechanism) };
+        study.run().expect_err("no life").to_string()
+    };
+    assert_eq!(refusal(&["R4"]), "`R4` is no joint that wears; there are: R1");
+    assert_eq!(refusal(&["R1", "R1"]), "joint `R1` has two fits");
 }

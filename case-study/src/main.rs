@@ -58,21 +58,6 @@ impl Failure {
         Self { code: "C0012", file: None, message: error.to_string(), help: "nothing was written" }
     }
 
-    fn write(path: &Path, error: impl Into<WriteError>) -> Self {
-        let file = path.display();
-        let (code, message, help) = match error.into() {
-            WriteError::Exists => {
-                ("C0004", format!("`{file}` exists and would be overwritten"), "choose another name")
-            }
-            WriteError::System(error) => (
-                "C0003",
-                format!("cannot write `{file}`: {error}"),
-                "choose a folder that exists and can be written",
-            ),
-        };
-        Self { code, file: Some(path.to_path_buf()), message, help }
-    }
-
     fn report(&self, format: Format) {
         let Self { code, file, message, help } = self;
         match format {
@@ -86,6 +71,19 @@ impl Failure {
                 let _ = print(&json!({ "errors": [error] }));
             }
         }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        let message = error.to_string();
+        let (code, file, help) = match error {
+            WriteError::Exists(file) => ("C0004", file, "choose another name"),
+            WriteError::System { file, .. } => {
+                ("C0003", file, "choose a folder that exists and can be written")
+            }
+        };
+        Self { code, file: Some(file), message, help }
     }
 }
 
@@ -103,7 +101,7 @@ fn main() -> ExitCode {
 fn answer(arguments: &Arguments) -> Result<(), Failure> {
     let out = &arguments.out;
     let is_new = !out.exists();
-    claim_folder(out).map_err(|error| Failure::write(out, error))?;
+    claim_folder(out)?;
     let studied = study(arguments).and_then(|study| Ok((pictures(&study).map_err(Failure::study)?, study)));
     let (pictures, study) = studied.inspect_err(|_| {
         if is_new {
@@ -112,13 +110,13 @@ fn answer(arguments: &Arguments) -> Result<(), Failure> {
         }
     })?;
     let results = serde_json::to_value(&study)
-        .map_err(|error| Failure::write(&out.join("results.json"), io::Error::other(error)))?;
+        .map_err(|error| WriteError::of(&out.join("results.json"))(io::Error::other(error)))?;
     let files = write(out, &study, &pictures, &results)?;
-    let said = match arguments.format {
-        Format::Json => print(&results),
-        Format::Text => print(&format!("{}\n\nin {}: {}", summary(&study), out.display(), files.join(", "))),
-    };
-    said.map_err(|error| Failure::write(Path::new("stdout"), error))
+    match arguments.format {
+        Format::Json => print(&results)?,
+        Format::Text => print(&format!("{}\n\nin {}: {}", summary(&study), out.display(), files.join(", ")))?,
+    }
+    Ok(())
 }
 
 fn study(arguments: &Arguments) -> Result<Study, Failure> {
@@ -140,7 +138,7 @@ fn write(out: &Path, study: &Study, pictures: &[Picture], results: &Value) -> Re
     files.push(("results.json".to_owned(), format!("{results:#}\n").into_bytes()));
     for (name, bytes) in &files {
         let path = out.join(name);
-        write_whole(&path, |file| file.write_all(bytes)).map_err(|error| Failure::write(&path, error))?;
+        write_whole(&path, |file| file.write_all(bytes))?;
     }
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }

@@ -5,7 +5,7 @@
 //! come with the default feature `std`.
 //!
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
-//! [`write_csv`] records a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
+//! [`Run::table`] and [`write_csv`] record a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -90,7 +90,7 @@ pub use layout::{Group, Layout};
 #[cfg(feature = "std")]
 pub use projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
 #[cfg(feature = "std")]
-pub use record::write_csv;
+pub use record::{Cells, Table, TableColumn, write_csv};
 #[cfg(feature = "std")]
 pub use simulate::{
     BRANCH_PART, IdealJoint, Integrator, JUMP_FLOOR, Run, RunWarning, Settings, Span, Statistics,

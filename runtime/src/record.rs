@@ -1,25 +1,113 @@
-//! Sampled rows as CSV. In: a [`Run`]. Out: text in any writer.
-//! Numbers are the shortest that read back to the same bits.
+//! Tables of numbers, and CSV of them. In: columns, or a [`Run`]. Out: text in any writer. Never knows files.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use crate::simulate::Run;
 
-/// Writes the header `t [s],name [unit],...` and one line per sample.
+/// Columns of the same length.
+pub struct Table<'a> {
+    /// Number of rows.
+    pub rows: usize,
+    /// The columns, in order.
+    pub columns: Vec<TableColumn<'a>>,
+    /// Whether text has exponents where plain digits would be long.
+    pub exponents: bool,
+}
+
+/// A column of a table.
+pub struct TableColumn<'a> {
+    /// Its name, `R1.q`.
+    pub name: Cow<'a, str>,
+    /// Its unit; empty if it needs none.
+    pub unit: Cow<'a, str>,
+    /// Its values.
+    pub cells: Cells<'a>,
+}
+
+/// The values of a column, each by its row, counted from 0.
+pub enum Cells<'a> {
+    /// Numbers.
+    Numbers(Box<dyn Fn(usize) -> f64 + 'a>),
+    /// Whole numbers.
+    Counts(Box<dyn Fn(usize) -> u64 + 'a>),
+    /// Names.
+    Names(Box<dyn Fn(usize) -> &'a str + 'a>),
+}
+
+impl<'a> Table<'a> {
+    /// A table without columns yet, numbers with exponents.
+    pub fn new(rows: usize) -> Self {
+        Self { rows, columns: Vec::new(), exponents: true }
+    }
+
+    /// With a further column; an empty unit: it needs none.
+    pub fn column(
+        mut self,
+        name: impl Into<Cow<'a, str>>,
+        unit: impl Into<Cow<'a, str>>,
+        cells: Cells<'a>,
+    ) -> Self {
+        self.columns.push(TableColumn { name: name.into(), unit: unit.into(), cells });
+        self
+    }
+}
+
+impl TableColumn<'_> {
+    /// Name and unit: `R1.q [rad]`.
+    pub fn title(&self) -> String {
+        if self.unit.is_empty() { self.name.to_string() } else { format!("{} [{}]", self.name, self.unit) }
+    }
+}
+
+impl<'a> Cells<'a> {
+    /// Numbers by their row.
+    pub fn numbers(value: impl Fn(usize) -> f64 + 'a) -> Self {
+        Self::Numbers(Box::new(value))
+    }
+
+    /// Whole numbers by their row.
+    pub fn counts(value: impl Fn(usize) -> u64 + 'a) -> Self {
+        Self::Counts(Box::new(value))
+    }
+
+    /// Names by their row.
+    pub fn names(value: impl Fn(usize) -> &'a str + 'a) -> Self {
+        Self::Names(Box::new(value))
+    }
+}
+
+impl Run {
+    /// The samples: `t [s]`, then the channels.
+    pub fn table(&self) -> Table<'_> {
+        let time = Table::new(self.rows.len()).column("t", "s", Cells::numbers(|row| self.times[row]));
+        self.channels.iter().enumerate().fold(time, |table, (at, channel)| {
+            let cells = Cells::numbers(move |row| self.rows[row][at]);
+            table.column(&*channel.name, &*channel.unit, cells)
+        })
+    }
+}
+
+/// Writes a line of titles and one line per row. Numbers are the shortest that read back to the same bits.
 ///
 /// # Errors
 /// What the writer reports.
-pub fn write_csv(writer: &mut dyn Write, run: &Run) -> io::Result<()> {
-    write!(writer, "t [s]")?;
-    for channel in &run.channels {
-        write!(writer, ",{} [{}]", channel.name, channel.unit)?;
+pub fn write_csv(writer: &mut dyn Write, table: &Table<'_>) -> io::Result<()> {
+    for (at, column) in table.columns.iter().enumerate() {
+        write!(writer, "{}{}", if at > 0 { "," } else { "" }, column.title())?;
     }
     writeln!(writer)?;
-    for (t, row) in run.times.iter().zip(&run.rows) {
-        write_number(writer, *t)?;
-        for value in row {
-            writer.write_all(b",")?;
-            write_number(writer, *value)?;
+    for row in 0..table.rows {
+        for (at, column) in table.columns.iter().enumerate() {
+            if at > 0 {
+                writer.write_all(b",")?;
+            }
+            match &column.cells {
+                Cells::Numbers(value) if table.exponents => write_number(writer, value(row))?,
+                Cells::Numbers(value) => write!(writer, "{}", value(row))?,
+                Cells::Counts(value) => write!(writer, "{}", value(row))?,
+                Cells::Names(value) => writer.write_all(value(row).as_bytes())?,
+            }
         }
         writeln!(writer)?;
     }
@@ -47,7 +135,7 @@ mod tests {
         let values = vec![0.1, -0.0, 1.0 / 3.0, 5e-324, -1.797_693_134_862_315_7e308, 1e-5, 123_456_789.25];
         let run = Run { times: vec![0.5], rows: vec![values.clone()], ..Run::default() };
         let mut text = Vec::new();
-        write_csv(&mut text, &run).expect("a vector takes every byte");
+        write_csv(&mut text, &run.table()).expect("a vector takes every byte");
         let text = String::from_utf8(text).expect("numbers are ASCII");
         let line = text.lines().nth(1).expect("one row");
         assert_eq!(line, "0.5,0.1,0,0.3333333333333333,5e-324,-1.7976931348623157e308,0.00001,123456789.25");
@@ -65,7 +153,7 @@ mod tests {
             wraps: false,
         };
         let channels = [("R1.q", "rad"), ("R1.drive", "N m")].map(column).to_vec();
-        write_csv(&mut text, &Run { channels, ..Run::default() }).expect("a vector takes every byte");
+        write_csv(&mut text, &Run { channels, ..Run::default() }.table()).expect("a vector takes every byte");
         assert_eq!(text, b"t [s],R1.q [rad],R1.drive [N m]\n");
     }
 
@@ -81,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_full_disk_is_reported() {
-        let error = write_csv(&mut Full, &Run::default()).expect_err("nothing fits");
+        let error = write_csv(&mut Full, &Run::default().table()).expect_err("nothing fits");
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
     }
 }

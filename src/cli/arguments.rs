@@ -6,9 +6,19 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear::backend::Backend;
 use linkwear::life::Coupling;
-use linkwear_gamma::process::Process;
+use linkwear::table::FORMATS;
+use linkwear_codegen::Closure;
+use linkwear_codegen::render::TextFormat;
+use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::value::{assignment, backend, coupling, covariate, draw_count, positive, process_parser};
+use super::value::{assignment, covariate, one_of, positive};
+
+const BACKENDS: [(&str, Backend); 3] =
+    [("auto", Backend::Auto), ("compiled", Backend::Compiled), ("interpreter", Backend::Interpreter)];
+const CLOSURES: [(&str, Closure); 2] = [("joint", Closure::Joint), ("log", Closure::Log)];
+const COUPLINGS: [(&str, Coupling); 2] = [("table", Coupling::Table), ("full", Coupling::Full)];
+const NOTATIONS: [(&str, TextFormat); 3] =
+    [("text", TextFormat::Text), ("markdown", TextFormat::Markdown), ("latex", TextFormat::Latex)];
 
 /// Compiles a linkage into its life: specialised dynamics from a TOML file.
 #[derive(Debug, Parser)]
@@ -19,6 +29,15 @@ pub struct Arguments {
     pub format: Format,
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// The formats of tables as the program has them.
+fn rows_help() -> String {
+    let formats = FORMATS.iter().map(|format| format!(".{} ({})", format.extension, format.purpose));
+    let formats = formats.collect::<Vec<_>>().join(", ");
+    format!(
+        "File for the rows: {formats}; any other name is taken as the first. It appears only when it is complete"
+    )
 }
 
 /// For whom the answer is.
@@ -93,14 +112,8 @@ pub struct Input {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub overrides: Vec<(String, String)>,
     /// How loops are closed: only the rows a cut joint takes away, or six rows of a logarithm.
-    #[arg(long, value_enum)]
-    pub closure: Option<ClosureName>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ClosureName {
-    Joint,
-    Log,
+    #[arg(long, value_parser = one_of(CLOSURES))]
+    pub closure: Option<Closure>,
 }
 
 #[derive(Debug, Args)]
@@ -111,15 +124,8 @@ pub struct EquationsArguments {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub only: Vec<String>,
     /// Notation.
-    #[arg(long = "as", value_enum, default_value_t = Notation::Text)]
-    pub notation: Notation,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Notation {
-    Text,
-    Markdown,
-    Latex,
+    #[arg(long = "as", value_parser = one_of(NOTATIONS), default_value = "text")]
+    pub notation: TextFormat,
 }
 
 #[derive(Debug, Args)]
@@ -143,8 +149,7 @@ pub struct SimulateArguments {
     /// Rows of the output, evenly spaced over the run, both ends included.
     #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
     pub samples: u32,
-    /// File for the rows (CSV). It appears only when it is complete.
-    #[arg(long, value_name = "CSV")]
+    #[arg(long, value_name = "FILE", help = rows_help())]
     pub out: Option<PathBuf>,
     /// Method [default: dopri5, or rk4 if --step is given].
     #[arg(long, value_enum)]
@@ -156,7 +161,7 @@ pub struct SimulateArguments {
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
     /// What runs the equations.
-    #[arg(long, value_parser = backend(), default_value = "auto")]
+    #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
     /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
     #[arg(long)]
@@ -184,7 +189,7 @@ pub struct LifeArguments {
     #[arg(long)]
     pub mean: bool,
     /// Source of the wear per revolution: a table made once, or the dynamics at every wear step [default: table, or full where a worn profile is fed back].
-    #[arg(long, value_parser = coupling())]
+    #[arg(long, value_parser = one_of(COUPLINGS))]
     pub coupling: Option<Coupling>,
     /// Take flexible bodies as rigid.
     #[arg(long)]
@@ -208,7 +213,7 @@ pub struct LifeArguments {
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,
     /// What runs the equations.
-    #[arg(long, value_parser = backend(), default_value = "auto")]
+    #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
 }
 
@@ -250,8 +255,8 @@ pub struct PredictArguments {
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
     pub particles: u32,
     /// Bands by this many drawn parameters [default: by the delta method].
-    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = draw_count)]
-    pub draws: Option<usize>,
+    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    pub draws: Option<u32>,
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
@@ -276,7 +281,7 @@ pub struct FitArguments {
     #[arg(long, value_name = "COL|FILE")]
     pub lambda: Option<String>,
     /// Process of wear; `predict` goes by the one that was fitted.
-    #[arg(long, value_name = "PROCESS", default_value = "gamma", value_parser = process_parser())]
+    #[arg(long, value_name = "PROCESS", default_value = "gamma", value_parser = one_of(PROCESSES.map(|process| (process.name(), process))))]
     pub process: &'static dyn Process,
     /// Estimate the exponent c of Lambda = exposure^c.
     #[arg(long, conflicts_with = "lambda")]

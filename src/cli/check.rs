@@ -2,36 +2,29 @@
 
 use std::fmt::Write as _;
 
+use linkwear::number::number;
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
 use linkwear_codegen::preflight::Analysis;
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
 
-use super::arguments::{Format, Input};
+use super::answer::Answer;
+use super::arguments::Input;
 use super::failure::Failure;
-use super::file::print;
-use super::input::{Loaded, load};
-use super::table::{number, plural, short_table, table};
+use super::input::load;
+use super::table::{plural, short_table, table};
 
-/// Answers `check`.
-pub fn run(input: &Input, format: Format) -> Result<(), Failure> {
-    let loaded = load(input)?;
-    match format {
-        Format::Text => print(&text(&loaded.compiled).trim_end()),
-        Format::Json => print(&to_json(&loaded)),
-    }
+pub fn run(input: &Input) -> Result<Answer, Failure> {
+    let (compiled, warnings) = load(input)?;
+    Ok(Answer { text: text(&compiled), json: to_json(&compiled, &warnings) })
 }
 
-fn to_json(loaded: &Loaded) -> Value {
-    let (mechanism, analysis) = (&loaded.compiled.mechanism, &loaded.compiled.analysis);
-    let redundant: Vec<Value> = analysis
-        .redundant
-        .iter()
-        .map(|row| json!({ "joint": row.joint, "row": row.row, "reason": row.reason }))
-        .collect();
-    let cuts: Vec<&str> =
-        loaded.compiled.topology.cuts.iter().map(|id| mechanism.joint(*id).name.as_str()).collect();
+fn to_json(compiled: &Compiled, warnings: &[Value]) -> Value {
+    let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
+    let redundant = analysis.redundant.iter();
+    let redundant = redundant.map(|row| json!({ "joint": row.joint, "row": row.row, "reason": row.reason }));
+    let cuts = compiled.topology.cuts.iter().map(|id| mechanism.joint(*id).name.as_str());
     json!({
         "name": mechanism.name,
         "bodies": mechanism.bodies.len(),
@@ -44,13 +37,13 @@ fn to_json(loaded: &Loaded) -> Value {
         "grubler": analysis.grubler,
         "drivers": analysis.drivers,
         "idle": analysis.idle,
-        "redundant": redundant,
+        "redundant": redundant.collect::<Vec<_>>(),
         "non_unique": analysis.non_unique,
-        "cut_joints": cuts,
+        "cut_joints": cuts.collect::<Vec<_>>(),
         "modal_coordinates": analysis.modes,
         "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
         "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
-        "warnings": loaded.warnings(),
+        "warnings": warnings,
     })
 }
 

@@ -9,11 +9,6 @@ use linkwear_codegen::diagnostic::nearest;
 
 use super::failure::Failure;
 
-/// A fault of a data file.
-pub fn fault(file: &Path, line: Option<usize>, message: String, help: &str) -> Failure {
-    Failure::Data { file: file.to_path_buf(), line, message, help: help.to_owned() }
-}
-
 /// A CSV file in memory.
 pub struct CsvTable<'a> {
     file: &'a Path,
@@ -27,7 +22,7 @@ pub struct CsvTable<'a> {
 impl<'a> CsvTable<'a> {
     /// Reads the file; its first line that is neither empty nor a comment (#) is the header.
     pub fn read(file: &'a Path) -> Result<Self, Failure> {
-        let text = fs::read_to_string(file).map_err(|error| Failure::Read(file.to_path_buf(), error))?;
+        let text = fs::read_to_string(file).map_err(Failure::read(file))?;
         // A byte order mark would hide in the first name.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
         let mut reader =
@@ -35,12 +30,12 @@ impl<'a> CsvTable<'a> {
         let broken = |error: csv::Error| {
             let line = error.position().and_then(|position| usize::try_from(position.line()).ok());
             let help = "each line needs as many cells as the header";
-            fault(file, line, format!("this is no CSV table: {error}"), help)
+            Failure::data(file, line, format!("this is no CSV table: {error}"), help)
         };
         let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
         if header.is_empty() {
             let help = "write a line of column names, then one reading a line";
-            return Err(fault(file, None, "the file is empty".to_owned(), help));
+            return Err(Failure::data(file, None, "the file is empty", help));
         }
         let mut rows = Vec::new();
         for record in reader.records() {
@@ -64,7 +59,8 @@ impl<'a> CsvTable<'a> {
     }
 
     fn place(&self, name: &str) -> Result<usize, Failure> {
-        let wrong = |message: String, help: &str| Err(fault(self.file, Some(self.head), message, help));
+        let wrong =
+            |message: String, help: &str| Err(Failure::data(self.file, Some(self.head), message, help));
         let mut found = self.header.iter().enumerate().filter(|(_, column)| *column == name);
         match (found.next(), found.next()) {
             (Some((at, _)), None) => Ok(at),
@@ -101,13 +97,13 @@ impl<'a> CsvTable<'a> {
             let message = format!("line {line}: `{name}` is `{cell}`, a number with a unit");
             let help =
                 format!("one unit per column: convert all rows, and put it into the header, `{name}_{unit}`");
-            return fault(self.file, Some(line), message, &help);
+            return Failure::data(self.file, Some(line), message, &help);
         }
         let message = match cell {
             "" => format!("line {line}: `{name}` is empty"),
             _ => format!("line {line}: `{name}` is `{cell}`, not a finite number"),
         };
-        fault(self.file, Some(line), message, "write a number, or delete the line")
+        Failure::data(self.file, Some(line), message, "write a number, or delete the line")
     }
 
     /// The cells of a column.

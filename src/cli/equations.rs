@@ -1,42 +1,28 @@
 //! `equations`: what was derived, for people to read.
 
-use linkwear_codegen::render::{OutputInfo, TextFormat};
+use linkwear_codegen::render::OutputInfo;
 use linkwear_codegen::tape::Operations;
 use serde_json::{Value, json};
 
-use super::arguments::{EquationsArguments, Format, Notation};
+use super::answer::Answer;
+use super::arguments::EquationsArguments;
 use super::failure::Failure;
-use super::file::print;
 use super::input::load;
 
-/// Answers `equations`.
-pub fn run(arguments: &EquationsArguments, format: Format) -> Result<(), Failure> {
-    let loaded = load(&arguments.input)?;
-    let outputs = loaded.compiled.outputs();
-    for name in &arguments.only {
-        if !outputs.iter().any(|output| is_meant(output, name)) {
-            return Err(Failure::UnknownName { name: name.clone(), known: names(&outputs) });
-        }
+pub fn run(arguments: &EquationsArguments) -> Result<Answer, Failure> {
+    let (compiled, warnings) = load(&arguments.input)?;
+    let (outputs, only) = (compiled.outputs(), &arguments.only);
+    if let Some(name) = only.iter().find(|name| !outputs.iter().any(|output| is_meant(output, name))) {
+        return Err(Failure::unknown_name(name, &names(&outputs)));
     }
-    let notation = match arguments.notation {
-        Notation::Text => TextFormat::Text,
-        Notation::Markdown => TextFormat::Markdown,
-        Notation::Latex => TextFormat::Latex,
-    };
-    let text = loaded.compiled.equations_text(&arguments.only, notation);
-    match format {
-        Format::Text => print(&text.trim_end()),
-        Format::Json => {
-            let meant = |output: &&OutputInfo| {
-                arguments.only.is_empty() || arguments.only.iter().any(|name| is_meant(output, name))
-            };
-            let outputs: Vec<Value> = outputs.iter().filter(meant).map(entry).collect();
-            print(&json!({
-                "name": loaded.compiled.mechanism.name, "outputs": outputs, "text": text,
-                "warnings": loaded.warnings(),
-            }))
-        }
-    }
+    let text = compiled.equations_text(only, arguments.notation);
+    let meant =
+        outputs.iter().filter(|output| only.is_empty() || only.iter().any(|name| is_meant(output, name)));
+    let json = json!({
+        "name": compiled.mechanism.name, "outputs": meant.map(entry).collect::<Vec<_>>(), "text": text,
+        "warnings": warnings,
+    });
+    Ok(Answer { text, json })
 }
 
 fn entry(output: &OutputInfo) -> Value {
@@ -62,11 +48,9 @@ fn is_meant(output: &OutputInfo, name: &str) -> bool {
 
 fn names(outputs: &[OutputInfo]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for output in outputs {
-        for name in [&output.function, &output.name] {
-            if !names.contains(name) {
-                names.push(name.clone());
-            }
+    for name in outputs.iter().flat_map(|output| [&output.function, &output.name]) {
+        if !names.contains(name) {
+            names.push(name.clone());
         }
     }
     names

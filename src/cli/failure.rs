@@ -1,17 +1,20 @@
 //! What went wrong, for people and for machines, and the exit code that says whose fault it was.
 //! In: errors of every stage. Out: text on stderr or `{"errors": [..]}` on stdout.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use linkwear::files::print;
-use linkwear_codegen::diagnostic::{Diagnostics, Entry, nearest};
+use linkwear::files::{WriteError, print};
+use linkwear::mechanism::LoadError;
+use linkwear_codegen::diagnostic::{Diagnostics, nearest};
+use linkwear_gamma::FitFileError;
 use linkwear_runtime::RunError;
 use serde_json::{Value, json};
 
+use super::answer::Answer;
 use super::arguments::Format;
 
 /// The input or the run failed.
@@ -19,194 +22,146 @@ const FAILED: u8 = 1;
 /// The command line is wrong.
 const USAGE: u8 = 2;
 
-/// Why a subcommand did not do what was asked.
+/// Why a subcommand did not do what was asked. The constructors are the one table of codes of the command line.
 #[derive(Debug)]
-pub enum Failure {
-    /// The arguments do not fit this mechanism or each other.
-    Usage {
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
-    },
-    /// The mechanism file is wrong.
-    Mechanism(Diagnostics),
-    /// A file cannot be read.
-    Read(PathBuf, io::Error),
-    /// A file cannot be written.
-    Write(PathBuf, io::Error),
-    /// A file would be overwritten that should not be.
-    Exists(PathBuf),
-    /// A generated file is not what the mechanism gives.
-    Stale {
-        /// The file.
-        file: PathBuf,
-        /// First line that differs, from 1.
-        line: usize,
-    },
-    /// A name given on the command line does not exist.
-    UnknownName {
-        /// What was given.
-        name: String,
-        /// What there is.
-        known: Vec<String>,
-    },
-    /// The backend asked for cannot run this.
-    Backend {
-        /// Why.
-        message: String,
-        /// What to do.
-        help: String,
-    },
-    /// A file with data or results is wrong.
-    Data {
-        /// The file.
-        file: PathBuf,
-        /// Where, from 1, if it has a place.
-        line: Option<usize>,
-        /// What is wrong.
-        message: String,
-        /// What to do.
-        help: String,
-    },
-    /// A life could not be lived to its end.
-    Life {
-        /// The mechanism.
-        file: PathBuf,
-        /// Why.
-        message: String,
-        /// What to do, or where the cycles before are.
-        help: String,
-        /// The cycles before, if they are in no file.
-        cycles: Vec<Value>,
-    },
-    /// The simulation failed, or was stopped.
-    Run {
-        /// The mechanism.
-        file: PathBuf,
-        /// Why.
-        error: RunError,
-        /// Where the rows computed so far are.
-        kept: Option<PathBuf>,
-    },
-    /// Ctrl-C.
-    Interrupted {
-        /// The mechanism.
-        file: PathBuf,
-        /// Simulated time reached [s].
-        time: f64,
-        /// Where the rows computed so far are.
-        kept: Option<PathBuf>,
-    },
-}
-
-/// One error without a place in the text of a file.
-struct Plain {
-    code: &'static str,
-    file: Option<PathBuf>,
-    line: Option<usize>,
-    message: String,
-    help: String,
+pub struct Failure {
+    exit: u8,
+    text: String,
+    errors: Vec<Value>,
+    /// What a life had lived before it stopped, if that is in no file.
+    cycles: Option<Box<Answer>>,
 }
 
 impl Failure {
+    fn new(code: &str, file: Option<&Path>, message: impl Display, help: impl Display) -> Self {
+        Self::placed(code, (file, None), "", (message, help))
+    }
+
+    /// With a line of the file, from 1, if the fault has one; `place` shows it to people.
+    fn placed(
+        code: &str,
+        (file, line): (Option<&Path>, Option<usize>),
+        place: &str,
+        (message, help): (impl Display, impl Display),
+    ) -> Self {
+        let (message, help) = (message.to_string(), help.to_string());
+        let mut text = format!("error[{code}]: {message}{place}");
+        if !help.is_empty() {
+            let _ = write!(text, "\n  = help: {help}");
+        }
+        let error = json!({
+            "code": code, "file": file.map(|file| file.display().to_string()),
+            "line": line, "column": Value::Null, "message": message, "help": help,
+        });
+        Self { exit: FAILED, text, errors: vec![error], cycles: None }
+    }
+
+    /// The arguments do not fit this mechanism or each other.
+    pub fn usage(message: impl Display, help: impl Display) -> Self {
+        Self { exit: USAGE, ..Self::new("C0001", None, message, help) }
+    }
+
+    /// A file cannot be read.
+    pub fn read(file: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
+        move |error| {
+            let message = format!("cannot read `{}`: {error}", file.display());
+            Self::new("C0002", Some(file), message, "check the path; shipped mechanisms are in `mechanisms/`")
+        }
+    }
+
+    /// A generated file is not what the mechanism gives, from this line on, counted from 1.
+    pub fn stale(file: &Path, line: usize) -> Self {
+        let message = format!("`{}` is stale: it differs from line {line} on", file.display());
+        Self::placed("C0005", (Some(file), Some(line)), "", (message, "run the same command without --check"))
+    }
+
+    /// A name given on the command line does not exist.
+    pub fn unknown_name(name: &str, known: &[String]) -> Self {
+        let message = format!("there is no output or function `{name}`");
+        Self::new("C0006", None, message, suggestion(name, known))
+    }
+
+    /// The simulation failed, or was stopped by Ctrl-C; the rows computed before may be in a file.
+    pub fn run(file: &Path, error: &RunError, kept: Option<PathBuf>) -> Self {
+        let help = kept.map_or_else(String::new, |path| {
+            format!("the rows computed before that are in `{}`", path.display())
+        });
+        match error {
+            RunError::Interrupted { t } => {
+                Self::new("C0009", Some(file), format!("stopped on request at t = {t} s"), help)
+            }
+            error => Self::new("C0008", Some(file), error, help),
+        }
+    }
+
+    /// A life could not be lived to its end.
+    pub fn life(file: &Path, message: impl Display, help: impl Display, cycles: Option<Answer>) -> Self {
+        Self { cycles: cycles.map(Box::new), ..Self::new("C0010", Some(file), message, help) }
+    }
+
+    /// A file with data or results is wrong; at a line, counted from 1, if the fault has a place.
+    pub fn data(file: &Path, line: Option<usize>, message: impl Display, help: impl Display) -> Self {
+        // Other messages name their file.
+        let at = line.map_or_else(String::new, |line| format!(":{line}"));
+        let place = format!("\n  --> {}{at}", file.display());
+        Self::placed("C0011", (Some(file), line), &place, (message, help))
+    }
+
+    /// A fit that is none, or does not do for what is asked.
+    pub fn fit(file: &Path) -> impl Fn(FitFileError) -> Self + '_ {
+        move |error| Self::data(file, error.line, &error.message, &error.cure)
+    }
+
     /// Says it, and returns the exit code.
     pub fn report(&self, format: Format) -> ExitCode {
-        let code = if matches!(self, Self::Usage { .. }) { USAGE } else { FAILED };
+        // A reader of stdout who has gone away cannot be told; the exit code still says it.
         match format {
-            Format::Text => eprintln!("{}", self.text()),
-            Format::Json => print_errors(&self.entries(), self.cycles()),
-        }
-        ExitCode::from(code)
-    }
-
-    fn cycles(&self) -> &[Value] {
-        if let Self::Life { cycles, .. } = self { cycles } else { &[] }
-    }
-
-    fn text(&self) -> String {
-        if let Self::Mechanism(diagnostics) = self {
-            return diagnostics.to_string().trim_end().to_owned();
-        }
-        let plain = self.plain();
-        let mut text = format!("error[{}]: {}", plain.code, plain.message);
-        // Other messages name their file.
-        if let Self::Data { file, line, .. } = self {
-            let place = line.map_or_else(String::new, |line| format!(":{line}"));
-            let _ = write!(text, "\n  --> {}{place}", file.display());
-        }
-        if !plain.help.is_empty() {
-            let _ = write!(text, "\n  = help: {}", plain.help);
-        }
-        text
-    }
-
-    fn entries(&self) -> Vec<Value> {
-        if let Self::Mechanism(diagnostics) = self {
-            return entries(diagnostics);
-        }
-        let plain = self.plain();
-        vec![json!({
-            "code": plain.code,
-            "file": plain.file.map(|file| file.display().to_string()),
-            "line": plain.line, "column": Value::Null,
-            "message": plain.message, "help": plain.help,
-        })]
-    }
-
-    /// The one table of codes and messages of the command line.
-    fn plain(&self) -> Plain {
-        let (code, file, message, help) = match self {
-            Self::Usage { message, help } => ("C0001", None, message.clone(), help.clone()),
-            Self::Read(file, error) => (
-                "C0002",
-                Some(file),
-                format!("cannot read `{}`: {error}", file.display()),
-                "check the path; shipped mechanisms are in `mechanisms/`".to_owned(),
-            ),
-            Self::Write(file, error) => (
-                "C0003",
-                Some(file),
-                format!("cannot write `{}`: {error}", file.display()),
-                "nothing was left there; choose a folder that exists and can be written".to_owned(),
-            ),
-            Self::Exists(file) => (
-                "C0004",
-                Some(file),
-                format!("`{}` exists and would be overwritten", file.display()),
-                "choose another name".to_owned(),
-            ),
-            Self::Stale { file, line } => (
-                "C0005",
-                Some(file),
-                format!("`{}` is stale: it differs from line {line} on", file.display()),
-                "run the same command without --check".to_owned(),
-            ),
-            Self::UnknownName { name, known } => {
-                ("C0006", None, format!("there is no output or function `{name}`"), suggestion(name, known))
+            Format::Text => {
+                let _ = self.cycles.as_ref().map(|cycles| cycles.print(format));
+                eprintln!("{}", self.text);
             }
-            Self::Backend { message, help } => ("C0007", None, message.clone(), help.clone()),
-            Self::Life { file, message, help, .. } => ("C0010", Some(file), message.clone(), help.clone()),
-            Self::Data { file, message, help, .. } => ("C0011", Some(file), message.clone(), help.clone()),
-            Self::Run { file, error, kept } => ("C0008", Some(file), error.to_string(), kept_help(kept)),
-            Self::Interrupted { file, time, kept } => {
-                ("C0009", Some(file), format!("stopped on request at t = {time} s"), kept_help(kept))
+            Format::Json => {
+                let mut answer = json!({ "errors": self.errors });
+                if let Some(cycles) = &self.cycles {
+                    answer["cycles"] = cycles.json.clone();
+                }
+                let _ = print(&answer);
             }
-            Self::Mechanism(_) => unreachable!("rendered by the front end"),
-        };
-        let line = match self {
-            Self::Stale { line, .. } => Some(*line),
-            Self::Data { line, .. } => *line,
-            _ => None,
-        };
-        Plain { code, file: file.cloned(), line, message, help }
+        }
+        ExitCode::from(self.exit)
     }
 }
 
-fn kept_help(kept: &Option<PathBuf>) -> String {
-    kept.as_deref().map_or_else(String::new, |path: &Path| {
-        format!("the rows computed before that are in `{}`", path.display())
-    })
+impl From<Diagnostics> for Failure {
+    fn from(wrong: Diagnostics) -> Self {
+        let text = wrong.to_string().trim_end().to_owned();
+        Self { exit: FAILED, text, errors: entries(&wrong), cycles: None }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        let (code, file, help) = match &error {
+            WriteError::System { file, .. } => {
+                ("C0003", file, "nothing was left there; choose a folder that exists and can be written")
+            }
+            WriteError::Exists(file) => ("C0004", file, "choose another name"),
+        };
+        Self::new(code, Some(file), &error, help)
+    }
+}
+
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Read { file, error } => Self::read(&file)(error),
+            LoadError::Mechanism(diagnostics) => diagnostics.into(),
+            LoadError::Backend(error) => {
+                let help = "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)";
+                Self::new("C0007", None, format!("--backend compiled: {error}"), help)
+            }
+        }
+    }
 }
 
 fn suggestion(name: &str, known: &[String]) -> String {
@@ -218,44 +173,27 @@ fn suggestion(name: &str, known: &[String]) -> String {
 
 /// Diagnostics of the mechanism file as machines read them.
 pub fn entries(diagnostics: &Diagnostics) -> Vec<Value> {
-    let value = |entry: Entry| {
-        json!({
-            "code": entry.code, "file": entry.file, "line": entry.line, "column": entry.column,
-            "message": entry.message, "help": entry.help,
-        })
-    };
-    diagnostics.entries().into_iter().map(value).collect()
+    diagnostics.entries().into_iter().map(|entry| json!(entry)).collect()
 }
 
-/// `cycles` are what a life had before it stopped, kept beside the errors.
-fn print_errors(errors: &[Value], cycles: &[Value]) {
-    let mut answer = json!({ "errors": errors });
-    if !cycles.is_empty() {
-        answer["cycles"] = json!(cycles);
-    }
-    // A reader who has gone away cannot be told; the exit code still says it.
-    let _ = print(&answer);
+/// Warnings for machines: those of the file, then those of what was done with it, under one code.
+pub fn warnings<T: Display>(of_file: &Diagnostics, code: &str, later: &[T]) -> Vec<Value> {
+    let later = later.iter().map(|warning| json!({ "code": code, "message": warning.to_string() }));
+    entries(of_file).into_iter().chain(later).collect()
 }
 
 /// Reports what clap says about arguments it could not read; help and version are not errors.
-pub fn wrong_arguments(error: &clap::Error, as_json: bool) -> ExitCode {
-    if as_json && error.use_stderr() {
-        let text = error.render().to_string();
-        let message = match error.kind() {
-            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
-            _ => first_paragraph(&text),
-        };
-        print_errors(
-            &[json!({
-                "code": "C0001", "file": Value::Null, "line": Value::Null, "column": Value::Null,
-                "message": message, "help": text.trim_end(),
-            })],
-            &[],
-        );
-    } else {
+pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
+    if format == Format::Text || !error.use_stderr() {
         let _ = error.print();
+        return ExitCode::from(if error.use_stderr() { USAGE } else { 0 });
     }
-    ExitCode::from(if error.use_stderr() { USAGE } else { 0 })
+    let text = error.render().to_string();
+    let message = match error.kind() {
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
+        _ => first_paragraph(&text),
+    };
+    Failure::usage(message, text.trim_end()).report(format)
 }
 
 /// What clap says before its usage lines, in one line.

@@ -7,21 +7,19 @@ mod report;
 
 use std::io::Write as _;
 
+use linkwear::files::write_whole;
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
 use linkwear_gamma::fit::{LikelihoodRatio, likelihood_ratio};
 
 use self::analysis::{Analysis, model};
 use self::read::{Group, groups};
-use super::arguments::{FitArguments, Format};
-use super::csv_table::fault;
+use super::answer::Answer;
+use super::arguments::FitArguments;
 use super::failure::Failure;
-use super::file::{print, refuse_same, write_whole};
+use super::input::refuse_same;
 
-/// Answers `fit`.
-pub fn run(arguments: &FitArguments, format: Format) -> Result<(), Failure> {
-    if let Some(out) = &arguments.out {
-        refuse_same(&arguments.file, out)?;
-    }
+pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
+    refuse_same(&arguments.file, arguments.out.as_deref())?;
     let groups = groups(arguments)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
@@ -41,10 +39,7 @@ pub fn run(arguments: &FitArguments, format: Format) -> Result<(), Failure> {
         let text = pooled.file.to_json();
         write_whole(out, |file| writeln!(file, "{text:#}"))?;
     }
-    match format {
-        Format::Json => print(&report::to_json(arguments, &pooled, &parts, test)),
-        Format::Text => print(&report::to_text(arguments, &pooled, &parts, test)),
-    }
+    Ok(report::answer(arguments, &pooled, &parts, test))
 }
 
 /// Groups with parameters of their own against one process for all.
@@ -80,14 +75,14 @@ fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
         "rows {first} to {last}: all readings are of one unit, {unit}: how units differ cannot be seen"
     );
     let help = "add readings of other units, or accept it with --one-unit";
-    fault(&arguments.file, Some(first), message, help)
+    Failure::data(&arguments.file, Some(first), message, help)
 }
 
 fn analyse(arguments: &FitArguments, name: &str, data: &Observations) -> Result<Analysis, Failure> {
     Analysis::new(arguments, name, data).map_err(|error| {
         let message =
             if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
-        fault(&arguments.file, None, message, "look at the data; estimate fewer parameters")
+        Failure::data(&arguments.file, None, message, "look at the data; estimate fewer parameters")
     })
 }
 
@@ -97,5 +92,5 @@ fn refused(arguments: &FitArguments, error: &DataError) -> Failure {
     if let DataError::ConstantCovariate { index, value } = error {
         message = format!("covariate `{}` is the same in all rows ({value})", arguments.covariate[index - 1]);
     }
-    fault(&arguments.file, error.row(), message, error.cure())
+    Failure::data(&arguments.file, error.row(), message, error.cure())
 }

@@ -1,50 +1,35 @@
-//! From arguments to a compiled mechanism, and its warnings to stderr.
+//! Input: arguments to a compiled mechanism, its warnings to stderr; fits.
+
+use std::fs;
+use std::path::Path;
 
 use linkwear::backend::Backend;
-use linkwear::mechanism::{LoadError, Mechanism, located_warnings, read_source};
-use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, compile};
+use linkwear::files::WriteError;
+use linkwear::mechanism::{Mechanism, located_warnings, read_source};
+use linkwear_codegen::{Compiled, Diagnostics, Options, compile};
+use linkwear_gamma::FitFile;
 use serde_json::Value;
 
-use super::arguments::{ClosureName, Input};
+use super::arguments::Input;
 use super::failure::{Failure, entries};
 
-/// A mechanism that was read and compiled.
-pub struct Loaded {
-    /// With overrides and closure as asked.
-    pub compiled: Compiled,
-    warnings: Diagnostics,
-}
-
-impl Loaded {
-    /// Warnings in the shape of the errors of a failure.
-    pub fn warnings(&self) -> Vec<Value> {
-        entries(&self.warnings)
-    }
-}
-
-/// Reads and compiles; prints warnings.
-pub fn load(input: &Input) -> Result<Loaded, Failure> {
-    let source = read_source(&input.file).map_err(failed)?;
-    let compiled = compile(&source, &options(input, false)).map_err(Failure::Mechanism)?;
+/// Reads and compiles, with overrides and closure as asked; prints warnings, and returns them as machines read them.
+pub fn load(input: &Input) -> Result<(Compiled, Vec<Value>), Failure> {
+    let compiled = compile(&read_source(&input.file)?, &options(input, false))?;
     let warnings = located_warnings(&compiled);
     print_warnings(&warnings);
-    Ok(Loaded { compiled, warnings })
+    Ok((compiled, entries(&warnings)))
 }
 
 /// Reads, compiles and chooses a back end; prints warnings. `rigid` takes flexible bodies as rigid.
 pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Mechanism, Failure> {
-    let source = read_source(&input.file).map_err(failed)?;
-    let mechanism = Mechanism::compile(&source, &options(input, rigid), backend).map_err(failed)?;
+    let mechanism = Mechanism::compile(&read_source(&input.file)?, &options(input, rigid), backend)?;
     print_warnings(&mechanism.warnings);
     Ok(mechanism)
 }
 
 fn options(input: &Input, rigid: bool) -> Options {
-    let closure = input.closure.map(|name| match name {
-        ClosureName::Joint => Closure::Joint,
-        ClosureName::Log => Closure::Log,
-    });
-    Options { closure, overrides: input.overrides.clone(), rigid }
+    Options { closure: input.closure, overrides: input.overrides.clone(), rigid }
 }
 
 fn print_warnings(warnings: &Diagnostics) {
@@ -53,14 +38,16 @@ fn print_warnings(warnings: &Diagnostics) {
     }
 }
 
-fn failed(error: LoadError) -> Failure {
-    match error {
-        LoadError::Read { file, error } => Failure::Read(file, error),
-        LoadError::Mechanism(diagnostics) => Failure::Mechanism(diagnostics),
-        LoadError::Backend(error) => Failure::Backend {
-            message: format!("--backend compiled: {error}"),
-            help: "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)"
-                .to_owned(),
-        },
+/// Refuses to write over the input.
+pub fn refuse_same(input: &Path, output: Option<&Path>) -> Result<(), Failure> {
+    let Some(output) = output else { return Ok(()) };
+    match (input.canonicalize(), output.canonicalize()) {
+        (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
+        _ => Ok(()),
     }
+}
+
+/// Reads the result of a fit back.
+pub fn read_fit(file: &Path) -> Result<FitFile, Failure> {
+    FitFile::parse(&fs::read_to_string(file).map_err(Failure::read(file))?).map_err(Failure::fit(file))
 }

@@ -5,24 +5,24 @@ mod fits;
 mod folder;
 mod output;
 
+use std::path::Path;
+
+use linkwear::files::claim_folder;
 use linkwear::life::{Cause, LifeError, LifeStudy, Trajectories};
 use linkwear::progress::watched;
 use linkwear_runtime::{Integrator, RevolutionSettings};
-use serde_json::Value;
 
-use self::fits::Fits;
-use self::folder::Folder;
-use self::output::{Answer, cycle_entry, cycles_table};
-use super::arguments::{Format, LifeArguments};
+use self::fits::fits;
+use super::answer::Answer;
+use super::arguments::LifeArguments;
 use super::failure::Failure;
-use super::file::print;
 use super::input::load_mechanism;
 
-/// Answers `life`.
-pub fn run(arguments: &LifeArguments, format: Format) -> Result<(), Failure> {
+pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
-    let folder = arguments.out.as_deref().map(Folder::claim).transpose()?;
-    let Fits { fits, warnings } = Fits::read(arguments, &mechanism.description)?;
+    let folder = arguments.out.as_deref();
+    folder.map(claim_folder).transpose()?;
+    let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
             integrator: Integrator::Rk4 { step: arguments.step },
@@ -43,36 +43,23 @@ pub fn run(arguments: &LifeArguments, format: Format) -> Result<(), Failure> {
         ..LifeStudy::new(&mechanism)
     };
     let lived = watched(|watch| study.run_watched(watch));
-    let mut life = lived.map_err(|error| failed(arguments, error, folder.as_ref(), format))?;
+    let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
     life.warnings.extend(warnings);
-    let answer = Answer { mechanism: &mechanism, study: &study, life: &life };
-    if let Some(folder) = &folder {
-        folder.write(&answer)?;
-    }
-    match format {
-        Format::Json => print(&answer.to_json()),
-        Format::Text => print(&answer.to_text()),
-    }
+    let answer = output::answer(&study, &life);
+    folder.map_or(Ok(()), |folder| folder::write(folder, &life, &answer.json))?;
+    Ok(answer)
 }
 
 /// What to do about an error; the cycles completed before go into the folder, else on stdout with the error.
-fn failed(
-    arguments: &LifeArguments,
-    LifeError { cause, joints, cycles }: LifeError,
-    folder: Option<&Folder>,
-    format: Format,
-) -> Failure {
-    let file = arguments.input.file.clone();
-    let message = cause.to_string();
+fn failed(file: &Path, LifeError { cause, joints, cycles }: LifeError, folder: Option<&Path>) -> Failure {
     let help = match &cause {
         Cause::NoRandomLives => {
-            let message = "--shared-factor spreads random lives, and none are asked for".to_owned();
+            let message = "--shared-factor spreads random lives, and none are asked for";
             let help = "add --trajectories 16; with full coupling every life costs a run of the dynamics";
-            return Failure::Usage { message, help: help.to_owned() };
+            return Failure::usage(message, help);
         }
-        Cause::SharedFactor(_) => {
-            return Failure::Usage { message, help: "give a smaller --shared-factor".to_owned() };
-        }
+        Cause::SharedFactor(_) => return Failure::usage(&cause, "give a smaller --shared-factor"),
+        Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),
         Cause::NoWear => "add [clearance.R1] and [wear.R1], R1 being the joint that wears".to_owned(),
         Cause::NoTurns => "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }".to_owned(),
         Cause::NoProcess { joint } => format!(
@@ -80,21 +67,14 @@ fn failed(
              --fit and --shared-factor out"
         ),
         _ if cycles.is_empty() => String::new(),
-        _ => match folder.map(|folder| folder.write_cycles(&joints, &cycles)) {
-            Some(Err(failure)) => return failure,
-            Some(Ok(path)) => {
+        _ => match folder.map(|folder| folder::write_cycles(folder, &joints, &cycles)).transpose() {
+            Err(error) => return error.into(),
+            Ok(Some(path)) => {
                 format!("{} cycles were completed before; they are in `{}`", cycles.len(), path.display())
             }
-            None => format!("{} cycles were completed before", cycles.len()),
+            Ok(None) => format!("{} cycles were completed before", cycles.len()),
         },
     };
-    let mut kept: Vec<Value> = Vec::new();
-    if folder.is_none() && !cycles.is_empty() {
-        kept = cycles.iter().map(|cycle| cycle_entry(&joints, cycle)).collect();
-        if format == Format::Text {
-            // A reader who has gone away cannot be told.
-            let _ = print(&cycles_table(&joints, &cycles));
-        }
-    }
-    Failure::Life { file, message, help, cycles: kept }
+    let is_kept = folder.is_some() || cycles.is_empty();
+    Failure::life(file, &cause, help, (!is_kept).then(|| output::cycles(&joints, &cycles)))
 }

@@ -3,35 +3,30 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
+use linkwear::files::{WriteError, write_whole};
 use serde_json::json;
 
-use super::arguments::{Format, NewArguments};
+use super::answer::Answer;
+use super::arguments::NewArguments;
 use super::failure::Failure;
-use super::file::{print, write_whole};
 
 const STARTER: &str = include_str!("starter.toml");
 
-/// Answers `new`.
-pub fn run(arguments: &NewArguments, format: Format) -> Result<(), Failure> {
-    if !is_name(&arguments.name) {
-        return Err(Failure::Usage {
-            message: format!("`{}` is no name for a mechanism", arguments.name),
-            help: "use letters, digits and _, and begin with a letter; the file is NAME.toml here".to_owned(),
-        });
+pub fn run(arguments: &NewArguments) -> Result<Answer, Failure> {
+    let name = &arguments.name;
+    if !is_name(name) {
+        let help = "use letters, digits and _, and begin with a letter; the file is NAME.toml here";
+        return Err(Failure::usage(format!("`{name}` is no name for a mechanism"), help));
     }
-    let path = PathBuf::from(format!("{}.toml", arguments.name));
+    let path = PathBuf::from(format!("{name}.toml"));
     if path.exists() {
-        return Err(Failure::Exists(path));
+        return Err(WriteError::Exists(path).into());
     }
-    let text = STARTER.replace("starter", &arguments.name);
-    write_whole(&path, |file| file.write_all(text.as_bytes()))?;
+    let starter = STARTER.replace("starter", name);
+    write_whole(&path, |file| file.write_all(starter.as_bytes()))?;
     let shown = path.display();
-    match format {
-        Format::Json => print(&json!({ "file": shown.to_string() })),
-        Format::Text => {
-            print(&format!("{shown} written. Next:\n  linkwear check {shown}\n  linkwear simulate {shown}"))
-        }
-    }
+    let text = format!("{shown} written. Next:\n  linkwear check {shown}\n  linkwear simulate {shown}");
+    Ok(Answer { text, json: json!({ "file": shown.to_string() }) })
 }
 
 fn is_name(text: &str) -> bool {

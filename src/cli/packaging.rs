@@ -1,32 +1,36 @@
-//! `completions` and `man`: for packagers, from the same definitions as the command line itself.
+//! `completions`, `man` and `schema`: for packagers and editors.
+
+use std::path::Path;
 
 use clap::CommandFactory;
+use linkwear::files::WriteError;
 use serde_json::json;
 
-use super::arguments::{Arguments, Format};
+use super::answer::Answer;
+use super::arguments::Arguments;
 use super::failure::Failure;
-use super::file::print;
 
-/// Answers `completions`.
-pub fn completions(shell: clap_complete::Shell, format: Format) -> Result<(), Failure> {
+pub fn completions(shell: clap_complete::Shell) -> Answer {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "linkwear", &mut script);
-    show(&script, format)
+    answer(&script)
 }
 
-/// Answers `man`.
-pub fn manual(format: Format) -> Result<(), Failure> {
+pub fn manual() -> Result<Answer, Failure> {
     let mut page = Vec::new();
-    clap_mangen::Man::new(Arguments::command())
-        .render(&mut page)
-        .map_err(|error| Failure::Write("stdout".into(), error))?;
-    show(&page, format)
+    let rendered = clap_mangen::Man::new(Arguments::command()).render(&mut page);
+    rendered.map_err(WriteError::of(Path::new("stdout")))?;
+    Ok(answer(&page))
 }
 
-fn show(text: &[u8], format: Format) -> Result<(), Failure> {
-    let text = String::from_utf8_lossy(text);
-    match format {
-        Format::Text => print(&text.trim_end()),
-        Format::Json => print(&json!({ "text": text })),
-    }
+fn answer(text: &[u8]) -> Answer {
+    let text = String::from_utf8_lossy(text).into_owned();
+    Answer { json: json!({ "text": text }), text }
+}
+
+/// The answer is JSON whatever the format.
+pub fn schema() -> Answer {
+    let text = include_str!("../../docs/linkwear.schema.json");
+    let json = serde_json::from_str(text).expect("the schema of this program is JSON");
+    Answer { text: text.to_owned(), json }
 }

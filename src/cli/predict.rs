@@ -2,24 +2,24 @@
 
 use std::fmt::Write as _;
 
+use linkwear::number::number;
 use linkwear_gamma::Prediction;
-use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior};
+use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Reading};
 use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState};
 
-use super::arguments::{Format, PredictArguments};
+use super::answer::Answer;
+use super::arguments::PredictArguments;
+use super::csv_table::CsvTable;
 use super::failure::Failure;
-use super::file::print;
-use super::table::{number, table};
-use super::{fit_file, readings};
+use super::input::read_fit;
+use super::table::table;
 
 /// Every how many-th time is shown to people.
 const STRIDE: usize = 5;
 
-/// Answers `predict`.
-pub fn run(arguments: &PredictArguments, format: Format) -> Result<(), Failure> {
-    let fit = fit_file::read(&arguments.fit)?;
-    let refused = |error| fit_file::refused(&arguments.fit, error);
-    let estimate = fit.estimate(&arguments.covariate).map_err(refused)?;
+pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
+    let fit = read_fit(&arguments.fit)?;
+    let estimate = fit.estimate(&arguments.covariate).map_err(Failure::fit(&arguments.fit))?;
     let state = state(arguments, &estimate)?;
     let mut answer = predict(arguments, estimate, &state)?;
     for (at, (name, value)) in arguments.covariate.iter().enumerate() {
@@ -27,10 +27,7 @@ pub fn run(arguments: &PredictArguments, format: Format) -> Result<(), Failure> 
         let _ = write!(answer.from, "{join} {name} = {value}");
     }
     answer.warnings.splice(0..0, fit.warning().map(str::to_owned));
-    match format {
-        Format::Json => print(&answer.to_json()),
-        Format::Text => print(&to_text(&answer)),
-    }
+    Ok(Answer { text: to_text(&answer), json: answer.to_json() })
 }
 
 fn state(arguments: &PredictArguments, estimate: &Estimate) -> Result<OperatingState, Failure> {
@@ -52,18 +49,19 @@ fn predict(
     state: &OperatingState,
 ) -> Result<Prediction, Failure> {
     let Some(file) = &arguments.inspections else {
-        let draws = |count| Method::Draws { count, seed: arguments.seed };
+        let draws = |count| Method::Draws { count: count as usize, seed: arguments.seed };
         let method = arguments.draws.map_or(Method::Delta, draws);
         return Prediction::by_fit(&estimate, state, method).map_err(|error| asked(arguments, &error));
     };
     // clap asks for both with --inspections.
     let (time, wear) = (arguments.time.as_deref(), arguments.wear.as_deref());
-    let (readings, lines) = readings::read(file, time.unwrap_or_default(), wear.unwrap_or_default())?;
-    let refused = |error: InspectionError| Failure::Data {
-        file: file.clone(),
-        line: error.row().and_then(|row| lines.get(row - 1)).copied(),
-        message: error.to_string(),
-        help: String::new(),
+    let table = CsvTable::read(file)?;
+    let times = table.numbers(time.unwrap_or_default())?.into_iter();
+    let readings =
+        times.zip(table.numbers(wear.unwrap_or_default())?).map(|(time, wear)| Reading { time, wear });
+    let readings: Vec<Reading> = readings.collect();
+    let refused = |error: InspectionError| {
+        Failure::data(file, error.row().and_then(|row| table.lines().nth(row - 1)), error, "")
     };
     if let Some(gauge) = arguments.gauge {
         let history = History::noisy(readings).map_err(refused)?;
@@ -81,15 +79,9 @@ fn predict(
 
 /// A question that has no answer: the numbers on the command line are to blame.
 fn asked(arguments: &PredictArguments, error: &LifeError) -> Failure {
-    Failure::Data {
-        file: arguments.fit.clone(),
-        line: None,
-        message: error.to_string(),
-        help: "see `linkwear predict --help` for what the options mean".to_owned(),
-    }
+    Failure::data(&arguments.fit, None, error, "see `linkwear predict --help` for what the options mean")
 }
 
-/// Text for people.
 fn to_text(answer: &Prediction) -> String {
     let mut text = format!(
         "remaining life from wear {} to {}, by {}\n\n",
@@ -98,19 +90,10 @@ fn to_text(answer: &Prediction) -> String {
         answer.from
     );
     let mut rows = Vec::new();
-    let mut row = |name: &str, band: &Band| {
-        rows.push(vec![
-            name.to_owned(),
-            format!("{:.6}", band.value),
-            format!("{:.6}", band.lower),
-            format!("{:.6}", band.upper),
-        ]);
-    };
-    for (name, band) in ["B10", "B50", "B90"].into_iter().zip(&answer.quantiles) {
-        row(name, band);
-    }
-    if let Some((_, band)) = &answer.moments {
-        row("mean", band);
+    let bands = answer.quantiles.iter().chain(answer.moments.iter().map(|(_, band)| band));
+    for (name, Band { value, lower, upper }) in ["B10", "B50", "B90", "mean"].into_iter().zip(bands) {
+        let numbers = [value, lower, upper].map(|number| format!("{number:.6}"));
+        rows.push([name.to_owned()].into_iter().chain(numbers).collect());
     }
     text.push_str(&table(&["", "time", "lower 95 %", "upper 95 %"], &rows));
     let (lower, upper) = answer.interval;
@@ -141,5 +124,5 @@ fn to_text(answer: &Prediction) -> String {
     for warning in &answer.warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
-    text.trim_end().to_owned()
+    text
 }

@@ -4,17 +4,19 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use linkwear::mechanism::Mechanism;
+use linkwear::number::number;
 use linkwear::progress::watched;
+use linkwear::table::write_table;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{Description, Integrator, Run, RunError, Settings, Span, simulate, write_csv};
+use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
 use serde_json::{Value, json};
 
-use super::arguments::{Format, IntegratorName, SimulateArguments};
-use super::failure::{Failure, entries};
-use super::file::{print, refuse_same, write_whole};
-use super::input::load_mechanism;
+use super::answer::Answer;
+use super::arguments::{IntegratorName, SimulateArguments};
+use super::failure::{Failure, warnings};
+use super::input::{load_mechanism, refuse_same};
 use super::summary;
-use super::table::{duration, number, plural, table};
+use super::table::{duration, plural, table};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
@@ -23,12 +25,10 @@ const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 
-/// Answers `simulate`.
-pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure> {
+pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let integrator = integrator(arguments)?;
-    if let Some(out) = &arguments.out {
-        refuse_same(&arguments.input.file, out)?;
-    }
+    let (file, out) = (&arguments.input.file, arguments.out.as_deref());
+    refuse_same(file, out)?;
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let description = &mechanism.description;
     let span = span(arguments, description)?;
@@ -40,69 +40,53 @@ pub fn run(arguments: &SimulateArguments, format: Format) -> Result<(), Failure>
     let result = watched(|watch| simulate(&*system, description, parameters, &settings, watch));
     let wall_seconds = start.elapsed().as_secs_f64();
 
-    let run = result.map_err(|error| failed(arguments, error, None))?;
+    let run = result.map_err(|error| Failure::run(file, &error, None))?;
     if let Some(error) = &run.stopped {
-        return Err(failed(arguments, error.clone(), keep_partial(arguments, &run)?));
+        // The file they were meant for is left as it was.
+        let partial = out.filter(|_| !run.rows.is_empty()).map(partial_name);
+        partial.as_deref().map_or(Ok(()), |partial| write_table(partial, &run.table()))?;
+        return Err(Failure::run(file, error, partial));
     }
-    if let Some(out) = &arguments.out {
-        write_whole(out, |file| write_csv(file, &run))?;
-    }
-    match format {
-        Format::Json => print(&to_json(arguments, &mechanism, &run, wall_seconds)),
-        Format::Text => print(&to_text(arguments, &mechanism, &run, &settings, wall_seconds)),
-    }
+    out.map_or(Ok(()), |out| write_table(out, &run.table()))?;
+    Ok(Answer {
+        text: to_text(out, &mechanism, &run, &settings, wall_seconds),
+        json: to_json(out, &mechanism, &run, wall_seconds),
+    })
 }
 
 fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {
-    let step = arguments.step.unwrap_or(DEFAULT_STEP);
-    let default = if arguments.step.is_some() { IntegratorName::Rk4 } else { IntegratorName::Dopri5 };
-    let name = arguments.integrator.unwrap_or(default);
-    let misfit = |option: &str, help: &str| Failure::Usage {
-        message: format!("the integrator has no {option}"),
-        help: help.to_owned(),
-    };
+    use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4};
+    let (given, tolerance) = (arguments.step, arguments.tol);
+    let step = given.unwrap_or(DEFAULT_STEP);
+    let name = arguments.integrator.unwrap_or(if given.is_some() { Rk4 } else { Dopri5 });
     match name {
-        IntegratorName::Dopri5 if arguments.step.is_some() => {
-            Err(misfit("--step", "dopri5 chooses its steps: give --tol, or --integrator rk4"))
+        Dopri5 if given.is_some() => {
+            let help = "dopri5 chooses its steps: give --tol, or --integrator rk4";
+            Err(Failure::usage("the integrator has no --step", help))
         }
-        IntegratorName::Rk4 | IntegratorName::GeneralizedAlpha if arguments.tol.is_some() => {
-            Err(misfit("--tol", "it takes fixed steps: give --step, or --integrator dopri5"))
+        Rk4 | GeneralizedAlpha if tolerance.is_some() => {
+            let help = "it takes fixed steps: give --step, or --integrator dopri5";
+            Err(Failure::usage("the integrator has no --tol", help))
         }
-        IntegratorName::Dopri5 => {
-            Ok(Integrator::Dopri5 { tolerance: arguments.tol.unwrap_or(DEFAULT_TOLERANCE), max_step: None })
+        Dopri5 => {
+            Ok(Integrator::Dopri5 { tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), max_step: None })
         }
-        IntegratorName::Rk4 => Ok(Integrator::Rk4 { step }),
-        IntegratorName::GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
+        Rk4 => Ok(Integrator::Rk4 { step }),
+        GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
     }
 }
 
 fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span, Failure> {
-    match (arguments.length.turns, arguments.length.time, description.turn_driver) {
-        (_, Some(time), _) => Ok(Span::Time(time)),
-        (Some(turns), _, Some(_)) => Ok(Span::Turns(turns)),
-        (Some(_), _, None) => Err(Failure::Usage {
-            message: "--turns: this mechanism has no driven revolute joint to count turns of".to_owned(),
-            help: "give --time in seconds".to_owned(),
-        }),
-        (None, None, Some(_)) => Ok(Span::Turns(1.0)),
+    let (turns, time) = (arguments.length.turns, arguments.length.time);
+    match (time, description.turn_driver, turns) {
+        (Some(time), ..) => Ok(Span::Time(time)),
+        (None, Some(_), turns) => Ok(Span::Turns(turns.unwrap_or(1.0))),
         (None, None, None) => Ok(Span::Time(1.0)),
+        (None, None, Some(_)) => {
+            let message = "--turns: this mechanism has no driven revolute joint to count turns of";
+            Err(Failure::usage(message, "give --time in seconds"))
+        }
     }
-}
-
-fn failed(arguments: &SimulateArguments, error: RunError, kept: Option<PathBuf>) -> Failure {
-    let file = arguments.input.file.clone();
-    match error {
-        RunError::Interrupted { t } => Failure::Interrupted { file, time: t, kept },
-        error => Failure::Run { file, error, kept },
-    }
-}
-
-/// Saves the rows of an incomplete run beside the file they were meant for, which is left as it was.
-fn keep_partial(arguments: &SimulateArguments, run: &Run) -> Result<Option<PathBuf>, Failure> {
-    let Some(out) = arguments.out.as_deref().filter(|_| !run.rows.is_empty()) else { return Ok(None) };
-    let partial = partial_name(out);
-    write_whole(&partial, |file| write_csv(file, run))?;
-    Ok(Some(partial))
 }
 
 /// `rssr.csv` -> `rssr.partial.csv`.
@@ -116,7 +100,7 @@ fn partial_name(out: &Path) -> PathBuf {
     out.with_file_name(name)
 }
 
-fn to_json(arguments: &SimulateArguments, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
+fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
     let numbers = &run.statistics;
     let description = &mechanism.description;
     json!({
@@ -136,20 +120,27 @@ fn to_json(arguments: &SimulateArguments, mechanism: &Mechanism, run: &Run, wall
         "energy_error_J": numbers.energy_error_J,
         "energy_throughput_J": numbers.energy_throughput_J,
         "peaks": summary::peaks(run).iter().map(summary::Peak::to_json).collect::<Vec<_>>(),
-        "out": arguments.out.as_ref().map(|path| path.display().to_string()),
-        "turns": turn_entries(description, run),
-        "warnings": all_warnings(mechanism, run),
+        "out": out.map(|path| path.display().to_string()),
+        "turns": turns(description, run).map(turn_entry).collect::<Vec<_>>(),
+        "warnings": warnings(&mechanism.warnings, "run", &run.warnings),
     })
 }
 
-/// Every joint with clearance in every turn.
-fn turn_entries(description: &Description, run: &Run) -> Vec<Value> {
-    let joints = description.contacts.iter().map(|contact| contact.joint.as_ref());
-    let turns = run.turns.iter().enumerate();
-    turns.flat_map(|(at, turn)| joints.clone().zip(turn).map(move |of| turn_entry(at + 1, of))).collect()
+/// Every joint with clearance in every turn: number of the turn, name of the joint.
+fn turns<'a>(
+    description: &'a Description,
+    run: &'a Run,
+) -> impl Iterator<Item = (usize, &'a str, &'a ContactMeasure)> {
+    run.turns.iter().enumerate().flat_map(|(at, turn)| {
+        description
+            .contacts
+            .iter()
+            .zip(turn)
+            .map(move |(contact, measure)| (at + 1, &*contact.joint, measure))
+    })
 }
 
-fn turn_entry(turn: usize, (joint, measure): (&str, &ContactMeasure)) -> Value {
+fn turn_entry((turn, joint, measure): (usize, &str, &ContactMeasure)) -> Value {
     let mut entry = json!({ "turn": turn, "joint": joint });
     for (column, value) in &ContactMeasure::COLUMNS {
         // Within a turn losses are counted, and forces have their long name.
@@ -160,37 +151,25 @@ fn turn_entry(turn: usize, (joint, measure): (&str, &ContactMeasure)) -> Value {
     entry
 }
 
-/// Those of the file, then those of the run.
-fn all_warnings(mechanism: &Mechanism, run: &Run) -> Vec<Value> {
-    let of_run = run.warnings.iter().map(|warning| json!({ "code": "run", "message": warning.to_string() }));
-    entries(&mechanism.warnings).into_iter().chain(of_run).collect()
-}
-
 /// The last turns of every joint with clearance.
 fn turns_table(description: &Description, run: &Run) -> String {
     const SHOWN: usize = 12;
     let brief = || ContactMeasure::COLUMNS.iter().filter(|(column, _)| column.brief);
-    let mut rows = Vec::new();
-    for (at, turn) in run.turns.iter().enumerate() {
-        for (contact, measure) in description.contacts.iter().zip(turn) {
-            let cells = brief().map(|(column, value)| match column.unit {
-                "J" => format!("{:.7}", value(measure)),
-                _ => number(value(measure)),
-            });
-            rows.push([(at + 1).to_string(), contact.joint.to_string()].into_iter().chain(cells).collect());
-        }
-    }
-    let rows = rows.split_off(rows.len().saturating_sub(SHOWN));
-    let head: Vec<String> = ["turn", "joint"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(brief().map(|(column, _)| column.title()))
-        .collect();
-    table(&head, &rows)
+    let row = |(turn, joint, measure): (usize, &str, &ContactMeasure)| -> Vec<String> {
+        let cells = brief().map(|(column, value)| match column.unit {
+            "J" => format!("{:.7}", value(measure)),
+            _ => number(value(measure)),
+        });
+        [turn.to_string(), joint.to_owned()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<_> = turns(description, run).map(row).collect();
+    let titles = brief().map(|(column, _)| column.title());
+    let head: Vec<String> = ["turn", "joint"].map(str::to_owned).into_iter().chain(titles).collect();
+    table(&head, &rows[rows.len().saturating_sub(SHOWN)..])
 }
 
 fn to_text(
-    arguments: &SimulateArguments,
+    out: Option<&Path>,
     mechanism: &Mechanism,
     run: &Run,
     settings: &Settings,
@@ -222,11 +201,11 @@ fn to_text(
     for warning in &run.warnings {
         text.push_str(&format!("\nwarning: {}\n", warning));
     }
-    if let Some(out) = &arguments.out {
+    if let Some(out) = out {
         let rows = plural(run.rows.len() as u64, "row", "rows");
         text.push_str(&format!("\n{rows} of {} columns in {}", run.channels.len() + 1, out.display()));
     }
-    text.trim_end().to_owned()
+    text
 }
 
 #[cfg(test)]

@@ -2,11 +2,12 @@
 
 use std::fmt::Write as _;
 
+use linkwear::number::number;
 use linkwear_runtime::{Description, Run};
 use serde_json::{Value, json};
 
 use super::plot::{range, sparkline};
-use super::table::{count, number, plural, short_table, table};
+use super::table::{count, plural, short_table, table};
 
 /// Curves shown at most.
 const CURVES: usize = 8;
@@ -16,21 +17,18 @@ const ROUNDING: f64 = 1e-12;
 /// Width of a curve.
 const WIDTH: usize = 48;
 
-/// Largest force and moment at a joint over the recorded rows.
+/// Largest force [N] and moment [N m] at a joint over the recorded rows, each with its time [s].
 pub struct Peak {
     joint: String,
-    force: f64,
-    force_time: f64,
-    moment: f64,
-    moment_time: f64,
+    force: (f64, f64),
+    moment: (f64, f64),
 }
 
 impl Peak {
-    /// For machines.
     pub fn to_json(&self) -> Value {
         json!({
-            "joint": self.joint, "force_N": self.force, "force_time_s": self.force_time,
-            "moment_N_m": self.moment, "moment_time_s": self.moment_time,
+            "joint": self.joint, "force_N": self.force.0, "force_time_s": self.force.1,
+            "moment_N_m": self.moment.0, "moment_time_s": self.moment.1,
         })
     }
 }
@@ -38,13 +36,11 @@ impl Peak {
 /// Peaks of every joint that has a wrench, in column order.
 pub fn peaks(run: &Run) -> Vec<Peak> {
     let joints = run.channels.iter().filter_map(|channel| channel.name.strip_suffix(".Fx"));
-    joints
-        .map(|joint| {
-            let (force, force_time) = largest(run, &format!("{joint}.F"));
-            let (moment, moment_time) = largest(run, &format!("{joint}.M"));
-            Peak { joint: joint.to_owned(), force, force_time, moment, moment_time }
-        })
-        .collect()
+    let peak = |joint: &str| {
+        let [force, moment] = ["F", "M"].map(|vector| largest(run, &format!("{joint}.{vector}")));
+        Peak { joint: joint.to_owned(), force, moment }
+    };
+    joints.map(peak).collect()
 }
 
 /// Largest length of a vector, and when; zero if there is none.
@@ -63,30 +59,26 @@ fn largest(run: &Run, stem: &str) -> (f64, f64) {
 pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> String {
     let numbers = &run.statistics;
     let mut text = format!("{head}\n\n");
-    let mut facts = vec![
-        ["steps", &format!("{} ({}), {} rejected", count(numbers.steps), method, count(numbers.rejected))],
-        ["evaluations", &count(numbers.evaluations)],
-    ]
-    .into_iter()
-    .map(|row| row.map(str::to_owned).to_vec())
-    .collect::<Vec<_>>();
-    let loop_errors: Vec<String> =
-        [(false, numbers.max_loop_error_m, "m"), (true, numbers.max_loop_error_rad, "rad")]
-            .into_iter()
-            .filter(|(angular, ..)| description.rows.iter().any(|row| row.angular == *angular))
-            .map(|(_, error, unit)| format!("{} {unit}", number(error)))
-            .collect();
+    let mut facts = Vec::new();
+    let mut fact = |name: &str, value: String| facts.push(vec![name.to_owned(), value]);
+    fact("steps", format!("{} ({}), {} rejected", count(numbers.steps), method, count(numbers.rejected)));
+    fact("evaluations", count(numbers.evaluations));
+    let loop_errors = [(false, numbers.max_loop_error_m, "m"), (true, numbers.max_loop_error_rad, "rad")]
+        .into_iter()
+        .filter(|(angular, ..)| description.rows.iter().any(|row| row.angular == *angular))
+        .map(|(_, error, unit)| format!("{} {unit}", number(error)));
+    let loop_errors: Vec<String> = loop_errors.collect();
     if !loop_errors.is_empty() {
-        facts.push(vec!["loop error".into(), format!("at most {}", loop_errors.join(", "))]);
+        fact("loop error", format!("at most {}", loop_errors.join(", ")));
     }
     if numbers.newton_iterations > 0 {
-        facts.push(vec!["Newton".into(), plural(numbers.newton_iterations, "iteration", "iterations")]);
+        fact("Newton", plural(numbers.newton_iterations, "iteration", "iterations"));
     }
     let (error, moved) = (number(numbers.energy_error_J), number(numbers.energy_throughput_J));
-    facts.push(vec!["energy error".into(), format!("{error} J, while {moved} J went through")]);
+    fact("energy error", format!("{error} J, while {moved} J went through"));
     if numbers.rank_revealing_solves > 0 {
         let solves = plural(numbers.rank_revealing_solves, "evaluation", "evaluations");
-        facts.push(vec!["singular".into(), format!("{solves} near a singular position")]);
+        fact("singular", format!("{solves} near a singular position"));
     }
     text.push_str(&table(&["", ""], &facts));
     curves(&mut text, run);
@@ -100,14 +92,14 @@ pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> S
 
 /// Loads of no more than rounding are shown as the zero they are.
 fn peak_rows(peaks: &[Peak]) -> Vec<Vec<String>> {
-    let largest = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.force).max(peak.moment));
-    let cells = |value: f64, time: f64| {
+    let largest = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.force.0).max(peak.moment.0));
+    let cells = |(value, time): (f64, f64)| {
         let is_rounding = value <= ROUNDING * largest;
         if is_rounding { ["0".to_owned(), String::new()] } else { [value, time].map(number) }
     };
     let rows = peaks.iter().map(|peak| {
-        let (force, moment) = (cells(peak.force, peak.force_time), cells(peak.moment, peak.moment_time));
-        [vec![peak.joint.clone()], force.to_vec(), moment.to_vec()].concat()
+        let numbers = [peak.force, peak.moment].map(cells).concat();
+        [peak.joint.clone()].into_iter().chain(numbers).collect()
     });
     rows.collect()
 }

@@ -50,20 +50,6 @@ fn is_numeric(rows: &[Vec<String>], column: usize) -> bool {
     cells.peek().is_some() && cells.all(|cell| cell.replace(',', "").parse::<f64>().is_ok())
 }
 
-/// A number for people: four significant digits, exponents only where they save space.
-pub fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".to_owned()
-    } else if !(1e-3..1e6).contains(&size) {
-        format!("{value:.3e}")
-    } else {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 6")]
-        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
-        format!("{value:.decimals$}")
-    }
-}
-
 /// A time for people: `2.345 s`, `0.7 ms`.
 pub fn duration(seconds: f64) -> String {
     if seconds < 0.1 { format!("{:.1} ms", 1e3 * seconds) } else { format!("{seconds:.3} s") }
@@ -112,12 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_keep_four_digits() {
-        let shown: Vec<String> = [0.0, 52.908271, -0.0338, 1.2e-9, 1234567.0].map(number).into();
-        assert_eq!(shown, ["0", "52.91", "-0.03380", "1.200e-9", "1.235e6"]);
-        assert_eq!(
-            (count(7), count(1234), count(1_234_567)),
-            ("7".into(), "1,234".into(), "1,234,567".into())
-        );
+    fn counts_have_separators() {
+        assert_eq!([7, 1234, 1_234_567].map(count), ["7", "1,234", "1,234,567"]);
     }
 }

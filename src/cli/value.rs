@@ -1,23 +1,17 @@
 //! Values of options that are more than a number or a name. In: the text. Out: the value, or what to write instead.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use linkwear::backend::Backend;
-use linkwear::life::Coupling;
-use linkwear_gamma::process::{PROCESSES, Process, named};
 
-/// A back end by its name.
-pub fn backend() -> impl TypedValueParser<Value = Backend> {
-    PossibleValuesParser::new(["auto", "compiled", "interpreter"]).map(|name| match name.as_str() {
-        "compiled" => Backend::Compiled,
-        "interpreter" => Backend::Interpreter,
-        _ => Backend::Auto,
+/// One of some names, each with what it means.
+pub fn one_of<T: Clone + Send + Sync + 'static>(
+    choices: impl IntoIterator<Item = (&'static str, T)>,
+) -> impl TypedValueParser<Value = T> {
+    let choices: Vec<_> = choices.into_iter().collect();
+    let names = PossibleValuesParser::new(choices.iter().map(|(name, _)| *name));
+    names.map(move |given| {
+        let chosen = choices.iter().find(|(name, _)| *name == given);
+        chosen.expect("clap lets pass what is in the list").1.clone()
     })
-}
-
-/// A coupling by its name.
-pub fn coupling() -> impl TypedValueParser<Value = Coupling> {
-    PossibleValuesParser::new(["table", "full"])
-        .map(|name| if name == "full" { Coupling::Full } else { Coupling::Table })
 }
 
 /// `name=value`, both non-empty.
@@ -42,20 +36,6 @@ pub fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
     }
-}
-
-/// Enough draws for the ends of a 95 % band.
-pub fn draw_count(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(count) if (100..=1_000_000).contains(&count) => Ok(count),
-        _ => Err("a number from 100 to 1000000 is needed".to_owned()),
-    }
-}
-
-/// The name of a process that can be fitted.
-pub fn process_parser() -> impl TypedValueParser<Value = &'static dyn Process> {
-    PossibleValuesParser::new(PROCESSES.map(Process::name))
-        .map(|name| named(&name).expect("a name from the list of processes"))
 }
 
 #[cfg(test)]

@@ -43,9 +43,9 @@ pub enum Cause {
         /// The wearing joints.
         known: Vec<String>,
     },
-    /// A fit is of another process than the Gamma process, or has an exponent of exposure.
-    #[error("the fit of `{joint}` is no plain Gamma process over Lambda, which random lives are drawn from")]
-    NotGamma {
+    /// Two fits are given for one joint.
+    #[error("joint `{joint}` has two fits")]
+    TwoFits {
         /// The joint.
         joint: String,
     },

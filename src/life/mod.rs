@@ -12,7 +12,7 @@ mod run;
 mod study;
 
 pub use error::{Cause, LifeError};
-pub use fit::JointFit;
+pub use fit::{JointFit, UnfitForLife};
 pub use process::JointProcess;
 pub use result::LifeResult;
 pub use study::{Coupling, LifeStudy, Trajectories};

@@ -3,7 +3,6 @@
 
 use linkwear_gamma::life::{Estimate, LifeError as LawError};
 use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean, PER_METRE};
-use linkwear_gamma::process::{Gamma, Process as _};
 use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
 
@@ -21,7 +20,7 @@ pub struct JointProcess {
     pub joint: String,
     /// Its parameters [1/m].
     pub rates: GammaRates,
-    /// [`JointFit::from`]; none: the mechanism's file.
+    /// The `from` of [`JointFit::new`]; none: the mechanism's file.
     pub from: Option<String>,
 }
 
@@ -49,10 +48,10 @@ impl Process {
         if let Some(fit) = study.fits.iter().find(|fit| !known.contains(&fit.joint)) {
             return Err(Cause::UnknownJoint { joint: fit.joint.clone(), known });
         }
-        let is_gamma =
-            |estimate: &Estimate| estimate.process().name() == Gamma.name() && estimate.exponent().is_none();
-        if let Some(fit) = study.fits.iter().find(|fit| !is_gamma(&fit.estimate)) {
-            return Err(Cause::NotGamma { joint: fit.joint.clone() });
+        let twice =
+            |(at, fit): &(usize, &JointFit)| study.fits[..*at].iter().any(|one| one.joint == fit.joint);
+        if let Some((_, fit)) = study.fits.iter().enumerate().find(twice) {
+            return Err(Cause::TwoFits { joint: fit.joint.clone() });
         }
         let shared = study.shared_factor.map(shared).transpose()?;
         let is_asked = study.trajectories.is_asked() || !study.fits.is_empty() || shared.is_some();

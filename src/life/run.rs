@@ -145,23 +145,22 @@ impl<'s> Plan<'s> {
     /// The life in which every increment is its mean.
     fn mean_path<S: WearSource>(&self, source: &mut S, watch: Watch<'_>) -> Result<LifeResult, LifeError>
     where
-        Stop<S::Error>: StdError + Send + Sync + 'static,
+        S::Error: StdError + Send + Sync + 'static,
     {
         let state = LifeState::new(&self.settings, 0);
         let mut state = state.map_err(|error| self.error(error.into(), &[]))?;
         let mean = self.process.as_ref().map(Process::mean);
         let increments: &dyn IncrementModel = mean.as_ref().map_or(&MeanIncrement, |mean| mean);
         let outcome = run_life(&self.settings, source, increments, &mut state, watch);
-        let none = || Cause::Interrupted { trajectory: None, lives: None };
         let end = match outcome {
-            Ok(LifeOutcome::Failed(end)) => end,
-            Ok(LifeOutcome::Cancelled) => return Err(self.error(none(), &state.cycles)),
+            Ok(LifeOutcome::Failed(end)) => Ok(end),
+            Ok(LifeOutcome::Cancelled) => Err(Cause::Interrupted { trajectory: None, lives: None }),
             Ok(LifeOutcome::CycleLimit) => {
-                let limit = Cause::CycleLimit { trajectory: None, cycles: self.settings.most_cycles };
-                return Err(self.error(limit, &state.cycles));
+                Err(Cause::CycleLimit { trajectory: None, cycles: self.settings.most_cycles })
             }
-            Err(error) => return Err(self.error(cause(error, None), &state.cycles)),
+            Err(error) => Err(cause(error, None)),
         };
+        let end = end.map_err(|cause| self.error(cause, &state.cycles))?;
         let name = |joint: usize| &self.settings.joints[joint].joint;
         let warnings = state.warnings.iter();
         let warnings = warnings
@@ -184,14 +183,11 @@ impl<'s> Plan<'s> {
     }
 
     /// The random lives, and what uncertain parameters do to their mean.
-    fn draw<S: Clone + Default, E: Send>(
+    fn draw<S: Clone + Default, E: StdError + Send + Sync + 'static>(
         &self,
         result: &mut LifeResult,
         scale: Scale<'_, S, E>,
-    ) -> Result<(), LifeError>
-    where
-        Stop<E>: StdError + Send + Sync + 'static,
-    {
+    ) -> Result<(), LifeError> {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
         let failed = |cause| self.error(cause, &result.cycles);
         let lives = self.draw_by(scale, &process.draw(), count, self.watch).map_err(failed)?;
@@ -213,16 +209,13 @@ impl<'s> Plan<'s> {
     }
 
     /// Lives by these draws.
-    fn draw_by<S: Clone + Default, E: Send>(
+    fn draw_by<S: Clone + Default, E: StdError + Send + Sync + 'static>(
         &self,
         scale: Scale<'_, S, E>,
         draw: &GammaDraw,
         count: u64,
         watch: Watch<'_>,
-    ) -> Result<Vec<FailureEvent>, Cause>
-    where
-        Stop<E>: StdError + Send + Sync + 'static,
-    {
+    ) -> Result<Vec<FailureEvent>, Cause> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
         let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
@@ -247,10 +240,7 @@ impl<'s> Plan<'s> {
     }
 }
 
-fn cause<E>(error: Stop<E>, trajectory: Option<u64>) -> Cause
-where
-    Stop<E>: StdError + Send + Sync + 'static,
-{
+fn cause<E: StdError + Send + Sync + 'static>(error: Stop<E>, trajectory: Option<u64>) -> Cause {
     if matches!(error, Stop::Interrupted) {
         return Cause::Interrupted { trajectory, lives: None };
     }

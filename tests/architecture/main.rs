@@ -172,6 +172,14 @@ fn must_use_stands_on_types() {
 }
 
 #[test]
+fn a_format_of_tables_is_its_file_and_its_entry_in_the_list() {
+    let files = ["src", "runtime/src"].into_iter().flat_map(|root| rust_files(Path::new(root)));
+    let named = files.filter(|file| file.ends_with("npy.rs") || code(file).contains("npy"));
+    let named: Vec<String> = named.map(|file| file.display().to_string()).collect();
+    assert_eq!(named, ["src/table/npy.rs", "src/table.rs"]);
+}
+
+#[test]
 fn the_reader_of_paths_sees_groups_and_skips_longer_names() {
     let code = "use crate::{a::{x, y}, b};\nlet v = crate::c::d();\nmy_crate::e(); $crate::f!();";
     assert_eq!(heads(code, "crate").into_iter().collect::<Vec<_>>(), ["a", "b", "c"]);

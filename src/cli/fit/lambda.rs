@@ -8,7 +8,7 @@ use linkwear_gamma::life::Clock;
 use linkwear_gamma::monte_carlo::PER_METRE;
 use serde_json::Value;
 
-use super::super::csv_table::{CsvTable, fault};
+use super::super::csv_table::CsvTable;
 use super::super::failure::Failure;
 
 /// Lambda by exposure, straight lines from (0, 0) on, and the largest exposure.
@@ -24,17 +24,17 @@ pub fn lambda_table(path: &Path) -> Result<(Clock, f64), Failure> {
     let end = points.last().map_or(0.0, |(exposure, _)| *exposure);
     let clock = Clock::table(points).map_err(|error| {
         let message = format!("`{}` has no Lambda that rises with exposure: {error}", path.display());
-        fault(path, None, message, "two columns, exposure and Lambda, both rising")
+        Failure::data(path, None, message, "two columns, exposure and Lambda, both rising")
     })?;
     Ok((clock, end))
 }
 
 /// Lambda [um], the unit of the Gamma layer, after each cycle of the joint that failed.
 fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
-    let text = fs::read_to_string(path).map_err(|error| Failure::Read(path.to_path_buf(), error))?;
+    let text = fs::read_to_string(path).map_err(Failure::read(path))?;
     let foreign = || {
         let help = "write it by `linkwear life FILE --format json > life.json`";
-        fault(path, None, format!("`{}` is no result of `life`", path.display()), help)
+        Failure::data(path, None, format!("`{}` is no result of `life`", path.display()), help)
     };
     let life: Value = serde_json::from_str(&text).map_err(|_| foreign())?;
     let joint = life["failed_joint"].as_str().ok_or_else(foreign)?;

@@ -6,7 +6,7 @@ use std::path::Path;
 use linkwear_gamma::data::Reading;
 
 use super::super::arguments::FitArguments;
-use super::super::csv_table::{CsvTable, fault};
+use super::super::csv_table::CsvTable;
 use super::super::failure::Failure;
 use super::lambda::lambda_table;
 
@@ -45,10 +45,10 @@ pub fn groups(arguments: &FitArguments) -> Result<Vec<Group>, Failure> {
         }
     }
     if groups.is_empty() {
-        return Err(fault(
+        return Err(Failure::data(
             &arguments.file,
             None,
-            "there are no readings".to_owned(),
+            "there are no readings",
             "the file has only a header",
         ));
     }
@@ -57,10 +57,7 @@ pub fn groups(arguments: &FitArguments) -> Result<Vec<Group>, Failure> {
 
 /// Exposure, or Lambda where it is given.
 fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Failure> {
-    let exposures = match &arguments.exposure {
-        Some(name) => Some(table.numbers(name)?),
-        None => None,
-    };
+    let exposures = arguments.exposure.as_ref().map(|name| table.numbers(name)).transpose()?;
     let Some(lambda) = &arguments.lambda else {
         return Ok(exposures.expect("clap asks for one of the two"));
     };
@@ -73,10 +70,9 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
         table.numbers(lambda)?;
     }
     let Some(exposures) = exposures else {
-        return Err(Failure::Usage {
-            message: format!("`{lambda}` gives Lambda by exposure, but no column of exposure is named"),
-            help: "add --exposure COL, in what the file counts in (cycles of `life`)".to_owned(),
-        });
+        let message = format!("`{lambda}` gives Lambda by exposure, but no column of exposure is named");
+        let help = "add --exposure COL, in what the file counts in (cycles of `life`)";
+        return Err(Failure::usage(message, help));
     };
     let (by_exposure, end) = lambda_table(path)?;
     let read = exposures.iter().zip(table.lines()).map(|(exposure, line)| {
@@ -84,7 +80,7 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
             return Ok(by_exposure.exposure(*exposure));
         }
         let message = format!("line {line}: exposure {exposure} is outside of `{lambda}`, 0 to {end}");
-        Err(fault(&arguments.file, Some(line), message, "run `life` further, or drop the line"))
+        Err(Failure::data(&arguments.file, Some(line), message, "run `life` further, or drop the line"))
     });
     read.collect()
 }

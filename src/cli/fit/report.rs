@@ -2,29 +2,49 @@
 
 use std::fmt::Write as _;
 
+use linkwear::number::number;
 use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
 use linkwear_gamma::process::Process;
 use serde_json::{Value, json};
 
+use super::super::answer::Answer;
 use super::super::arguments::FitArguments;
-use super::super::table::{number, table};
+use super::super::table::table;
 use super::analysis::{Analysis, LEVEL};
 
-pub fn to_json(
+/// The fit of all readings, and of each group where there are groups.
+pub fn answer(
     arguments: &FitArguments,
     pooled: &Analysis,
-    parts: &[Analysis],
+    groups: &[Analysis],
     test: Option<LikelihoodRatio>,
-) -> Value {
-    let mut value = one(arguments, pooled);
-    if !parts.is_empty() {
-        value["groups"] = parts.iter().map(|part| one(arguments, part)).collect();
-        value["group_test"] = test.map_or(
+) -> Answer {
+    let mut json = one(arguments, pooled);
+    if !groups.is_empty() {
+        json["groups"] = groups.iter().map(|group| one(arguments, group)).collect();
+        json["group_test"] = test.map_or(
             Value::Null,
             |test| json!({ "statistic": test.statistic, "degrees": test.degrees, "p_value": test.p_value }),
         );
     }
-    value
+    let mut text = String::new();
+    for own in groups.iter().chain([pooled]) {
+        if !groups.is_empty() {
+            let _ = writeln!(text, "{}", own.name);
+        }
+        part(&mut text, arguments, own);
+        text.push('\n');
+    }
+    if let Some(test) = test {
+        let _ = writeln!(
+            text,
+            "one process for all groups: likelihood ratio {:.2} on {} degrees of freedom, p = {}",
+            test.statistic,
+            test.degrees,
+            number(test.p_value)
+        );
+    }
+    Answer { text, json }
 }
 
 fn warnings(analysis: &Analysis) -> Vec<&'static str> {
@@ -101,32 +121,6 @@ fn comparison(own: &Analysis) -> Vec<Value> {
         }
     });
     [head(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
-}
-
-pub fn to_text(
-    arguments: &FitArguments,
-    pooled: &Analysis,
-    parts: &[Analysis],
-    test: Option<LikelihoodRatio>,
-) -> String {
-    let mut text = String::new();
-    for own in parts.iter().chain([pooled]) {
-        if !parts.is_empty() {
-            let _ = writeln!(text, "{}", own.name);
-        }
-        part(&mut text, arguments, own);
-        text.push('\n');
-    }
-    if let Some(test) = test {
-        let _ = writeln!(
-            text,
-            "one process for all groups: likelihood ratio {:.2} on {} degrees of freedom, p = {}",
-            test.statistic,
-            test.degrees,
-            number(test.p_value)
-        );
-    }
-    text.trim_end().to_owned()
 }
 
 fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {

@@ -1,65 +1,42 @@
 //! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent.
 
-use std::io::{self, Write};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
+use linkwear::files::{WriteError, write_whole};
+use linkwear::life::LifeResult;
+use linkwear::table::write_table;
+use linkwear_runtime::life::{CycleJoint, CycleRecord};
+use linkwear_runtime::{Cells, Table};
+use serde_json::Value;
 
-use super::super::failure::Failure;
-use super::super::file::{claim_folder, write_whole};
-use super::output::Answer;
-
-/// A folder that was empty.
-pub struct Folder(PathBuf);
-
-impl Folder {
-    /// Makes it; one with something in it is refused, so that no result is mixed with another.
-    pub fn claim(path: &Path) -> Result<Self, Failure> {
-        claim_folder(path)?;
-        Ok(Self(path.to_path_buf()))
+/// Everything.
+pub fn write(folder: &Path, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
+    let (names, lives) = (life.names(), &life.lives);
+    write_cycles(folder, &names, &life.cycles)?;
+    if !lives.is_empty() {
+        let table = Table { exponents: false, ..Table::new(lives.len()) }
+            .column("trajectory", "", Cells::counts(|row| row as u64))
+            .column("life", "cycles", Cells::numbers(|row| lives[row].cycles))
+            .column("whole cycles", "", Cells::counts(|row| lives[row].whole_cycles))
+            .column("failed joint", "", Cells::names(|row| &names[lives[row].joint]));
+        write_table(&folder.join("lives.csv"), &table)?;
     }
-
-    /// Everything.
-    pub fn write(&self, answer: &Answer<'_>) -> Result<(), Failure> {
-        let (names, life) = (answer.life.names(), answer.life);
-        self.write_cycles(&names, &life.cycles)?;
-        if !life.lives.is_empty() {
-            write_whole(&self.0.join("lives.csv"), |file| write_lives(file, &names, &life.lives))?;
-        }
-        let answer = answer.to_json();
-        write_whole(&self.0.join("life.json"), |file| writeln!(file, "{answer:#}"))
-    }
-
-    /// The cycles of the mean path.
-    pub fn write_cycles(&self, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, Failure> {
-        let path = self.0.join("cycles.csv");
-        write_whole(&path, |file| {
-            write!(file, "cycle,used [1]")?;
-            for joint in joints {
-                for column in CycleJoint::columns() {
-                    write!(file, ",{joint}.{}", column.head())?;
-                }
-            }
-            writeln!(file)?;
-            for cycle in cycles {
-                write!(file, "{},{}", cycle.cycle, cycle.used)?;
-                for joint in &cycle.joints {
-                    for value in joint.values() {
-                        write!(file, ",{value}")?;
-                    }
-                }
-                writeln!(file)?;
-            }
-            Ok(())
-        })?;
-        Ok(path)
-    }
+    write_whole(&folder.join("life.json"), |file| writeln!(file, "{answer:#}"))
 }
 
-fn write_lives(file: &mut impl Write, joints: &[String], lives: &[FailureEvent]) -> io::Result<()> {
-    writeln!(file, "trajectory,life [cycles],whole cycles,failed joint")?;
-    for (trajectory, end) in lives.iter().enumerate() {
-        writeln!(file, "{trajectory},{},{},{}", end.cycles, end.whole_cycles, joints[end.joint])?;
+/// The cycles of the mean path.
+pub fn write_cycles(folder: &Path, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, WriteError> {
+    let mut table = Table { exponents: false, ..Table::new(cycles.len()) }
+        .column("cycle", "", Cells::counts(|row| cycles[row].cycle))
+        .column("used", "1", Cells::numbers(|row| cycles[row].used));
+    for (joint, name) in joints.iter().enumerate() {
+        for (at, column) in CycleJoint::columns().enumerate() {
+            let value = move |row: usize| cycles[row].joints[joint].values().nth(at).unwrap_or(f64::NAN);
+            table = table.column(format!("{name}.{}", column.symbol), column.unit, Cells::numbers(value));
+        }
     }
-    Ok(())
+    let path = folder.join("cycles.csv");
+    write_table(&path, &table)?;
+    Ok(path)
 }

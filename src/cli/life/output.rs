@@ -3,159 +3,168 @@
 use std::fmt::Write as _;
 
 use linkwear::life::{Coupling, JointProcess, LifeResult, LifeStudy};
-use linkwear::mechanism::Mechanism;
+use linkwear::number::number;
 use linkwear_gamma::life::{LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::{Value, json};
 
-use super::super::failure::entries;
-use super::super::table::{number, table};
+use super::super::answer::Answer;
+use super::super::failure::warnings;
+use super::super::table::table;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
 /// Points of the reliability function.
 const POINTS: usize = 40;
 
-/// A life with what it was made from.
-pub struct Answer<'a> {
-    pub mechanism: &'a Mechanism,
-    pub study: &'a LifeStudy<'a>,
-    pub life: &'a LifeResult,
+/// The answer.
+pub fn answer(study: &LifeStudy<'_>, life: &LifeResult) -> Answer {
+    let statistics = life.statistics();
+    Answer {
+        text: to_text(study, life, statistics.as_ref()),
+        json: to_json(study, life, statistics.as_ref()),
+    }
 }
 
-impl Answer<'_> {
-    /// For machines.
-    pub fn to_json(&self) -> Value {
-        let (life, study) = (self.life, self.study);
-        let names = life.names();
-        let joint = life.failed_joint();
-        let statistics = life.statistics();
-        let of_run = life.warnings.iter().map(|text| json!({ "code": "life", "message": text }));
-        let warnings: Vec<Value> = entries(&self.mechanism.warnings).into_iter().chain(of_run).collect();
-        let cycles: Vec<Value> = life.cycles.iter().map(|cycle| cycle_entry(&names, cycle)).collect();
-        let [p10, p50, p90] = [0.1, 0.5, 0.9].map(|p| {
-            let lives = statistics.as_ref().and_then(|lives| lives.quantile(p).ok());
-            lives.map_or(life.mean(), |quantile| quantile.value)
-        });
-        let mut answer = json!({
-            "name": self.mechanism.description.name,
-            "backend": self.mechanism.backend(),
-            "coupling": match life.coupling { Coupling::Table => "table", Coupling::Full => "full" },
-            "mean": life.mean(),
-            "std": statistics.as_ref().map_or(0.0, |lives| lives.std().value),
-            "cov": statistics.as_ref().map_or(0.0, |lives| lives.cov().value),
-            "quantiles": { "p10": p10, "p50": p50, "p90": p90 },
-            "mean_whole_cycles": life.mean_whole_cycles(),
-            "trajectories": life.lives.len().max(1),
-            "random": !life.lives.is_empty(),
-            "seed": study.seed,
-            "mean_path": {
-                "cycles": life.end.cycles, "whole_cycles": life.end.whole_cycles, "step_error": life.step_error,
-            },
-            "failed_joint": joint.joint,
-            "revolutions_per_cycle": joint.revolutions_per_cycle,
-            "revolutions": life.mean() * joint.revolutions_per_cycle,
-            "parameters": life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect::<Value>()),
-            "shared_factor": study.shared_factor,
-            "table_error": life.table_error(),
-            "measurements": life.measurements,
-            "cycles": cycles,
-            "warnings": warnings,
-        });
-        let more = answer.as_object_mut().expect("an object");
-        if let Some(lives) = &statistics {
-            more.extend(scatter_entries(lives));
-            let first = names.into_iter().zip(life.failed_first().into_iter().map(Value::from));
-            more.insert("failed_first".into(), first.collect::<serde_json::Map<_, _>>().into());
-        }
-        more.insert("error_budget".into(), life.budget().half_widths_json());
-        answer
-    }
+/// Cycles alone, of a life that stopped.
+pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
+    let json = cycles.iter().map(|cycle| cycle_entry(names, cycle)).collect();
+    Answer { text: cycles_table(names, cycles), json }
+}
 
-    /// For people.
-    pub fn to_text(&self) -> String {
-        let life = self.life;
-        let names = life.names();
-        let joint = life.failed_joint();
-        let mut text = format!(
-            "{}: on its mean path {} fails after {:.3} cycles ({} whole), {} revolutions; {}\n",
-            self.mechanism.description.name,
-            joint.joint,
-            life.end.cycles,
-            life.end.whole_cycles,
-            number(life.end.cycles * joint.revolutions_per_cycle),
-            self.mechanism.backend(),
+fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeStatistics>) -> Value {
+    let mechanism = study.mechanism;
+    let names = life.names();
+    let joint = life.failed_joint();
+    let cycles: Vec<Value> = life.cycles.iter().map(|cycle| cycle_entry(&names, cycle)).collect();
+    let [p10, p50, p90] = [0.1, 0.5, 0.9].map(|p| {
+        let lives = statistics.and_then(|lives| lives.quantile(p).ok());
+        lives.map_or(life.mean(), |quantile| quantile.value)
+    });
+    let mut answer = json!({
+        "name": mechanism.description.name,
+        "backend": mechanism.backend(),
+        "coupling": match life.coupling { Coupling::Table => "table", Coupling::Full => "full" },
+        "mean": life.mean(),
+        "std": statistics.map_or(0.0, |lives| lives.std().value),
+        "cov": statistics.map_or(0.0, |lives| lives.cov().value),
+        "quantiles": { "p10": p10, "p50": p50, "p90": p90 },
+        "mean_whole_cycles": life.mean_whole_cycles(),
+        "trajectories": life.lives.len().max(1),
+        "random": !life.lives.is_empty(),
+        "seed": study.seed,
+        "mean_path": {
+            "cycles": life.end.cycles, "whole_cycles": life.end.whole_cycles, "step_error": life.step_error,
+        },
+        "failed_joint": joint.joint,
+        "revolutions_per_cycle": joint.revolutions_per_cycle,
+        "revolutions": life.mean() * joint.revolutions_per_cycle,
+        "parameters": life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect::<Value>()),
+        "shared_factor": study.shared_factor,
+        "table_error": life.table_error(),
+        "measurements": life.measurements,
+        "cycles": cycles,
+        "warnings": warnings(&mechanism.warnings, "life", &life.warnings),
+    });
+    if let Some(lives) = statistics {
+        let measured = |value: WithError| json!({ "value": value.value, "standard_error": value.error });
+        answer["standard_errors"] = json!({
+            "mean": lives.mean().error, "std": lives.std().error, "cov": measured(lives.cov()),
+        });
+        answer["reliability"] = reliability(lives);
+        answer["failed_first"] =
+            names.into_iter().zip(life.failed_first().into_iter().map(Value::from)).collect();
+    }
+    answer["error_budget"] = life.budget().half_widths_json();
+    answer
+}
+
+/// The part of the lives that is longer, from before the first failure to after the last.
+fn reliability(lives: &LifeStatistics) -> Value {
+    let sorted = lives.sorted();
+    let (first, last) = (sorted[0].floor(), sorted[sorted.len() - 1].ceil());
+    let points = (0..=POINTS).map(|at| {
+        let cycles = first + (last - first) * at as f64 / POINTS as f64;
+        let part = lives.reliability(cycles);
+        json!({ "cycles": cycles, "reliability": part.value, "standard_error": part.error })
+    });
+    points.collect()
+}
+
+fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeStatistics>) -> String {
+    let names = life.names();
+    let joint = life.failed_joint();
+    let mut text = format!(
+        "{}: on its mean path {} fails after {:.3} cycles ({} whole), {} revolutions; {}\n",
+        study.mechanism.description.name,
+        joint.joint,
+        life.end.cycles,
+        life.end.whole_cycles,
+        number(life.end.cycles * joint.revolutions_per_cycle),
+        study.mechanism.backend(),
+    );
+    let joints = life.process.as_deref().unwrap_or_default();
+    if joints.iter().any(|joint| joint.from.is_some()) {
+        joints.iter().for_each(|joint| text.push_str(&process_line(joint)));
+    }
+    text.push_str(&statistics.map_or_else(String::new, |lives| scatter(study, life, lives)));
+    let _ = write!(text, "\n{}", cycles_table(&names, &life.cycles));
+    if let Some(error) = life.table_error() {
+        let _ = writeln!(
+            text,
+            "\nwear per revolution from a table of {} measurements, good to {error:.1e} of itself",
+            life.measurements
         );
-        text.push_str(&life.process.as_deref().map_or_else(String::new, processes));
-        let statistics = life.statistics();
-        if let Some(lives) = &statistics {
-            text.push_str(&self.scatter(lives));
-        }
-        text.push('\n');
-        text.push_str(&cycles_table(&names, &life.cycles));
-        if let Some(error) = life.table_error() {
-            let _ = writeln!(
-                text,
-                "\nwear per revolution from a table of {} measurements, good to {error:.1e} of itself",
-                life.measurements
-            );
-        }
-        if statistics.is_none() {
-            let _ =
-                writeln!(text, "\nerror of the mean path, half-widths at 95 % [cycles]\n{}", life.budget());
-        }
-        if life.lives.is_empty() {
-            text.push_str(if life.process.is_some() {
-                "\nno random lives were drawn; --trajectories 16 draws some\n"
-            } else {
-                "\nno random lives: [wear] gives no alpha and beta of the Gamma process\n"
-            });
-        }
-        for warning in &life.warnings {
-            let _ = writeln!(text, "\nwarning: {warning}");
-        }
-        text.trim_end().to_owned()
     }
-
-    fn scatter(&self, lives: &LifeStatistics) -> String {
-        let (mean, std, cov) = (lives.mean(), lives.std(), lives.cov());
-        let quantile = |p: f64| {
-            let found = lives.quantile(p);
-            found.map_or_else(|_| String::new(), |q| format!("{:.3} +- {:.3}", q.value, q.error))
-        };
-        let rows = [
-            ("mean", format!("{:.3} +- {:.3}", mean.value, mean.error)),
-            ("mean, whole cycles", format!("{:.3}", self.life.mean_whole_cycles())),
-            ("standard deviation", format!("{:.4} +- {:.4}", std.value, std.error)),
-            ("coefficient of variation", format!("{:.3} % +- {:.3} %", 100.0 * cov.value, 100.0 * cov.error)),
-            ("10 % fail before (B10)", quantile(0.1)),
-            ("half fail before (B50)", quantile(0.5)),
-            ("90 % fail before (B90)", quantile(0.9)),
-        ];
-        let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
-        let head = format!("{} random lives, seed {}", lives.count(), self.study.seed);
-        let mut text = format!("\n{}", table(&[&head, "cycles, +- standard error"], &rows));
-        let budget = self.life.budget();
-        let _ = writeln!(text, "\nerror of the mean, half-widths at 95 % [cycles]\n{budget}");
-        let names = self.life.names();
-        if names.len() > 1 {
-            let parts = names.iter().zip(self.life.failed_first());
-            let parts: Vec<String> =
-                parts.map(|(name, part)| format!("{name} {:.1} %", 100.0 * part)).collect();
-            let _ = writeln!(text, "\nfirst to fail: {}", parts.join(", "));
-        }
-        if let Some(cov) = self.study.shared_factor {
-            let _ = writeln!(
-                text,
-                "\nin each life all wear runs by one factor, of coefficient of variation {cov}"
-            );
-        }
-        text
+    if statistics.is_none() {
+        let _ = writeln!(text, "\nerror of the mean path, half-widths at 95 % [cycles]\n{}", life.budget());
     }
+    if life.lives.is_empty() {
+        text.push_str(if life.process.is_some() {
+            "\nno random lives were drawn; --trajectories 16 draws some\n"
+        } else {
+            "\nno random lives: [wear] gives no alpha and beta of the Gamma process\n"
+        });
+    }
+    for warning in &life.warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    text
 }
 
-/// alpha and beta of a joint for machines.
+fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> String {
+    let (mean, std, cov) = (lives.mean(), lives.std(), lives.cov());
+    let quantile = |p: f64| {
+        let found = lives.quantile(p);
+        found.map_or_else(|_| String::new(), |q| format!("{:.3} +- {:.3}", q.value, q.error))
+    };
+    let rows = [
+        ("mean", format!("{:.3} +- {:.3}", mean.value, mean.error)),
+        ("mean, whole cycles", format!("{:.3}", life.mean_whole_cycles())),
+        ("standard deviation", format!("{:.4} +- {:.4}", std.value, std.error)),
+        ("coefficient of variation", format!("{:.3} % +- {:.3} %", 100.0 * cov.value, 100.0 * cov.error)),
+        ("10 % fail before (B10)", quantile(0.1)),
+        ("half fail before (B50)", quantile(0.5)),
+        ("90 % fail before (B90)", quantile(0.9)),
+    ];
+    let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
+    let head = format!("{} random lives, seed {}", lives.count(), study.seed);
+    let mut text = format!("\n{}", table(&[&head, "cycles, +- standard error"], &rows));
+    let _ = writeln!(text, "\nerror of the mean, half-widths at 95 % [cycles]\n{}", life.budget());
+    let names = life.names();
+    if names.len() > 1 {
+        let parts = names.iter().zip(life.failed_first());
+        let parts: Vec<String> = parts.map(|(name, part)| format!("{name} {:.1} %", 100.0 * part)).collect();
+        let _ = writeln!(text, "\nfirst to fail: {}", parts.join(", "));
+    }
+    if let Some(cov) = study.shared_factor {
+        let _ =
+            writeln!(text, "\nin each life all wear runs by one factor, of coefficient of variation {cov}");
+    }
+    text
+}
+
 fn process_entry(joint: &JointProcess) -> Value {
     let [alpha, beta] = joint.per_micrometre();
     json!({
@@ -164,62 +173,29 @@ fn process_entry(joint: &JointProcess) -> Value {
     })
 }
 
-/// One line for each joint, where not all parameters are those of the mechanism's file.
-fn processes(joints: &[JointProcess]) -> String {
-    let line = |joint: &JointProcess| {
-        let from = match &joint.from {
-            Some(from) => format!("from `{from}`"),
-            None => "from the mechanism's file, taken as known".to_owned(),
-        };
-        let [alpha, beta] = joint.per_micrometre().map(number);
-        format!("{}: alpha {alpha}/um, beta {beta}/um, {from}\n", joint.joint)
+fn process_line(joint: &JointProcess) -> String {
+    let from = match &joint.from {
+        Some(from) => format!("from `{from}`"),
+        None => "from the mechanism's file, taken as known".to_owned(),
     };
-    if joints.iter().all(|joint| joint.from.is_none()) {
-        return String::new();
-    }
-    joints.iter().map(line).collect()
+    let [alpha, beta] = joint.per_micrometre().map(number);
+    format!("{}: alpha {alpha}/um, beta {beta}/um, {from}\n", joint.joint)
 }
 
-/// What only random lives have, for machines.
-fn scatter_entries(lives: &LifeStatistics) -> [(String, Value); 2] {
-    let measured = |value: WithError| json!({ "value": value.value, "standard_error": value.error });
-    let reliability: Vec<Value> = grid(lives)
-        .map(|cycles| {
-            let part = lives.reliability(cycles);
-            json!({ "cycles": cycles, "reliability": part.value, "standard_error": part.error })
-        })
-        .collect();
-    let errors = json!({
-        "mean": lives.mean().error, "std": lives.std().error, "cov": measured(lives.cov()),
-    });
-    [("standard_errors".to_owned(), errors), ("reliability".to_owned(), json!(reliability))]
-}
-
-/// Times from before the first failure to after the last.
-fn grid(lives: &LifeStatistics) -> impl Iterator<Item = f64> {
-    let sorted = lives.sorted();
-    let (first, last) = (sorted[0].floor(), sorted[sorted.len() - 1].ceil());
-    (0..=POINTS).map(move |at| first + (last - first) * at as f64 / POINTS as f64)
-}
-
-/// A cycle for machines.
-pub fn cycle_entry(names: &[String], cycle: &CycleRecord) -> Value {
-    let joints: Vec<Value> = names
-        .iter()
-        .zip(&cycle.joints)
-        .map(|(name, joint)| {
-            let mut entry = json!({ "joint": name });
-            for (column, value) in CycleJoint::columns().zip(joint.values()) {
-                entry[column.key()] = json!(value);
-            }
-            entry
-        })
-        .collect();
+fn cycle_entry(names: &[String], cycle: &CycleRecord) -> Value {
+    let entry = |(name, joint): (&String, &CycleJoint)| {
+        let mut entry = json!({ "joint": name });
+        for (column, value) in CycleJoint::columns().zip(joint.values()) {
+            entry[column.key()] = json!(value);
+        }
+        entry
+    };
+    let joints: Vec<Value> = names.iter().zip(&cycle.joints).map(entry).collect();
     json!({ "cycle": cycle.cycle, "used": cycle.used, "joints": joints })
 }
 
 /// Cycles for people, thinned out: lengths in micrometres, without what hardly changes along a life.
-pub fn cycles_table(names: &[String], cycles: &[CycleRecord]) -> String {
+fn cycles_table(names: &[String], cycles: &[CycleRecord]) -> String {
     let shown = |column: &Column| !["wear integral", "mean force"].contains(&column.name);
     let cell = |(column, value): (Column, f64)| match (column.name, column.unit) {
         ("dLambda", _) => format!("{:.4}", 1e6 * value),
