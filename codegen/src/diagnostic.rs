@@ -55,6 +55,11 @@ impl Diagnostic {
         self
     }
 
+    /// Adds several places of the fault.
+    pub fn at_each(self, spans: impl IntoIterator<Item = Span>, text: &str) -> Self {
+        spans.into_iter().fold(self, |diagnostic, span| diagnostic.at(span, text))
+    }
+
     /// Adds a related place.
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into(), primary: false });

@@ -4,8 +4,8 @@ use linkwear_codegen::diagnostic::{Code, Diagnostics};
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{
-    Amount, AppliedForce, AppliedTorque, Axis, Carrier, Closure, Force, ForceKind, Function, Inertia, Joint,
-    JointModel, Mechanism, Overrides, Passive, Position, Spring, Term, resolve,
+    Amount, Axis, Carrier, Closure, Force, Function, Inertia, Joint, JointModel, Mechanism, Overrides,
+    Passive, Position, Term, resolve,
 };
 use linkwear_codegen::source::SourceFile;
 use linkwear_codegen::spec;
@@ -205,24 +205,16 @@ turn = {{ torque = "bar", components = [0, 0, "1 N m*cos(2*pi*t*1 Hz)"] }}
 "#
     ));
     let values = m.parameter_values();
-    let ForceKind::Spring(Spring { bodies, at, stiffness, rest, damping, preload }) = &force(&m, "coil").kind
-    else {
-        panic!()
-    };
-    assert_eq!((*bodies, *at), ([Carrier::Ground, body(0)], [PointId::new(0), PointId::new(1)]));
-    let numbers = [stiffness, rest, damping, preload].map(|formula| formula.value(&values).unwrap());
+    let coil = force(&m, "coil");
+    assert_eq!((coil.bodies, coil.at), ([Carrier::Ground, body(0)], [PointId::new(0), PointId::new(1)]));
+    let numbers = coil.numbers().map(|formula| formula.value(&values).unwrap());
     assert_eq!(numbers, [5000.0, 0.2, 0.0, 0.0]);
-    let ForceKind::Force(AppliedForce { body: pushed, reaction, axes, components, .. }) =
-        &force(&m, "push").kind
-    else {
-        panic!()
-    };
-    assert_eq!((*pushed, *reaction, *axes), (body(0), Carrier::Ground, body(0)));
-    assert_eq!(components[0].value(&values), Some(1.0));
-    let ForceKind::Torque(AppliedTorque { components, axes: Carrier::Ground, .. }) = &force(&m, "turn").kind
-    else {
-        panic!()
-    };
+    let push = force(&m, "push");
+    assert_eq!((push.kind.name, push.bodies, push.axes), ("force", [body(0), Carrier::Ground], body(0)));
+    assert_eq!(push.formulas[0].value(&values), Some(1.0));
+    let turn = force(&m, "turn");
+    assert_eq!((turn.kind.name, turn.axes), ("torque", Carrier::Ground));
+    let [components] = turn.triples();
     assert_eq!(components[2].value_at_time(&values, 0.5), Some(-1.0));
     let mut calls = 0;
     components[2].term.visit(&mut |term| calls += usize::from(matches!(term, Term::Call(Function::Cos, _))));

@@ -1,9 +1,7 @@
 //! Checks before a mechanism is modelled: formulas that must be constant are, and what acts on a joint
 //! coordinate acts on one that exists. In: a mechanism. Out: nothing, or an error. Never knows numbers.
 
-use linkwear_codegen::model::{
-    Amount, Body, ForceKind, Formula, Inertia, Joint, Mechanism, Passive, Position, Spring,
-};
+use linkwear_codegen::model::{Amount, Body, Formula, Inertia, Joint, Mechanism, Passive, Position};
 
 use crate::error::OracleError;
 use crate::joint::JointGeometry;
@@ -33,22 +31,8 @@ pub(crate) fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Resu
     for joint in &mechanism.joints {
         check(&joint.name, &of_joint(joint))?;
     }
-    for force in &mechanism.forces {
-        match &force.kind {
-            ForceKind::Spring(Spring { stiffness, rest, damping, preload, .. }) => {
-                check(&force.name, &[stiffness, rest, damping, preload])?;
-            }
-            ForceKind::Bushing(bushing) => {
-                let lists = [
-                    &bushing.stiffness,
-                    &bushing.damping,
-                    &bushing.turning_stiffness,
-                    &bushing.turning_damping,
-                ];
-                lists.into_iter().try_for_each(|list| check(&force.name, &list.each_ref()))?;
-            }
-            ForceKind::Force(_) | ForceKind::Torque(_) => {}
-        }
+    for force in mechanism.forces.iter().filter(|force| !force.is_over_state()) {
+        check(&force.name, &force.formulas.iter().collect::<Vec<_>>())?;
     }
     Ok(())
 }

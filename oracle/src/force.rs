@@ -2,9 +2,7 @@
 //! potentials. In: a state. Out: loads on bodies, watts, joules. Never knows constraints.
 
 use linkwear_codegen::id::{JointId, PointId};
-use linkwear_codegen::model::{
-    AppliedForce, AppliedTorque, Bushing, Carrier, Force, ForceKind, Formula, Passive, Spring,
-};
+use linkwear_codegen::model::{Carrier, Force, Formula, Passive};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::frame::{BodyState, Load};
@@ -104,59 +102,64 @@ impl Oracle {
     }
 
     fn add_element(&self, force: &Force, t: f64, frames: &Frames<'_>, applied: &mut Applied) {
-        let vector = |components: &[Formula; 3], axes: Carrier| -> Vector3<f64> {
+        let Force { bodies, at, axes, .. } = force;
+        let vector = || -> Vector3<f64> {
+            let [components] = force.triples();
             let value = Vector3::from(components.each_ref().map(|f| self.law(f, t, frames.states).value));
-            frames.of(axes).state.rotation * value
+            frames.of(*axes).state.rotation * value
         };
-        match &force.kind {
-            ForceKind::Spring(Spring { bodies, at, stiffness, rest, damping, preload }) => {
+        let [body, reaction] = bodies;
+        match force.kind.name {
+            "spring" => {
                 let ends = [0, 1].map(|k| self.end(bodies[k], at[k], frames));
                 let apart = ends[1].position - ends[0].position;
                 let length = apart.norm();
                 let line = apart / length;
                 let rate = line.dot(&(ends[1].velocity - ends[0].velocity));
-                let stretch = length - self.number(rest);
-                let [k, c, p] = [stiffness, damping, preload].map(|f| self.number(f));
+                let [k, rest, c, p] = force.numbers().map(|f| self.number(f));
+                let stretch = length - rest;
                 let pull = k * stretch + c * rate + p;
                 applied.load(bodies[0], 1.0, &Load::at(&ends[0].arm, &(pull * line)));
                 applied.load(bodies[1], -1.0, &Load::at(&ends[1].arm, &(pull * line)));
                 applied.potential += 0.5 * k * stretch * stretch + p * length;
                 applied.power_dissipated += c * rate * rate;
             }
-            ForceKind::Bushing(bushing) => self.add_bushing(bushing, frames, applied),
-            ForceKind::Force(AppliedForce { body, reaction, at, components, axes }) => {
-                let push = vector(components, *axes);
-                let place = self.end(*body, *at, frames);
+            "bushing" => self.add_bushing(force, frames, applied),
+            "force" => {
+                let push = vector();
+                let place = self.end(*body, at[0], frames);
                 let base = frames.of(*reaction);
                 applied.load(*body, 1.0, &Load::at(&place.arm, &push));
                 applied.load(*reaction, -1.0, &Load::at(&(place.position - base.state.centre), &push));
                 let slip = place.velocity - base.velocity_at(&place.position);
                 applied.power_supplied += push.dot(&slip);
             }
-            ForceKind::Torque(AppliedTorque { body, reaction, components, axes }) => {
-                let torque = vector(components, *axes);
+            "torque" => {
+                let torque = vector();
                 let load = Load { force: Vector3::zeros(), torque };
                 applied.load(*body, 1.0, &load);
                 applied.load(*reaction, -1.0, &load);
                 let slip = frames.of(*body).state.omega - frames.of(*reaction).state.omega;
                 applied.power_supplied += torque.dot(&slip);
             }
+            other => unreachable!("no kind of force element is called `{other}`"),
         }
     }
 
     /// Force along the first body's axes and moment `-dV/d(turn)` of the energy of the rotation vector, whose rate is
     /// `(1 - [phi]/2 + (1/t² - (1 + cos t)/(2 t sin t)) [phi]²) omega` in the first body's axes, t = |phi|.
-    fn add_bushing(&self, bushing: &Bushing, frames: &Frames<'_>, applied: &mut Applied) {
-        let Bushing { bodies, at, axes, .. } = bushing;
+    fn add_bushing(&self, bushing: &Force, frames: &Frames<'_>, applied: &mut Applied) {
+        let Force { bodies, at: [at, _], directions, .. } = bushing;
+        let [stiffness, damping, turning_stiffness, turning_damping] = bushing.triples();
         let numbers = |list: &[Formula; 3]| Vector3::from(list.each_ref().map(|f| self.number(f)));
         let [a, b] = bodies.map(|body| frames.of(body));
         let ends = bodies.map(|body| self.end(body, *at, frames));
-        let directions = Matrix3::from_columns(&axes.map(Vector3::from));
+        let directions = Matrix3::from_columns(&directions.map(Vector3::from));
         let [first, second] = [a, b].map(|frame| frame.state.rotation * directions);
         let apart = ends[1].position - ends[0].position;
         let slip = ends[1].velocity - a.velocity_at(&ends[1].position);
         let (d, rate) = (first.transpose() * apart, first.transpose() * slip);
-        let (k, c) = (numbers(&bushing.stiffness), numbers(&bushing.damping));
+        let (k, c) = (numbers(stiffness), numbers(damping));
         let force = -first * (k.component_mul(&d) + c.component_mul(&rate));
         let turned = Rotation3::from_matrix_unchecked(first.transpose() * second);
         // By the quaternion: an arc cosine of the trace is no number where rounding takes it past 1.
@@ -171,7 +174,7 @@ impl Oracle {
         let skew = phi.cross_matrix();
         let jacobian = Matrix3::identity() - 0.5 * skew + b2 * skew * skew;
         let omega = b.state.omega - a.state.omega;
-        let (kr, cr) = (numbers(&bushing.turning_stiffness), numbers(&bushing.turning_damping));
+        let (kr, cr) = (numbers(turning_stiffness), numbers(turning_damping));
         let own_rate = second.transpose() * omega;
         let moment =
             -first * jacobian.transpose() * kr.component_mul(&phi) - second * cr.component_mul(&own_rate);

@@ -3,9 +3,7 @@
 
 mod sketch;
 
-use linkwear_codegen::model::{
-    AppliedForce, AppliedTorque, Bushing, Carrier, ForceKind, Function, JointModel, Passive, Spring, Term,
-};
+use linkwear_codegen::model::{Carrier, Force, Function, JointModel, Passive, Term};
 use linkwear_oracle::{BodyState, Oracle};
 use nalgebra::Vector3;
 use sketch::{Sketch, axis, formula, law, number};
@@ -49,38 +47,16 @@ fn two_bodies(model: JointModel) -> Oracle {
         s.passive(joint, Passive::Damping { coordinate: 0, coefficient: number(0.1) });
     }
     let (p, q) = (s.point([0.3, 0.2, 0.1]), s.point([0.9, -0.2, 0.4]));
-    s.force(ForceKind::Spring(Spring {
-        bodies: [a, b],
-        at: [p, q],
-        stiffness: number(20.0),
-        rest: number(0.4),
-        damping: number(0.6),
-        preload: number(1.5),
-    }));
-    s.force(ForceKind::Bushing(Bushing {
-        bodies: [a, b],
-        at: p,
-        axes: [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]],
-        stiffness: [number(30.0), number(12.0), number(7.0)],
-        damping: [number(0.3), number(0.2), number(0.4)],
-        turning_stiffness: [number(2.0), number(0.7), number(1.1)],
-        turning_damping: [number(0.03), number(0.05), number(0.02)],
-    }));
+    s.force(Force::new("spring", [a, b], [p, q], [20.0, 0.4, 0.6, 1.5].map(number).to_vec()));
+    let values = [30.0, 12.0, 7.0, 0.3, 0.2, 0.4, 2.0, 0.7, 1.1, 0.03, 0.05, 0.02].map(number).to_vec();
+    let directions = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
+    s.force(Force { directions, ..Force::new("bushing", [a, b], [p, p], values) });
     let speed = Term::PointSpeed(q, 1);
     let slowing = formula(Term::Neg(Box::new(Term::Call(Function::Tanh, vec![speed]))));
-    s.force(ForceKind::Force(AppliedForce {
-        body: b,
-        reaction: a,
-        at: q,
-        components: [law(0.5, 0.0, 1.0), slowing, number(0.3)],
-        axes: a,
-    }));
-    s.force(ForceKind::Torque(AppliedTorque {
-        body: a,
-        reaction: b,
-        components: [number(0.1), law(0.0, 0.0, 0.2), number(-0.1)],
-        axes: b,
-    }));
+    let components = vec![law(0.5, 0.0, 1.0), slowing, number(0.3)];
+    s.force(Force { axes: a, ..Force::new("force", [b, a], [q, q], components) });
+    let components = vec![number(0.1), law(0.0, 0.0, 0.2), number(-0.1)];
+    s.force(Force { axes: b, ..Force::new("torque", [a, b], [q, q], components) });
     Oracle::with_defaults(&s.0).expect("a sound sketch")
 }
 

@@ -92,13 +92,8 @@ impl Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (position, diagnostic) in self.list.iter().enumerate() {
-            if position > 0 {
-                formatter.write_str("\n\n")?;
-            }
-            formatter.write_str(&render::plain(diagnostic, self.source.as_ref()))?;
-        }
-        Ok(())
+        let texts = self.list.iter().map(|diagnostic| render::plain(diagnostic, self.source.as_ref()));
+        formatter.write_str(&texts.collect::<Vec<_>>().join("\n\n"))
     }
 }
 

@@ -14,41 +14,33 @@ pub enum Coordinate {
 impl Coordinate {
     /// Dimension of the position.
     pub const fn dimension(self) -> Dimension {
-        match self {
-            Self::Angle => Dimension::NONE,
-            Self::Length => Dimension::LENGTH,
-        }
+        self.choose(Dimension::NONE, Dimension::LENGTH)
     }
 
     /// Dimension of the speed.
     pub const fn speed(self) -> Dimension {
-        match self {
-            Self::Angle => Dimension::of(0, 0, -1),
-            Self::Length => Dimension::of(1, 0, -1),
-        }
+        self.choose(Dimension::of(0, 0, -1), Dimension::of(1, 0, -1))
     }
 
     /// Dimension of the force along the coordinate.
     pub const fn force(self) -> Dimension {
-        match self {
-            Self::Angle => Dimension::TORQUE,
-            Self::Length => Dimension::FORCE,
-        }
+        self.choose(Dimension::TORQUE, Dimension::FORCE)
     }
 
     /// Dimension of force over speed.
     pub const fn damping(self) -> Dimension {
-        match self {
-            Self::Angle => Dimension::of(2, 1, -1),
-            Self::Length => Dimension::of(0, 1, -1),
-        }
+        self.choose(Dimension::of(2, 1, -1), Dimension::of(0, 1, -1))
     }
 
     /// Dimension of force over position.
     pub const fn stiffness(self) -> Dimension {
+        self.choose(Dimension::TORQUE, Dimension::of(0, 1, -2))
+    }
+
+    const fn choose(self, angle: Dimension, length: Dimension) -> Dimension {
         match self {
-            Self::Angle => Dimension::TORQUE,
-            Self::Length => Dimension::of(0, 1, -2),
+            Self::Angle => angle,
+            Self::Length => length,
         }
     }
 }

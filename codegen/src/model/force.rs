@@ -3,6 +3,7 @@
 use super::{Carrier, Formula};
 use crate::id::PointId;
 use crate::source::Span;
+use crate::spec::{Bodies, ForceKind};
 
 /// A force element between bodies.
 #[derive(Clone, Debug)]
@@ -10,110 +11,60 @@ pub struct Force {
     /// Name in the file.
     pub name: String,
     /// What acts.
-    pub kind: ForceKind,
+    pub kind: &'static ForceKind,
+    /// The two bodies; of a kind that acts on one, that body and the one that takes the reaction.
+    pub bodies: [Carrier; 2],
+    /// Where it acts on each; twice the same point if the kind has one.
+    pub at: [PointId; 2],
+    /// x, y and z axis of an element with directions: unit vectors in W at the reference pose.
+    pub directions: [[f64; 3]; 3],
+    /// Axes of components: W, or W-parallel at the reference pose and moving with this body.
+    pub axes: Carrier,
+    /// The kind's values in their order, SI; those by axis take three places.
+    pub formulas: Vec<Formula>,
     /// Where it is written.
     pub span: Span,
 }
 
-/// The kinds of force elements.
-#[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "one per element: plain to read is worth more than small")]
-pub enum ForceKind {
-    /// Spring and damper between two points.
-    Spring(Spring),
-    /// Elastic mount between two bodies.
-    Bushing(Bushing),
-    /// A force by formula.
-    Force(AppliedForce),
-    /// A torque by formula.
-    Torque(AppliedTorque),
-}
-
-/// Linear spring and damper between two points: pull `k (l - rest) + c l̇` along the line, plus `preload`.
-#[derive(Clone, Debug)]
-pub struct Spring {
-    /// The two bodies.
-    pub bodies: [Carrier; 2],
-    /// Attachment point on each.
-    pub at: [PointId; 2],
-    /// [N/m].
-    pub stiffness: Formula,
-    /// Unloaded length [m].
-    pub rest: Formula,
-    /// [N s/m].
-    pub damping: Formula,
-    /// Constant pull [N].
-    pub preload: Formula,
-}
-
-/// Springs and dampers along and about three axes between two bodies, at rest in the reference pose.
-#[derive(Clone, Debug)]
-pub struct Bushing {
-    /// The two bodies.
-    pub bodies: [Carrier; 2],
-    /// The point, as each body's branch describes it.
-    pub at: PointId,
-    /// x, y and z axis: unit vectors in W at the reference pose.
-    pub axes: [[f64; 3]; 3],
-    /// Along each axis of the first body [N/m].
-    pub stiffness: [Formula; 3],
-    /// Along each axis of the first body [N s/m].
-    pub damping: [Formula; 3],
-    /// Per component of the rotation vector [N m/rad].
-    pub turning_stiffness: [Formula; 3],
-    /// About each axis of the second body [N m s/rad].
-    pub turning_damping: [Formula; 3],
-}
-
-/// A force on a body at a point, with its opposite on `reaction`.
-#[derive(Clone, Debug)]
-pub struct AppliedForce {
-    /// Body that is pushed.
-    pub body: Carrier,
-    /// Body that takes the reaction at the same place; ground takes it silently.
-    pub reaction: Carrier,
-    /// Where it acts.
-    pub at: PointId,
-    /// Components [N] over coordinates, speeds and t.
-    pub components: [Formula; 3],
-    /// Axes in which the components are meant: W, or W-parallel at the reference pose and moving with
-    /// this body.
-    pub axes: Carrier,
-}
-
-/// A torque on a body, with its opposite on `reaction`.
-#[derive(Clone, Debug)]
-pub struct AppliedTorque {
-    /// Body that is turned.
-    pub body: Carrier,
-    /// Body that takes the reaction.
-    pub reaction: Carrier,
-    /// Components [N m] over coordinates, speeds and t.
-    pub components: [Formula; 3],
-    /// As for [`AppliedForce`].
-    pub axes: Carrier,
-}
-
-impl ForceKind {
-    /// Points at which bodies are pushed, and whether they are turned there too.
-    pub fn attachments(&self) -> Vec<(Carrier, PointId, bool)> {
-        match self {
-            Self::Spring(Spring { bodies: [a, b], at, .. }) => vec![(*a, at[0], false), (*b, at[1], false)],
-            Self::Bushing(Bushing { bodies: [a, b], at, .. }) => vec![(*a, *at, true), (*b, *at, true)],
-            Self::Force(AppliedForce { body, reaction, at, .. }) => {
-                vec![(*body, *at, false), (*reaction, *at, false)]
-            }
-            Self::Torque(_) => Vec::new(),
+impl Force {
+    /// An element with the axes of W, which no file tells.
+    ///
+    /// # Panics
+    /// If no kind has this name.
+    pub fn new(kind: &str, bodies: [Carrier; 2], at: [PointId; 2], formulas: Vec<Formula>) -> Self {
+        Self {
+            name: kind.to_owned(),
+            kind: ForceKind::named(kind).expect("the name of a kind of force element"),
+            bodies,
+            at,
+            directions: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            axes: Carrier::Ground,
+            formulas,
+            span: Span::default(),
         }
     }
 
-    /// Formulas over the state; those of springs and bushings are over parameters.
-    pub fn laws(&self) -> &[Formula] {
-        match self {
-            Self::Spring(_) | Self::Bushing(_) => &[],
-            Self::Force(AppliedForce { components, .. }) | Self::Torque(AppliedTorque { components, .. }) => {
-                components
-            }
-        }
+    /// The values of a kind whose `N` values are single numbers.
+    pub fn numbers<const N: usize>(&self) -> [&Formula; N] {
+        std::array::from_fn(|at| &self.formulas[at])
+    }
+
+    /// The values of a kind whose `N` values are by axis.
+    ///
+    /// # Panics
+    /// If there are fewer formulas.
+    pub fn triples<const N: usize>(&self) -> [&[Formula; 3]; N] {
+        std::array::from_fn(|at| self.formulas[3 * at..].first_chunk().expect("three by axis"))
+    }
+
+    /// Whether the formulas are over the state; else they are over parameters.
+    pub const fn is_over_state(&self) -> bool {
+        matches!(self.kind.bodies, Bodies::One(_))
+    }
+
+    /// Points at which bodies are pushed.
+    pub fn attachments(&self) -> Vec<(Carrier, PointId)> {
+        let sides = self.bodies.into_iter().zip(self.at);
+        if self.kind.points == 0 { Vec::new() } else { sides.collect() }
     }
 }

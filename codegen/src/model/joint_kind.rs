@@ -122,6 +122,13 @@ pub struct Axis {
     pub child: [f64; 3],
 }
 
+impl Axis {
+    /// An axis that both branches describe alike.
+    pub const fn both(direction: [f64; 3]) -> Self {
+        Self { parent: direction, child: direction }
+    }
+}
+
 /// The relative motion that one joint leaves: its kind, with directions in numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointModel {

@@ -18,7 +18,7 @@ mod joint_kind;
 mod resolve;
 pub mod topology;
 pub use coordinate::Coordinate;
-pub use force::{AppliedForce, AppliedTorque, Bushing, Force, ForceKind, Spring};
+pub use force::Force;
 pub use formula::{Formula, Function, Term};
 pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Primitive};
 pub use resolve::{OverrideError, Overrides, resolve};
@@ -365,6 +365,11 @@ impl Mechanism {
     /// Values of all parameters in file order [SI], as [`Formula::value`] wants them.
     pub fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.value).collect()
+    }
+    /// Every prescribed coordinate with its joint.
+    pub fn drives(&self) -> impl Iterator<Item = (JointId, &Drive)> {
+        let joints = self.joints.iter().enumerate();
+        joints.flat_map(|(at, joint)| joint.drives.iter().map(move |drive| (JointId::new(at), drive)))
     }
     /// Takes the modes of all flexible bodies away: same mass, no deformation.
     pub fn freeze(&mut self) {

@@ -105,7 +105,7 @@ fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
         }
     }
     for force in &mechanism.forces {
-        force.kind.laws().iter().for_each(&mut note);
+        force.formulas.iter().for_each(&mut note);
     }
     mentioned
 }
@@ -178,7 +178,7 @@ fn unreached(mechanism: &Mechanism, depths: &[Option<usize>]) -> Vec<Diagnostic>
 fn driven_loops(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
     let cut = topology.cuts.iter().map(|id| mechanism.joint(*id)).filter(|joint| !joint.drives.is_empty());
     cut.map(|joint| {
-        let path = loop_of(topology, joint);
+        let path = topology.between(joint);
         let names =
             path.iter().map(|id| format!("`{}`", mechanism.joint(*id).name)).collect::<Vec<_>>().join(", ");
         let message = format!("the driven joints {names} and `{}` close a loop on their own", joint.name);
@@ -191,21 +191,23 @@ fn driven_loops(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
     .collect()
 }
 
-/// The tree joints between the two bodies of a cut joint.
-fn loop_of(topology: &Topology, joint: &Joint) -> Vec<JointId> {
-    let to_ground = |mut carrier: Carrier| {
-        let mut path = Vec::new();
-        while let Some(step) = topology.tree.iter().find(|step| Carrier::Body(step.outboard) == carrier) {
-            path.push(step.joint);
-            carrier = step.inboard;
-        }
-        path
-    };
-    let (parent, child) = (to_ground(joint.parent), to_ground(joint.child));
-    let mut path: Vec<JointId> = parent.iter().filter(|id| !child.contains(id)).copied().collect();
-    path.extend(child.iter().filter(|id| !parent.contains(id)));
-
-    path
+impl Topology {
+    /// The tree joints between the two bodies of a joint.
+    pub fn between(&self, joint: &Joint) -> Vec<JointId> {
+        let to_ground = |mut carrier: Carrier| {
+            let mut path = Vec::new();
+            while let Some(step) = self.tree.iter().find(|step| Carrier::Body(step.outboard) == carrier) {
+                path.push(step.joint);
+                carrier = step.inboard;
+            }
+            path
+        };
+        let (parent, child) = (to_ground(joint.parent), to_ground(joint.child));
+        let own = |path: &[JointId], other: &[JointId]| -> Vec<JointId> {
+            path.iter().filter(|id| !other.contains(id)).copied().collect()
+        };
+        [own(&parent, &child), own(&child, &parent)].concat()
+    }
 }
 
 fn starts_on_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {

@@ -1,14 +1,14 @@
 //! What an analysis looks at.
 //! In: a mechanism, its derivation run by the interpreter. Out: [`Case`]. Never knows what is asked of it.
 
-use linkwear_runtime::{AssemblyError, Description, System};
+use linkwear_runtime::{AssemblyError, Description, Entry, System};
 
-use crate::derive::Linkage;
+use crate::derive::{Link, Linkage};
 use crate::id::JointId;
 use crate::model::{Mechanism, Start, Topology};
 use crate::source::SourceFile;
 
-use super::samples::ClosedPositions;
+use super::samples::{ClosedPositions, evaluate};
 
 /// What an analysis looks at: a mechanism and its derivation with all rows kept and all drivers
 /// [`released`], run by the interpreter.
@@ -33,16 +33,19 @@ impl Case<'_> {
         self.description.parameters.iter().map(|parameter| parameter.default).collect()
     }
 
+    /// Every driver's joint, and the link that it moves.
+    fn driven_links(&self) -> impl Iterator<Item = (JointId, &Link)> {
+        self.mechanism.drives().filter_map(|(joint, drive)| {
+            let link = self.linkage.link_of_coordinate(joint, drive.coordinate)?;
+            Some((joint, &self.linkage.links[link]))
+        })
+    }
+
     /// The description with what drivers prescribe at t = 0 as guesses.
     fn with_drivers_as_guesses(&self) -> Description {
         let mut description = self.description.clone();
-        for (index, joint) in self.mechanism.joints.iter().enumerate() {
-            for drive in &joint.drives {
-                if let Some(link) = self.linkage.link_of_coordinate(JointId::new(index), drive.coordinate) {
-                    let coordinate = self.linkage.links[link].first_coordinate;
-                    description.coordinates.to_mut()[coordinate].held = false;
-                }
-            }
+        for (_, link) in self.driven_links() {
+            description.coordinates.to_mut()[link.first_coordinate].held = false;
         }
         description
     }
@@ -66,16 +69,17 @@ impl Case<'_> {
 
     /// Joint and speed of every driver.
     pub fn drivers(&self) -> Vec<(JointId, usize)> {
-        let mut drivers = Vec::new();
-        for (index, joint) in self.mechanism.joints.iter().enumerate() {
-            for drive in &joint.drives {
-                let id = JointId::new(index);
-                if let Some(link) = self.linkage.link_of_coordinate(id, drive.coordinate) {
-                    drivers.push((id, self.linkage.links[link].first_speed));
-                }
-            }
-        }
-        drivers
+        self.driven_links().map(|(joint, link)| (joint, link.first_speed)).collect()
+    }
+
+    /// All channels at t = 0 without accelerations.
+    pub fn observe(&self, q: &[f64], v: &[f64], multipliers: &[f64]) -> Vec<f64> {
+        let sizes = self.system.sizes();
+        let accelerations = vec![0.0; sizes.speeds];
+        let input = [&self.parameters(), &[0.0][..], q, v, &accelerations, multipliers].concat();
+        let mut output = vec![0.0; sizes.channels];
+        evaluate(self.system, Entry::Observe, &input, &mut output);
+        output
     }
 }
 

@@ -38,13 +38,10 @@ pub fn contacts_near_modes(
                 near.join(" and "),
                 body.name
             );
-            let warning = Diagnostic::new(Code::ContactNearMode, message);
             let joint = mechanism.joints.iter().find(|joint| joint.name == contact.joint);
-            let placed = match joint {
-                Some(joint) => warning.at(joint.span, ""),
-                None => warning,
-            };
-            warnings.push(placed.help(
+            let warning =
+                Diagnostic::new(Code::ContactNearMode, message).at_each(joint.map(|joint| joint.span), "");
+            warnings.push(warning.help(
                 "keep the modes up to twice that frequency, or compare a run with more of them: what is left out cannot answer the contact",
             ));
         }

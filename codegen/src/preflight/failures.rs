@@ -75,10 +75,7 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
 }
 
 fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &str) -> Diagnostic {
-    match named(mechanism, joint) {
-        Some(joint) => diagnostic.at(joint.span, text),
-        None => diagnostic,
-    }
+    diagnostic.at_each(named(mechanism, joint).map(|joint| joint.span), text)
 }
 
 /// Whether a variable of the joint is among `names`, each of which begins with `` `joint.q` ``.
@@ -90,13 +87,10 @@ fn among(names: &[String], joint: &Joint) -> bool {
 
 /// `names`: variables as assembly lists them.
 fn start_impossible(mechanism: &Mechanism, names: &[String], message: String) -> Diagnostic {
-    let mut diagnostic = Diagnostic::new(Code::StartImpossible, message);
-    for joint in mechanism.joints.iter().filter(|joint| !joint.drives.is_empty() && among(names, joint)) {
-        diagnostic = diagnostic.at(joint.span, "driven from there");
-    }
-    for start in demanded(mechanism, names) {
-        diagnostic = diagnostic.at(start.span, "demanded here");
-    }
+    let driven = mechanism.joints.iter().filter(|joint| !joint.drives.is_empty() && among(names, joint));
+    let diagnostic = Diagnostic::new(Code::StartImpossible, message)
+        .at_each(driven.map(|joint| joint.span), "driven from there")
+        .at_each(demanded(mechanism, names).map(|start| start.span), "demanded here");
     diagnostic.help(
         "demand no more start values than there are freedoms without a driver, and give the others in [assembly] \
          as guesses",
@@ -142,10 +136,7 @@ pub fn out_of_reach(
     if !names.is_empty() {
         diagnostic = diagnostic.help(format!("nearest positions found: {}", names.join(", ")));
     }
-    for joint in joints {
-        diagnostic = diagnostic.at(joint.span, "driven here");
-    }
-    diagnostic
+    diagnostic.at_each(joints.iter().map(|joint| joint.span), "driven here")
 }
 
 /// No freedom at all.
@@ -155,26 +146,21 @@ pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
         "nothing can move: {} speeds are held by {} independent constraint rows",
         analysis.speeds, analysis.independent_rows
     );
-    let mut diagnostic = Diagnostic::new(Code::Locked, message).help(format!(
-        "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
-         or correct axes that should be parallel or meet in a point"
-    ));
-    if let Some(joint) = analysis.cuts.first().and_then(|cut| named(mechanism, cut)) {
-        diagnostic = diagnostic.at(joint.span, "the loop closed here is rigid");
-    }
-    diagnostic
+    let cut = analysis.cuts.first().and_then(|cut| named(mechanism, cut));
+    Diagnostic::new(Code::Locked, message)
+        .at_each(cut.map(|joint| joint.span), "the loop closed here is rigid")
+        .help(format!(
+            "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
+             or correct axes that should be parallel or meet in a point"
+        ))
 }
 
 /// Some joints can never move although others do.
 pub fn rigid_part(mechanism: &Mechanism, joints: &[JointId]) -> Diagnostic {
     let names = quoted(joints.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
-    let mut diagnostic =
-        Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, though other joints do"))
-            .help("make them `fixed` if that is meant; otherwise free one, or correct lengths and axes");
-    for joint in joints {
-        diagnostic = diagnostic.at(mechanism.joint(*joint).span, "cannot move");
-    }
-    diagnostic
+    Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, though other joints do"))
+        .help("make them `fixed` if that is meant; otherwise free one, or correct lengths and axes")
+        .at_each(joints.iter().map(|joint| mechanism.joint(*joint).span), "cannot move")
 }
 
 /// A motion without inertia.
@@ -208,12 +194,11 @@ pub fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Row
                 format!("the loops couple the driven joints {names}: they cannot all be prescribed");
             (Code::DriversInConflict, message)
         };
-        let mut diagnostic =
-            Diagnostic::new(code, message).help("keep as many drivers as there are freedoms to drive");
-        for joint in joints {
-            diagnostic = diagnostic.at(joint.span, "driven here");
-        }
-        errors.push(diagnostic);
+        errors.push(
+            Diagnostic::new(code, message)
+                .help("keep as many drivers as there are freedoms to drive")
+                .at_each(joints.iter().map(|joint| joint.span), "driven here"),
+        );
     }
     errors
 }

@@ -1,14 +1,13 @@
 //! Idle freedoms: a group of bodies between ball joints that can spin while everything else rests.
 //! In: null space of the loops with drivers held. Out: sentences. Never changes the mechanism.
 
-use linkwear_runtime::Entry;
 use nalgebra::{DMatrix, DVector};
 
 use crate::id::JointId;
 use crate::model::{Carrier, Joint, Mechanism};
 
 use super::case::Case;
-use super::samples::{ClosedPositions, evaluate, null_space};
+use super::samples::{ClosedPositions, null_space};
 
 /// Motions smaller than this share of the largest count as rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;
@@ -103,20 +102,11 @@ impl Effect {
     fn new(case: &Case<'_>, positions: &ClosedPositions) -> Self {
         let sizes = case.system.sizes();
         let start = &positions.positions[0];
-        let full = &start.jacobian;
         let driven: Vec<usize> = case.drivers().into_iter().map(|(_, speed)| speed).collect();
         let mut free = case.linkage.joint_speeds();
         free.retain(|speed| !driven.contains(speed));
-        let jacobian = DMatrix::from_fn(full.nrows(), free.len(), |i, j| full[(i, free[j])]);
-        let freedoms = null_space(&jacobian);
-        let parameters = case.parameters();
-        let observe = |v: &[f64]| {
-            let rest = vec![0.0; sizes.speeds + sizes.rows];
-            let input = [&parameters, &[0.0][..], &start.q, v, &rest].concat();
-            let mut output = vec![0.0; sizes.channels];
-            evaluate(case.system, Entry::Observe, &input, &mut output);
-            DVector::from_vec(output)
-        };
+        let freedoms = null_space(&start.jacobian.select_columns(&free));
+        let observe = |v: &[f64]| DVector::from_vec(case.observe(&start.q, v, &vec![0.0; sizes.rows]));
         let still = observe(&vec![0.0; sizes.speeds]);
         let columns: Vec<DVector<f64>> = freedoms
             .column_iter()

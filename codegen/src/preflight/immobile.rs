@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use crate::derive::{Freedom, Link, row_count};
 use crate::id::JointId;
-use crate::model::{Carrier, Closure};
+use crate::model::Closure;
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Position, null_space};
@@ -41,7 +41,7 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     let mut rigid: Vec<JointId> = tree.collect();
     // A joint that closes a loop of joints at rest rests too.
     let cuts = case.topology.cuts.iter().copied().filter(|cut| {
-        let loop_joints = loop_of(case, *cut);
+        let loop_joints = case.topology.between(case.mechanism.joint(*cut));
         let could = row_count(&case.mechanism.joint(*cut).model, Closure::Joint) < 6;
         could && loop_joints.iter().any(|joint| rigid.contains(joint)) && loop_joints.into_iter().all(still)
     });
@@ -49,25 +49,6 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     rigid.extend(cuts);
     rigid.sort_by_key(|joint| joint.index());
     rigid
-}
-
-/// Tree joints of the loop that a cut closes.
-fn loop_of(case: &Case<'_>, cut: JointId) -> Vec<JointId> {
-    let joint = case.mechanism.joint(cut);
-    let to_ground = |mut carrier: Carrier| {
-        let mut path = Vec::new();
-        while let Carrier::Body(body) = carrier {
-            let Some(step) = case.topology.tree.iter().find(|step| step.outboard == body) else { break };
-            path.push(step.joint);
-            carrier = step.inboard;
-        }
-        path
-    };
-    let (one, other) = (to_ground(joint.parent), to_ground(joint.child));
-    let shared = |joint: &JointId, path: &[JointId]| path.contains(joint);
-    let mut path: Vec<JointId> = one.iter().copied().filter(|joint| !shared(joint, &other)).collect();
-    path.extend(other.iter().copied().filter(|joint| !shared(joint, &one)));
-    path
 }
 
 /// A joint (with the body it carries) whose motion moves no mass in any position tried. Elimination divides by the

@@ -1,10 +1,8 @@
 //! Reactions that redundant constraints leave undetermined: self-stress of the loops.
 //! In: the left null space of the constraint Jacobian. Out: names of wrench components.
 
-use linkwear_runtime::Entry;
-
 use super::case::Case;
-use super::samples::{ClosedPositions, evaluate, null_space};
+use super::samples::{ClosedPositions, null_space};
 
 /// Components below this share of the largest of a self-stress count as untouched by it.
 const UNTOUCHED: f64 = 1e-7;
@@ -15,18 +13,11 @@ const POSITIONS: usize = 6;
 /// Wrench components (`R1.Fx`) that change under a self-stress in some position.
 pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
     let sizes = case.system.sizes();
-    let parameters = case.parameters();
     let channels = &case.description.channels;
     let mut touched = vec![false; sizes.channels];
     let stride = positions.positions.len().div_ceil(POSITIONS).max(1);
     for position in positions.positions.iter().step_by(stride) {
-        let observe = |multipliers: &[f64]| {
-            let rest = vec![0.0; 2 * sizes.speeds];
-            let input = [&parameters, &[0.0][..], &position.q, &rest, multipliers].concat();
-            let mut output = vec![0.0; sizes.channels];
-            evaluate(case.system, Entry::Observe, &input, &mut output);
-            output
-        };
+        let observe = |multipliers: &[f64]| case.observe(&position.q, &vec![0.0; sizes.speeds], multipliers);
         let unloaded = observe(&vec![0.0; sizes.rows]);
         let stresses = null_space(&position.jacobian.transpose());
         for stress in stresses.column_iter() {

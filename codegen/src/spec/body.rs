@@ -161,21 +161,29 @@ pub enum HeldSpec {
 }
 
 /// A body's centre: a name or coordinates.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "Centre", untagged))]
 pub enum Centre {
     /// A named point.
+    #[serde(rename = "scalar", alias = "table")]
     Point(Name),
     /// Coordinates.
+    #[serde(rename = "list")]
     At(Triple),
 }
 
 /// Edges of a box's section.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "Widths", untagged))]
 pub enum Widths {
     /// A square.
+    #[serde(rename = "scalar", alias = "table")]
     Square(Quantity),
     /// A rectangle: along `width_axis`, and the other edge.
-    Rectangle(At<Vec<Quantity>>),
+    #[serde(rename = "list")]
+    Rectangle(#[cfg_attr(test, schemars(length(equal = 2)))] At<Vec<Quantity>>),
 }
 
 without_texts!(TheorySpec, HeldSpec);

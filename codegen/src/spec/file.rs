@@ -8,10 +8,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::body::BodySpec;
+use super::doc::Doc;
 use super::force::ForceSpec;
 use super::joint::JointSpec;
+use super::point::PointSpec;
 use super::start::StartSpec;
-use super::written::{At, Name, PerBody, Quantity, Table, Triple};
+use super::texts::{tables, texts_of, without_texts};
+use super::written::{At, Name, Quantity, Table, Triple};
 
 /// A mechanism file.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -51,76 +54,74 @@ pub struct File {
     pub repeat: Table<RepeatSpec>,
 }
 
-/// A joint with clearance: the joint's first body is the bearing or socket, its second the journal or ball.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, schemars(extend("required" = ["radial", "journal_radius"])))]
-pub struct ClearanceSpec {
-    /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
-    pub radial: Option<Quantity>,
-    /// Radius of the journal or ball.
-    pub journal_radius: Option<Quantity>,
-    /// Length of the bearing.
-    pub length: Option<Quantity>,
-    /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
-    pub modulus: Option<Quantity>,
-    /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
-    pub stiffness: Option<Quantity>,
-    /// Law of restitution; by default that of Lankarani and Nikravesh.
-    pub law: Option<At<Restitution>>,
-    /// Coefficient of restitution.
-    pub restitution: Option<Quantity>,
-    /// Exponent of penetration; 1.5 by default.
-    pub exponent: Option<Quantity>,
-    /// Least impact speed that damping is related to; 1 mm/s by default.
-    pub impact_speed_floor: Option<Quantity>,
-    /// Coefficient of friction, at high speed; 0 by default.
-    pub friction: Option<Quantity>,
-    /// Coefficient of friction at rest (Stribeck); by default that at high speed.
-    pub static_friction: Option<Quantity>,
-    /// Stribeck speed; 10 mm/s by default.
-    pub stribeck_speed: Option<Quantity>,
-    /// Growth of the coefficient of friction with sliding speed; 0 by default.
-    pub friction_slope: Option<Quantity>,
-    /// Sliding speed below which friction is smoothed; 1 mm/s by default. Two speeds: Ambrosio's correction.
-    pub friction_speed: Option<At<Vec<Quantity>>>,
-    /// Our own assumption.
-    pub assumed: bool,
+tables! {
+    /// A joint with clearance: the joint's first body is the bearing or socket, its second the journal or ball.
+    #[cfg_attr(test, schemars(extend("required" = ["radial", "journal_radius"])))]
+    pub struct ClearanceSpec {
+        /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
+        pub radial: Option<Quantity>,
+        /// Radius of the journal or ball.
+        pub journal_radius: Option<Quantity>,
+        /// Length of the bearing.
+        pub length: Option<Quantity>,
+        /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
+        pub modulus: Option<Quantity>,
+        /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
+        pub stiffness: Option<Quantity>,
+        /// Law of restitution; by default that of Lankarani and Nikravesh.
+        pub law: Option<At<Restitution>>,
+        /// Coefficient of restitution.
+        pub restitution: Option<Quantity>,
+        /// Exponent of penetration; 1.5 by default.
+        pub exponent: Option<Quantity>,
+        /// Least impact speed that damping is related to; 1 mm/s by default.
+        pub impact_speed_floor: Option<Quantity>,
+        /// Coefficient of friction, at high speed; 0 by default.
+        pub friction: Option<Quantity>,
+        /// Coefficient of friction at rest (Stribeck); by default that at high speed.
+        pub static_friction: Option<Quantity>,
+        /// Stribeck speed; 10 mm/s by default.
+        pub stribeck_speed: Option<Quantity>,
+        /// Growth of the coefficient of friction with sliding speed; 0 by default.
+        pub friction_slope: Option<Quantity>,
+        /// Sliding speed below which friction is smoothed; 1 mm/s by default. Two speeds: Ambrosio's correction.
+        pub friction_speed: Option<At<Vec<Quantity>>>,
+        /// Our own assumption.
+        pub assumed: bool,
+    }
 }
 
-/// How a joint with clearance wears, and when it has failed.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
-pub struct WearSpec {
-    /// Dimensionless wear coefficient k of Archard's law.
-    pub coefficient: Option<Quantity>,
-    /// Hardness of the softer side.
-    pub hardness: Option<Quantity>,
-    /// Area that carries the load; by default that of Hertz.
-    pub area: Option<At<Area>>,
-    /// Wear depth at which the joint has failed.
-    pub threshold: Option<Quantity>,
-    /// Growth of the clearance per wear; 1 by default, 0 for no feedback.
-    pub feedback: Option<Quantity>,
-    /// Feeds the worn profile back to the gap instead of the clearance.
-    pub profile: Option<bool>,
-    /// Bearing angles of the profile; 72 by default.
-    pub bins: Option<At<i64>>,
-    /// What of the depth by bearing angle counts as wear; by default the depth by the area.
-    pub measure: Option<At<Measure>>,
-    /// Revolutions that one cycle stands for; 1 by default.
-    pub revolutions_per_cycle: Option<Quantity>,
-    /// Limit of mean pressure times sliding speed.
-    pub pressure_speed: Option<Quantity>,
-    /// Gamma process: shape per mean wear; by default `beta`. Without both the life is its mean.
-    pub alpha: Option<Quantity>,
-    /// Gamma process: rate; by default `alpha`.
-    pub beta: Option<Quantity>,
-    /// Our own assumption.
-    pub assumed: bool,
+tables! {
+    /// How a joint with clearance wears, and when it has failed.
+    #[cfg_attr(test, schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
+    pub struct WearSpec {
+        /// Dimensionless wear coefficient k of Archard's law.
+        pub coefficient: Option<Quantity>,
+        /// Hardness of the softer side.
+        pub hardness: Option<Quantity>,
+        /// Area that carries the load; by default that of Hertz.
+        pub area: Option<At<Area>>,
+        /// Wear depth at which the joint has failed.
+        pub threshold: Option<Quantity>,
+        /// Growth of the clearance per wear; 1 by default, 0 for no feedback.
+        pub feedback: Option<Quantity>,
+        /// Feeds the worn profile back to the gap instead of the clearance.
+        pub profile: Option<bool>,
+        /// Bearing angles of the profile; 72 by default.
+        pub bins: Option<At<i64>>,
+        /// What of the depth by bearing angle counts as wear; by default the depth by the area.
+        pub measure: Option<At<Measure>>,
+        /// Revolutions that one cycle stands for; 1 by default.
+        pub revolutions_per_cycle: Option<Quantity>,
+        /// Limit of mean pressure times sliding speed.
+        pub pressure_speed: Option<Quantity>,
+        /// Gamma process: shape per mean wear; by default `beta`. Without both the life is its mean.
+        pub alpha: Option<Quantity>,
+        /// Gamma process: rate; by default `alpha`.
+        pub beta: Option<Quantity>,
+        /// Our own assumption.
+        pub assumed: bool,
+    }
 }
 
 /// How loops are closed.
@@ -135,68 +136,75 @@ pub enum ClosureSpec {
     Log,
 }
 
-/// A parameter with its marks.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, schemars(extend("required" = ["value"])))]
-pub(super) struct ParameterTable {
-    /// Quantity or formula over other parameters.
-    pub value: Option<Quantity>,
-    /// Stays changeable in the generated code.
-    pub tunable: bool,
-    /// Our own assumption, not from the cited source.
-    pub assumed: bool,
-    /// What it is.
-    pub doc: Option<String>,
-}
-
 /// A named quantity.
-#[derive(Clone, Debug)]
-pub struct Parameter {
-    /// Value.
-    pub value: Option<Quantity>,
-    /// Stays changeable in the generated code.
-    pub tunable: bool,
-    /// Our own assumption, not from the cited source.
-    pub assumed: bool,
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "Parameter", untagged))]
+pub enum Parameter {
+    /// Without marks.
+    #[serde(rename = "scalar", alias = "list")]
+    Plain(Quantity),
+    /// With marks.
+    #[serde(rename = "table")]
+    Marked(ParameterTable),
 }
 
-/// Where a point is.
-#[derive(Clone, Debug, Default)]
-pub struct PointSpec {
-    /// Coordinates, for all or by body.
-    pub at: Option<PerBody>,
-    /// Coordinates by body, written without `at`.
-    pub by_body: Table<Triple>,
-    /// Body that carries the point.
-    pub on: Option<Name>,
-    /// Our own assumption.
-    pub assumed: bool,
+tables! {
+    /// A parameter with its marks.
+    #[cfg_attr(test, schemars(extend("required" = ["value"])))]
+    pub struct ParameterTable {
+        /// Quantity or formula over other parameters.
+        pub value: Option<Quantity>,
+        /// Stays changeable in the generated code.
+        pub tunable: bool,
+        /// Our own assumption, not from the cited source.
+        pub assumed: bool,
+        /// What it is.
+        pub doc: Option<Doc>,
+    }
 }
 
-/// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-#[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, schemars(extend("required" = ["count"])))]
-pub struct RepeatSpec {
-    /// How many cells: a whole number or a formula over parameters.
-    pub count: Option<Quantity>,
-    /// Name of the index in braces; "i" by default.
-    pub index: Option<Name>,
-    /// Value of the index in the first cell; 1 by default.
-    pub first: Option<At<i64>>,
-    /// Points of a cell.
-    pub points: Table<PointSpec>,
-    /// Bodies of a cell.
-    pub bodies: Table<BodySpec>,
-    /// Joints of a cell.
-    pub joints: Table<JointSpec>,
-    /// Forces of a cell.
-    pub forces: Table<ForceSpec>,
-    /// Guesses of a cell.
-    pub assembly: Table<StartSpec>,
-    /// Start values of a cell.
-    pub initial: Table<StartSpec>,
+impl Parameter {
+    /// Quantity or formula over other parameters.
+    pub fn value(&self) -> Option<&Quantity> {
+        match self {
+            Self::Plain(value) => Some(value),
+            Self::Marked(table) => table.value.as_ref(),
+        }
+    }
+
+    /// Whether it stays changeable in the generated code, and whether it is our own assumption.
+    pub const fn marks(&self) -> (bool, bool) {
+        match self {
+            Self::Plain(_) => (false, false),
+            Self::Marked(table) => (table.tunable, table.assumed),
+        }
+    }
 }
+
+tables! {
+    /// A group made `count` times; names and texts may contain `{i}`, `{i+1}` and the like.
+    #[cfg_attr(test, schemars(extend("required" = ["count"])))]
+    pub struct RepeatSpec {
+        /// How many cells: a whole number or a formula over parameters.
+        pub count: Option<Quantity>,
+        /// Name of the index in braces; "i" by default.
+        pub index: Option<Name>,
+        /// Value of the index in the first cell; 1 by default.
+        pub first: Option<At<i64>>,
+        /// Points of a cell.
+        pub points: Table<PointSpec>,
+        /// Bodies of a cell.
+        pub bodies: Table<BodySpec>,
+        /// Joints of a cell.
+        pub joints: Table<JointSpec>,
+        /// Forces of a cell.
+        pub forces: Table<ForceSpec>,
+        /// Guesses of a cell.
+        pub assembly: Table<StartSpec>,
+        /// Start values of a cell.
+        pub initial: Table<StartSpec>,
+    }
+}
+
+without_texts!(Restitution, Area, Measure);

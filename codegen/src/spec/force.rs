@@ -1,12 +1,15 @@
-//! Springs, forces and torques as written.
+//! Force elements as written, and their kinds as data: each is one row of [`FORCE_KINDS`], which says what its keys are
+//! and which numbers it consists of. All else but its equations follows by rule.
 
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::dimension::Dimension;
 use super::doc::Doc;
 use super::texts::{tables, texts_of};
 use super::written::{At, Name, Pair, Quantity, Triple};
+use crate::source::Span;
 
 tables! {
     /// A force element: exactly one of `spring`, `bushing`, `force`, `torque`.
@@ -35,9 +38,9 @@ tables! {
         /// Constant pull of a spring.
         pub preload: Option<Quantity>,
         /// Stiffness and damping of a bushing along its axes.
-        pub translation: Option<At<BushingPart>>,
+        pub translation: Option<At<ByAxis>>,
         /// Stiffness and damping of a bushing about its axes.
-        pub rotation: Option<At<BushingPart>>,
+        pub rotation: Option<At<ByAxis>>,
         /// Axes of a bushing at the reference pose: two or three directions at right angles; those of the ground by default.
         pub directions: Option<At<Vec<Triple>>>,
         /// Components of a force or torque.
@@ -52,8 +55,8 @@ tables! {
         pub doc: Option<Doc>,
     }
 
-    /// Stiffness and damping of a bushing, axis by axis.
-    pub struct BushingPart {
+    /// Stiffness and damping, axis by axis.
+    pub struct ByAxis {
         /// Stiffness; 0 by default.
         pub stiffness: Option<Triple>,
         /// Damping; 0 by default.
@@ -62,7 +65,197 @@ tables! {
 }
 
 /// One point or several.
-#[derive(Clone, Debug)]
-pub struct Places(pub At<Vec<Name>>);
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "Places", untagged))]
+pub enum Places {
+    /// One.
+    #[serde(rename = "scalar", alias = "table")]
+    One(Name),
+    /// A list.
+    #[serde(rename = "list")]
+    List(At<Vec<Name>>),
+}
 
-texts_of! { struct Places { 0 } }
+impl Places {
+    /// Their names, and where they are written.
+    pub fn names(&self) -> (&[Name], Span) {
+        match self {
+            Self::One(name) => (std::slice::from_ref(name), name.span),
+            Self::List(list) => (&list.value, list.span),
+        }
+    }
+}
+
+texts_of! { enum Places { One, List } }
+
+/// A kind of force element.
+#[derive(Debug)]
+pub struct ForceKind {
+    /// Key in a file; its value names the bodies.
+    pub name: &'static str,
+    /// The key with bodies, for advice.
+    pub example: &'static str,
+    /// Which bodies.
+    pub bodies: Bodies,
+    /// How many points `at` names: two, one on each body; one, which both bodies have; none.
+    pub points: usize,
+    /// Whether bodies are turned at these points, not only pushed.
+    pub turns: bool,
+    /// Keys that it takes besides its own.
+    pub keys: &'static [&'static str],
+    /// The numbers that it consists of, in the order in which its equations take them.
+    pub values: &'static [ForceValue],
+    /// What must not be missing.
+    pub needs: &'static [Need],
+}
+
+/// Whether something is missing, words that say so, advice.
+pub type Need = (fn(&ForceSpec) -> bool, &'static str, &'static str);
+
+/// Between which bodies a kind of force element acts.
+#[derive(Clone, Copy, Debug)]
+pub enum Bodies {
+    /// Two of equal rank. The numbers are over parameters.
+    Two(fn(&ForceSpec) -> Option<&Pair>),
+    /// One, and the one of `reaction`. The numbers are components, in `axes`, over the state.
+    One(fn(&ForceSpec) -> Option<&Name>),
+}
+
+/// A number of a kind of force element, or three by axis; 0 where nothing is written.
+#[derive(Debug)]
+pub struct ForceValue {
+    /// Key in a file.
+    pub key: &'static str,
+    /// Dimension.
+    pub dimension: Dimension,
+    /// Whether it may be negative.
+    pub signed: bool,
+    /// What is written.
+    pub written: Written,
+}
+
+/// How to find a value.
+#[derive(Clone, Copy, Debug)]
+pub enum Written {
+    /// One number.
+    One(fn(&ForceSpec) -> Option<&Quantity>),
+    /// Three by axis.
+    Three(fn(&ForceSpec) -> Option<&Triple>),
+}
+
+const fn one(
+    key: &'static str,
+    dimension: Dimension,
+    signed: bool,
+    of: fn(&ForceSpec) -> Option<&Quantity>,
+) -> ForceValue {
+    ForceValue { key, dimension, signed, written: Written::One(of) }
+}
+
+const fn three(
+    key: &'static str,
+    dimension: Dimension,
+    signed: bool,
+    of: fn(&ForceSpec) -> Option<&Triple>,
+) -> ForceValue {
+    ForceValue { key, dimension, signed, written: Written::Three(of) }
+}
+
+const STIFFNESS: Dimension = Dimension::of(0, 1, -2);
+const DAMPING: Dimension = Dimension::of(0, 1, -1);
+const TURNING_DAMPING: Dimension = Dimension::of(2, 1, -1);
+
+/// Every kind of force element.
+pub static FORCE_KINDS: &[ForceKind] = &[
+    ForceKind {
+        name: "spring",
+        example: r#"spring = ["ground", "rocker"]"#,
+        bodies: Bodies::Two(|spec| spec.spring.as_ref()),
+        points: 2,
+        turns: false,
+        keys: &["at", "stiffness", "length", "damping", "preload"],
+        values: &[
+            one("stiffness", STIFFNESS, true, |spec| spec.stiffness.as_ref()),
+            one("length", Dimension::LENGTH, false, |spec| spec.length.as_ref()),
+            one("damping", DAMPING, false, |spec| spec.damping.as_ref()),
+            one("preload", Dimension::FORCE, true, |spec| spec.preload.as_ref()),
+        ],
+        needs: &[
+            (
+                |spec| spec.stiffness.is_some() && spec.length.is_none(),
+                "has no unloaded `length`",
+                r#"add `length = "100 mm"`, or `length = 0` if it always pulls"#,
+            ),
+            (
+                |spec| spec.stiffness.is_none() && spec.damping.is_none() && spec.preload.is_none(),
+                "has neither stiffness, damping nor preload",
+                r#"add for example `stiffness = "500 N/m", length = "100 mm"`"#,
+            ),
+        ],
+    },
+    ForceKind {
+        name: "bushing",
+        example: r#"bushing = ["ground", "engine"]"#,
+        bodies: Bodies::Two(|spec| spec.bushing.as_ref()),
+        points: 1,
+        turns: true,
+        keys: &["at", "translation", "rotation", "directions"],
+        values: &[
+            three("stiffness", STIFFNESS, false, |spec| spec.translation.as_ref()?.value.stiffness.as_ref()),
+            three("damping", DAMPING, false, |spec| spec.translation.as_ref()?.value.damping.as_ref()),
+            three("stiffness", Dimension::TORQUE, false, |spec| {
+                spec.rotation.as_ref()?.value.stiffness.as_ref()
+            }),
+            three("damping", TURNING_DAMPING, false, |spec| spec.rotation.as_ref()?.value.damping.as_ref()),
+        ],
+        needs: &[(
+            |spec| spec.translation.is_none() && spec.rotation.is_none(),
+            "has neither stiffness nor damping",
+            r#"add for example `translation = { stiffness = ["1 kN/mm", "1 kN/mm", "2 kN/mm"] }`"#,
+        )],
+    },
+    ForceKind {
+        name: "force",
+        example: r#"force = "crank""#,
+        bodies: Bodies::One(|spec| spec.force.as_ref()),
+        points: 1,
+        turns: false,
+        keys: &["at", "components", "axes", "reaction"],
+        values: &[three("components", Dimension::FORCE, true, |spec| spec.components.as_ref())],
+        needs: &[(
+            |spec| spec.components.is_none(),
+            "has no `components`",
+            r#"add `components = [0, 0, "-10 N"]`"#,
+        )],
+    },
+    ForceKind {
+        name: "torque",
+        example: r#"torque = "crank""#,
+        bodies: Bodies::One(|spec| spec.torque.as_ref()),
+        points: 0,
+        turns: false,
+        keys: &["components", "axes", "reaction"],
+        values: &[three("components", Dimension::TORQUE, true, |spec| spec.components.as_ref())],
+        needs: &[(
+            |spec| spec.components.is_none(),
+            "has no `components`",
+            r#"add `components = [0, 0, "-10 N m"]`"#,
+        )],
+    },
+];
+
+impl ForceKind {
+    /// The kind with this key.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        FORCE_KINDS.iter().find(|kind| kind.name == name)
+    }
+
+    /// Whether this key is written.
+    pub fn is_written(&self, spec: &ForceSpec) -> bool {
+        match self.bodies {
+            Bodies::Two(pair) => pair(spec).is_some(),
+            Bodies::One(body) => body(spec).is_some(),
+        }
+    }
+}

@@ -122,11 +122,15 @@ impl JointSpec {
 }
 
 /// A quantity for the only coordinate of a joint, or one by coordinate.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "ByCoordinate", untagged))]
 pub enum ByCoordinate {
     /// For the only coordinate.
+    #[serde(rename = "scalar", alias = "list")]
     One(Quantity),
     /// By coordinate.
+    #[serde(rename = "table")]
     Each(Box<At<EachCoordinate>>),
 }
 

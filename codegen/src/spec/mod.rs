@@ -7,9 +7,9 @@ mod doc;
 mod failure;
 mod file;
 mod force;
-mod forms;
 mod joint;
 mod parse;
+mod point;
 mod read;
 mod repeat;
 #[cfg(test)]
@@ -24,10 +24,11 @@ pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
 pub use dimension::Dimension;
-pub use file::{ClearanceSpec, ClosureSpec, File, Parameter, PointSpec, RepeatSpec, WearSpec};
-pub use force::{BushingPart, ForceSpec, Places};
+pub use file::{ClearanceSpec, ClosureSpec, File, Parameter, ParameterTable, RepeatSpec, WearSpec};
+pub use force::{Bodies, ByAxis, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, Written};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};
+pub use point::PointSpec;
 pub use repeat::{expand, group_spans};
 pub use start::{StartSpec, StartTable};
 pub use syntax::{Expression, Form, Operator, SyntaxError, parse_expression};

@@ -35,10 +35,9 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
     if !errors.is_empty() {
         return Err(Diagnostics::from_list(syntax_errors(source, &errors)).located(source));
     }
-    let (file, notes) = read::read::<File>(&document);
-    if let Some(problem) =
-        version_problem(&file, document.get_ref().iter().any(|(key, _)| key.get_ref() == "spec"))
-    {
+    let says_version = document.get_ref().iter().any(|(key, _)| key.get_ref() == "spec");
+    let (file, notes) = read::read::<File>(document);
+    if let Some(problem) = version_problem(&file, says_version) {
         return Err(Diagnostics::from_list(vec![problem]).located(source));
     }
     Ok(Spec {

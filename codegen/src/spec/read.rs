@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 
-use serde::de::value::StrDeserializer;
+use serde::de::value::{MapAccessDeserializer, MapDeserializer, SeqDeserializer, StrDeserializer};
 use serde::de::{
     DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor,
 };
@@ -15,7 +15,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::failure::Failure;
-use super::written::{WITH_FORM, WITH_SPAN};
+use super::written::{BY_FORM, WITH_SPAN};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -31,26 +31,19 @@ pub(super) struct Notes {
 }
 
 /// Reads `T` from a whole document.
-pub(super) fn read<T: for<'de> Deserialize<'de> + Default>(document: &Spanned<DeTable<'_>>) -> (T, Notes) {
+pub(super) fn read<T: for<'de> Deserialize<'de> + Default>(document: Spanned<DeTable<'_>>) -> (T, Notes) {
     let notes = RefCell::new(Notes::default());
+    let root = Spanned::new(document.span(), DeValue::Table(document.into_inner()));
     loop {
-        let root =
-            Reader { value: Value::Table(document.get_ref()), span: document.span().into(), notes: &notes };
-        match T::deserialize(root) {
+        match T::deserialize(Reader { value: &root, notes: &notes }) {
             Ok(value) => return (value, notes.into_inner()),
             Err(failure) if failure.reported => {}
             Err(failure) => {
-                notes.borrow_mut().diagnostics.push(failure.diagnostic(document.span().into()));
+                notes.borrow_mut().diagnostics.push(failure.diagnostic(root.span().into()));
                 return (T::default(), notes.into_inner());
             }
         }
     }
-}
-
-#[derive(Clone, Copy)]
-enum Value<'a, 'i> {
-    Table(&'a DeTable<'i>),
-    Other(&'a DeValue<'i>),
 }
 
 /// The place of a value. A table under a header `[joints.R1]` has only the header as its place: its entries belong to it too.
@@ -65,55 +58,42 @@ fn extent(value: &Spanned<DeValue<'_>>) -> Span {
 
 #[derive(Clone, Copy)]
 struct Reader<'a, 'i> {
-    value: Value<'a, 'i>,
-    span: Span,
+    value: &'a Spanned<DeValue<'i>>,
     notes: &'a RefCell<Notes>,
 }
 
-impl<'a, 'i> Reader<'a, 'i> {
-    fn new(value: &'a Spanned<DeValue<'i>>, notes: &'a RefCell<Notes>) -> Self {
-        let span = extent(value);
-        let value = match value.get_ref() {
-            DeValue::Table(table) => Value::Table(table),
-            other => Value::Other(other),
-        };
-        Self { value, span, notes }
+impl<'de> IntoDeserializer<'de, Failure> for Reader<'_, '_> {
+    type Deserializer = Self;
+    fn into_deserializer(self) -> Self {
+        self
     }
+}
 
-    fn form(&self) -> usize {
-        match self.value {
-            Value::Table(_) => 2,
-            Value::Other(DeValue::Array(_)) => 1,
-            Value::Other(_) => 0,
-        }
-    }
-
+impl Reader<'_, '_> {
     fn visit<'de, V: Visitor<'de>>(
         self,
         fields: Option<&'static [&'static str]>,
         visitor: V,
     ) -> Result<V::Value, Failure> {
-        let span = self.span;
-        let result = match self.value {
-            Value::Table(table) => visitor.visit_map(Entries::new(table, fields, self.notes)),
-            Value::Other(DeValue::Array(items)) => {
-                visitor.visit_seq(Items { items: items.iter(), notes: self.notes })
+        let Self { value, notes } = self;
+        let result = match value.get_ref() {
+            DeValue::Table(table) => visitor.visit_map(Entries::new(table, fields, notes)),
+            DeValue::Array(items) => {
+                visitor.visit_seq(SeqDeserializer::new(items.iter().map(|value| Reader { value, notes })))
             }
-            Value::Other(DeValue::String(text)) => visitor.visit_str(text),
-            Value::Other(DeValue::Boolean(value)) => visitor.visit_bool(*value),
-            Value::Other(DeValue::Integer(number)) => {
-                match i64::from_str_radix(number.as_str(), number.radix()) {
-                    Ok(value) => visitor.visit_i64(value),
-                    Err(_) => Err(Failure::custom("an integer that does not fit into 64 bits")),
-                }
-            }
-            Value::Other(DeValue::Float(number)) => match number.as_str().parse() {
+            DeValue::String(text) => visitor.visit_str(text),
+            DeValue::Boolean(value) => visitor.visit_bool(*value),
+            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
+                Ok(value) => visitor.visit_i64(value),
+                Err(_) => Err(Failure::custom("an integer that does not fit into 64 bits")),
+            },
+            DeValue::Float(number) => match number.as_str().parse() {
                 Ok(value) => visitor.visit_f64(value),
                 Err(_) => Err(Failure::custom("a number that cannot be read")),
             },
-            Value::Other(_) => Err(Failure::invalid_type(Unexpected::Other("a date or time"), &visitor)),
+            DeValue::Datetime(_) => Err(Failure::invalid_type(Unexpected::Other("a date or time"), &visitor)),
         };
-        result.map_err(|failure| failure.or_at(span))
+        result.map_err(|failure| failure.or_at(extent(value)))
     }
 }
 
@@ -143,26 +123,30 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         _: usize,
         visitor: V,
     ) -> Result<V::Value, Failure> {
-        match name {
-            WITH_SPAN => {
-                visitor.visit_seq(Parts { head: vec![self.span.end, self.span.start], value: Some(self) })
-            }
-            WITH_FORM => visitor.visit_seq(Parts { head: vec![self.form()], value: Some(self) }),
-            _ => self.visit(None, visitor),
+        if name != WITH_SPAN {
+            return self.visit(None, visitor);
         }
+        let span = extent(self.value);
+        visitor.visit_seq(Parts { head: vec![span.end, span.start], value: Some(self) })
     }
     fn deserialize_enum<V: Visitor<'de>>(
         self,
-        _: &str,
+        name: &str,
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Failure> {
-        let span = self.span;
-        let Value::Other(DeValue::String(text)) = self.value else {
-            return Err(Failure::invalid_type(Unexpected::Other(self.what()), &visitor).or_at(span));
+        let form = match self.value.get_ref() {
+            DeValue::String(text) if name != BY_FORM => {
+                let text: StrDeserializer<'_, Failure> = text.as_ref().into_deserializer();
+                return visitor.visit_enum(text).map_err(|failure| failure.or_at(extent(self.value)));
+            }
+            _ if name != BY_FORM => return self.visit(None, visitor),
+            DeValue::Table(_) => "table",
+            DeValue::Array(_) => "list",
+            _ => "scalar",
         };
-        let text: StrDeserializer<'_, Failure> = text.as_ref().into_deserializer();
-        visitor.visit_enum(text).map_err(|failure| failure.or_at(span))
+        let variant = MapDeserializer::new(std::iter::once((form, self)));
+        visitor.visit_enum(MapAccessDeserializer::new(variant))
     }
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
@@ -170,19 +154,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     }
 }
 
-impl Reader<'_, '_> {
-    fn what(&self) -> &'static str {
-        match self.value {
-            Value::Table(_) => "a table",
-            Value::Other(DeValue::Array(_)) => "a list",
-            Value::Other(DeValue::String(_)) => "a text",
-            Value::Other(DeValue::Boolean(_)) => "true or false",
-            Value::Other(_) => "a number",
-        }
-    }
-}
-
-/// The few facts that go before a value on the requests of [`super::written`], last first.
+/// What goes before a value that is asked for with its place, last first.
 struct Parts<R> {
     head: Vec<usize>,
     value: Option<R>,
@@ -195,21 +167,6 @@ impl<'de, R: Deserializer<'de, Error = Failure>> SeqAccess<'de> for Parts<R> {
             return seed.deserialize(fact.into_deserializer()).map(Some);
         }
         self.value.take().map(|value| seed.deserialize(value)).transpose()
-    }
-}
-
-struct Items<'a, 'i, I: Iterator<Item = &'a Spanned<DeValue<'i>>>>
-where
-    'i: 'a,
-{
-    items: I,
-    notes: &'a RefCell<Notes>,
-}
-
-impl<'de, 'a, 'i, I: Iterator<Item = &'a Spanned<DeValue<'i>>>> SeqAccess<'de> for Items<'a, 'i, I> {
-    type Error = Failure;
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Failure> {
-        self.items.next().map(|value| seed.deserialize(Reader::new(value, self.notes))).transpose()
     }
 }
 
@@ -277,7 +234,7 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
             return Err(Failure::custom("a key without a value"));
         };
         let span = value.span().into();
-        seed.deserialize(Reader::new(value, self.notes)).map_err(|failure| {
+        seed.deserialize(Reader { value, notes: self.notes }).map_err(|failure| {
             if failure.reported {
                 return failure;
             }

@@ -4,9 +4,9 @@
 
 use std::collections::HashMap;
 
-use super::file::{File, PointSpec, RepeatSpec};
+use super::file::{File, RepeatSpec};
 use super::syntax::{Form, Operator, parse_expression};
-use super::texts::{Texts as _, texts_of};
+use super::texts::Texts as _;
 use super::written::{Name, Quantity, Table};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -161,11 +161,6 @@ fn number(inner: &str, index: &str, cell: i64) -> Option<i64> {
         }
     }
     value(&parse_expression(inner, &|name| name == index).ok()?.form, index, cell)
-}
-
-texts_of! {
-    struct PointSpec { at, by_body, on }
-    struct RepeatSpec { points, bodies, joints, forces, assembly, initial }
 }
 
 #[cfg(test)]

@@ -8,9 +8,13 @@ use super::texts::{tables, texts_of};
 use super::written::{At, Quantity};
 
 /// Start values of a joint.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "StartSpec", untagged))]
 pub enum StartSpec {
     /// Position of the only coordinate.
+    #[serde(rename = "scalar")]
     One(Quantity),
     /// Positions in order.
     List(At<Vec<Quantity>>),

@@ -22,12 +22,8 @@ const LONGEST: usize = 2000;
 /// At the first place that cannot be read.
 pub fn parse_expression(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Expression, SyntaxError> {
     if text.len() > LONGEST {
-        return Err(SyntaxError {
-            message: format!("a formula of {} characters; {LONGEST} is the most", text.len()),
-            help: Some("split it into parameters".into()),
-            range: 0..text.len(),
-            unit: false,
-        });
+        let message = format!("a formula of {} characters; {LONGEST} is the most", text.len());
+        return Err(expression::fault(message, 0..text.len()).advise("split it into parameters"));
     }
     parser::parse(&lex::tokens(text)?, text.len(), is_name)
 }

@@ -12,6 +12,11 @@ pub(super) type Change<'a> = &'a mut dyn FnMut(&mut String, Span);
 pub(super) trait Texts {
     /// Calls `change` for every text with its place.
     fn each(&mut self, span: Span, change: Change<'_>);
+
+    /// Where it is written, or begins; marks and sentences do not know.
+    fn place(&self) -> Option<Span> {
+        None
+    }
 }
 
 impl Texts for String {
@@ -32,11 +37,17 @@ impl<T: Texts> Texts for At<T> {
     fn each(&mut self, _: Span, change: Change<'_>) {
         self.value.each(self.span, change);
     }
+    fn place(&self) -> Option<Span> {
+        Some(self.span)
+    }
 }
 
 impl<T: Texts> Texts for Option<T> {
     fn each(&mut self, span: Span, change: Change<'_>) {
         self.iter_mut().for_each(|value| value.each(span, change));
+    }
+    fn place(&self) -> Option<Span> {
+        self.as_ref()?.place()
     }
 }
 
@@ -50,6 +61,9 @@ impl<T: Texts> Texts for Box<T> {
     fn each(&mut self, span: Span, change: Change<'_>) {
         self.as_mut().each(span, change);
     }
+    fn place(&self) -> Option<Span> {
+        self.as_ref().place()
+    }
 }
 
 impl<T: Texts> Texts for Table<T> {
@@ -58,6 +72,9 @@ impl<T: Texts> Texts for Table<T> {
             name.each(span, change);
             value.each(span, change);
         }
+    }
+    fn place(&self) -> Option<Span> {
+        Some(self.0.first().map_or(Span::default(), |(name, _)| name.span))
     }
 }
 
@@ -80,6 +97,9 @@ macro_rules! texts_of {
             fn each(&mut self, span: $crate::source::Span, change: $crate::spec::texts::Change<'_>) {
                 $(self.$field.each(span, change);)*
             }
+            fn place(&self) -> Option<$crate::source::Span> {
+                [$(self.$field.place()),*].into_iter().flatten().next()
+            }
         })*
         $(impl $crate::spec::texts::Texts for $choice {
             fn each(&mut self, span: $crate::source::Span, change: $crate::spec::texts::Change<'_>) {
@@ -87,12 +107,17 @@ macro_rules! texts_of {
                     $(Self::$variant(value) => value.each(span, change),)*
                 }
             }
+            fn place(&self) -> Option<$crate::source::Span> {
+                match self {
+                    $(Self::$variant(value) => value.place(),)*
+                }
+            }
         })*
     };
 }
 pub(super) use texts_of;
 
-/// Tables of the file: parser, JSON Schema and [`Texts`] of each.
+/// Tables of the file: parser, JSON Schema, [`Texts`] and the keys that are written of each.
 macro_rules! tables {
     ($($(#[$about:meta])* pub struct $name:ident { $($(#[$of:meta])* pub $field:ident: $type:ty,)* })*) => {
         $(
@@ -102,6 +127,14 @@ macro_rules! tables {
             $(#[$about])*
             pub struct $name { $($(#[$of])* pub $field: $type,)* }
             texts_of! { struct $name { $($field),* } }
+            impl $name {
+                /// Fields that are written, each with its place; marks and sentences have none.
+                pub fn written(&self) -> Vec<(&'static str, $crate::source::Span)> {
+                    use $crate::spec::texts::Texts as _;
+                    let fields = [$((stringify!($field), self.$field.place())),*];
+                    fields.into_iter().filter_map(|(field, place)| Some((field, place?))).collect()
+                }
+            }
         )*
     };
 }

@@ -8,17 +8,19 @@ use std::marker::PhantomData;
 
 #[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use crate::source::Span;
 
-/// Asks the reader for (start, end, value).
+/// Name of a tuple struct by which the reader is asked for (start, end, value).
 pub(super) const WITH_SPAN: &str = "$linkwear::At";
-/// Asks the reader for (form, value).
-pub(super) const WITH_FORM: &str = "$linkwear::Form";
+/// Name of an enum by which the reader is asked for a value as the variant `scalar`, `list` or `table`, by its form.
+pub(super) const BY_FORM: &str = "$linkwear::ByForm";
 
 /// A value and where it is written.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(from = "Parts<T>")]
 pub struct At<T> {
     /// Where.
     pub span: Span,
@@ -26,23 +28,13 @@ pub struct At<T> {
     pub value: T,
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Parts<T>(PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> Visitor<'de> for Parts<T> {
-            type Value = At<T>;
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("a value with its place")
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<At<T>, A::Error> {
-                let missing = || A::Error::custom("the deserializer does not tell places");
-                let start = parts.next_element::<usize>()?.ok_or_else(missing)?;
-                let end = parts.next_element::<usize>()?.ok_or_else(missing)?;
-                let value = parts.next_element()?.ok_or_else(missing)?;
-                Ok(At { span: Span { start, end }, value })
-            }
-        }
-        deserializer.deserialize_tuple_struct(WITH_SPAN, 3, Parts(PhantomData))
+#[derive(Deserialize)]
+#[serde(rename = "$linkwear::At")]
+struct Parts<T>(usize, usize, T);
+
+impl<T> From<Parts<T>> for At<T> {
+    fn from(Parts(start, end, value): Parts<T>) -> Self {
+        Self { span: Span { start, end }, value }
     }
 }
 
@@ -152,124 +144,36 @@ impl<T: JsonSchema> JsonSchema for Table<T> {
     }
 }
 
-/// The form in which a value is written, for keys that allow several.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
-    Scalar,
-    List,
-    Table,
-}
-
-/// A value whose form decides how it is read.
-pub(super) trait ByForm<'de>: Sized {
-    /// Reads the value, `form` known.
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error>;
-}
-
-/// Reads `T` after asking the reader for the form of the value.
-pub(super) fn read_by_form<'de, T: ByForm<'de>, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<T, D::Error> {
-    struct Forms<T>(PhantomData<T>);
-    impl<'de, T: ByForm<'de>> Visitor<'de> for Forms<T> {
-        type Value = T;
-        fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-            formatter.write_str("a value with its form")
-        }
-        fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<T, A::Error> {
-            let form = match parts.next_element::<usize>()? {
-                Some(1) => Form::List,
-                Some(2) => Form::Table,
-                _ => Form::Scalar,
-            };
-            T::read(form, &mut parts)
-        }
-    }
-    deserializer.deserialize_tuple_struct(WITH_FORM, 2, Forms(PhantomData))
-}
-
-/// The value behind its form.
-pub(super) fn value_of<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(parts: &mut A) -> Result<T, A::Error> {
-    parts.next_element()?.ok_or_else(|| A::Error::custom("the deserializer does not tell forms"))
-}
-
-/// A list of three, as the schema says; the count is checked later, so that the message can teach.
-#[derive(Clone, Debug, PartialEq)]
+/// Three components x, y, z in the ground frame.
+// The count is checked later, so that the message can teach. So is that of a pair.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(extend("minItems" = 3, "maxItems" = 3)))]
 pub struct Triple(pub At<Vec<Quantity>>);
 
-impl<'de> Deserialize<'de> for Triple {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        At::deserialize(deserializer).map(Self)
-    }
-}
-
-#[cfg(test)]
-impl JsonSchema for Triple {
-    fn schema_name() -> Cow<'static, str> {
-        "Triple".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "Three components x, y, z in the ground frame.",
-            "type": "array", "items": generator.subschema_for::<Literal>(), "minItems": 3, "maxItems": 3,
-        })
-    }
-}
-
 /// One triple for everybody, or one for each body by name.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "PerBody", untagged))]
 pub enum PerBody {
     /// The same for all.
+    #[serde(rename = "list", alias = "scalar")]
     Shared(Triple),
     /// By body.
+    #[serde(rename = "table")]
     Each(Table<Triple>),
 }
 
-impl<'de> ByForm<'de> for PerBody {
-    fn read<A: SeqAccess<'de>>(form: Form, value: &mut A) -> Result<Self, A::Error> {
-        Ok(match form {
-            Form::Table => Self::Each(value_of(value)?),
-            _ => Self::Shared(value_of(value)?),
-        })
+impl PerBody {
+    /// Where it is written, or begins.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Shared(triple) => triple.0.span,
+            Self::Each(table) => table.0.first().map_or(Span::default(), |(name, _)| name.span),
+        }
     }
 }
 
-impl<'de> Deserialize<'de> for PerBody {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        read_by_form(deserializer)
-    }
-}
-
-#[cfg(test)]
-impl JsonSchema for PerBody {
-    fn schema_name() -> Cow<'static, str> {
-        "PerBody".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let triple = generator.subschema_for::<Triple>();
-        json_schema!({ "anyOf": [triple, { "type": "object", "additionalProperties": triple }] })
-    }
-}
-
-/// Two names, the first the parent.
-#[derive(Clone, Debug, PartialEq)]
+/// Two names.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(extend("minItems" = 2, "maxItems" = 2)))]
 pub struct Pair(pub At<Vec<Name>>);
-
-impl<'de> Deserialize<'de> for Pair {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        At::deserialize(deserializer).map(Self)
-    }
-}
-
-#[cfg(test)]
-impl JsonSchema for Pair {
-    fn schema_name() -> Cow<'static, str> {
-        "Pair".into()
-    }
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "Two names.",
-            "type": "array", "items": { "type": "string" }, "minItems": 2, "maxItems": 2,
-        })
-    }
-}

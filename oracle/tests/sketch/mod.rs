@@ -3,8 +3,8 @@
 
 use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::{
-    Axis, Body, Carrier, Closure, Drive, Force, ForceKind, Formula, Function, Inertia, Joint, JointModel,
-    Mechanism, Passive, Point, Position, Term,
+    Axis, Body, Carrier, Closure, Drive, Force, Formula, Function, Inertia, Joint, JointModel, Mechanism,
+    Passive, Point, Position, Term,
 };
 use linkwear_codegen::source::Span;
 use linkwear_codegen::spec::Dimension;
@@ -109,8 +109,8 @@ impl Sketch {
         self.0.joints[joint.index()].passive.push(passive);
     }
 
-    pub fn force(&mut self, kind: ForceKind) {
+    pub fn force(&mut self, force: Force) {
         let name = format!("f{}", self.0.forces.len());
-        self.0.forces.push(Force { name, kind, span: Span::default() });
+        self.0.forces.push(Force { name, ..force });
     }
 }

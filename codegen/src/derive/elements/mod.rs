@@ -1,30 +1,18 @@
-//! Force elements: what each adds to the loads, one file per kind. In: motion of links. Out: [`Loads`].
+//! Force elements: what each adds to the loads. In: motion of links. Out: [`Loads`].
 //! Never knows constraints. Gravity enters with the accelerations.
 
 use crate::expr::Scope;
 use crate::id::JointId;
-use crate::model::ForceKind;
 
 use super::contacts::{ContactWrench, contact_forces};
 use super::element::Element;
 use super::joint_state::JointStates;
 use super::loads::Loads;
 
-mod applied;
 mod ball_damper;
-mod bushing;
 mod elasticity;
+mod forces;
 mod joint;
-mod spring;
-
-fn element<'g>(kind: &ForceKind) -> &dyn Element<'g> {
-    match kind {
-        ForceKind::Spring(spring) => spring,
-        ForceKind::Bushing(bushing) => bushing,
-        ForceKind::Force(force) => force,
-        ForceKind::Torque(torque) => torque,
-    }
-}
 
 /// Collects all loads.
 pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrench<'g>]) -> Loads<'g> {
@@ -47,7 +35,7 @@ pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrenc
     }
     for force in &mechanism.forces {
         g.begin_section(format!("force {}", force.name));
-        element(&force.kind).add_to(&mut loads, g, state);
+        force.add_to(&mut loads, g, state);
     }
     loads
 }

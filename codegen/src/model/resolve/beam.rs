@@ -1,26 +1,21 @@
-//! A flexible body as a beam along its rod, tube or box: sections, pieces, masses, how it is held.
+//! A flexible body as a beam along its rod, tube or box: where it lies, how it is held, what is looked at.
 //! Out: [`Flexible`]. The modes themselves are computed by [`crate::flexible`].
 
-use super::flexible::{Use, Written, hinges, section_axes};
+use super::flexible::{Bending, hinges, section_axes};
 use super::inertia;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use super::section::{SAME_PLACE, outer_stress};
+use crate::diagnostic::Code;
 use crate::flexible::{
-    Attachment, Beam, BeamError, BeamInput, ConcentratedMass, Counts, Hold, Material, ModalData, Node,
-    Outline, Properties, Section, Segment, Theory,
+    Attachment, Beam, BeamError, BeamInput, Counts, Hold, Material, ModalData, Node, Section, Theory,
 };
 use crate::id::PointId;
-use crate::model::{Amount, Body, Carrier, Flexible, Inertia, Joint, LeftOut, Station};
-use crate::spec::{
-    At, Dimension, FlexibleSpec, HeldSpec, Name, Quantity, SectionSpec, StepSpec, TheorySpec, Widths,
-};
+use crate::model::{Flexible, Inertia, LeftOut, Station};
+use crate::spec::{At, Dimension, FlexibleSpec, HeldSpec, Name, Quantity, TheorySpec};
 
 /// Places along the link whose displacement and stress are columns, as shares of its length, unless the file
 /// names others. The middle always is.
 const STATIONS: [f64; 2] = [0.25, 0.75];
-
-/// Two places nearer than this share of the length are one: positions written with six digits differ by less.
-const SAME_PLACE: f64 = 1e-6;
 
 /// Where the link lies.
 struct Axis {
@@ -40,48 +35,32 @@ impl Axis {
 
 impl Resolver<'_> {
     /// The beam's constants; nothing if the file asks for no modes, or if something is wrong.
-    pub(super) fn beam(
-        &mut self,
-        carrier: Carrier,
-        written: Written<'_>,
-        body: &Body,
-        joints: &[Joint],
-        uses: &[Use],
-    ) -> Option<Flexible> {
-        let (name, _, spec) = written;
-        let axis = self.link_axis(carrier, name, spec, body, joints)?;
-        let input = self.beam_input(carrier, name, (spec, body), &axis, uses);
+    pub(super) fn beam(&mut self, of: Bending<'_>) -> Option<Flexible> {
+        let Bending { name, spec, .. } = of;
+        let axis = self.link_axis(of)?;
+        let input = self.beam_input(of, &axis);
         let counts = input.as_ref().map(|input| input.modes);
         let plain = spec.value.steps.is_none() && spec.value.masses.is_none() && spec.value.section.is_none();
         if plain && counts == Some(Counts::default()) || self.has_errors() {
             return None;
         }
         let input = input?;
-        match self.solved(carrier, name, (spec, &axis), &input, uses) {
+        match self.solved(of, &axis, &input) {
             Ok(flexible) => Some(flexible),
             Err(error) => {
                 let message = format!("the flexible body `{}` has no modes: {error}", name.value);
-                self.report(Diagnostic::new(Code::BadModes, message).at(spec.span, ""));
+                self.refuse(Code::BadModes, spec.span, message);
                 None
             }
         }
     }
 
-    fn link_axis(
-        &mut self,
-        carrier: Carrier,
-        name: &Name,
-        spec: &At<FlexibleSpec>,
-        body: &Body,
-        joints: &[Joint],
-    ) -> Option<Axis> {
+    fn link_axis(&mut self, of: Bending<'_>) -> Option<Axis> {
+        let Bending { name, carrier, spec, body, joints, .. } = of;
         let (Inertia::Rod { ends, .. } | Inertia::Box { ends, .. }) = &body.inertia else {
             let message = format!("only a rod, tube or box bends by itself, not `{}`", name.value);
-            let fault = Diagnostic::new(Code::ConflictingKeys, message).at(spec.span, "");
-            self.report(
-                fault
-                    .help("name a file of modal data: `flexible = { data = \"body.toml\", origin = \"P\" }`"),
-            );
+            self.refuse(Code::ConflictingKeys, spec.span, message)
+                .help("name a file of modal data: `flexible = { data = \"body.toml\", origin = \"P\" }`");
             return None;
         };
         let [start, end] = ends.map(|point| self.fixed_position(name, point, carrier));
@@ -99,14 +78,8 @@ impl Resolver<'_> {
         Some(Axis { origin: ends[0], start, frame, length: inertia::distance(start, end) })
     }
 
-    fn beam_input(
-        &mut self,
-        carrier: Carrier,
-        name: &Name,
-        (spec, body): (&At<FlexibleSpec>, &Body),
-        axis: &Axis,
-        uses: &[Use],
-    ) -> Option<BeamInput> {
+    fn beam_input(&mut self, of: Bending<'_>, axis: &Axis) -> Option<BeamInput> {
+        let Bending { name, spec, body, .. } = of;
         let own = &spec.value;
         let count = |this: &mut Self, key: &str, written: Option<&Quantity>| {
             let value = this.fixed(name, key, written, Dimension::NONE, 0.0);
@@ -114,8 +87,8 @@ impl Resolver<'_> {
                 && !(value.fract() == 0.0 && (0.0..=100.0).contains(&value))
             {
                 let message = format!("{} is {value}, not a number of modes", place(key, "body", name));
-                let fault = Diagnostic::new(Code::BadModes, message).at(written.span, "");
-                this.report(fault.help("write a whole number, for instance 6"));
+                this.refuse(Code::BadModes, written.span, message)
+                    .help("write a whole number, for instance 6");
                 return 0;
             }
             // Checked above to be a small whole number.
@@ -130,8 +103,7 @@ impl Resolver<'_> {
             let key = if own.young.is_none() { "young" } else { "modes" };
             let example = if own.young.is_none() { "\"210 GPa\"" } else { "6" };
             let message = format!("the flexible body `{}` has no `{key}`", name.value);
-            let fault = Diagnostic::new(Code::MissingKey, message).at(spec.span, "");
-            self.report(fault.help(format!("add `{key} = {example}`")));
+            self.refuse(Code::MissingKey, spec.span, message).help(format!("add `{key} = {example}`"));
         }
         let pressure = Dimension::of(-1, 1, -2);
         let youngs_modulus = self.fixed(name, "young", own.young.as_ref(), pressure, f64::NAN);
@@ -158,146 +130,20 @@ impl Resolver<'_> {
         let order = own.order.as_ref().map_or(1, |order| order.value);
         if let (Some(written), false) = (&own.order, order == 1 || order == 2) {
             let message = format!("`order` of body `{}` is {order}", name.value);
-            let fault = Diagnostic::new(Code::BadModes, message).at(written.span, "");
-            self.report(fault.help("1 is linear; 2 adds foreshortening and geometric stiffness"));
+            self.refuse(Code::BadModes, written.span, message)
+                .help("1 is linear; 2 adds foreshortening and geometric stiffness");
         }
-        let hold = self.hold(carrier, name, own.held.as_ref(), axis, uses)?;
+        let hold = self.hold(of, axis)?;
         let second_order = order == 2;
         Some(BeamInput { segments, masses, theory, hold, modes, damping_ratio, second_order })
     }
 
-    fn section(&mut self, name: &Name, spec: &FlexibleSpec, inertia: &Inertia) -> Section {
-        if let Some(section) = &spec.section {
-            return self.general_section(name, section);
-        }
-        match inertia {
-            Inertia::Rod { radius, inner_radius, .. } => round(self.value(radius), self.value(inner_radius)),
-            Inertia::Box { width, .. } => {
-                let [y, z] = self.values_of(width);
-                Section::Rectangle { y, z }
-            }
-            Inertia::Given { .. } => round(f64::NAN, 0.0),
-        }
-    }
-
-    fn general_section(&mut self, name: &Name, section: &At<SectionSpec>) -> Section {
-        let own = &section.value;
-        let (square, fourth) = (Dimension::of(2, 0, 0), Dimension::of(4, 0, 0));
-        for (key, written) in [("area", &own.area), ("Iy", &own.iy), ("Iz", &own.iz)] {
-            if written.is_none() {
-                let message = format!("the section of body `{}` has no `{key}`", name.value);
-                let fault = Diagnostic::new(Code::MissingKey, message).at(section.span, "");
-                self.report(fault.help("a section has `area`, `Iy`, `Iz`, and may have `J` and `fibres`"));
-            }
-        }
-        let area = self.fixed(name, "area", own.area.as_ref(), square, f64::NAN);
-        let iy = self.fixed(name, "Iy", own.iy.as_ref(), fourth, f64::NAN);
-        let iz = self.fixed(name, "Iz", own.iz.as_ref(), fourth, f64::NAN);
-        let torsion = self.fixed(name, "J", own.j.as_ref(), fourth, iy + iz);
-        let fibres = own.fibres.as_ref().map(|list| {
-            if list.value.len() != 2 {
-                self.wrong_count(list.span, list.value.len(), "2 distances", &place("fibres", "body", name));
-            }
-            let at = |this: &mut Self, index: usize| {
-                this.fixed(name, "fibres", list.value.get(index), Dimension::LENGTH, f64::NAN)
-            };
-            Outline::Box { y: at(self, 0), z: at(self, 1) }
-        });
-        Section::General(Properties { area, iy, iz, torsion, shear: None, outline: fibres })
-    }
-
-    fn density(&mut self, name: &Name, inertia: &Inertia, section: &Section, length: f64) -> f64 {
-        let (Inertia::Rod { amount, .. } | Inertia::Box { amount, .. }) = inertia else { return f64::NAN };
-        let formula = match amount {
-            Amount::Density(formula) | Amount::Mass(formula) => formula,
-        };
-        if formula.depends_on(&|id| self.parameters[id.index()].tunable) {
-            let message = format!("the mass of the flexible body `{}` is tunable", name.value);
-            let fault = Diagnostic::new(Code::TunableNotAllowed, message).at(formula.span, "");
-            self.report(fault.help("modes are computed at generation; take the `tunable` mark away"));
-        }
-        let value = self.value(formula);
-        match amount {
-            Amount::Density(_) => value,
-            Amount::Mass(_) => value / (section.properties(0.3).area * length),
-        }
-    }
-
-    /// Pieces from the first end to the second; what the steps leave has the body's own section.
-    fn segments(
-        &mut self,
-        name: &Name,
-        steps: Option<&At<Vec<At<StepSpec>>>>,
-        length: f64,
-        section: Section,
-        material: Material,
-    ) -> Vec<Segment> {
-        let mut segments = Vec::new();
-        let mut start = 0.0;
-        for step in steps.map_or(&[][..], |steps| &steps.value) {
-            let own = &step.value;
-            let end = self.fixed(name, "to", own.to.as_ref(), Dimension::LENGTH, f64::NAN);
-            if end <= start || end > length * (1.0 + SAME_PLACE) || end.is_nan() {
-                let message = format!("a step of body `{}` ends at {end} m", name.value);
-                let fault = Diagnostic::new(Code::BadModes, message).at(step.span, "");
-                self.report(
-                    fault.help(format!("steps end in rising order, from {start} m up to {length} m")),
-                );
-                break;
-            }
-            let own_section = match (&own.radius, &own.width) {
-                (Some(radius), _) => {
-                    let outer = self.fixed(name, "radius", Some(radius), Dimension::LENGTH, f64::NAN);
-                    let inner =
-                        self.fixed(name, "inner_radius", own.inner_radius.as_ref(), Dimension::LENGTH, 0.0);
-                    round(outer, inner)
-                }
-                (None, Some(width)) => self.rectangle(name, width),
-                (None, None) => section,
-            };
-            let end = end.min(length);
-            segments.push(Segment { length: end - start, section: own_section, material });
-            start = end;
-        }
-        if length - start > SAME_PLACE * length {
-            segments.push(Segment { length: length - start, section, material });
-        }
-        segments
-    }
-
-    fn rectangle(&mut self, name: &Name, width: &Widths) -> Section {
-        let edges: Vec<&Quantity> = match width {
-            Widths::Square(edge) => vec![edge, edge],
-            Widths::Rectangle(list) => list.value.iter().collect(),
-        };
-        let at = |this: &mut Self, index: usize| {
-            this.fixed(name, "width", edges.get(index).copied(), Dimension::LENGTH, f64::NAN)
-        };
-        Section::Rectangle { y: at(self, 0), z: at(self, 1) }
-    }
-
-    fn point_masses(&mut self, name: &Name, spec: &FlexibleSpec) -> Vec<ConcentratedMass> {
-        let mut masses = Vec::new();
-        for mass in spec.masses.as_ref().map_or(&[][..], |masses| &masses.value) {
-            let x = self.fixed(name, "at", mass.value.at.as_ref(), Dimension::LENGTH, f64::NAN);
-            let value = self.fixed(name, "mass", mass.value.mass.as_ref(), Dimension::MASS, f64::NAN);
-            masses.push(ConcentratedMass { x, mass: value, inertia: [0.0; 3] });
-        }
-        masses
-    }
-
     /// As the file says; else by the number of places where joints hold the link.
-    fn hold(
-        &mut self,
-        carrier: Carrier,
-        name: &Name,
-        held: Option<&At<HeldSpec>>,
-        axis: &Axis,
-        uses: &[Use],
-    ) -> Option<Hold> {
+    fn hold(&mut self, of: Bending<'_>, axis: &Axis) -> Option<Hold> {
+        let (name, held) = (of.name, of.spec.value.held.as_ref());
         let mut places: Vec<Attachment> = Vec::new();
-        for own in uses.iter().filter(|own| own.held) {
-            let x = axis.local(self.fixed_position(name, own.point, carrier))[0];
+        for own in of.uses.iter().filter(|own| own.held) {
+            let x = axis.local(self.fixed_position(name, own.point, of.carrier))[0];
             match places.iter_mut().find(|known| (known.x - x).abs() < SAME_PLACE * axis.length) {
                 Some(known) => known.rotation |= own.turns,
                 None => places.push(Attachment { x, rotation: own.turns }),
@@ -331,22 +177,15 @@ impl Resolver<'_> {
             }
             HeldSpec::CraigBampton => {
                 let message = format!("`{}` is held at fewer than two places", name.value);
-                let fault =
-                    Diagnostic::new(Code::BadModes, message).at(held.map_or(name.span, |h| h.span), "");
-                self.report(fault.help("take `held` away"));
+                self.refuse(Code::BadModes, held.map_or(name.span, |h| h.span), message)
+                    .help("take `held` away");
                 None
             }
         }
     }
 
-    fn solved(
-        &mut self,
-        carrier: Carrier,
-        name: &Name,
-        (spec, axis): (&At<FlexibleSpec>, &Axis),
-        input: &BeamInput,
-        uses: &[Use],
-    ) -> Result<Flexible, BeamError> {
+    fn solved(&mut self, of: Bending<'_>, axis: &Axis, input: &BeamInput) -> Result<Flexible, BeamError> {
+        let Bending { name, carrier, spec, uses, .. } = of;
         let beam = Beam::new(input)?;
         let mut data = beam.modal_data(&[])?;
         if let Some(frequencies) = &spec.value.frequencies {
@@ -403,24 +242,16 @@ impl Resolver<'_> {
 
     /// Stations by label: the middle has none.
     fn shares(&mut self, name: &Name, spec: &At<FlexibleSpec>) -> Vec<(String, f64)> {
-        let mut list = vec![(String::new(), 0.5)];
-        match &spec.value.stations {
-            None => {
-                list.extend(STATIONS.iter().enumerate().map(|(at, share)| ((at + 1).to_string(), *share)));
-            }
+        let shares: Vec<f64> = match &spec.value.stations {
+            None => STATIONS.to_vec(),
             Some(written) => {
-                for (at, share) in written.value.iter().enumerate() {
-                    let value = self.fixed(name, "stations", Some(share), Dimension::NONE, 0.5);
-                    list.push(((at + 1).to_string(), value));
-                }
+                let shares = written.value.iter();
+                shares.map(|x| self.fixed(name, "stations", Some(x), Dimension::NONE, 0.5)).collect()
             }
-        }
-        list
+        };
+        let numbered = shares.into_iter().enumerate().map(|(at, share)| ((at + 1).to_string(), share));
+        std::iter::once((String::new(), 0.5)).chain(numbered).collect()
     }
-}
-
-fn round(outer: f64, inner: f64) -> Section {
-    if inner > 0.0 { Section::Tube { outer, inner } } else { Section::Round { radius: outer } }
 }
 
 /// A node beside the axis moves with the section: `phi + psi x arm`.
@@ -438,16 +269,4 @@ fn beyond_axis(mut node: Node, local: [f64; 3]) -> Node {
     }
     (node.position[1], node.position[2]) = (arm[1], arm[2]);
     node
-}
-
-/// Bending stress at the outer fibres in +y and +z per unit of each modal coordinate [Pa].
-fn outer_stress(strain: &crate::flexible::Strain) -> Vec<[f64; 2]> {
-    let (y, z) = match strain.outline {
-        Outline::Round { radius } => (radius, radius),
-        Outline::Box { y, z } => (y, z),
-    };
-    let curvatures = strain.curvature_y.iter().zip(&strain.curvature_z);
-    curvatures
-        .map(|(about_y, about_z)| [-strain.youngs_modulus * y * about_z, strain.youngs_modulus * z * about_y])
-        .collect()
 }

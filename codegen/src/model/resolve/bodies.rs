@@ -31,7 +31,7 @@ impl Resolver<'_> {
         };
         if let Some((other, _)) = written.next() {
             let message = format!("body `{}` is both a {kind} and a {other}", name.value);
-            self.report(Diagnostic::new(Code::ConflictingKeys, message).at(name.span, "").help("choose one"));
+            self.refuse(Code::ConflictingKeys, name.span, message).help("choose one");
         }
         self.check_stray(name, kind, spec);
         let ends = self.ends(carrier, name, kind, pair);
@@ -53,40 +53,18 @@ impl Resolver<'_> {
     fn check_stray(&mut self, name: &Name, kind: &str, spec: &BodySpec) {
         let (round, tube, cuboid, given) =
             (kind == "rod" || kind == "tube", kind == "tube", kind == "box", kind == "centre");
-        let width = spec.width.as_ref().map(|width| match width {
-            Widths::Square(one) => one.span,
-            Widths::Rectangle(two) => two.span,
-        });
-        let centre = spec.centre.as_ref().map(|centre| match centre {
-            Centre::Point(point) => point.span,
-            Centre::At(triple) => triple.0.span,
-        });
-        let keys = [
-            ("radius", spec.radius.as_ref().map(|q| q.span), round, "a rod or tube"),
-            ("inner_radius", spec.inner_radius.as_ref().map(|q| q.span), tube, "a tube"),
-            ("width", width, cuboid, "a box"),
-            ("width_axis", spec.width_axis.as_ref().map(|axis| axis.0.span), cuboid, "a box"),
-            ("density", spec.density.as_ref().map(|q| q.span), !given, "a rod, tube or box"),
-            ("centre", centre, given, "a body with `mass`, `centre` and `inertia`"),
-            (
-                "inertia",
-                spec.inertia.as_ref().map(|list| list.span),
-                given,
-                "a body with `mass`, `centre` and `inertia`",
-            ),
-            (
-                "axes",
-                spec.axes.as_ref().map(|list| list.span),
-                given,
-                "a body with `mass`, `centre` and `inertia`",
-            ),
-        ];
-        for (key, span, fits, owner) in keys {
-            if let (Some(span), false) = (span, fits) {
+        for (key, span) in spec.written() {
+            let (fits, owner) = match key {
+                "radius" => (round, "a rod or tube"),
+                "inner_radius" => (tube, "a tube"),
+                "width" | "width_axis" => (cuboid, "a box"),
+                "density" => (!given, "a rod, tube or box"),
+                "centre" | "inertia" | "axes" => (given, "a body with `mass`, `centre` and `inertia`"),
+                _ => continue,
+            };
+            if !fits {
                 let message = format!("`{key}` of body `{}` belongs to {owner}", name.value);
-                self.report(
-                    Diagnostic::new(Code::ConflictingKeys, message).at(span, "").help("take it away"),
-                );
+                self.refuse(Code::ConflictingKeys, span, message).help("take it away");
             }
         }
     }
@@ -107,7 +85,7 @@ impl Resolver<'_> {
                 "the {kind} `{}` has no length: `{}` and `{}` are one place",
                 name.value, a.value, b.value
             );
-            self.report(Diagnostic::new(Code::ZeroLength, message).at(pair.0.span, ""));
+            self.refuse(Code::ZeroLength, pair.0.span, message);
         }
         [from, to]
     }
@@ -117,12 +95,9 @@ impl Resolver<'_> {
         if let (Some(density), Some(mass)) = (&spec.density, &spec.mass) {
             let message =
                 format!("body `{}` has a density and a mass: one follows from the other", name.value);
-            self.report(
-                Diagnostic::new(Code::ConflictingKeys, message)
-                    .at(mass.span, "")
-                    .also(density.span, "")
-                    .help("keep one of them"),
-            );
+            self.refuse(Code::ConflictingKeys, mass.span, message)
+                .also(density.span, "")
+                .help("keep one of them");
         }
         if let Some(mass) = &spec.mass {
             let what = place("mass", "body", name);
@@ -147,16 +122,15 @@ impl Resolver<'_> {
         if let Some(quantity) = quantity {
             return self.formula(quantity, Some(dimension), Allowed::PARAMETERS, &place(key, "body", name));
         }
-        self.missing(body.span, name.span, || {
-            let or = if key == "density" { " or `mass`" } else { "" };
-            let example = match key {
-                "radius" => "6 mm".to_owned(),
-                "inner_radius" => "5 mm".to_owned(),
-                _ => dimension.example(),
-            };
-            Diagnostic::new(Code::MissingKey, format!("body `{}` has no `{key}`{or}", name.value))
-                .help(format!("add `{key} = \"{example}\"`"))
-        });
+        let or = if key == "density" { " or `mass`" } else { "" };
+        let example = match key {
+            "radius" => "6 mm".to_owned(),
+            "inner_radius" => "5 mm".to_owned(),
+            _ => dimension.example(),
+        };
+        let message = format!("body `{}` has no `{key}`{or}", name.value);
+        self.missing(body.span, name.span, Code::MissingKey, message)
+            .help(format!("add `{key} = \"{example}\"`"));
         Formula::number(f64::NAN, dimension)
     }
 
@@ -167,7 +141,7 @@ impl Resolver<'_> {
         let (inside, outside) = (self.value(&inner), self.value(radius));
         if inside >= outside && outside > 0.0 {
             let message = format!("{what} is {inside} m, not less than `radius`, {outside} m");
-            self.report(Diagnostic::new(Code::NotPositive, message).at(inner.span, "no wall is left"));
+            self.refuse(Code::NotPositive, inner.span, message).label("no wall is left");
         }
         inner
     }
@@ -190,11 +164,10 @@ impl Resolver<'_> {
                 [list.value.first(), list.value.get(1)]
             }
             None => {
-                self.missing(body.span, name.span, || {
-                    Diagnostic::new(Code::MissingKey, format!("box `{}` has no `width`", name.value)).help(
-                        "add `width = \"10 mm\"`, or two edges and `width_axis`, the direction of the first",
-                    )
-                });
+                let message = format!("box `{}` has no `width`", name.value);
+                self.missing(body.span, name.span, Code::MissingKey, message).help(
+                    "add `width = \"10 mm\"`, or two edges and `width_axis`, the direction of the first",
+                );
                 [None, None]
             }
         };
@@ -227,13 +200,9 @@ impl Resolver<'_> {
         ));
         let Some(axis) = &body.value.width_axis else {
             if let Some(Widths::Rectangle(list)) = &body.value.width {
-                self.missing(body.span, list.span, || {
-                    Diagnostic::new(
-                        Code::MissingKey,
-                        format!("box `{}` does not say which way its widths point", name.value),
-                    )
-                    .help("add `width_axis = [0, 0, 1]`, the direction of the first of `width`")
-                });
+                let message = format!("box `{}` does not say which way its widths point", name.value);
+                self.missing(body.span, list.span, Code::MissingKey, message)
+                    .help("add `width_axis = [0, 0, 1]`, the direction of the first of `width`");
             }
             return inertia::any_perpendicular(along.unwrap_or([1.0, 0.0, 0.0]));
         };
@@ -268,10 +237,9 @@ impl Resolver<'_> {
     fn given(&mut self, carrier: Carrier, name: &Name, body: &At<BodySpec>) -> Inertia {
         let spec = &body.value;
         if spec.centre.is_none() && spec.inertia.is_none() {
-            self.missing(body.span, name.span, || {
-                Diagnostic::new(Code::NoKind, format!("nothing says what body `{}` is", name.value))
-                    .help("write `rod = [\"A\", \"B\"]`, `tube`, `box`, or `mass`, `centre` and `inertia`")
-            });
+            let message = format!("nothing says what body `{}` is", name.value);
+            self.missing(body.span, name.span, Code::NoKind, message)
+                .help("write `rod = [\"A\", \"B\"]`, `tube`, `box`, or `mass`, `centre` and `inertia`");
         } else {
             self.check_stray(name, "centre", spec);
         }
@@ -296,10 +264,9 @@ impl Resolver<'_> {
             }
             None => {
                 if spec.inertia.is_some() {
-                    self.missing(body.span, name.span, || {
-                        Diagnostic::new(Code::MissingKey, format!("body `{}` has no `centre`", name.value))
-                            .help("add `centre = \"P\"`, a point, or its coordinates")
-                    });
+                    let message = format!("body `{}` has no `centre`", name.value);
+                    self.missing(body.span, name.span, Code::MissingKey, message)
+                        .help("add `centre = \"P\"`, a point, or its coordinates");
                 }
                 None
             }

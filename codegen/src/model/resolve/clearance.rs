@@ -7,14 +7,20 @@ use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::model::{Axis, Clearance, Formula, Joint};
+use crate::source::Span;
 use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity, WearSpec};
 
 /// Speed below which friction is smoothed, unless the file says otherwise [m/s].
 const FRICTION_SPEED: f64 = 1e-3;
 /// Stribeck speed, unless the file says otherwise [m/s].
 const STRIBECK_SPEED: f64 = 1e-2;
+
+const PER_LENGTH: Dimension = Dimension::of(-1, 0, 0);
+const PRESSURE: Dimension = Dimension::of(-1, 1, -2);
+const PRESSURE_SPEED: Dimension = Dimension::of(0, 1, -3);
+const SPEED: Dimension = Dimension::of(1, 0, -1);
 
 impl Resolver<'_> {
     /// Gives the joints named in `[clearance]` their freedom.
@@ -24,8 +30,7 @@ impl Resolver<'_> {
             let Some(model) = self.joint_models.get_mut(id.index()) else { continue };
             if model.kind.clearance.is_empty() {
                 let message = format!("the {} joint `{}` cannot have clearance", model.kind.name, name.value);
-                let fault = Diagnostic::new(Code::BadClearance, message).at(name.span, "");
-                self.report(fault.help("revolute and spherical joints can"));
+                self.refuse(Code::BadClearance, name.span, message).help("revolute and spherical joints can");
                 continue;
             }
             model.clearance = true;
@@ -51,10 +56,8 @@ impl Resolver<'_> {
                     "the clearance of joint `{}`, {value} m, is not less than its journal's radius, {} m",
                     name.value, laws.journal_radius
                 );
-                let fault = Diagnostic::new(Code::BadClearance, message).at(radial.span, "");
-                self.report(
-                    fault.help("the clearance is the difference of the radii of bearing and journal"),
-                );
+                self.refuse(Code::BadClearance, radial.span, message)
+                    .help("the clearance is the difference of the radii of bearing and journal");
             }
             joint.clearance = Some(Box::new(Clearance { radial, laws }));
         }
@@ -62,10 +65,8 @@ impl Resolver<'_> {
             let known = file.clearance.0.iter().any(|(other, _)| other.value == name.value);
             if self.joint_named(name, "[wear]").is_some() && !known {
                 let message = format!("joint `{}` wears but has no clearance", name.value);
-                let fault = Diagnostic::new(Code::BadClearance, message).at(name.span, "");
-                self.report(
-                    fault.help(format!("add `[clearance.{}]`, the state that wear starts from", name.value)),
-                );
+                self.refuse(Code::BadClearance, name.span, message)
+                    .help(format!("add `[clearance.{}]`, the state that wear starts from", name.value));
             }
         }
     }
@@ -73,7 +74,7 @@ impl Resolver<'_> {
     fn radial(&mut self, name: &Name, written: &At<ClearanceSpec>) -> Formula {
         let what = place("radial", "clearance of joint", name);
         let Some(radial) = &written.value.radial else {
-            self.lacks(name, written.span, "clearance", "radial", "\"10 um\"");
+            self.lacks(name, written.span, "clearance", &[("radial", true, "\"10 um\"")]);
             return Formula::number(f64::NAN, Dimension::LENGTH);
         };
         let formula = self.formula(radial, Some(Dimension::LENGTH), Allowed::PARAMETERS, &what);
@@ -81,94 +82,71 @@ impl Resolver<'_> {
         formula
     }
 
-    fn lacks(&mut self, name: &Name, span: crate::source::Span, table: &str, key: &str, example: &str) {
-        let message = format!("the {table} of joint `{}` has no `{key}`", name.value);
-        let fault = Diagnostic::new(Code::MissingKey, message).at(span, "");
-        self.report(fault.help(format!("add `{key} = {example}`")));
+    fn lacks(&mut self, name: &Name, span: Span, table: &str, keys: &[(&str, bool, &str)]) {
+        for (key, _, example) in keys.iter().filter(|(_, missing, _)| *missing) {
+            let message = format!("the {table} of joint `{}` has no `{key}`", name.value);
+            self.refuse(Code::MissingKey, span, message).help(format!("add `{key} = {example}`"));
+        }
     }
 
-    /// A positive number fixed at generation.
-    fn positive(
+    /// A number fixed at generation, positive or, if allowed, zero.
+    fn number(
         &mut self,
         name: &Name,
-        key: &str,
-        written: Option<&Quantity>,
+        (key, written): (&str, Option<&Quantity>),
         dimension: Dimension,
+        zero_allowed: bool,
         default: f64,
     ) -> f64 {
         let Some(written) = written else { return default };
         let what = place(key, "joint", name);
         let formula = self.formula(written, Some(dimension), Allowed::CONSTANTS, &what);
-        self.check_positive(&formula, false, &what);
-        self.value(&formula)
-    }
-
-    /// A number from 0 on, fixed at generation.
-    fn not_negative(
-        &mut self,
-        name: &Name,
-        key: &str,
-        written: Option<&Quantity>,
-        dimension: Dimension,
-        default: f64,
-    ) -> f64 {
-        let Some(written) = written else { return default };
-        let what = place(key, "joint", name);
-        let formula = self.formula(written, Some(dimension), Allowed::CONSTANTS, &what);
-        self.check_positive(&formula, true, &what);
+        self.check_positive(&formula, zero_allowed, &what);
         self.value(&formula)
     }
 
     fn laws(&mut self, name: &Name, written: &At<ClearanceSpec>, ball: bool) -> ContactInfo {
         let own = &written.value;
-        let pressure = Dimension::of(-1, 1, -2);
-        if own.journal_radius.is_none() {
-            self.lacks(name, written.span, "clearance", "journal_radius", "\"10 mm\"");
-        }
-        if own.length.is_none() && !ball {
-            self.lacks(name, written.span, "clearance", "length", "\"20 mm\"");
-        }
-        if own.modulus.is_none() {
-            self.lacks(name, written.span, "clearance", "modulus", "\"115 GPa\"");
-        }
-        let journal_radius =
-            self.positive(name, "journal_radius", own.journal_radius.as_ref(), Dimension::LENGTH, f64::NAN);
-        let length =
-            self.positive(name, "length", own.length.as_ref(), Dimension::LENGTH, 2.0 * journal_radius);
-        let modulus = self.positive(name, "modulus", own.modulus.as_ref(), pressure, f64::NAN);
-        let stiffness = match &own.stiffness {
-            Some(given) => {
-                Stiffness::Given(self.positive(name, "stiffness", Some(given), Dimension::NONE, f64::NAN))
-            }
-            None => Stiffness::Hertz { modulus },
+        let lacking = [
+            ("journal_radius", own.journal_radius.is_none(), "\"10 mm\""),
+            ("length", own.length.is_none() && !ball, "\"20 mm\""),
+            ("modulus", own.modulus.is_none(), "\"115 GPa\""),
+        ];
+        self.lacks(name, written.span, "clearance", &lacking);
+        let friction = self.friction(name, own);
+        let mut positive = |key: &str, written: &Option<Quantity>, dimension: Dimension, default: f64| {
+            self.number(name, (key, written.as_ref()), dimension, false, default)
         };
-        let restitution = self.positive(name, "restitution", own.restitution.as_ref(), Dimension::NONE, 1.0);
-        if let (Some(given), true) = (&own.restitution, restitution > 1.0) {
-            let message =
-                format!("the coefficient of restitution of joint `{}` is {restitution}", name.value);
-            let fault = Diagnostic::new(Code::BadClearance, message).at(given.span, "");
-            self.report(fault.help("it lies above 0, and at most at 1"));
-        }
-        ContactInfo {
+        let journal_radius = positive("journal_radius", &own.journal_radius, Dimension::LENGTH, f64::NAN);
+        let modulus = positive("modulus", &own.modulus, PRESSURE, f64::NAN);
+        let laws = ContactInfo {
             joint: name.value.clone().into(),
             ball,
             journal_radius,
-            length,
+            length: positive("length", &own.length, Dimension::LENGTH, 2.0 * journal_radius),
             modulus,
-            stiffness,
+            stiffness: match &own.stiffness {
+                Some(_) => Stiffness::Given(positive("stiffness", &own.stiffness, Dimension::NONE, f64::NAN)),
+                None => Stiffness::Hertz { modulus },
+            },
             law: own.law.as_ref().map_or_else(Restitution::default, |law| law.value),
-            restitution,
-            exponent: self.positive(name, "exponent", own.exponent.as_ref(), Dimension::NONE, 1.5),
-            impact_speed_floor: self.positive(
-                name,
+            restitution: positive("restitution", &own.restitution, Dimension::NONE, 1.0),
+            exponent: positive("exponent", &own.exponent, Dimension::NONE, 1.5),
+            impact_speed_floor: positive(
                 "impact_speed_floor",
-                own.impact_speed_floor.as_ref(),
-                Dimension::of(1, 0, -1),
+                &own.impact_speed_floor,
+                SPEED,
                 IMPACT_SPEED_FLOOR,
             ),
-            friction: self.friction(name, own),
+            friction,
             wear: None,
+        };
+        if let (Some(given), true) = (&own.restitution, laws.restitution > 1.0) {
+            let message =
+                format!("the coefficient of restitution of joint `{}` is {}", name.value, laws.restitution);
+            self.refuse(Code::BadClearance, given.span, message).help("it lies above 0, and at most at 1");
         }
+        laws
     }
 
     fn friction(&mut self, name: &Name, own: &ClearanceSpec) -> Option<(Strength, Onset, f64)> {
@@ -176,36 +154,24 @@ impl Resolver<'_> {
             self.only_with_friction(name, own);
             return None;
         }
-        let speed = Dimension::of(1, 0, -1);
-        let coefficient = self.not_negative(name, "friction", own.friction.as_ref(), Dimension::NONE, 0.0);
-        let strength = match &own.static_friction {
-            Some(at_rest) => Strength::Stribeck {
-                static_coefficient: self.not_negative(
-                    name,
-                    "static_friction",
-                    Some(at_rest),
-                    Dimension::NONE,
-                    0.0,
-                ),
-                kinetic_coefficient: coefficient,
-                stribeck_speed: self.positive(
-                    name,
-                    "stribeck_speed",
-                    own.stribeck_speed.as_ref(),
-                    speed,
-                    STRIBECK_SPEED,
-                ),
-                exponent: 2.0,
-            },
+        let mut number = |key: &str, written: Option<&Quantity>, dimension, zero_allowed, default| {
+            self.number(name, (key, written), dimension, zero_allowed, default)
+        };
+        let coefficient = number("friction", own.friction.as_ref(), Dimension::NONE, true, 0.0);
+        let at_rest = own.static_friction.as_ref();
+        let static_coefficient = number("static_friction", at_rest, Dimension::NONE, true, 0.0);
+        let stribeck = own.stribeck_speed.as_ref().filter(|_| at_rest.is_some());
+        let stribeck_speed = number("stribeck_speed", stribeck, SPEED, false, STRIBECK_SPEED);
+        let kinetic_coefficient = coefficient;
+        let strength = match at_rest {
+            Some(_) => {
+                Strength::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, exponent: 2.0 }
+            }
             None => Strength::Coulomb { coefficient },
         };
-        let speeds: Vec<f64> = own
-            .friction_speed
-            .as_ref()
-            .map_or(&[][..], |list| &list.value)
-            .iter()
-            .map(|written| self.not_negative(name, "friction_speed", Some(written), speed, 0.0))
-            .collect();
+        let written = own.friction_speed.as_ref().map_or(&[][..], |list| &list.value);
+        let speeds = written.iter().map(|speed| number("friction_speed", Some(speed), SPEED, true, 0.0));
+        let speeds: Vec<f64> = speeds.collect();
         let onset = match speeds.as_slice() {
             [] => Onset::Smoothed { speed: FRICTION_SPEED },
             [speed] => Onset::Smoothed { speed: *speed },
@@ -219,20 +185,11 @@ impl Resolver<'_> {
 
     /// Keys that friction would need, without friction.
     fn only_with_friction(&mut self, name: &Name, own: &ClearanceSpec) {
-        let speeds = own.friction_speed.as_ref().map(|list| list.span);
-        let keys = [
-            ("static_friction", own.static_friction.as_ref().map(|key| key.span)),
-            ("stribeck_speed", own.stribeck_speed.as_ref().map(|key| key.span)),
-            ("friction_slope", own.friction_slope.as_ref().map(|key| key.span)),
-            ("friction_speed", speeds),
-        ];
-        for (key, span) in keys {
-            let Some(span) = span else { continue };
+        const KEYS: &[&str] = &["static_friction", "stribeck_speed", "friction_slope", "friction_speed"];
+        for (key, span) in own.written().into_iter().filter(|(key, _)| KEYS.contains(key)) {
             let message = format!("`{key}` of joint `{}` has no effect without `friction`", name.value);
-            let fault = Diagnostic::new(Code::BadClearance, message).at(span, "");
-            self.report(
-                fault.help("add `friction = 0.05`, the coefficient at high speed, or leave this out"),
-            );
+            self.refuse(Code::BadClearance, span, message)
+                .help("add `friction = 0.05`, the coefficient at high speed, or leave this out");
         }
     }
 
@@ -247,68 +204,49 @@ impl Resolver<'_> {
         // What is no number has been reported already.
         if !fits && speeds.iter().all(|speed| speed.is_finite()) {
             let message = format!("the friction speeds of joint `{}` are {speeds:?} m/s", name.value);
-            let fault = Diagnostic::new(Code::BadClearance, message).at(list.span, "");
-            self.report(fault.help(
+            self.refuse(Code::BadClearance, list.span, message).help(
                 "give one above 0, `[\"1 mm/s\"]`, or two that rise, `[\"0.1 mm/s\", \"1 mm/s\"]` (Ambrosio)",
-            ));
+            );
         }
-    }
-
-    /// The Gamma process; with one of its rates, wear has the mean that physics gives.
-    fn scatter(&mut self, name: &Name, own: &WearSpec) -> Option<GammaRates> {
-        let per_length = Dimension::of(-1, 0, 0);
-        let [alpha, beta] = [("alpha", &own.alpha), ("beta", &own.beta)].map(|(key, written)| {
-            let written = written.as_ref()?;
-            Some(self.positive(name, key, Some(written), per_length, f64::NAN))
-        });
-        Some(GammaRates { alpha: alpha.or(beta)?, beta: beta.or(alpha)? })
     }
 
     fn wear(&mut self, name: &Name, written: &At<WearSpec>) -> WearInfo {
         let own = &written.value;
-        let pressure = Dimension::of(-1, 1, -2);
-        let needed = [
+        let lacking = [
             ("coefficient", own.coefficient.is_none(), "1e-8"),
             ("hardness", own.hardness.is_none(), "\"3.5 GPa\""),
             ("threshold", own.threshold.is_none(), "\"80 um\""),
         ];
-        for (key, missing, example) in needed {
-            if missing {
-                self.lacks(name, written.span, "wear", key, example);
-            }
-        }
+        self.lacks(name, written.span, "wear", &lacking);
         let bins = own.bins.as_ref().map_or(DEFAULT_BINS, |bins| usize::try_from(bins.value).unwrap_or(0));
         if let (Some(bins), false) = (&own.bins, (8..=10_000).contains(&bins)) {
             let message = format!("the profile of joint `{}` has {} bearing angles", name.value, bins.value);
-            let fault = Diagnostic::new(Code::BadClearance, message).at(bins.span, "");
-            self.report(fault.help("72 are one every 5 degrees; 8 to 10000 are possible"));
+            self.refuse(Code::BadClearance, bins.span, message)
+                .help("72 are one every 5 degrees; 8 to 10000 are possible");
         }
+        let feedback = self.number(name, ("feedback", own.feedback.as_ref()), Dimension::NONE, true, 1.0);
+        let mut positive = |key: &str, written: &Option<Quantity>, dimension: Dimension, default: f64| {
+            self.number(name, (key, written.as_ref()), dimension, false, default)
+        };
+        let revolutions = &own.revolutions_per_cycle;
+        let pressure_speed = positive("pressure_speed", &own.pressure_speed, PRESSURE_SPEED, f64::NAN);
+        let alpha = positive("alpha", &own.alpha, PER_LENGTH, f64::NAN);
+        let beta = positive("beta", &own.beta, PER_LENGTH, f64::NAN);
+        let [alpha, beta] =
+            [(&own.alpha, alpha), (&own.beta, beta)].map(|(key, rate)| key.as_ref().map(|_| rate));
         WearInfo {
-            coefficient: self.positive(
-                name,
-                "coefficient",
-                own.coefficient.as_ref(),
-                Dimension::NONE,
-                f64::NAN,
-            ),
-            hardness: self.positive(name, "hardness", own.hardness.as_ref(), pressure, f64::NAN),
+            coefficient: positive("coefficient", &own.coefficient, Dimension::NONE, f64::NAN),
+            hardness: positive("hardness", &own.hardness, PRESSURE, f64::NAN),
             area: own.area.as_ref().map_or_else(Area::default, |area| area.value),
             measure: own.measure.as_ref().map(|measure| measure.value),
-            feedback: self.not_negative(name, "feedback", own.feedback.as_ref(), Dimension::NONE, 1.0),
+            feedback,
             profile: own.profile.unwrap_or(false),
             bins,
-            threshold: self.positive(name, "threshold", own.threshold.as_ref(), Dimension::LENGTH, f64::NAN),
-            revolutions_per_cycle: self.positive(
-                name,
-                "revolutions_per_cycle",
-                own.revolutions_per_cycle.as_ref(),
-                Dimension::NONE,
-                1.0,
-            ),
-            pressure_speed: own.pressure_speed.as_ref().map(|limit| {
-                self.positive(name, "pressure_speed", Some(limit), Dimension::of(0, 1, -3), f64::NAN)
-            }),
-            scatter: self.scatter(name, own),
+            threshold: positive("threshold", &own.threshold, Dimension::LENGTH, f64::NAN),
+            revolutions_per_cycle: positive("revolutions_per_cycle", revolutions, Dimension::NONE, 1.0),
+            pressure_speed: own.pressure_speed.as_ref().map(|_| pressure_speed),
+            // The Gamma process; with one of its rates, wear has the mean that physics gives.
+            scatter: alpha.or(beta).zip(beta.or(alpha)).map(|(alpha, beta)| GammaRates { alpha, beta }),
         }
     }
 }

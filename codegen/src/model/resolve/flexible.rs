@@ -4,11 +4,11 @@
 use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Direction, Flexible, Force, Joint, Station};
-use crate::spec::{At, BodySpec, Dimension, File, FlexibleSpec, Name, Quantity};
+use crate::spec::{At, Dimension, File, FlexibleSpec, Name, Quantity};
 
 /// Nodes of modal data match points that are nearer than this share of the body's size: coordinates written
 /// with six digits do.
@@ -24,6 +24,17 @@ pub(super) struct Use {
     pub(super) turns: bool,
 }
 
+/// What is known of a flexible body before its constants are.
+#[derive(Clone, Copy)]
+pub(super) struct Bending<'a> {
+    pub(super) name: &'a Name,
+    pub(super) carrier: Carrier,
+    pub(super) spec: &'a At<FlexibleSpec>,
+    pub(super) body: &'a Body,
+    pub(super) joints: &'a [Joint],
+    pub(super) uses: &'a [Use],
+}
+
 impl Resolver<'_> {
     pub(super) fn resolve_flexible(
         &mut self,
@@ -36,9 +47,10 @@ impl Resolver<'_> {
             let Some(spec) = &body.value.flexible else { continue };
             let carrier = Carrier::Body(BodyId::new(index));
             let uses = self.uses_of(carrier, &bodies[index], joints, forces);
+            let of = Bending { name, carrier, spec, body: &bodies[index], joints, uses: &uses };
             let flexible = match &spec.value.data {
-                Some(data) => self.read_modal_data(carrier, name, spec, data, &uses),
-                None => self.beam(carrier, (name, body, spec), &bodies[index], joints, &uses),
+                Some(data) => self.read_modal_data(of, data),
+                None => self.beam(of),
             };
             bodies[index].flexible = flexible.map(Box::new);
         }
@@ -58,9 +70,9 @@ impl Resolver<'_> {
         for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
             add(joint.at, true, !joint.model.turns_freely());
         }
-        for (body, point, turns) in forces.iter().flat_map(|force| force.kind.attachments()) {
-            if body == carrier {
-                add(point, false, turns);
+        for force in forces {
+            for (_, point) in force.attachments().into_iter().filter(|(body, _)| *body == carrier) {
+                add(point, false, force.kind.turns);
             }
         }
         for point in body.inertia.points() {
@@ -99,8 +111,8 @@ impl Resolver<'_> {
                 "the point `{}` of the flexible body `{}` depends on a tunable parameter",
                 known.name, name.value
             );
-            let fault = Diagnostic::new(Code::TunableNotAllowed, message).at(known.span, "");
-            self.report(fault.help("modes are computed at generation; take the `tunable` mark away"));
+            self.refuse(Code::TunableNotAllowed, known.span, message)
+                .help("modes are computed at generation; take the `tunable` mark away");
         }
         self.position_value(point, carrier)
     }
@@ -116,7 +128,7 @@ impl Resolver<'_> {
                     continue;
                 }
                 let message = format!("the body `{}` has no modes to start from", body.name);
-                self.report(Diagnostic::new(Code::BadStart, message).at(start.span, "").help("take it away"));
+                self.refuse(Code::BadStart, start.span, message).help("take it away");
                 continue;
             };
             let modes = flexible.start.len();
@@ -124,7 +136,7 @@ impl Resolver<'_> {
                 if !list.is_empty() && list.len() != modes {
                     let message =
                         format!("`{what}` of `{}` has {} values for {modes} modes", body.name, list.len());
-                    self.report(Diagnostic::new(Code::BadStart, message).at(start.span, ""));
+                    self.refuse(Code::BadStart, start.span, message);
                 }
             }
             for (at, own) in flexible.start.iter_mut().enumerate() {
@@ -135,14 +147,8 @@ impl Resolver<'_> {
     }
 
     /// Constants from a file beside this one.
-    fn read_modal_data(
-        &mut self,
-        carrier: Carrier,
-        name: &Name,
-        spec: &At<FlexibleSpec>,
-        file: &Name,
-        uses: &[Use],
-    ) -> Option<Flexible> {
+    fn read_modal_data(&mut self, of: Bending<'_>, file: &Name) -> Option<Flexible> {
+        let Bending { name, carrier, spec, .. } = of;
         self.check_beam_keys(name, &spec.value);
         let path = self.source.beside(&file.value);
         let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
@@ -151,18 +157,16 @@ impl Resolver<'_> {
             Ok(data) => data,
             Err(reason) => {
                 let message = format!("the modal data `{}` cannot be used: {reason}", file.value);
-                let fault = Diagnostic::new(Code::BadModalData, message).at(file.span, "");
-                self.report(
-                    fault.help("docs/modal-data.md describes the file; its path is relative to this file"),
-                );
+                self.refuse(Code::BadModalData, file.span, message)
+                    .help("docs/modal-data.md describes the file; its path is relative to this file");
                 return None;
             }
         };
         self.attached.push(path);
         let Some(origin) = &spec.value.origin else {
             let message = format!("nothing says where the floating frame of `{}` lies", name.value);
-            let fault = Diagnostic::new(Code::MissingKey, message).at(spec.span, "");
-            self.report(fault.help("add `origin = \"P\"`, the point at the origin of the modal data"));
+            self.refuse(Code::MissingKey, spec.span, message)
+                .help("add `origin = \"P\"`, the point at the origin of the modal data");
             return None;
         };
         let origin = self.point_on(origin, Some((carrier, name)), &format!("body `{}`", name.value))?;
@@ -170,7 +174,7 @@ impl Resolver<'_> {
             Some(axes) => self.axes(name, axes),
             None => inertia::AXES_OF_W,
         };
-        let nodes = self.nodes_of(carrier, name, (&data, &axes, origin), uses);
+        let nodes = self.nodes_of(of, &data, &axes, origin);
         let start = vec![[0.0; 2]; data.modes.len()];
         let looked_at = |index: &usize| !nodes.iter().any(|(_, node)| node == index);
         let stations = (0..data.nodes.len())
@@ -182,38 +186,25 @@ impl Resolver<'_> {
 
     /// Keys of a beam that mean nothing beside modal data.
     fn check_beam_keys(&mut self, name: &Name, spec: &FlexibleSpec) {
-        let keys = [
-            ("young", spec.young.as_ref().map(|q| q.span)),
-            ("poisson", spec.poisson.as_ref().map(|q| q.span)),
-            ("modes", spec.modes.as_ref().map(|q| q.span)),
-            ("axial", spec.axial.as_ref().map(|q| q.span)),
-            ("torsion", spec.torsion.as_ref().map(|q| q.span)),
-            ("damping", spec.damping.as_ref().map(|q| q.span)),
-            ("theory", spec.theory.as_ref().map(|q| q.span)),
-            ("held", spec.held.as_ref().map(|q| q.span)),
-            ("order", spec.order.as_ref().map(|q| q.span)),
-            ("steps", spec.steps.as_ref().map(|q| q.span)),
-            ("masses", spec.masses.as_ref().map(|q| q.span)),
+        const KEYS: &[&str] = &[
+            "young", "poisson", "modes", "axial", "torsion", "damping", "theory", "held", "order", "steps",
+            "masses",
         ];
-        for (key, span) in keys {
-            if let Some(span) = span {
-                let message =
-                    format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
-                self.report(
-                    Diagnostic::new(Code::ConflictingKeys, message).at(span, "").help("take it away"),
-                );
-            }
+        for (key, span) in spec.written().into_iter().filter(|(key, _)| KEYS.contains(key)) {
+            let message = format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
+            self.refuse(Code::ConflictingKeys, span, message).help("take it away");
         }
     }
 
     /// The node at every point used.
     fn nodes_of(
         &mut self,
-        carrier: Carrier,
-        name: &Name,
-        (data, axes, origin): (&ModalData, &[[f64; 3]; 3], PointId),
-        uses: &[Use],
+        of: Bending<'_>,
+        data: &ModalData,
+        axes: &[[f64; 3]; 3],
+        origin: PointId,
     ) -> Vec<(PointId, usize)> {
+        let Bending { name, carrier, uses, .. } = of;
         let start = self.fixed_position(name, origin, carrier);
         let size =
             data.nodes.iter().map(|node| inertia::dot(node.position, node.position)).fold(0.0, f64::max);
@@ -237,8 +228,8 @@ impl Resolver<'_> {
                 data.nodes[node].name,
                 apart(&data.nodes[node])
             );
-            let fault = Diagnostic::new(Code::NoNodeHere, message).at(point.span, "");
-            self.report(fault.help("add a node to the modal data, or move the point"));
+            self.refuse(Code::NoNodeHere, point.span, message)
+                .help("add a node to the modal data, or move the point");
         }
         nodes
     }
@@ -271,6 +262,3 @@ pub(super) fn hinges(carrier: Carrier, joints: &[Joint]) -> Vec<[f64; 3]> {
     }
     list
 }
-
-/// What [`Resolver::beam`] is told of a body: name, table, and its `flexible`.
-pub(super) type Written<'a> = (&'a Name, &'a At<BodySpec>, &'a At<FlexibleSpec>);

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::model::Formula;
 use crate::spec::{At, BodySpec, Dimension, Name, Quantity, Triple};
 
@@ -103,7 +103,7 @@ impl Resolver<'_> {
             None
         };
         if let Some((message, help)) = fault {
-            self.report(Diagnostic::new(Code::ImpossibleInertia, message).at(written.span, "").help(help));
+            self.refuse(Code::ImpossibleInertia, written.span, message).help(help);
         }
     }
 
@@ -124,14 +124,9 @@ impl Resolver<'_> {
         let given = directions.get(2).copied().unwrap_or(third);
         // Directions written with six digits are at right angles within about 1e-6.
         if dot(directions[0], directions[1]).abs() > 1e-5 || distance(third, given) > 1e-5 {
-            self.report(
-                Diagnostic::new(
-                    Code::NotPerpendicular,
-                    format!("{what} are not at right angles, x before y before z"),
-                )
-                .at(written.span, "")
-                .help("give the first two, at right angles to each other; the third follows"),
-            );
+            let message = format!("{what} are not at right angles, x before y before z");
+            self.refuse(Code::NotPerpendicular, written.span, message)
+                .help("give the first two, at right angles to each other; the third follows");
         }
         let third = unit(third).unwrap_or(AXES_OF_W[2]);
         let second = cross(third, directions[0]);

@@ -3,9 +3,8 @@
 use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel};
-use crate::source::Span;
 use crate::spec::{At, Dimension, JointSpec, Name, PerBody, Triple};
 
 /// An axis in place of one that is wrong.
@@ -16,22 +15,16 @@ impl Resolver<'_> {
         let spec = &joint.value;
         let mut written = spec.kinds();
         let Some((key, _)) = written.next() else {
-            self.missing(joint.span, name.span, || {
-                let message = format!("nothing says what kind of joint `{}` is", name.value);
-                Diagnostic::new(Code::NoKind, message).help(format!(
-                    "write for example `revolute = [\"ground\", \"crank\"]`; kinds are {}",
-                    all_kinds()
-                ))
-            });
+            let message = format!("nothing says what kind of joint `{}` is", name.value);
+            self.missing(joint.span, name.span, Code::NoKind, message).help(format!(
+                "write for example `revolute = [\"ground\", \"crank\"]`; kinds are {}",
+                all_kinds()
+            ));
             return JointModel::free();
         };
         if let Some((other, _)) = written.next() {
             let message = format!("joint `{}` is both {key} and {other}", name.value);
-            self.report(
-                Diagnostic::new(Code::ConflictingKeys, message)
-                    .at(name.span, "")
-                    .help("make two joints of it"),
-            );
+            self.refuse(Code::ConflictingKeys, name.span, message).help("make two joints of it");
         }
         let mut model = JointModel::new(key, &[]);
         self.check_stray_axes(name, &model, spec);
@@ -53,14 +46,15 @@ impl Resolver<'_> {
     fn check_stray_axes(&mut self, name: &Name, model: &JointModel, spec: &JointSpec) {
         let (kind, keys) = (model.kind.name, model.kind.axes);
         let has_axis = matches!(keys, AxisKeys::Axis | AxisKeys::AxisAndFirst);
-        let written = [
-            ("axis", spec.axis.as_ref().map(span_of), has_axis),
-            ("axes", spec.axes.as_ref().map(|axes| axes.span), keys == AxisKeys::Axes),
-            ("first", spec.first.as_ref().map(span_of), keys == AxisKeys::AxisAndFirst),
-            ("lead", spec.lead.as_ref().map(|lead| lead.span), model.thread().is_some()),
-        ];
-        for (key, span, fits) in written {
-            if let (Some(span), false) = (span, fits) {
+        for (key, span) in spec.written() {
+            let fits = match key {
+                "axis" => has_axis,
+                "axes" => keys == AxisKeys::Axes,
+                "first" => keys == AxisKeys::AxisAndFirst,
+                "lead" => model.thread().is_some(),
+                _ => true,
+            };
+            if !fits {
                 let message = format!("a {kind} joint has no `{key}`");
                 let help = match (key, keys) {
                     ("axis", AxisKeys::Axes) => {
@@ -69,9 +63,9 @@ impl Resolver<'_> {
                     ("lead", _) => "a rotation with proportional translation is a `screw`".to_owned(),
                     _ => "take it away".to_owned(),
                 };
-                let fault = Diagnostic::new(Code::ConflictingKeys, message)
-                    .at(span, format!("in joint `{}`", name.value));
-                self.report(fault.help(help));
+                self.refuse(Code::ConflictingKeys, span, message)
+                    .label(format!("in joint `{}`", name.value))
+                    .help(help);
             }
         }
     }
@@ -80,16 +74,14 @@ impl Resolver<'_> {
         if let Some(axis) = &joint.value.axis {
             return self.axis(axis, &joint.value, &place("axis", "joint", name));
         }
-        self.missing(joint.span, name.span, || {
-            let help = if kind.axes == AxisKeys::AxisAndFirst {
-                "add `axis = [0, 0, 1]`, the normal of the plane"
-            } else {
-                "add `axis = [0, 0, 1]`, its direction in the ground frame at the reference pose"
-            };
-            let message = format!("the {} joint `{}` has no `axis`", kind.name, name.value);
-            Diagnostic::new(Code::MissingKey, message).help(help)
-        });
-        Axis { parent: DUMMY, child: DUMMY }
+        let help = if kind.axes == AxisKeys::AxisAndFirst {
+            "add `axis = [0, 0, 1]`, the normal of the plane"
+        } else {
+            "add `axis = [0, 0, 1]`, its direction in the ground frame at the reference pose"
+        };
+        let message = format!("the {} joint `{}` has no `axis`", kind.name, name.value);
+        self.missing(joint.span, name.span, Code::MissingKey, message).help(help);
+        Axis::both(DUMMY)
     }
 
     /// A direction for both branches, or one for each.
@@ -97,7 +89,7 @@ impl Resolver<'_> {
         match written {
             PerBody::Shared(triple) => {
                 let direction = self.direction(triple, what).unwrap_or(DUMMY);
-                Axis { parent: direction, child: direction }
+                Axis::both(direction)
             }
             PerBody::Each(table) => {
                 let bodies = spec.kinds().next().map(|(_, pair)| pair.0.value.as_slice()).unwrap_or_default();
@@ -110,18 +102,15 @@ impl Resolver<'_> {
                             let message =
                                 format!("{what} names `{}`, which the joint does not connect", body.value);
                             let known = bodies.iter().map(|name| name.value.as_str());
-                            let fault = Diagnostic::new(Code::UnknownName, message).at(body.span, "");
-                            self.report(fault.did_you_mean(&body.value, known));
+                            self.refuse(Code::UnknownName, body.span, message)
+                                .did_you_mean(&body.value, known);
                         }
                     }
                 }
                 if let (Some((first, _)), true) = (table.0.first(), found.contains(&None)) {
                     let message = format!("{what} is given for one body only");
-                    self.report(
-                        Diagnostic::new(Code::MissingKey, message)
-                            .at(first.span, "")
-                            .help("give it for both bodies, or once for both as a list"),
-                    );
+                    self.refuse(Code::MissingKey, first.span, message)
+                        .help("give it for both bodies, or once for both as a list");
                 }
                 Axis { parent: found[0].unwrap_or(DUMMY), child: found[1].unwrap_or(DUMMY) }
             }
@@ -148,7 +137,7 @@ impl Resolver<'_> {
             if first != formula.dimension {
                 let message =
                     format!("{what} mixes {} and {}", first.description(), formula.dimension.description());
-                self.report(Diagnostic::new(Code::UnitMismatch, message).at(item.span, ""));
+                self.refuse(Code::UnitMismatch, item.span, message);
                 return None;
             }
         }
@@ -158,24 +147,21 @@ impl Resolver<'_> {
         let direction = inertia::unit(components);
         if direction.is_none() {
             let message = format!("{what} is zero and has no direction");
-            self.report(
-                Diagnostic::new(Code::ZeroAxis, message)
-                    .at(written.0.span, "")
-                    .help("write for example `[0, 0, 1]`; the length does not matter"),
-            );
+            self.refuse(Code::ZeroAxis, written.0.span, message)
+                .help("write for example `[0, 0, 1]`; the length does not matter");
         }
         direction
     }
 
     fn two_axes(&mut self, name: &Name, joint: &At<JointSpec>) -> Vec<Axis> {
-        let dummies =
-            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|axis| Axis { parent: axis, child: axis }).to_vec();
+        let dummies = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Axis::both).to_vec();
         let what = place("axes", "joint", name);
         let Some(axes) = &joint.value.axes else {
-            self.missing(joint.span, name.span, || {
-                Diagnostic::new(Code::MissingKey, format!("the universal joint `{}` has no `axes`", name.value))
-                    .help("add `axes = [[1, 0, 0], [0, 1, 0]]`: the first is fixed in the parent, the second in the child")
-            });
+            let message = format!("the universal joint `{}` has no `axes`", name.value);
+            self.missing(joint.span, name.span, Code::MissingKey, message).help(
+                "add `axes = [[1, 0, 0], [0, 1, 0]]`: the first is fixed in the parent, the second in the \
+                 child",
+            );
             return dummies;
         };
         let [first, second] = axes.value.as_slice() else {
@@ -187,30 +173,26 @@ impl Resolver<'_> {
         // 1e-6: nearer than that to parallel, the joint's cross has no plane but rounding.
         if sides.iter().any(|(a, b)| inertia::distance([0.0; 3], inertia::cross(*a, *b)) < 1e-6) {
             let message = format!("the two axes of the universal joint `{}` are parallel", name.value);
-            self.report(Diagnostic::new(Code::ParallelAxes, message).at(axes.span, "").help(
+            self.refuse(Code::ParallelAxes, axes.span, message).help(
                 "they are the two bars of the cross, usually at right angles; for one axis use `revolute`",
-            ));
+            );
         }
         vec![first, second]
     }
 
     fn lead(&mut self, name: &Name, joint: &At<JointSpec>) -> f64 {
         let Some(lead) = &joint.value.lead else {
-            self.missing(joint.span, name.span, || {
-                Diagnostic::new(Code::MissingKey, format!("the screw joint `{}` has no `lead`", name.value))
-                    .help("add `lead = \"5 mm\"`, the advance per turn; negative for a left-hand thread")
-            });
+            let message = format!("the screw joint `{}` has no `lead`", name.value);
+            self.missing(joint.span, name.span, Code::MissingKey, message)
+                .help("add `lead = \"5 mm\"`, the advance per turn; negative for a left-hand thread");
             return f64::NAN;
         };
         let formula =
             self.formula(lead, Some(Dimension::LENGTH), Allowed::CONSTANTS, &place("lead", "joint", name));
         let value = self.value(&formula);
         if value == 0.0 {
-            self.report(
-                Diagnostic::new(Code::ZeroLead, format!("the screw joint `{}` does not advance", name.value))
-                    .at(lead.span, "")
-                    .help("without advance it is a `revolute` joint"),
-            );
+            let message = format!("the screw joint `{}` does not advance", name.value);
+            self.refuse(Code::ZeroLead, lead.span, message).help("without advance it is a `revolute` joint");
         }
         value
     }
@@ -220,14 +202,16 @@ impl Resolver<'_> {
         let what = place("first", "joint", name);
         let Some(written) = &joint.value.first else {
             if normal.parent != normal.child {
-                self.missing(joint.span, name.span, || {
-                    let message = format!("joint `{}` has a normal for each body, so it needs `first` for each too", name.value);
-                    Diagnostic::new(Code::MissingKey, message)
-                        .help("add `first = { crank = [1, 0, 0], ... }`, a direction in the plane as each body sees it")
-                });
+                let message = format!(
+                    "joint `{}` has a normal for each body, so it needs `first` for each too",
+                    name.value
+                );
+                self.missing(joint.span, name.span, Code::MissingKey, message).help(
+                    "add `first = { crank = [1, 0, 0], ... }`, a direction in the plane as each body sees it",
+                );
             }
             let default = inertia::any_perpendicular(normal.parent);
-            return Axis { parent: default, child: default };
+            return Axis::both(default);
         };
         let first = self.axis(written, &joint.value, &what);
         let mut in_plane = |direction: [f64; 3], normal: [f64; 3]| {
@@ -235,8 +219,8 @@ impl Resolver<'_> {
             // As for universal joints.
             if inertia::distance([0.0; 3], across) < 1e-6 {
                 let message = format!("{what} points along the normal of the plane");
-                let fault = Diagnostic::new(Code::ParallelAxes, message).at(span_of(written), "");
-                self.report(fault.help("it is the direction of `q1`, in the plane"));
+                self.refuse(Code::ParallelAxes, written.span(), message)
+                    .help("it is the direction of `q1`, in the plane");
             }
             inertia::unit(across).unwrap_or(DUMMY)
         };
@@ -244,13 +228,6 @@ impl Resolver<'_> {
         let same = first.parent == first.child && normal.parent == normal.child;
         let child = if same { parent } else { in_plane(first.child, normal.child) };
         Axis { parent, child }
-    }
-}
-
-fn span_of(written: &PerBody) -> Span {
-    match written {
-        PerBody::Shared(triple) => triple.0.span,
-        PerBody::Each(table) => table.0.first().map_or(Span::default(), |(name, _)| name.span),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::id::PointId;
 use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive};
 use crate::source::Span;
@@ -43,7 +43,7 @@ impl Resolver<'_> {
         let (a, b) = (a?, b?);
         if a == b {
             let message = format!("joint `{}` connects `{}` with itself", name.value, parent.value);
-            self.report(Diagnostic::new(Code::SameBody, message).at(pair.0.span, ""));
+            self.refuse(Code::SameBody, pair.0.span, message);
         }
         Some([(a, parent), (b, child)])
     }
@@ -55,10 +55,9 @@ impl Resolver<'_> {
         sides: Option<[(Carrier, &Name); 2]>,
     ) -> Option<PointId> {
         let Some(at) = &joint.value.at else {
-            self.missing(joint.span, name.span, || {
-                Diagnostic::new(Code::MissingKey, format!("joint `{}` does not say where it is", name.value))
-                    .help("add `at = \"A\"`, a point of [points]")
-            });
+            let message = format!("joint `{}` does not say where it is", name.value);
+            self.missing(joint.span, name.span, Code::MissingKey, message)
+                .help("add `at = \"A\"`, a point of [points]");
             return None;
         };
         let what = format!("joint `{}`", name.value);
@@ -127,9 +126,8 @@ impl Resolver<'_> {
             let Some(coordinate) = self.coordinate(key, model, span, &what) else { continue };
             let is = model.coordinates()[coordinate];
             let Some(stiffness) = stiffness else {
-                let fault =
-                    Diagnostic::new(Code::MissingKey, format!("{what} has no `stiffness`")).at(span, "");
-                self.report(fault.help(format!("add `stiffness = \"50 {}\"`", is.stiffness().si_unit())));
+                self.refuse(Code::MissingKey, span, format!("{what} has no `stiffness`"))
+                    .help(format!("add `stiffness = \"50 {}\"`", is.stiffness().si_unit()));
                 continue;
             };
             let stiffness = self.formula(stiffness, Some(is.stiffness()), Allowed::PARAMETERS, &what);
@@ -165,7 +163,7 @@ impl Resolver<'_> {
             let Some(coordinate) = self.coordinate(key, model, quantity.span, what) else { continue };
             if found.iter().any(|(earlier, _)| *earlier == coordinate) {
                 let message = format!("{what} is given twice for one coordinate");
-                self.report(Diagnostic::new(Code::ConflictingKeys, message).at(quantity.span, ""));
+                self.refuse(Code::ConflictingKeys, quantity.span, message);
                 continue;
             }
             found.push((coordinate, quantity));
@@ -212,7 +210,7 @@ impl Resolver<'_> {
                 format!("its coordinates are `q1` to `q{count}`"),
             ),
         };
-        self.report(Diagnostic::new(Code::NoSuchCoordinate, message).at(span, "").help(help));
+        self.refuse(Code::NoSuchCoordinate, span, message).help(help);
         None
     }
 }

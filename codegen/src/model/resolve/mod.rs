@@ -21,6 +21,7 @@ mod parameters;
 mod points;
 mod quantity;
 mod resolver;
+mod section;
 mod starts;
 mod term;
 
@@ -108,13 +109,12 @@ impl Resolver<'_> {
     fn mechanism_name(&mut self, file: &File) -> String {
         match &file.name {
             Some(name) if names::is_name(&name.value) => return name.value.clone(),
-            Some(name) => {
-                self.report(names::bad_name(name));
+            Some(name) => self.report(names::bad_name(name)),
+            None => {
+                let message = "the mechanism has no name";
+                self.missing(self.whole_file(), Span::default(), Code::MissingKey, message)
+                    .help("add `name = \"my_linkage\"`");
             }
-            None => self.missing(Span { start: 0, end: self.source.text.len() }, Span::default(), || {
-                Diagnostic::new(Code::MissingKey, "the mechanism has no name")
-                    .help("add `name = \"my_linkage\"`")
-            }),
         }
         String::new()
     }
@@ -141,7 +141,7 @@ impl Resolver<'_> {
         for (position, (name, _)) in file.parameters.0.iter().enumerate() {
             if self.used.get(position) == Some(&false) {
                 let message = format!("nothing uses the parameter `{}`", name.value);
-                self.report(Diagnostic::new(Code::UnusedParameter, message).at(name.span, ""));
+                self.refuse(Code::UnusedParameter, name.span, message);
             }
         }
     }

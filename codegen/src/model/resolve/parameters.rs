@@ -25,13 +25,10 @@ impl Resolver<'_> {
         self.parameters = table
             .0
             .iter()
-            .map(|(name, parameter)| model::Parameter {
-                name: name.value.clone(),
-                value: f64::NAN,
-                dimension: Dimension::NONE,
-                tunable: parameter.value.tunable,
-                assumed: parameter.value.assumed,
-                span: name.span,
+            .map(|(name, parameter)| {
+                let (tunable, assumed) = parameter.value.marks();
+                let (name, span) = (name.value.clone(), name.span);
+                model::Parameter { name, value: f64::NAN, dimension: Dimension::NONE, tunable, assumed, span }
             })
             .collect();
         self.check_overrides(table, overrides);
@@ -66,11 +63,10 @@ impl Resolver<'_> {
         parameter: &At<Parameter>,
         overrides: &Overrides,
     ) {
-        let Some(quantity) = &parameter.value.value else {
-            self.missing(parameter.span, name.span, || {
-                Diagnostic::new(Code::MissingKey, format!("the parameter `{}` has no value", name.value))
-                    .help(format!("write `{0} = \"120 mm\"` or `{0} = {{ value = \"120 mm\" }}`", name.value))
-            });
+        let Some(quantity) = parameter.value.value() else {
+            let message = format!("the parameter `{}` has no value", name.value);
+            self.missing(parameter.span, name.span, Code::MissingKey, message)
+                .help(format!("write `{0} = \"120 mm\"` or `{0} = {{ value = \"120 mm\" }}`", name.value));
             return;
         };
         let mut formula = self.formula(quantity, None, Allowed::PARAMETERS, &format!("`{}`", name.value));
@@ -83,11 +79,11 @@ impl Resolver<'_> {
         self.values[position] = value;
         self.parameters[position].value = value;
         self.parameters[position].dimension = formula.dimension;
-        if follows && !parameter.value.tunable {
+        if follows && !self.parameters[position].tunable {
             if formula.term.size() > LARGEST {
                 let message =
                     format!("`{}` grows too large when written out in tunable parameters", name.value);
-                self.report(Diagnostic::new(Code::FormulaSyntax, message).at(quantity.span, ""));
+                self.refuse(Code::FormulaSyntax, quantity.span, message);
                 return;
             }
             self.written_out[position] = Some(formula.term);
@@ -103,11 +99,8 @@ impl Resolver<'_> {
         expression.iter().for_each(|expression| names_in(expression, &mut names));
         if let Some(used) = names.first() {
             let message = format!("{what} uses the name `{used}`");
-            self.report(
-                Diagnostic::new(Code::NotAllowedHere, message)
-                    .at(span, "")
-                    .help("on the command line give a quantity, for example speed=\"2 Hz\""),
-            );
+            self.refuse(Code::NotAllowedHere, span, message)
+                .help("on the command line give a quantity, for example speed=\"2 Hz\"");
             return model::Formula::number(f64::NAN, dimension);
         }
         self.formula(&quantity, Some(dimension), Allowed::CONSTANTS, &what)
@@ -140,7 +133,7 @@ impl Resolver<'_> {
     }
 
     fn uses(&self, parameter: &Parameter) -> Vec<usize> {
-        let Some(At { value: Literal::Text(text), .. }) = &parameter.value else { return Vec::new() };
+        let Some(At { value: Literal::Text(text), .. }) = parameter.value() else { return Vec::new() };
         let Ok(expression) = parse_expression(text, &|word| self.names.is_name(word)) else {
             return Vec::new();
         };
@@ -178,8 +171,7 @@ impl Resolver<'_> {
             [only] => format!("the parameter {only} is defined by itself"),
             _ => format!("the parameters {} are defined by each other", names.join(", ")),
         };
-        let fault = Diagnostic::new(Code::ParameterCycle, message).at(table.0[cycle[0]].0.span, "");
-        self.report(fault.help("give one of them a value"));
+        self.refuse(Code::ParameterCycle, table.0[cycle[0]].0.span, message).help("give one of them a value");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Formula, Inertia, Joint, Point, Position};
 use crate::source::Span;
@@ -29,11 +29,8 @@ impl Resolver<'_> {
         match (&point.value.at, point.value.by_body.0.first()) {
             (Some(_), Some((key, _))) => {
                 let message = format!("{what} has `at`, and a position for `{}` beside it", key.value);
-                self.report(
-                    Diagnostic::new(Code::ConflictingKeys, message)
-                        .at(key.span, "")
-                        .help("positions by body go into `at`: `at = { crank = [...], rocker = [...] }`"),
-                );
+                self.refuse(Code::ConflictingKeys, key.span, message)
+                    .help("positions by body go into `at`: `at = { crank = [...], rocker = [...] }`");
                 nowhere
             }
             (Some(PerBody::Shared(triple)), None) => {
@@ -42,10 +39,8 @@ impl Resolver<'_> {
             (Some(PerBody::Each(table)), None) => self.per_body(table, name).unwrap_or(nowhere),
             (None, Some(_)) => self.per_body(&point.value.by_body, name).unwrap_or(nowhere),
             (None, None) => {
-                self.missing(point.span, name.span, || {
-                    Diagnostic::new(Code::MissingKey, format!("{what} has no coordinates"))
-                        .help(format!("write `{} = [\"0 mm\", \"0 mm\", \"0 mm\"]`", name.value))
-                });
+                self.missing(point.span, name.span, Code::MissingKey, format!("{what} has no coordinates"))
+                    .help(format!("write `{} = [\"0 mm\", \"0 mm\", \"0 mm\"]`", name.value));
                 nowhere
             }
         }
@@ -75,12 +70,9 @@ impl Resolver<'_> {
 
     fn report_absent(&mut self, point: &str, body: &str, at: Span, declared: Span) {
         let message = format!("the point `{point}` has positions for some bodies, but none for `{body}`");
-        self.report(
-            Diagnostic::new(Code::PointNotOnBody, message)
-                .at(at, "")
-                .also(declared, "declared here")
-                .help(format!("add `{body} = [...]` to the point, or use another point")),
-        );
+        self.refuse(Code::PointNotOnBody, at, message)
+            .also(declared, "declared here")
+            .help(format!("add `{body} = [...]` to the point, or use another point"));
     }
 
     /// The point with this name, as `carrier` (called `body`) sees it.

@@ -3,8 +3,8 @@
 
 use std::ops::Range;
 
-use super::resolver::Resolver;
-use crate::diagnostic::{Code, Diagnostic};
+use super::resolver::{Reported, Resolver};
+use crate::diagnostic::Code;
 use crate::model::{Formula, Term};
 use crate::source::Span;
 use crate::spec::{Dimension, Expression, Form, Literal, Quantity, SyntaxError, Triple, parse_expression};
@@ -41,6 +41,13 @@ pub(super) struct Origin<'a> {
     pub(super) quantity: &'a Quantity,
     pub(super) allowed: Allowed,
     pub(super) what: &'a str,
+}
+
+/// A piece of that text.
+#[derive(Clone, Copy)]
+pub(super) struct Here<'a> {
+    pub(super) origin: &'a Origin<'a>,
+    pub(super) range: &'a Range<usize>,
 }
 
 /// A term with its dimension, or nothing if it is wrong and reported.
@@ -110,11 +117,8 @@ impl Resolver<'_> {
     fn report_syntax(&mut self, origin: &Origin<'_>, error: SyntaxError) {
         let code = if error.unit { Code::UnknownUnit } else { Code::FormulaSyntax };
         let message = format!("{}: {}", origin.what, error.message);
-        let diagnostic = Diagnostic::new(code, message).at(self.span_in(origin.quantity, error.range), "");
-        self.report(match error.help {
-            Some(help) => diagnostic.help(help),
-            None => diagnostic,
-        });
+        let reported = self.refuse(code, self.span_in(origin.quantity, error.range), message);
+        error.help.map(|help| reported.help(help));
     }
 
     fn warn_shadowed(&mut self, origin: &Origin<'_>, expression: &Expression) {
@@ -124,9 +128,9 @@ impl Resolver<'_> {
             let message =
                 format!("{}: `{unit}` is read as a unit, not as the `{unit}` of this file", origin.what);
             let span = self.span_in(origin.quantity, range.clone());
-            self.report(Diagnostic::new(Code::UnitShadowsName, message).at(span, "").help(format!(
+            self.refuse(Code::UnitShadowsName, span, message).help(format!(
                 "to divide by `{unit}`, put the quantity in brackets: `(2 m)/{unit}`; to be rid of the doubt, rename it"
-            )));
+            ));
         }
     }
 
@@ -138,28 +142,18 @@ impl Resolver<'_> {
         expected: Dimension,
     ) {
         let span = origin.quantity.span;
-        let diagnostic = match bare {
-            Some(number) if expected != Dimension::NONE => {
-                let message = format!("{} needs a unit: it is {}", origin.what, expected.description());
-                Diagnostic::new(Code::MissingUnit, message).at(span, "").help(format!(
-                    "write \"{number} {}\", or any other unit of it, for example \"{}\"",
-                    expected.si_unit(),
-                    expected.example()
-                ))
-            }
-            _ => {
-                let message = format!(
-                    "{} is {}, but {} is needed",
-                    origin.what,
-                    found.description(),
-                    expected.description()
-                );
-                Diagnostic::new(Code::UnitMismatch, message)
-                    .at(span, "")
-                    .help(format!("write something like \"{}\"", expected.example()))
-            }
-        };
-        self.report(diagnostic);
+        if let Some(number) = bare.filter(|_| expected != Dimension::NONE) {
+            let message = format!("{} needs a unit: it is {}", origin.what, expected.description());
+            let (unit, example) = (expected.si_unit(), expected.example());
+            self.refuse(Code::MissingUnit, span, message).help(format!(
+                "write \"{number} {unit}\", or any other unit of it, for example \"{example}\""
+            ));
+            return;
+        }
+        let (found, needed) = (found.description(), expected.description());
+        let message = format!("{} is {found}, but {needed} is needed", origin.what);
+        self.refuse(Code::UnitMismatch, span, message)
+            .help(format!("write something like \"{}\"", expected.example()));
     }
 
     /// Where a range of the text is in the file. Texts with escapes or made by `[repeat]` have one place as a whole.
@@ -176,15 +170,13 @@ impl Resolver<'_> {
         }
     }
 
-    pub(super) fn fault(
-        &mut self,
-        origin: &Origin<'_>,
-        range: &Range<usize>,
-        code: Code,
-        message: &str,
-    ) -> Diagnostic {
-        let span = self.span_in(origin.quantity, range.clone());
-        Diagnostic::new(code, format!("{}: {message}", origin.what)).at(span, "")
+    pub(super) fn span_of(&self, here: Here<'_>) -> Span {
+        self.span_in(here.origin.quantity, here.range.clone())
+    }
+
+    /// Reports a fault in a part of the text.
+    pub(super) fn refuse_in(&mut self, here: Here<'_>, code: Code, message: &str) -> Reported<'_> {
+        self.refuse(code, self.span_of(here), format!("{}: {message}", here.origin.what))
     }
 
     /// Reports if a part that depends on nothing but parameters is infinite or not a number, e.g. `t/(2 - 2)`.
@@ -203,11 +195,8 @@ impl Resolver<'_> {
         }
         let when = if finite && term.value_at(&self.values, None).is_none() { " at t = 0" } else { "" };
         let message = format!("{} is infinite or not a number{when}", origin.what);
-        self.report(
-            Diagnostic::new(Code::NotFinite, message)
-                .at(origin.quantity.span, "")
-                .help("check divisions by zero and the ranges of sqrt, ln, asin and acos"),
-        );
+        self.refuse(Code::NotFinite, origin.quantity.span, message)
+            .help("check divisions by zero and the ranges of sqrt, ln, asin and acos");
         false
     }
 }

@@ -28,27 +28,77 @@ pub(super) struct Resolver<'a> {
     pub(super) attached: Vec<PathBuf>,
 }
 
+/// A fault that was reported, unless another explains it; more can be said about it.
+pub(super) struct Reported<'a>(Option<&'a mut Diagnostic>);
+
+impl Reported<'_> {
+    /// Adds advice.
+    pub(super) fn help(self, text: impl Into<String>) -> Self {
+        self.then(|diagnostic| diagnostic.help(text))
+    }
+
+    /// Says something at the place.
+    pub(super) fn label(self, text: impl Into<String>) -> Self {
+        self.then(|mut diagnostic| {
+            diagnostic.labels[0].text = text.into();
+            diagnostic
+        })
+    }
+
+    /// Adds a related place.
+    pub(super) fn also(self, span: Span, text: &str) -> Self {
+        self.then(|diagnostic| diagnostic.also(span, text))
+    }
+
+    /// Adds "did you mean" if one of `known` is close to `wrong`.
+    pub(super) fn did_you_mean<'n>(self, wrong: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        self.then(|diagnostic| diagnostic.did_you_mean(wrong, known))
+    }
+
+    fn then(mut self, add: impl FnOnce(Diagnostic) -> Diagnostic) -> Self {
+        if let Some(diagnostic) = &mut self.0 {
+            **diagnostic = add(diagnostic.clone());
+        }
+        self
+    }
+}
+
 impl Resolver<'_> {
     pub(super) fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    pub(super) fn whole_file(&self) -> Span {
+        Span { start: 0, end: self.source.text.len() }
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(diagnostic);
     }
 
+    /// Reports a fault in one place.
+    pub(super) fn refuse(&mut self, code: Code, span: Span, message: impl Into<String>) -> Reported<'_> {
+        self.diagnostics.push(Diagnostic::new(code, message).at(span, ""));
+        Reported(self.diagnostics.last_mut())
+    }
+
     /// Reports what is missing within `whole`, unless something there was left out because it was wrong:
     /// then that is the reason. The fault is shown at `at`.
-    pub(super) fn missing(&mut self, whole: Span, at: Span, diagnostic: impl FnOnce() -> Diagnostic) {
-        if !self.skipped.iter().any(|skipped| whole.start <= skipped.start && skipped.end <= whole.end) {
-            self.report(diagnostic().at(at, ""));
-        }
+    pub(super) fn missing(
+        &mut self,
+        whole: Span,
+        at: Span,
+        code: Code,
+        message: impl Into<String>,
+    ) -> Reported<'_> {
+        let explained = |skipped: &Span| whole.start <= skipped.start && skipped.end <= whole.end;
+        if self.skipped.iter().any(explained) { Reported(None) } else { self.refuse(code, at, message) }
     }
 
     pub(super) fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
         let entries = if found == 1 { "entry" } else { "entries" };
         let message = format!("{what} has {found} {entries}, not {needed}");
-        self.report(Diagnostic::new(Code::WrongCount, message).at(span, ""));
+        self.refuse(Code::WrongCount, span, message);
     }
 
     /// Value with the parameters of the file; NaN if it is not known before the motion.
@@ -70,7 +120,7 @@ impl Resolver<'_> {
             };
             let message = format!("{what} is {value}{unit}");
             let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
-            self.report(Diagnostic::new(Code::NotPositive, message).at(formula.span, need));
+            self.refuse(Code::NotPositive, formula.span, message).label(need);
         }
     }
 }

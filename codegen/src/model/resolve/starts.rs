@@ -4,7 +4,7 @@ use super::modal_start::ModalStart;
 use super::names::Thing;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId};
 use crate::model::{Coordinate, Joint, JointModel, Start};
 use crate::source::Span;
@@ -49,14 +49,13 @@ impl Resolver<'_> {
     fn modal_start(&mut self, body: BodyId, name: &Name, spec: &StartSpec, span: Span, held: bool) {
         let StartSpec::Table(table) = spec else {
             let message = format!("`{}` is a body: its modes start from `eta` and `eta_v`", name.value);
-            let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
-            self.report(fault.help(format!("write `{} = {{ eta = [0, 0], eta_v = [0, 0] }}`", name.value)));
+            self.refuse(Code::BadStart, span, message)
+                .help(format!("write `{} = {{ eta = [0, 0], eta_v = [0, 0] }}`", name.value));
             return;
         };
         if !held {
             let message = format!("the modes of `{}` take no guesses", name.value);
-            let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
-            self.report(fault.help("write it under [initial]"));
+            self.refuse(Code::BadStart, span, message).help("write it under [initial]");
         }
         let mut list = |values: &Option<At<Vec<Quantity>>>, key: &str| -> Vec<f64> {
             let values = values.as_ref().map_or(&[][..], |list| &list.value);
@@ -97,23 +96,20 @@ impl Resolver<'_> {
             1 => format!("{what} like `{}` has one coordinate, not {}", name.value, list.len()),
             _ => format!("{what} like `{}` starts from {needed} values, not {}", name.value, list.len()),
         };
-        let fault = Diagnostic::new(Code::BadStart, message).at(span, "");
         let coordinates = model.coordinates().len();
-        self.report(
-            fault.help(match needed - coordinates {
-                0 if needed == 0 => "take it away".to_owned(),
-                0 => format!(
-                    "give {needed} values, or name them: `{{ q{} = ... }}`",
-                    if needed == 1 { "" } else { "1" }
-                ),
-                3 if coordinates == 0 => {
-                    "give the three components of the rotation vector: `[\"0 deg\", \"0 deg\", \"30 deg\"]`"
-                        .to_owned()
-                }
-                3 => format!("give {coordinates} coordinates and a rotation vector: three angles"),
-                _ => "give a rotation vector and a displacement: three angles, three lengths".to_owned(),
-            }),
-        );
+        self.refuse(Code::BadStart, span, message).help(match needed - coordinates {
+            0 if needed == 0 => "take it away".to_owned(),
+            0 => {
+                let first = if needed == 1 { "" } else { "1" };
+                format!("give {needed} values, or name them: `{{ q{first} = ... }}`")
+            }
+            3 if coordinates == 0 => {
+                r#"give the three components of the rotation vector: `["0 deg", "0 deg", "30 deg"]`"#
+                    .to_owned()
+            }
+            3 => format!("give {coordinates} coordinates and a rotation vector: three angles"),
+            _ => "give a rotation vector and a displacement: three angles, three lengths".to_owned(),
+        });
         Vec::new()
     }
 
@@ -146,7 +142,7 @@ impl Resolver<'_> {
                     1 => "its coordinate is `q`, its speed `v`".to_owned(),
                     n => format!("its coordinates are `q1` to `q{n}`, its speeds `v1` to `v{n}`"),
                 };
-                self.report(Diagnostic::new(Code::BadStart, message).at(span, "").help(help));
+                self.refuse(Code::BadStart, span, message).help(help);
                 continue;
             }
             list.push(Written { index, position: position.as_ref(), speed: speed.as_ref(), span });
@@ -172,24 +168,17 @@ impl Resolver<'_> {
         if let Some(drive) = joint.drives.iter().find(|drive| drive.coordinate == start.coordinate) {
             let message =
                 format!("the motion of joint `{}` is prescribed, so it takes no start value", joint.name);
-            self.report(
-                Diagnostic::new(Code::BadStart, message)
-                    .at(start.span, "")
-                    .also(drive.law.span, "prescribed here")
-                    .help(
-                        "take it away, or put the start into the motion: `drive = \"10 deg + 2*pi*speed*t\"`",
-                    ),
-            );
+            self.refuse(Code::BadStart, start.span, message)
+                .also(drive.law.span, "prescribed here")
+                .help("take it away, or put the start into the motion: `drive = \"10 deg + 2*pi*speed*t\"`");
         }
         let same = |other: &&Start| other.joint == start.joint && other.coordinate == start.coordinate;
         if let Some(other) = earlier.iter().find(same) {
             let message = format!("joint `{}` has two start values", joint.name);
-            self.report(
-                Diagnostic::new(Code::BadStart, message)
-                    .at(start.span, "met exactly")
-                    .also(other.span, "a guess")
-                    .help("keep the one in [initial]"),
-            );
+            self.refuse(Code::BadStart, start.span, message)
+                .label("met exactly")
+                .also(other.span, "a guess")
+                .help("keep the one in [initial]");
         }
     }
 
@@ -200,11 +189,8 @@ impl Resolver<'_> {
         if is == Coordinate::Angle && (text.ends_with("rpm") || text.ends_with("Hz")) {
             let message =
                 format!("{what}: \"{text}\" is a frequency, and is read as that many radians per second");
-            self.report(
-                Diagnostic::new(Code::FrequencyAsSpeed, message)
-                    .at(quantity.span, "")
-                    .help(format!("write \"2*pi*{text}\" if turns are meant, rad/s if not")),
-            );
+            self.refuse(Code::FrequencyAsSpeed, quantity.span, message)
+                .help(format!("write \"2*pi*{text}\" if turns are meant, rad/s if not"));
         }
     }
 
@@ -216,11 +202,8 @@ impl Resolver<'_> {
         };
         if is == Coordinate::Angle && number.abs() > 2.0 * std::f64::consts::PI {
             let message = format!("{what}: the bare number {number} is read as {number} rad");
-            self.report(
-                Diagnostic::new(Code::LooksLikeDegrees, message)
-                    .at(quantity.span, "")
-                    .help(format!("write \"{number} deg\" if degrees are meant, \"{number} rad\" if not")),
-            );
+            self.refuse(Code::LooksLikeDegrees, quantity.span, message)
+                .help(format!("write \"{number} deg\" if degrees are meant, \"{number} rad\" if not"));
         }
     }
 }

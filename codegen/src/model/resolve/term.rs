@@ -1,9 +1,7 @@
 //! The pieces of a formula: names to ids, dimensions, and what may occur where.
 
-use std::ops::Range;
-
 use super::names::Thing;
-use super::quantity::{Origin, Resolved};
+use super::quantity::{Here, Origin, Resolved};
 use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
@@ -28,48 +26,35 @@ const FUNCTIONS: &[(&str, Function)] = &[
 
 impl Resolver<'_> {
     pub(super) fn term(&mut self, expression: &Expression, origin: &Origin<'_>) -> Resolved {
+        let here = Here { origin, range: &expression.range };
         match &expression.form {
             Form::Number { value, dimension, .. } => Some((Term::Number(*value), *dimension)),
-            Form::Name(name) => self.name(name, expression, origin),
-            Form::Member(thing, member) => self.member(thing, member, expression, origin),
+            Form::Name(name) => self.name(name, here),
+            Form::Member(thing, member) => self.member(thing, member, here),
             Form::Neg(inner) => {
                 let (term, dimension) = self.term(inner, origin)?;
                 Some((Term::Neg(Box::new(term)), dimension))
             }
             Form::Power(base, exponent) => {
                 let (term, dimension) = self.term(base, origin)?;
-                let dimension = self.exponents(dimension.to_power(*exponent), expression, origin)?;
+                let dimension = self.exponents(dimension.to_power(*exponent), here)?;
                 Some((Term::Power(Box::new(term), *exponent), dimension))
             }
-            Form::Binary(operator, left, right) => self.binary(*operator, left, right, expression, origin),
-            Form::Call(function, arguments) => self.call(function, arguments, expression, origin),
+            Form::Binary(operator, left, right) => self.binary(*operator, [left, right], here),
+            Form::Call(function, arguments) => self.call(function, arguments, here),
         }
     }
 
-    fn exponents(
-        &mut self,
-        dimension: Option<Dimension>,
-        expression: &Expression,
-        origin: &Origin<'_>,
-    ) -> Option<Dimension> {
+    fn exponents(&mut self, dimension: Option<Dimension>, here: Here<'_>) -> Option<Dimension> {
         if dimension.is_none() {
-            let message = "no quantity has such a power of a unit";
-            let fault = self.fault(origin, &expression.range, Code::UnitMismatch, message);
-            self.report(fault);
+            self.refuse_in(here, Code::UnitMismatch, "no quantity has such a power of a unit");
         }
         dimension
     }
 
-    fn binary(
-        &mut self,
-        operator: Operator,
-        left: &Expression,
-        right: &Expression,
-        whole: &Expression,
-        origin: &Origin<'_>,
-    ) -> Resolved {
+    fn binary(&mut self, operator: Operator, sides: [&Expression; 2], here: Here<'_>) -> Resolved {
         // Both sides first, so that faults of both are found.
-        let (a, b) = (self.term(left, origin), self.term(right, origin));
+        let [a, b] = sides.map(|side| self.term(side, here.origin));
         let ((a, of_a), (b, of_b)) = (a?, b?);
         let (a, b) = (Box::new(a), Box::new(b));
         match operator {
@@ -77,65 +62,54 @@ impl Resolver<'_> {
                 if of_a != of_b {
                     let verb = if operator == Operator::Add { "added to" } else { "taken from" };
                     let message = format!("{} cannot be {verb} {}", of_b.description(), of_a.description());
-                    let fault = self.fault(origin, &whole.range, Code::UnitMismatch, &message);
-                    self.report(fault);
+                    self.refuse_in(here, Code::UnitMismatch, &message);
                     return None;
                 }
                 let term = if operator == Operator::Add { Term::Add(a, b) } else { Term::Sub(a, b) };
                 Some((term, of_a))
             }
-            Operator::Mul => Some((Term::Mul(a, b), self.exponents(of_a.times(of_b), whole, origin)?)),
-            Operator::Div => Some((Term::Div(a, b), self.exponents(of_a.over(of_b), whole, origin)?)),
+            Operator::Mul => Some((Term::Mul(a, b), self.exponents(of_a.times(of_b), here)?)),
+            Operator::Div => Some((Term::Div(a, b), self.exponents(of_a.over(of_b), here)?)),
         }
     }
 
-    fn name(&mut self, name: &str, expression: &Expression, origin: &Origin<'_>) -> Resolved {
-        let range = &expression.range;
+    fn name(&mut self, name: &str, here: Here<'_>) -> Resolved {
+        let allowed = here.origin.allowed;
         if name == "pi" {
             return Some((Term::Number(std::f64::consts::PI), Dimension::NONE));
         }
         if name == "t" {
-            if !origin.allowed.time {
-                let fault = self.not_allowed(origin, range, "the time");
-                self.report(fault);
+            if !allowed.time {
+                self.refuse_not_allowed(here, "the time");
                 return None;
             }
             return Some((Term::Time, Dimension::TIME));
         }
         match self.names.find(name) {
-            Some((Thing::Parameter(id), _)) => self.parameter_term(id, range, origin),
+            Some((Thing::Parameter(id), _)) => self.parameter_term(id, here),
             Some((thing, span)) => {
                 let message = format!("`{name}` is a {}, not a number", thing.what());
                 let help = match thing {
                     Thing::Point(_) => format!("write `{name}.x`, `{name}.y` or `{name}.z` for a coordinate"),
                     Thing::Joint(_) => format!("write `{name}.q` for the position, `{name}.v` for the speed"),
-                    _ => format!("a formula can use {}", origin.allowed.list()),
+                    _ => format!("a formula can use {}", allowed.list()),
                 };
-                let fault =
-                    self.fault(origin, range, Code::WrongKindOfName, &message).also(span, "").help(help);
-                self.report(fault);
+                self.refuse_in(here, Code::WrongKindOfName, &message).also(span, "").help(help);
                 None
             }
             None if self.names.is_lost(name) => None,
             None if self.names.is_foreseen(name) => {
                 let message = format!("`{name}` is not a parameter");
-                let help = format!("here a formula can use {}", origin.allowed.list());
-                let fault = self.fault(origin, range, Code::WrongKindOfName, &message).help(help);
-                self.report(fault);
+                let help = format!("here a formula can use {}", allowed.list());
+                self.refuse_in(here, Code::WrongKindOfName, &message).help(help);
                 None
             }
             None => {
                 let known = self.names.known(|thing| matches!(thing, Thing::Parameter(_))).chain(["t", "pi"]);
-                let span = self.span_in(origin.quantity, range.clone());
-                let message = format!("{}: `{name}` does not exist", origin.what);
-                let mut fault = Diagnostic::new(Code::UnknownName, message)
-                    .at(span, "unknown parameter")
-                    .did_you_mean(name, known);
+                let mut fault = self.unknown(name, "unknown parameter", here).did_you_mean(name, known);
                 if fault.help.is_empty() {
-                    fault = fault.help(format!(
-                        "define it in [parameters]; a formula here can use {}",
-                        origin.allowed.list()
-                    ));
+                    let list = allowed.list();
+                    fault = fault.help(format!("define it in [parameters]; a formula here can use {list}"));
                 }
                 self.report(fault);
                 None
@@ -143,31 +117,30 @@ impl Resolver<'_> {
         }
     }
 
-    fn not_allowed(&mut self, origin: &Origin<'_>, range: &Range<usize>, what: &str) -> Diagnostic {
-        let message = format!("{what} cannot be used here");
-        let help = format!("here a formula can use {}", origin.allowed.list());
-        self.fault(origin, range, Code::NotAllowedHere, &message).help(help)
+    /// A name that nothing has.
+    fn unknown(&self, name: &str, label: &str, here: Here<'_>) -> Diagnostic {
+        let message = format!("{}: `{name}` does not exist", here.origin.what);
+        Diagnostic::new(Code::UnknownName, message).at(self.span_of(here), label)
     }
 
-    fn parameter_term(&mut self, id: ParameterId, range: &Range<usize>, origin: &Origin<'_>) -> Resolved {
+    fn refuse_not_allowed(&mut self, here: Here<'_>, what: &str) {
+        let message = format!("{what} cannot be used here");
+        let help = format!("here a formula can use {}", here.origin.allowed.list());
+        self.refuse_in(here, Code::NotAllowedHere, &message).help(help);
+    }
+
+    fn parameter_term(&mut self, id: ParameterId, here: Here<'_>) -> Resolved {
         self.used[id.index()] = true;
         let parameter = &self.parameters[id.index()];
         let (dimension, declared) = (parameter.dimension, parameter.span);
         let written_out = self.written_out[id.index()].clone();
-        if !origin.allowed.tunable && (parameter.tunable || written_out.is_some()) {
-            let message = if parameter.tunable {
-                format!("`{}` is tunable, but this must be fixed when code is generated", parameter.name)
-            } else {
-                format!(
-                    "`{}` follows from a tunable parameter, but this must be fixed when code is generated",
-                    parameter.name
-                )
-            };
-            let fault = self
-                .fault(origin, range, Code::TunableNotAllowed, &message)
+        if !here.origin.allowed.tunable && (parameter.tunable || written_out.is_some()) {
+            let why = if parameter.tunable { "is tunable" } else { "follows from a tunable parameter" };
+            let message =
+                format!("`{}` {why}, but this must be fixed when code is generated", parameter.name);
+            self.refuse_in(here, Code::TunableNotAllowed, &message)
                 .also(declared, "declared here")
                 .help("take `tunable = true` away, or use another parameter here");
-            self.report(fault);
             return None;
         }
         // A parameter that is wrong itself is reported there.
@@ -177,25 +150,16 @@ impl Resolver<'_> {
         Some((written_out.unwrap_or(Term::Parameter(id)), dimension))
     }
 
-    fn member(
-        &mut self,
-        thing: &str,
-        member: &str,
-        expression: &Expression,
-        origin: &Origin<'_>,
-    ) -> Resolved {
-        let range = &expression.range;
-        if !origin.allowed.state {
-            let fault = self.not_allowed(origin, range, &format!("`{thing}.{member}`"));
-            self.report(fault);
+    fn member(&mut self, thing: &str, member: &str, here: Here<'_>) -> Resolved {
+        if !here.origin.allowed.state {
+            self.refuse_not_allowed(here, &format!("`{thing}.{member}`"));
             return None;
         }
         let resolved = match self.names.find(thing) {
             Some((Thing::Joint(id), _)) => self.joint_member(id, member),
             Some((Thing::Point(id), _)) => {
-                let component = ["x", "y", "z"]
-                    .iter()
-                    .position(|name| member.strip_prefix('v').unwrap_or(member) == *name);
+                let letter = member.strip_prefix('v').unwrap_or(member);
+                let component = ["x", "y", "z"].iter().position(|name| letter == *name);
                 match (component, member.starts_with('v')) {
                     (Some(axis), false) => Ok((Term::PointPosition(id, axis), Dimension::LENGTH)),
                     (Some(axis), true) => Ok((Term::PointSpeed(id, axis), Dimension::of(1, 0, -1))),
@@ -206,24 +170,19 @@ impl Resolver<'_> {
             None if self.names.is_lost(thing) => return None,
             None => {
                 let known = self.names.known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_)));
-                let span = self.span_in(origin.quantity, range.clone());
-                let message = format!("{}: `{thing}` does not exist", origin.what);
-                let fault = Diagnostic::new(Code::UnknownName, message)
-                    .at(span, "unknown joint or point")
-                    .did_you_mean(thing, known);
+                let fault = self.unknown(thing, "unknown joint or point", here).did_you_mean(thing, known);
                 self.report(fault);
                 return None;
             }
         };
-        let fault = match resolved {
-            Ok(resolved) => return Some(resolved),
+        match resolved {
+            Ok(resolved) => Some(resolved),
             Err(help) => {
                 let message = format!("`{thing}` has no `{member}`");
-                self.fault(origin, range, Code::UnknownMember, &message).help(help)
+                self.refuse_in(here, Code::UnknownMember, &message).help(help);
+                None
             }
-        };
-        self.report(fault);
-        None
+        }
     }
 
     fn joint_member(&self, id: JointId, member: &str) -> Result<(Term, Dimension), String> {
@@ -252,32 +211,22 @@ impl Resolver<'_> {
         }
     }
 
-    fn call(
-        &mut self,
-        name: &str,
-        arguments: &[Expression],
-        whole: &Expression,
-        origin: &Origin<'_>,
-    ) -> Resolved {
+    fn call(&mut self, name: &str, arguments: &[Expression], here: Here<'_>) -> Resolved {
         let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
-            let list = FUNCTIONS.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
-            let fault = self
-                .fault(origin, &whole.range, Code::UnknownFunction, &format!("there is no function `{name}`"))
-                .did_you_mean(name, FUNCTIONS.iter().map(|(name, _)| *name))
+            let known: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
+            let list = known.join(", ");
+            self.refuse_in(here, Code::UnknownFunction, &format!("there is no function `{name}`"))
+                .did_you_mean(name, known)
                 .help(format!("functions are {list}: all are smooth, so that motions have accelerations"));
-            self.report(fault);
             return None;
         };
-        let resolved: Vec<Resolved> = arguments.iter().map(|argument| self.term(argument, origin)).collect();
+        let resolved: Vec<Resolved> =
+            arguments.iter().map(|argument| self.term(argument, here.origin)).collect();
         let needed = if *function == Function::Atan2 { 2 } else { 1 };
         if arguments.len() != needed {
-            let message = format!(
-                "`{name}` takes {needed} argument{}, not {}",
-                if needed == 1 { "" } else { "s" },
-                arguments.len()
-            );
-            let fault = self.fault(origin, &whole.range, Code::UnknownFunction, &message);
-            self.report(fault);
+            let (plural, found) = (if needed == 1 { "" } else { "s" }, arguments.len());
+            let message = format!("`{name}` takes {needed} argument{plural}, not {found}");
+            self.refuse_in(here, Code::UnknownFunction, &message);
             return None;
         }
         let (terms, dimensions): (Vec<Term>, Vec<Dimension>) =
@@ -294,13 +243,7 @@ impl Resolver<'_> {
                 Function::Atan2 => "needs two quantities of one dimension",
                 _ => "needs a pure number or an angle",
             };
-            let fault = self.fault(
-                origin,
-                &whole.range,
-                Code::UnitMismatch,
-                &format!("`{name}` {need}, not {found}"),
-            );
-            self.report(fault);
+            self.refuse_in(here, Code::UnitMismatch, &format!("`{name}` {need}, not {found}"));
             return None;
         };
         Some((Term::Call(*function, terms), dimension))

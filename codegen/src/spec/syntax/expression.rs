@@ -74,3 +74,14 @@ pub struct SyntaxError {
     /// The fault is in a unit.
     pub unit: bool,
 }
+
+pub(super) fn fault(message: impl Into<String>, range: Range<usize>) -> SyntaxError {
+    SyntaxError { message: message.into(), help: None, range, unit: false }
+}
+
+impl SyntaxError {
+    pub(super) fn advise(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::expression::SyntaxError;
+use super::expression::{SyntaxError, fault};
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +43,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
             at += 1;
             Kind::Mark(next)
         } else {
-            return Err(SyntaxError {
-                message: format!("`{next}` has no meaning in a formula"),
-                help: None,
-                range: start..start + next.len_utf8(),
-                unit: false,
-            });
+            let message = format!("`{next}` has no meaning in a formula");
+            return Err(fault(message, start..start + next.len_utf8()));
         };
         tokens.push(Token { kind, range: start..at });
     }
@@ -58,12 +54,10 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
 fn number(text: &str, range: Range<usize>) -> Result<f64, SyntaxError> {
     match text[range.clone()].parse() {
         Ok(value) if f64::is_finite(value) => Ok(value),
-        _ => Err(SyntaxError {
-            message: format!("`{}` is not a number that a computer can hold", &text[range.clone()]),
-            help: None,
-            range,
-            unit: false,
-        }),
+        _ => {
+            let message = format!("`{}` is not a number that a computer can hold", &text[range.clone()]);
+            Err(fault(message, range))
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::expression::{Expression, Form, Operator, SyntaxError};
+use super::expression::{Expression, Form, Operator, SyntaxError, fault};
 use super::lex::{Kind, Token};
 
 /// Deepest nesting: far above any real formula, and safe for the recursion over it.
@@ -33,17 +33,6 @@ pub(super) struct Parser<'a> {
     pub(super) depth: usize,
     pub(super) is_name: &'a dyn Fn(&str) -> bool,
     pub(super) shadowed: Vec<(String, Range<usize>)>,
-}
-
-pub(super) fn fault(message: impl Into<String>, range: Range<usize>) -> SyntaxError {
-    SyntaxError { message: message.into(), help: None, range, unit: false }
-}
-
-impl SyntaxError {
-    pub(super) fn advise(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
-    }
 }
 
 fn expression(form: Form, range: Range<usize>) -> Expression {
@@ -84,31 +73,38 @@ impl<'a> Parser<'a> {
         if self.take(mark) { Ok(()) } else { Err(fault(format!("`{mark}` is missing here"), self.here())) }
     }
 
-    fn deeper(&mut self) -> Result<(), SyntaxError> {
+    /// Reads something that may hold all of the grammar again.
+    fn deeper(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<Expression, SyntaxError>,
+    ) -> Result<Expression, SyntaxError> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(
                 fault("the formula is nested too deep", self.here()).advise("split it into parameters")
             );
         }
-        Ok(())
+        let expression = read(self)?;
+        self.depth -= 1;
+        Ok(expression)
     }
 
     fn sum(&mut self) -> Result<Expression, SyntaxError> {
-        self.deeper()?;
+        self.deeper(Self::terms)
+    }
+
+    fn terms(&mut self) -> Result<Expression, SyntaxError> {
         let mut left = self.product()?;
         loop {
             let operator = match self.mark_at(0) {
                 Some('+') => Operator::Add,
                 Some('-') => Operator::Sub,
-                _ => break,
+                _ => return Ok(left),
             };
             self.next += 1;
             let right = self.product()?;
             left = binary(operator, left, right);
         }
-        self.depth -= 1;
-        Ok(left)
     }
 
     fn product(&mut self) -> Result<Expression, SyntaxError> {
@@ -128,15 +124,10 @@ impl<'a> Parser<'a> {
     fn factor(&mut self) -> Result<Expression, SyntaxError> {
         let start = self.here().start;
         if self.take('+') {
-            self.deeper()?;
-            let inner = self.factor();
-            self.depth -= 1;
-            return inner;
+            return self.deeper(Self::factor);
         }
         if self.take('-') {
-            self.deeper()?;
-            let inner = self.factor()?;
-            self.depth -= 1;
+            let inner = self.deeper(Self::factor)?;
             let range = start..inner.range.end;
             return Ok(expression(Form::Neg(Box::new(inner)), range));
         }

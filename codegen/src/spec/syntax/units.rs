@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::super::unit::{Unit, suggestion, unit};
-use super::expression::SyntaxError;
+use super::expression::{SyntaxError, fault};
 use super::lex::{Kind, Token};
-use super::parser::{Parser, fault};
+use super::parser::Parser;
 
 impl Parser<'_> {
     /// The unit behind a number, or none.

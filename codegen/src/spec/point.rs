@@ -1,0 +1,95 @@
+//! Points as written: three coordinates, or a table in which positions may stand by body.
+
+#[cfg(test)]
+use std::borrow::Cow;
+use std::fmt;
+
+#[cfg(test)]
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+
+use super::texts::texts_of;
+use super::written::{Name, PerBody, Table, Triple};
+
+/// Where a point is.
+#[derive(Clone, Debug, Default)]
+pub struct PointSpec {
+    /// Coordinates, for all or by body.
+    pub at: Option<PerBody>,
+    /// Coordinates by body, written without `at`.
+    pub by_body: Table<Triple>,
+    /// Body that carries the point.
+    pub on: Option<Name>,
+    /// Our own assumption.
+    pub assumed: bool,
+}
+
+texts_of! { struct PointSpec { at, by_body, on } }
+
+#[derive(Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+enum PointForm {
+    #[serde(rename = "list", alias = "scalar")]
+    Coordinates(Triple),
+    #[serde(rename = "table")]
+    Table(PointTable),
+}
+
+impl<'de> Deserialize<'de> for PointSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(match PointForm::deserialize(deserializer)? {
+            PointForm::Coordinates(at) => Self { at: Some(PerBody::Shared(at)), ..Self::default() },
+            PointForm::Table(PointTable(point)) => point,
+        })
+    }
+}
+
+struct PointTable(PointSpec);
+
+impl<'de> Deserialize<'de> for PointTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Keys;
+        impl<'de> Visitor<'de> for Keys {
+            type Value = PointTable;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("three coordinates or a table of them")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PointTable, A::Error> {
+                let mut point = PointSpec::default();
+                while let Some(key) = map.next_key::<Name>()? {
+                    match key.value.as_str() {
+                        "at" => point.at = Some(map.next_value()?),
+                        "on" => point.on = Some(map.next_value()?),
+                        "assumed" => point.assumed = map.next_value()?,
+                        "doc" => drop(map.next_value::<String>()?),
+                        _ => point.by_body.0.push((key, map.next_value()?)),
+                    }
+                }
+                Ok(PointTable(point))
+            }
+        }
+        deserializer.deserialize_map(Keys)
+    }
+}
+
+#[cfg(test)]
+impl JsonSchema for PointSpec {
+    fn schema_name() -> Cow<'static, str> {
+        "PointSpec".into()
+    }
+    fn json_schema(g: &mut SchemaGenerator) -> Schema {
+        let position = g.subschema_for::<PerBody>();
+        let triple = g.subschema_for::<Triple>();
+        json_schema!({ "anyOf": [triple, {
+            "type": "object",
+            "properties": {
+                "at": position,
+                "on": { "type": "string", "description": "Body that carries the point." },
+                "assumed": { "type": "boolean", "description": "Our own assumption." },
+                "doc": { "type": "string" },
+            },
+            "additionalProperties": triple,
+        }]})
+    }
+}
