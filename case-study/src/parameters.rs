@@ -84,7 +84,7 @@ pub(super) fn parameters(compiled: &Compiled) -> Result<Vec<ParameterRow>, Study
     }
     for parameter in known.iter().filter(|parameter| parameter.assumed) {
         let written = file.parameters.0.iter().find(|(name, _)| name.value == parameter.name);
-        let text = written.and_then(|(_, written)| written.value.value.as_ref()).map(text);
+        let text = written.and_then(|(_, written)| written.value.value()).map(text);
         rows.push(assumption(meaning(&parameter.name), &parameter.name, text.unwrap_or_default()));
     }
     for point in compiled.mechanism.points.iter().filter(|point| point.assumed) {

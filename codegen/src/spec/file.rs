@@ -31,7 +31,7 @@ pub struct File {
     /// Acceleration of free fall in the ground frame.
     pub gravity: Option<Triple>,
     /// How loops are closed: at a joint, or by the logarithm of the gap.
-    pub closure: Option<ClosureSpec>,
+    pub closure: Option<Closure>,
     /// Named quantities.
     pub parameters: Table<Parameter>,
     /// Named points at the reference pose.
@@ -128,7 +128,7 @@ tables! {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(rename_all = "lowercase")]
-pub enum ClosureSpec {
+pub enum Closure {
     /// Cut one joint and keep the rows it takes away.
     #[default]
     Joint,

@@ -214,7 +214,7 @@ impl Resolver<'_> {
         // A tunable length could turn the edge away from an axis that was made to fit it only once.
         let turns = ends.iter().any(|end| {
             let position = self.points[end.index()].position_for(carrier);
-            position.iter().any(|x| x.depends_on(&|id| self.parameters[id.index()].tunable))
+            position.iter().any(|x| self.is_tunable(x))
         });
         let slanted = inertia::dot(axis_value, along).abs();
         let fault = match inertia::unit(across) {

@@ -104,9 +104,7 @@ impl Resolver<'_> {
     /// Position of a point on a flexible body, which may not move with a tunable parameter.
     pub(super) fn fixed_position(&mut self, name: &Name, point: PointId, carrier: Carrier) -> [f64; 3] {
         let known = &self.points[point.index()];
-        let tunable =
-            |formula: &crate::model::Formula| formula.depends_on(&|id| self.parameters[id.index()].tunable);
-        if known.position_for(carrier).iter().any(tunable) {
+        if known.position_for(carrier).iter().any(|x| self.is_tunable(x)) {
             let message = format!(
                 "the point `{}` of the flexible body `{}` depends on a tunable parameter",
                 known.name, name.value

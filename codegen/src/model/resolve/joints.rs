@@ -111,13 +111,9 @@ impl Resolver<'_> {
 
     fn springs(&mut self, name: &Name, spring: &SpringSpec, model: &JointModel, passive: &mut Vec<Passive>) {
         let what = place("spring", "joint", name);
-        let parts = [&spring.q, &spring.q1, &spring.q2, &spring.q3];
-        let mut written: Vec<(&str, &Option<Quantity>, &Option<Quantity>, Span)> = ["q", "q1", "q2", "q3"]
-            .into_iter()
-            .zip(parts)
-            .filter_map(|(key, part)| part.as_ref().map(|part| (key, part)))
-            .map(|(key, part)| (key, &part.value.stiffness, &part.value.rest, part.span))
-            .collect();
+        let parts = by_key([&spring.q, &spring.q1, &spring.q2, &spring.q3]);
+        let mut written: Vec<(&str, &Option<Quantity>, &Option<Quantity>, Span)> =
+            parts.map(|(key, part)| (key, &part.value.stiffness, &part.value.rest, part.span)).collect();
         if spring.stiffness.is_some() || spring.rest.is_some() || written.is_empty() {
             let span = spring.stiffness.as_ref().or(spring.rest.as_ref()).map_or(name.span, |q| q.span);
             written.insert(0, ("", &spring.stiffness, &spring.rest, span));
@@ -153,9 +149,8 @@ impl Resolver<'_> {
             None => Vec::new(),
             Some(ByCoordinate::One(quantity)) => vec![("", quantity)],
             Some(ByCoordinate::Each(each)) => {
-                let parts = [&each.value.q, &each.value.q1, &each.value.q2, &each.value.q3];
-                let named = ["q", "q1", "q2", "q3"].into_iter().zip(parts);
-                named.filter_map(|(key, part)| part.as_ref().map(|part| (key, part))).collect()
+                let own = &each.value;
+                by_key([&own.q, &own.q1, &own.q2, &own.q3]).collect()
             }
         };
         let mut found: Vec<(usize, &Quantity)> = Vec::new();
@@ -213,4 +208,10 @@ impl Resolver<'_> {
         self.refuse(Code::NoSuchCoordinate, span, message).help(help);
         None
     }
+}
+
+/// What is written for coordinates, with the key of each.
+fn by_key<T>(parts: [&Option<T>; 4]) -> impl Iterator<Item = (&'static str, &T)> {
+    let named = ["q", "q1", "q2", "q3"].into_iter().zip(parts);
+    named.filter_map(|(key, part)| Some((key, part.as_ref()?)))
 }

@@ -30,10 +30,10 @@ pub use overrides::{OverrideError, Overrides};
 use self::names::Names;
 use self::quantity::Allowed;
 use self::resolver::Resolver;
-use super::{Closure, Formula, Mechanism};
+use super::{Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::source::Span;
-use crate::spec::{ClosureSpec, Dimension, File, Spec};
+use crate::spec::{Dimension, File, Spec};
 
 /// Finds out what a file means.
 ///
@@ -97,10 +97,7 @@ impl Resolver<'_> {
             points: std::mem::take(&mut self.points),
             joints,
             forces,
-            closure: match file.closure.unwrap_or_default() {
-                ClosureSpec::Joint => Closure::Joint,
-                ClosureSpec::Log => Closure::Log,
-            },
+            closure: file.closure.unwrap_or_default(),
             starts,
             attached: std::mem::take(&mut self.attached),
         }

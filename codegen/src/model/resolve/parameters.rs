@@ -75,7 +75,7 @@ impl Resolver<'_> {
             formula = self.overridden(name, text, quantity.span, formula.dimension);
         }
         let value = formula.value(&self.values).unwrap_or(f64::NAN);
-        let follows = formula.depends_on(&|id| self.parameters[id.index()].tunable);
+        let follows = self.is_tunable(&formula);
         self.values[position] = value;
         self.parameters[position].value = value;
         self.parameters[position].dimension = formula.dimension;

@@ -4,7 +4,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Formula, Inertia, Joint, Point, Position};
+use crate::model::{Body, Carrier, Formula, Joint, Point, Position};
 use crate::source::Span;
 use crate::spec::{At, Dimension, File, Name, PerBody, PointSpec, Table, Triple};
 
@@ -113,7 +113,7 @@ impl Resolver<'_> {
                     Position::PerBody(list) => list.iter().any(|(known, _)| *known == carrier),
                     Position::Shared(_) => false,
                 };
-                listed || describes(&bodies[body], id)
+                listed || bodies[body].inertia.points().contains(&id)
             };
             let body =
                 (0..bodies.len()).find(|body| by_body(*body)).map(|body| Carrier::Body(BodyId::new(body)));
@@ -123,12 +123,5 @@ impl Resolver<'_> {
             };
             self.points[position].carrier = body.or_else(joint).unwrap_or(Carrier::Ground);
         }
-    }
-}
-
-fn describes(body: &Body, point: PointId) -> bool {
-    match &body.inertia {
-        Inertia::Rod { ends, .. } | Inertia::Box { ends, .. } => ends.contains(&point),
-        Inertia::Given { centre, .. } => *centre == point,
     }
 }

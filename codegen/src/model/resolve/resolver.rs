@@ -106,6 +106,11 @@ impl Resolver<'_> {
         formula.value(&self.values).unwrap_or(f64::NAN)
     }
 
+    /// Whether it changes with a parameter of the generated code.
+    pub(super) fn is_tunable(&self, formula: &Formula) -> bool {
+        formula.depends_on(&|id| self.parameters[id.index()].tunable)
+    }
+
     pub(super) fn values_of<const N: usize>(&self, formulas: &[Formula; N]) -> [f64; N] {
         std::array::from_fn(|at| self.value(&formulas[at]))
     }

@@ -55,7 +55,7 @@ impl Resolver<'_> {
         let formula = match amount {
             Amount::Density(formula) | Amount::Mass(formula) => formula,
         };
-        if formula.depends_on(&|id| self.parameters[id.index()].tunable) {
+        if self.is_tunable(formula) {
             let message = format!("the mass of the flexible body `{}` is tunable", name.value);
             self.refuse(Code::TunableNotAllowed, formula.span, message)
                 .help("modes are computed at generation; take the `tunable` mark away");
