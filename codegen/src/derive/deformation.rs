@@ -26,14 +26,8 @@ pub struct ModalMass<'g> {
     pub gamma: Vec<Vec3<'g>>,
     /// `D_k(q)`, floating frame.
     pub moment: Vec<Mat3<'g>>,
-    /// `Gamma_kl`; empty without second order.
-    pub gamma2: Vec<Vec<[f64; 3]>>,
-    /// `∫ rbar chi_klᵀ dm`; empty without second order.
-    pub moment2: Vec<Vec<[[f64; 3]; 3]>>,
-    /// `∫ phi_l x phi_k dm`, at `[l][k]`.
-    pub gyroscopic: Vec<Vec<[f64; 3]>>,
-    /// `M_ff`.
-    pub matrix: Vec<Vec<f64>>,
+    /// Constants of the body.
+    pub data: &'g ModalData,
 }
 
 /// `∫ r x phi dm` of `∫ r phiᵀ dm`.
@@ -56,42 +50,30 @@ fn trace_of_product<'g>(a: Mat3<'g>, b: Mat3<'g>) -> Expr<'g> {
 }
 
 /// Mass properties of the deformed body and what its modes feel.
-pub fn deformed<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>]) -> (MassProperties<'g>, ModalMass<'g>) {
-    let n = q.len();
-    let (gamma2, moment2) = data
-        .second_order
-        .as_ref()
-        .map_or((Vec::new(), Vec::new()), |order| (order.gamma.clone(), order.moment.clone()));
-    let gyroscopic = |l: usize| (0..n).map(|k| axial_of_numbers(data.coupling[l][k])).collect();
+pub fn deformed<'g>(
+    g: &'g Scope,
+    data: &'g ModalData,
+    q: &[Expr<'g>],
+) -> (MassProperties<'g>, ModalMass<'g>) {
     let mut modal = ModalMass {
         gamma: data.gamma.iter().map(|gamma| g.vector(*gamma)).collect(),
         moment: data.moment.iter().map(|moment| g.matrix(*moment)).collect(),
-        gyroscopic: (0..n).map(gyroscopic).collect(),
-        matrix: data.mass_matrix.clone(),
-        gamma2,
-        moment2,
+        data,
     };
-    let properties = mass_properties(g, data, &modal, q);
-    for k in 0..n {
-        let column: Vec<[[f64; 3]; 3]> = (0..n).map(|l| data.coupling[l][k]).collect();
+    let properties = mass_properties(g, data, q);
+    for k in 0..q.len() {
+        let column: Vec<[[f64; 3]; 3]> = data.coupling.iter().map(|row| row[k]).collect();
         modal.moment[k] += g.weighted_matrices(&column, q);
-        if let Some(row) = modal.moment2.get(k) {
-            modal.moment[k] += g.weighted_matrices(row, q);
-        }
-        if let Some(row) = modal.gamma2.get(k) {
-            modal.gamma[k] += g.weighted_vectors(row, q);
+        if let Some(second) = &data.second_order {
+            modal.moment[k] += g.weighted_matrices(&second.moment[k], q);
+            modal.gamma[k] += g.weighted_vectors(&second.gamma[k], q);
         }
     }
     (properties, modal)
 }
 
 /// m, s(q), P(q).
-fn mass_properties<'g>(
-    g: &'g Scope,
-    data: &ModalData,
-    modal: &ModalMass<'g>,
-    q: &[Expr<'g>],
-) -> MassProperties<'g> {
+fn mass_properties<'g>(g: &'g Scope, data: &ModalData, q: &[Expr<'g>]) -> MassProperties<'g> {
     let n = q.len();
     let mut first = g.vector(data.first_moment) + g.weighted_vectors(&data.gamma, q);
     let both: Vec<[[f64; 3]; 3]> = data
@@ -105,7 +87,7 @@ fn mass_properties<'g>(
             // Coefficient of q_k q_l, which stands twice in the double sum unless k = l.
             let factor = if k == l { 0.5 } else { 1.0 };
             let coupling = (&data.coupling[k][l], &data.coupling[l][k]);
-            let bent = modal.moment2.get(k).map_or([[0.0; 3]; 3], |row| row[l]);
+            let bent = data.second_order.as_ref().map_or([[0.0; 3]; 3], |order| order.moment[k][l]);
             let coefficient: [[f64; 3]; 3] = core::array::from_fn(|i| {
                 core::array::from_fn(|j| {
                     factor * (coupling.0[i][j] + coupling.1[i][j] + bent[i][j] + bent[j][i])
@@ -113,8 +95,8 @@ fn mass_properties<'g>(
             });
             let product = q[k] * q[l];
             second += g.weighted_matrices(&[coefficient], &[product]);
-            if let Some(row) = modal.gamma2.get(k) {
-                first += g.weighted_vectors(&[row[l].map(|x| factor * x)], &[product]);
+            if let Some(second) = &data.second_order {
+                first += g.weighted_vectors(&[second.gamma[k][l].map(|x| factor * x)], &[product]);
             }
         }
     }
@@ -135,9 +117,9 @@ impl<'g> ModalMass<'g> {
             force += *v_dot * self.gamma[k];
             rate += *v * self.moment[k];
             moment += *v_dot * axial(self.moment[k]);
-            if !self.gamma2.is_empty() {
-                force += *v * g.weighted_vectors(&self.gamma2[k], &modes.v);
-                let row: Vec<[f64; 3]> = self.moment2[k].iter().map(|m| axial_of_numbers(*m)).collect();
+            if let Some(second) = &self.data.second_order {
+                force += *v * g.weighted_vectors(&second.gamma[k], &modes.v);
+                let row: Vec<[f64; 3]> = second.moment[k].iter().map(|m| axial_of_numbers(*m)).collect();
                 moment += *v * g.weighted_vectors(&row, &modes.v);
             }
         }
@@ -159,7 +141,8 @@ impl<'g> ModalMass<'g> {
             .map(|k| {
                 let carried = self.gamma[k].dot(acceleration.origin);
                 let turned = trace_of_product(acceleration.spin, self.moment[k]);
-                let row: Vec<[f64; 3]> = self.gyroscopic.iter().map(|row| row[k]).collect();
+                let row: Vec<[f64; 3]> =
+                    self.data.coupling.iter().map(|row| axial_of_numbers(row[k])).collect();
                 let coriolis = two * twist.omega.dot(g.weighted_vectors(&row, &modes.v));
                 let deforming = self.momentum(k, &modes.v_dot);
                 carried + turned + coriolis + deforming
@@ -169,7 +152,7 @@ impl<'g> ModalMass<'g> {
 
     /// `sum_l M_kl x_l`.
     fn momentum(&self, k: usize, x: &[Expr<'g>]) -> Expr<'g> {
-        x[k].scope().weighted(self.matrix[k].iter().copied(), x)
+        x[k].scope().weighted(self.data.mass_matrix[k].iter().copied(), x)
     }
 
     /// Momentum of the body per unit of modal speed `k`.

@@ -51,11 +51,9 @@ impl Freedom {
     /// Number of coordinates.
     pub fn coordinates(self) -> usize {
         match self {
-            Self::Rotation { .. } | Self::Translation { .. } => 1,
             Self::Ball => 4,
             Self::Free => 7,
-            Self::Flexible { modes } => modes,
-            Self::Weld | Self::Node => 0,
+            _ => self.speeds(),
         }
     }
 

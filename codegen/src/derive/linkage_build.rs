@@ -12,7 +12,6 @@ use super::linkage::{Cut, Freedom, Link, LinkIndex, Linkage, NodeLink};
 pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -> Linkage {
     let mut builder = Builder {
         mechanism,
-        topology,
         parameters,
         linkage: Linkage {
             links: Vec::new(),
@@ -39,7 +38,6 @@ pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -
 
 struct Builder<'a> {
     mechanism: &'a Mechanism,
-    topology: &'a Topology,
     parameters: &'a [f64],
     linkage: Linkage,
 }
@@ -279,6 +277,5 @@ impl Builder<'_> {
                 self.linkage.links[end].mass_share = share;
             }
         }
-        debug_assert_eq!(self.topology.cuts.len(), self.linkage.cuts.len());
     }
 }

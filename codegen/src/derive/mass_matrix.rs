@@ -75,8 +75,8 @@ impl<'g> ModalColumns<'g> {
     fn new(g: &'g Scope, modal: &ModalMass<'g>) -> Self {
         let numbers = |row: &Vec<f64>| row.iter().map(|x| g.number(*x)).collect();
         Self {
-            wrenches: (0..modal.matrix.len()).map(|k| modal.column(k)).collect(),
-            block: modal.matrix.iter().map(numbers).collect(),
+            wrenches: (0..modal.gamma.len()).map(|k| modal.column(k)).collect(),
+            block: modal.data.mass_matrix.iter().map(numbers).collect(),
         }
     }
 

@@ -58,21 +58,24 @@ fn find<'g>(geometry: &Geometry<'g>, link: &Link, number: usize) -> Option<&'g S
 }
 
 /// What the file asks for, or zero; and whether it demands it exactly.
-fn wished<'g>(geometry: &Geometry<'g>, formula: Option<(&Formula, bool)>) -> (Expr<'g>, bool) {
-    match formula {
+fn wished<'g>(
+    geometry: &Geometry<'g>,
+    link: &Link,
+    number: usize,
+    which: fn(&Start) -> Option<&Formula>,
+) -> (Expr<'g>, bool) {
+    match find(geometry, link, number).and_then(|start| Some((which(start)?, start.held))) {
         Some((formula, held)) => (geometry.inputs.lower(formula), held),
         None => (geometry.g.zero(), false),
     }
 }
 
 fn wished_position<'g>(geometry: &Geometry<'g>, link: &Link, number: usize) -> (Expr<'g>, bool) {
-    let start = find(geometry, link, number);
-    wished(geometry, start.and_then(|start| Some((start.position.as_ref()?, start.held))))
+    wished(geometry, link, number, |start| start.position.as_ref())
 }
 
 fn wished_speed<'g>(geometry: &Geometry<'g>, link: &Link, number: usize) -> (Expr<'g>, bool) {
-    let start = find(geometry, link, number);
-    wished(geometry, start.and_then(|start| Some((start.speed.as_ref()?, start.held))))
+    wished(geometry, link, number, |start| start.speed.as_ref())
 }
 
 impl<'g> StartValues<'g> {
@@ -130,11 +133,10 @@ impl<'g> StartValues<'g> {
         if link.freedom.speeds() != 1 || link.node.is_some() {
             return;
         }
-        if let Some(start) = find(geometry, link, 0)
-            && let Some(speed) = &start.speed
-        {
-            self.v[link.first_speed] = geometry.inputs.lower(speed);
-            self.held_v[link.first_speed] = start.held;
+        // A driven speed stands already.
+        if find(geometry, link, 0).is_some_and(|start| start.speed.is_some()) {
+            let first = link.first_speed;
+            (self.v[first], self.held_v[first]) = wished_speed(geometry, link, 0);
         }
     }
 

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use thiserror::Error;
 
-use super::data::ModalData;
+use super::data::{ModalData, transposed};
 
 /// What cannot be in the modal data of a body. `place` names the key as the file does.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -80,41 +80,32 @@ impl ModalData {
             return Err(DataError::NotPositive { place: "mass".to_owned(), definite: false });
         }
         symmetric("second_moment", &square3(&self.second_moment))?;
-        for (mode, row) in
-            self.modes.iter().zip(&self.coupling).enumerate().map(|(k, (mode, row))| (mode, &row[k]))
-        {
-            symmetric(&format!("coupling of {0} with {0}", mode.name), &square3(row))?;
+        for k in 0..self.mode_count() {
+            symmetric(
+                &format!("coupling of {0} with {0}", self.modes[k].name),
+                &square3(&self.coupling[k][k]),
+            )?;
         }
         for k in 0..self.mode_count() {
-            for l in 0..k {
-                if square3(&self.coupling[k][l]) != square3(&self.coupling[l][k]).transpose() {
-                    let (first, second) = (&self.modes[k].name, &self.modes[l].name);
-                    return Err(DataError::NotSymmetric {
-                        place: format!("coupling of {first} with {second}"),
-                    });
-                }
+            if let Some(l) = (0..k).find(|l| self.coupling[k][*l] != transposed(&self.coupling[*l][k])) {
+                let place = format!("coupling of {} with {}", self.modes[k].name, self.modes[l].name);
+                return Err(DataError::NotSymmetric { place });
             }
         }
-        let mass = self.definite("mass_matrix", &self.mass_matrix)?;
+        let mass = definite("mass_matrix", &self.mass_matrix)?;
         if mass.cholesky().is_none() {
             return Err(DataError::NotPositive { place: "mass_matrix".to_owned(), definite: true });
         }
-        self.definite("stiffness", &self.stiffness)?;
-        self.definite("damping", &self.damping)?;
-        semidefinite(&square3(&self.second_moment))
-            .then_some(())
-            .ok_or(DataError::NotPositive { place: "second_moment".to_owned(), definite: true })?;
+        definite("stiffness", &self.stiffness)?;
+        definite("damping", &self.damping)?;
+        definite("second_moment", &self.second_moment.map(|row| row.to_vec()))?;
         semidefinite(&self.full_mass_matrix()).then_some(()).ok_or(DataError::NegativeMass)
     }
 
     fn check_lengths(&self) -> Result<(), DataError> {
         let n = self.mode_count();
-        let length = |place: &str, found: usize| {
-            let wrong = || DataError::Length { place: place.to_owned(), found, expected: n };
-            (found == n).then_some(()).ok_or_else(wrong)
-        };
-        length("gamma", self.gamma.len())?;
-        length("moment", self.moment.len())?;
+        length("gamma", self.gamma.len(), n)?;
+        length("moment", self.moment.len(), n)?;
         table("coupling", &self.coupling, n)?;
         table("mass_matrix", &self.mass_matrix, n)?;
         table("stiffness", &self.stiffness, n)?;
@@ -125,8 +116,8 @@ impl ModalData {
         }
         for node in &self.nodes {
             let name = &node.name;
-            length(&format!("displacement of node {name}"), node.displacement.len())?;
-            length(&format!("rotation of node {name}"), node.rotation.len())?;
+            length(&format!("displacement of node {name}"), node.displacement.len(), n)?;
+            length(&format!("rotation of node {name}"), node.rotation.len(), n)?;
             if node.displacement2.is_some() != self.second_order.is_some() {
                 return Err(DataError::Order { node: name.clone() });
             }
@@ -134,9 +125,9 @@ impl ModalData {
                 table(&format!("displacement2 of node {name}"), second, n)?;
             }
             if let Some(strain) = &node.strain {
-                length(&format!("strain.extension of node {name}"), strain.extension.len())?;
-                length(&format!("strain.curvature_y of node {name}"), strain.curvature_y.len())?;
-                length(&format!("strain.curvature_z of node {name}"), strain.curvature_z.len())?;
+                length(&format!("strain.extension of node {name}"), strain.extension.len(), n)?;
+                length(&format!("strain.curvature_y of node {name}"), strain.curvature_y.len(), n)?;
+                length(&format!("strain.curvature_z of node {name}"), strain.curvature_z.len(), n)?;
             }
         }
         Ok(())
@@ -189,14 +180,6 @@ impl ModalData {
         Ok(())
     }
 
-    /// A table as a matrix, when it is symmetric and has no negative direction.
-    fn definite(&self, place: &str, rows: &[Vec<f64>]) -> Result<DMatrix<f64>, DataError> {
-        let matrix = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]);
-        symmetric(place, &matrix)?;
-        let wrong = || DataError::NotPositive { place: place.to_owned(), definite: true };
-        semidefinite(&matrix).then_some(matrix).ok_or_else(wrong)
-    }
-
     /// Mass matrix of the undeformed body over velocity of the origin, angular velocity and modal speeds:
     /// [m 1, -s0~, Γ; s0~, J, ∫ rbar x φ; Γᵀ, (∫ rbar x φ)ᵀ, M_ff]. Lists must have their lengths.
     pub fn full_mass_matrix(&self) -> DMatrix<f64> {
@@ -225,15 +208,22 @@ impl ModalData {
     }
 }
 
+/// A table as a matrix, when it is symmetric and has no negative direction.
+fn definite(place: &str, rows: &[Vec<f64>]) -> Result<DMatrix<f64>, DataError> {
+    let matrix = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]);
+    symmetric(place, &matrix)?;
+    let wrong = || DataError::NotPositive { place: place.to_owned(), definite: true };
+    semidefinite(&matrix).then_some(matrix).ok_or_else(wrong)
+}
+
 fn table<T>(place: &str, rows: &[Vec<T>], n: usize) -> Result<(), DataError> {
-    let wrong = |found| DataError::Length { place: place.to_owned(), found, expected: n };
-    if rows.len() != n {
-        return Err(wrong(rows.len()));
-    }
-    match rows.iter().find(|row| row.len() != n) {
-        Some(row) => Err(wrong(row.len())),
-        None => Ok(()),
-    }
+    let lengths = std::iter::once(rows.len()).chain(rows.iter().map(Vec::len));
+    lengths.into_iter().try_for_each(|found| length(place, found, n))
+}
+
+fn length(place: &str, found: usize, expected: usize) -> Result<(), DataError> {
+    let wrong = || DataError::Length { place: place.to_owned(), found, expected };
+    (found == expected).then_some(()).ok_or_else(wrong)
 }
 
 fn square3(matrix: &[[f64; 3]; 3]) -> DMatrix<f64> {

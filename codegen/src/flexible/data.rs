@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Everything the equations of motion need of a flexible body, in its floating frame, with n modes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModalData {
     /// Mass m [kg].
@@ -57,7 +57,7 @@ pub struct SecondOrder {
 }
 
 /// A point of the body that something attaches to or looks at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Node {
     /// Name, unique in the body.
@@ -140,27 +140,14 @@ impl Strain {
 impl ModalData {
     /// The same body without modes.
     pub fn frozen(&self) -> Self {
-        let still = |node: &Node| Node {
-            name: node.name.clone(),
-            position: node.position,
-            displacement: Vec::new(),
-            rotation: Vec::new(),
-            displacement2: None,
-            strain: None,
-        };
+        let still =
+            |node: &Node| Node { name: node.name.clone(), position: node.position, ..Node::default() };
         Self {
             mass: self.mass,
             first_moment: self.first_moment,
             second_moment: self.second_moment,
-            modes: Vec::new(),
-            gamma: Vec::new(),
-            moment: Vec::new(),
-            coupling: Vec::new(),
-            mass_matrix: Vec::new(),
-            stiffness: Vec::new(),
-            damping: Vec::new(),
-            second_order: None,
             nodes: self.nodes.iter().map(still).collect(),
+            ..Self::default()
         }
     }
 
@@ -171,4 +158,8 @@ impl ModalData {
             .all(|k| (0..self.modes.len()).all(|l| self.mass_matrix[k][l] == unit(k, l)));
         if normalised { "kg^0.5 m" } else { "1" }
     }
+}
+
+pub(super) fn transposed(block: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| block[j][i]))
 }

@@ -30,7 +30,7 @@ pub fn lowest(mass: &DMatrix<f64>, held: &[DVector<f64>], count: usize) -> Optio
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
     let largest = eigen.eigenvalues[*order.first()?];
-    let (mut shapes, mut modes): (Vec<DVector<f64>>, Vec<Eigenmode>) = (vec![], vec![]);
+    let mut modes: Vec<Eigenmode> = vec![];
     for index in order.into_iter().take(count) {
         // Rounding of the largest; NaN fails too.
         if !matches!(
@@ -43,9 +43,7 @@ pub fn lowest(mass: &DMatrix<f64>, held: &[DVector<f64>], count: usize) -> Optio
         for row in held {
             shape.axpy(-row.dot(&shape), row, 1.0);
         }
-        let shape = mass_orthonormal(shape, mass, &shapes)?;
-        shapes.push(shape.clone());
-        modes.push(Eigenmode { square: shape.dot(&shape), shape });
+        modes.push(mass_orthonormal(shape, mass, &modes)?);
     }
     (modes.len() == count).then_some(modes)
 }
@@ -65,14 +63,14 @@ fn without(mass: &DMatrix<f64>, held: &[DVector<f64>]) -> DMatrix<f64> {
     projected
 }
 
-/// Length 1 and orthogonal to `others` in the metric of the mass. Twice, because once leaves the rounding of the first.
+/// A mode of length 1 and orthogonal to `others` in the metric of the mass. Twice, because once leaves the rounding of the first.
 pub fn mass_orthonormal(
     mut shape: DVector<f64>,
     mass: &DMatrix<f64>,
-    others: &[DVector<f64>],
-) -> Option<DVector<f64>> {
+    others: &[Eigenmode],
+) -> Option<Eigenmode> {
     for _ in 0..2 {
-        for other in others {
+        for Eigenmode { shape: other, .. } in others {
             let part = product(other, mass, &shape);
             shape.axpy(-part, other, 1.0);
         }
@@ -82,7 +80,7 @@ pub fn mass_orthonormal(
         }
         shape /= square.sqrt();
     }
-    Some(shape)
+    Some(Eigenmode { square: shape.dot(&shape), shape })
 }
 
 /// Rows made orthonormal, in their order. `None`: they depend on each other.

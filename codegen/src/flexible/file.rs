@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::check::DataError;
-use super::data::{ModalData, Mode, Node, SecondOrder, Strain};
+use super::data::{ModalData, Mode, Node, SecondOrder, Strain, transposed};
 
 type Vector = [f64; 3];
 type Matrix = [[f64; 3]; 3];
@@ -164,15 +164,11 @@ impl File {
         }
         let blocks = self.coupling.into_iter().map(|pair| (pair.modes, pair.value)).collect();
         let coupling = table("coupling", &names, blocks, transposed)?;
-        let second_order = if self.order == 2 {
-            let gamma = self.second_order.iter().map(|pair| (pair.modes.clone(), pair.gamma)).collect();
-            let moment = self.second_order.iter().map(|pair| (pair.modes.clone(), pair.moment)).collect();
-            Some(SecondOrder {
-                gamma: table("second_order", &names, gamma, |value| value)?,
-                moment: table("second_order", &names, moment, |value| value)?,
-            })
-        } else {
-            None
+        let gamma = self.second_order.iter().map(|pair| (pair.modes.clone(), pair.gamma)).collect();
+        let moment = self.second_order.iter().map(|pair| (pair.modes.clone(), pair.moment)).collect();
+        let second_order = SecondOrder {
+            gamma: table("second_order", &names, gamma, |value| *value)?,
+            moment: table("second_order", &names, moment, |value| *value)?,
         };
         let nodes = self.node.into_iter().map(|node| node.into_node(&names, self.order));
         Ok(ModalData {
@@ -185,12 +181,12 @@ impl File {
             mass_matrix: self.mass_matrix,
             stiffness: self.stiffness,
             damping: self.damping,
-            second_order,
+            second_order: (self.order == 2).then_some(second_order),
             nodes: nodes.collect::<Result<_, _>>()?,
             modes: self
                 .mode
                 .into_iter()
-                .map(|FileMode { name, frequency, .. }| Mode { name, frequency })
+                .map(|mode| Mode { name: mode.name, frequency: mode.frequency })
                 .collect(),
         })
     }
@@ -237,7 +233,7 @@ impl FileNode {
         let place = format!("displacement2 of node {}", self.name);
         let given = !self.displacement2.is_empty();
         let blocks = self.displacement2.into_iter().map(|pair| (pair.modes, pair.value)).collect();
-        let second = table(&place, names, blocks, |value| value)?;
+        let second = table(&place, names, blocks, |value| *value)?;
         Ok(Node {
             name: self.name,
             position: self.position,
@@ -276,7 +272,7 @@ fn table<T: Copy + Default>(
     place: &str,
     names: &[String],
     listed: Vec<([String; 2], T)>,
-    mirror: fn(T) -> T,
+    mirror: fn(&T) -> T,
 ) -> Result<Vec<Vec<T>>, FileError> {
     let n = names.len();
     let mut found: Vec<Vec<Option<T>>> = vec![vec![None; n]; n];
@@ -290,13 +286,9 @@ fn table<T: Copy + Default>(
             let [first, second] = modes;
             return Err(FileError::PairTwice { place: place.to_owned(), first, second });
         }
-        found[l][k] = Some(mirror(value));
+        found[l][k] = Some(mirror(&value));
         found[k][l] = Some(value);
     }
     let rows = found.into_iter().map(|row| row.into_iter().map(Option::unwrap_or_default).collect());
     Ok(rows.collect())
-}
-
-fn transposed(block: Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| block[j][i]))
 }

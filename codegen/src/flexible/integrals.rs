@@ -3,7 +3,7 @@
 //! A slice is a rigid body on its section, so the field is the full one of a beam with rotating sections:
 //! φ = u + ψ x (place in the section). What the symmetry of the beam makes 0 comes out as exactly 0.0.
 
-use super::data::SecondOrder;
+use super::data::{SecondOrder, transposed};
 use super::motion::{Slice, square};
 
 type Vector = [f64; 3];
@@ -111,10 +111,10 @@ fn fix_trace(block: &mut Matrix, trace: f64) {
 /// Quadratic integrals; `extent` is the diagonal entry xx of the second moment.
 pub fn second_order(slices: &[Slice], modes: usize, mass: f64, extent: f64) -> SecondOrder {
     let sum = |k: usize, l: usize, weight: &dyn Fn(&Slice) -> f64| -> f64 {
-        slices.iter().map(|slice| weight(slice) * slice.shortening[k][l]).sum()
+        slices.iter().map(|slice| weight(slice) * slice.shortening[(k, l)]).sum()
     };
     let size =
-        square(modes, |k, l| slices.iter().map(|slice| slice.shortening[k][l].abs()).fold(0.0, f64::max));
+        square(modes, |k, l| slices.iter().map(|slice| slice.shortening[(k, l)].abs()).fold(0.0, f64::max));
     let bound = |k: usize, l: usize| (size[k][k] * size[l][l]).sqrt();
     SecondOrder {
         gamma: square(modes, |k, l| [snap(sum(k, l, &|slice| slice.mass), mass * bound(k, l)), 0.0, 0.0]),
@@ -134,8 +134,4 @@ fn turned(rotation: Vector, axis: usize) -> Vector {
         1 => [-z, 0.0, x],
         _ => [y, -x, 0.0],
     }
-}
-
-fn transposed(block: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| block[j][i]))
 }

@@ -11,12 +11,14 @@ use super::legendre::gauss;
 /// Elements in a row; element e lies between stations e and e + 1.
 #[derive(Clone, Debug)]
 pub struct Line {
-    elements: Vec<Element>,
+    /// The elements, in order.
+    pub elements: Vec<Element>,
     /// Added inertia at a station: against its value and against its rotation.
     lumps: Vec<(usize, [f64; 2])>,
     /// First unknown of every element.
     first: Vec<usize>,
-    size: usize,
+    /// Number of unknowns.
+    pub size: usize,
     /// Value and rotation at every station, as rows against the unknowns.
     stations: Vec<[DVector<f64>; 2]>,
 }
@@ -69,16 +71,6 @@ impl Line {
             *rotation += &rigid[1];
         }
         line
-    }
-
-    /// Number of unknowns.
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
-    /// The elements, in order.
-    pub fn elements(&self) -> &[Element] {
-        &self.elements
     }
 
     /// Value (0) or rotation (1) at a station, as a row against the unknowns.

@@ -1,6 +1,8 @@
 //! Motion of sections in all modes: at quadrature points over the whole mass, and anywhere.
 //! In: mesh and shapes. Out: displacement, rotation, slope, strain per mode; the foreshortening of the axis.
 
+use nalgebra::DMatrix;
+
 use super::beam::{BeamInput, Hold, Theory};
 use super::legendre::gauss;
 use super::mesh::{Family, Mesh};
@@ -36,38 +38,30 @@ pub struct Slice {
     /// Rotation per mode, as far as it has inertia [rad/q].
     pub rotation: Vec<[f64; 3]>,
     /// χ_kl along x [m/q²]; empty without second order.
-    pub shortening: Vec<Vec<f64>>,
+    pub shortening: DMatrix<f64>,
 }
 
 /// All modes of a beam on its mesh.
 #[derive(Clone, Debug)]
 pub struct Motions {
-    mesh: Mesh,
-    shapes: Vec<Shape>,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// The shapes, in the order of the modal coordinates.
+    pub shapes: Vec<Shape>,
     /// ∫ slope_k . slope_l dx from x = 0 to each station [m/q²], and what to subtract from it; second order only.
     shortening: Option<Shortening>,
 }
 
 #[derive(Clone, Debug)]
 struct Shortening {
-    stations: Vec<Vec<Vec<f64>>>,
-    origin: Vec<Vec<f64>>,
+    stations: Vec<DMatrix<f64>>,
+    origin: DMatrix<f64>,
 }
 
 impl Motions {
     /// Without the second-order field.
     pub fn new(mesh: Mesh, shapes: Vec<Shape>) -> Self {
         Self { mesh, shapes, shortening: None }
-    }
-
-    /// The mesh.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// The shapes, in the order of the modal coordinates.
-    pub fn shapes(&self) -> &[Shape] {
-        &self.shapes
     }
 
     /// Motion per mode at s of an element.
@@ -101,27 +95,24 @@ impl Motions {
     }
 
     /// χ_kl along x at s of an element [m/q²]; `None` without second order.
-    pub fn shortening(&self, element: usize, s: f64) -> Option<Vec<Vec<f64>>> {
+    pub fn shortening(&self, element: usize, s: f64) -> Option<DMatrix<f64>> {
         let Shortening { stations, origin } = self.shortening.as_ref()?;
-        let rest = self.shortening_inside(element, s);
-        let entry = |k: usize, l: usize| origin[k][l] - stations[element][k][l] - rest[k][l];
-        Some(square(self.shapes.len(), entry))
+        Some(origin - &stations[element] - self.shortening_inside(element, s))
     }
 
     /// ∫ slope_k . slope_l dx from the start of an element to s.
-    fn shortening_inside(&self, element: usize, s: f64) -> Vec<Vec<f64>> {
-        let of = &self.mesh.lines[0].elements()[element];
-        let mut sum = square(self.shapes.len(), |_, _| 0.0);
+    fn shortening_inside(&self, element: usize, s: f64) -> DMatrix<f64> {
+        let of = &self.mesh.lines[0].elements[element];
+        let n = self.shapes.len();
+        let mut sum = DMatrix::zeros(n, n);
         // Slopes are one degree below the deflection.
         for (t, weight) in gauss(of.degree).iter().copied() {
             let motions = self.at(element, f64::midpoint(s - 1.0, (s + 1.0) * t));
             let over = weight * (s + 1.0) / 2.0 * of.length / 2.0;
-            for (k, row) in sum.iter_mut().enumerate() {
-                for (l, entry) in row.iter_mut().enumerate() {
-                    let ([ky, kz], [ly, lz]) = (motions[k].slope, motions[l].slope);
-                    *entry += over * (ky * ly + kz * lz);
-                }
-            }
+            sum += DMatrix::from_fn(n, n, |k, l| {
+                let ([ky, kz], [ly, lz]) = (motions[k].slope, motions[l].slope);
+                over * (ky * ly + kz * lz)
+            });
         }
         sum
     }
@@ -132,10 +123,9 @@ impl Motions {
     /// mass, as with the modes themselves.
     pub fn with_shortening(mut self, input: &BeamInput, sections: &[Properties]) -> Self {
         let n = self.shapes.len();
-        let mut stations = vec![square(n, |_, _| 0.0)];
+        let mut stations = vec![DMatrix::zeros(n, n)];
         for element in 0..self.mesh.segments.len() {
-            let (before, inside) = (&stations[element], self.shortening_inside(element, 1.0));
-            stations.push(square(n, |k, l| before[k][l] + inside[k][l]));
+            stations.push(&stations[element] + self.shortening_inside(element, 1.0));
         }
         let begin = input.attachments().first().map_or(0, |first| self.mesh.station(first.x));
         let origin = stations[begin].clone();
@@ -143,12 +133,10 @@ impl Motions {
         if input.hold == Hold::Free {
             let slices = self.slices(input, sections);
             let mass: f64 = slices.iter().map(|slice| slice.mass).sum();
-            let mean = |k: usize, l: usize| -> f64 {
-                slices.iter().map(|slice| slice.mass * slice.shortening[k][l]).sum::<f64>() / mass
-            };
-            let shift = square(n, mean);
+            let moved = slices.iter().map(|slice| &slice.shortening * slice.mass);
+            let sum = moved.fold(DMatrix::zeros(n, n), |sum, each| sum + each);
             if let Some(Shortening { origin, .. }) = &mut self.shortening {
-                *origin = square(n, |k, l| origin[k][l] - shift[k][l]);
+                *origin -= sum / mass;
             }
         }
         self
@@ -162,7 +150,7 @@ impl Motions {
             let section = &sections[*segment];
             let density = input.segments[*segment].material.density;
             // Twice the degree of the deflection, or of the slope plus two for x and the inner integral.
-            for (s, weight) in gauss(self.mesh.lines[0].elements()[element].degree + 2).iter().copied() {
+            for (s, weight) in gauss(self.mesh.lines[0].elements[element].degree + 2).iter().copied() {
                 let over = weight * (end - start) / 2.0 * density;
                 let mut slice = self.slice(element, s, over * section.area);
                 slice.spread = [0.0, over * section.iz, over * section.iy];
@@ -191,7 +179,7 @@ impl Motions {
             spread: [0.0; 3],
             displacement: motions.iter().map(|motion| motion.displacement).collect(),
             rotation: motions.iter().map(|motion| motion.rotation).collect(),
-            shortening: self.shortening(element, s).unwrap_or_default(),
+            shortening: self.shortening(element, s).unwrap_or_else(|| DMatrix::zeros(0, 0)),
         }
     }
 }

@@ -85,41 +85,33 @@ impl Section {
 
     /// Checked properties of segment number `segment`.
     pub(super) fn checked(&self, nu: f64, segment: usize) -> Result<Properties, BeamError> {
-        let positive = |what, value: f64| {
+        let positive = |(what, value): (&'static str, f64)| {
             let fine = value.is_finite() && value > 0.0;
             if fine { Ok(()) } else { Err(BeamError::NotPositive { what, segment, value }) }
         };
-        match *self {
-            Self::Round { radius } => positive("radius", radius)?,
-            Self::Tube { outer, inner } => {
-                positive("outer radius", outer)?;
-                positive("inner radius", inner)?;
-                if inner >= outer {
-                    return Err(BeamError::Bore { segment });
-                }
-            }
-            Self::Rectangle { y, z } => {
-                positive("size along y", y)?;
-                positive("size along z", z)?;
-            }
-            Self::General(_) => {}
+        let sizes = match *self {
+            Self::Round { radius } => vec![("radius", radius)],
+            Self::Tube { outer, inner } => vec![("outer radius", outer), ("inner radius", inner)],
+            Self::Rectangle { y, z } => vec![("size along y", y), ("size along z", z)],
+            Self::General(_) => vec![],
+        };
+        sizes.into_iter().try_for_each(positive)?;
+        if matches!(*self, Self::Tube { outer, inner } if inner >= outer) {
+            return Err(BeamError::Bore { segment });
         }
         let properties = self.properties(nu);
-        positive("area", properties.area)?;
-        positive("Iy", properties.iy)?;
-        positive("Iz", properties.iz)?;
-        positive("torsion constant", properties.torsion)?;
-        for coefficient in properties.shear.into_iter().flatten() {
-            positive("shear coefficient", coefficient)?;
-        }
-        match properties.outline {
-            Some(Outline::Round { radius }) => positive("fibre distance", radius)?,
-            Some(Outline::Box { y, z }) => {
-                positive("fibre distance", y)?;
-                positive("fibre distance", z)?;
-            }
-            None => {}
-        }
+        let Properties { area, iy, iz, torsion, .. } = properties;
+        [("area", area), ("Iy", iy), ("Iz", iz), ("torsion constant", torsion)]
+            .into_iter()
+            .try_for_each(positive)?;
+        let shear = properties.shear.into_iter().flatten();
+        shear.map(|coefficient| ("shear coefficient", coefficient)).try_for_each(positive)?;
+        let fibres = match properties.outline {
+            Some(Outline::Round { radius }) => vec![radius],
+            Some(Outline::Box { y, z }) => vec![y, z],
+            None => vec![],
+        };
+        fibres.into_iter().map(|distance| ("fibre distance", distance)).try_for_each(positive)?;
         Ok(properties)
     }
 }

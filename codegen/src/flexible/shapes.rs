@@ -43,26 +43,16 @@ pub struct Truncated {
 
 /// Shapes in the order of the modal coordinates, and what was left out.
 pub fn shapes(input: &BeamInput, mesh: &Mesh) -> Result<(Vec<Shape>, Truncated), BeamError> {
-    let bending = input.modes.bending;
     let planes = [Plane::new(input, mesh, Family::Y)?, Plane::new(input, mesh, Family::Z)?];
-    let (y, z) = share(bending, &planes[0].modes, &planes[1].modes);
-    let first = planes[0].keep(y)?;
-    let second = planes[1].keep(z)?;
-    let truncated_y = planes[0].modes[y].square;
-    let truncated_z = planes[1].modes[z].square;
-    let mut kept = merge(first, second);
-    let (axial, truncated_axial) = bar_modes(input, mesh, Family::Axial, input.modes.axial)?;
-    let (torsion, truncated_torsion) = bar_modes(input, mesh, Family::Torsion, input.modes.torsion)?;
-    kept.extend(axial);
-    kept.extend(torsion);
-    let hertz = |square: f64| square.sqrt() / (2.0 * PI);
-    let truncated = Truncated {
-        y: hertz(truncated_y),
-        z: hertz(truncated_z),
-        axial: hertz(truncated_axial),
-        torsion: hertz(truncated_torsion),
-    };
-    Ok((kept, truncated))
+    let (y, z) = share(input.modes.bending, &planes[0].modes, &planes[1].modes);
+    let mut kept = merge(planes[0].keep(y)?, planes[1].keep(z)?);
+    let (axial_modes, axial) = bar_modes(input, mesh, Family::Axial, input.modes.axial)?;
+    let (torsion_modes, torsion) = bar_modes(input, mesh, Family::Torsion, input.modes.torsion)?;
+    kept.extend(axial_modes);
+    kept.extend(torsion_modes);
+    let left_out = [planes[0].modes[y].square, planes[1].modes[z].square, axial, torsion];
+    let [y, z, axial, torsion] = left_out.map(|square| square.sqrt() / (2.0 * PI));
+    Ok((kept, Truncated { y, z, axial, torsion }))
 }
 
 /// Frequencies this close count as equal: those of equal planes have equal bits, those of sections equal but for how
@@ -150,15 +140,13 @@ fn craig_bampton(
     let basis: Vec<DVector<f64>> = interface.iter().cloned().chain(fixed).collect();
     let n = basis.len();
     let reduced = DMatrix::from_fn(n, n, |i, j| product(&basis[i.max(j)], mass, &basis[i.min(j)]));
-    let (mut shapes, mut modes): (Vec<DVector<f64>>, Vec<Eigenmode>) = (vec![], vec![]);
+    let mut modes: Vec<Eigenmode> = vec![];
     for mode in lowest(&reduced, &[], n)? {
         let mut shape = DVector::zeros(mass.nrows());
         for (factor, each) in mode.shape.iter().zip(&basis) {
             shape.axpy(*factor, each, 1.0);
         }
-        let shape = mass_orthonormal(shape, mass, &shapes)?;
-        shapes.push(shape.clone());
-        modes.push(Eigenmode { square: shape.dot(&shape), shape });
+        modes.push(mass_orthonormal(shape, mass, &modes)?);
     }
     Some(modes)
 }
@@ -203,9 +191,9 @@ fn named(mesh: &Mesh, family: Family, modes: Vec<Eigenmode>) -> Vec<Shape> {
 /// small is positive.
 fn upright(line: &Line, length: f64, shape: DVector<f64>) -> Curve {
     let curve = line.curve(shape);
-    let last = line.elements().len() - 1;
+    let last = line.elements.len() - 1;
     let (near, far) = (line.field(0, -1.0, &curve), line.field(last, 1.0, &curve));
-    let slope = match line.elements()[0].rigidity {
+    let slope = match line.elements[0].rigidity {
         Rigidity::Bending { .. } => near.slope(),
         Rigidity::Bar(_) => near.strain,
     };

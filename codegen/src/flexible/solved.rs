@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::DMatrix;
+
 use super::beam::BeamInput;
 use super::data::{ModalData, Mode, Node, Strain};
 use super::error::BeamError;
@@ -58,11 +60,11 @@ impl Beam {
 
     /// How finely the beam was cut.
     pub fn resolution(&self) -> Resolution {
-        let line = &self.motions.mesh().lines[0];
+        let line = &self.motions.mesh.lines[0];
         Resolution {
-            elements: line.elements().len(),
-            degree: line.elements().iter().map(|element| element.degree).max().unwrap_or(0),
-            unknowns: line.size(),
+            elements: line.elements.len(),
+            degree: line.elements.iter().map(|element| element.degree).max().unwrap_or(0),
+            unknowns: line.size,
         }
     }
 
@@ -71,7 +73,7 @@ impl Beam {
     /// # Errors
     /// A node outside the beam.
     pub fn modal_data(&self, nodes: &[(&str, f64)]) -> Result<ModalData, BeamError> {
-        let shapes = self.motions.shapes();
+        let shapes = &self.motions.shapes;
         let n = shapes.len();
         let slices = self.motions.slices(&self.input, &self.sections);
         let (mass, first, second) = self.rigid();
@@ -104,47 +106,35 @@ impl Beam {
     /// x outside the beam.
     pub fn node(&self, name: &str, x: f64) -> Result<Node, BeamError> {
         let x = self.input.place(x)?;
-        let mesh = self.motions.mesh();
+        let mesh = &self.motions.mesh;
         let (element, s) = mesh.locate(x, false);
         let motions = self.motions.at(element, s);
-        let cleaned = |vector: [f64; 3], amplitude: f64| vector.map(|each| snap(each, amplitude));
         let clean = |which: usize, of: fn(&Motion) -> [f64; 3]| -> Vec<[f64; 3]> {
             let pairs = motions.iter().zip(&self.amplitudes);
-            pairs.map(|(motion, amplitude)| cleaned(of(motion), amplitude[which])).collect()
+            pairs.map(|(motion, amplitude)| of(motion).map(|each| snap(each, amplitude[which]))).collect()
         };
-        let (element_before, s_before) = mesh.locate(x, true);
-        let sides = [(element, s), (element_before, s_before)];
-        let strains = sides.map(|(element, s)| self.strain(element, s));
-        let strain = match strains {
-            [Some(after), Some(before)] => {
-                Some(if severity(&before) > severity(&after) { before } else { after })
-            }
-            [after, before] => after.or(before),
-        };
+        let sides = [(element, s), mesh.locate(x, true)].map(|(element, s)| self.strain(element, s));
+        let worse = |after, before| if severity(&before) > severity(&after) { before } else { after };
+        let strain = sides.into_iter().flatten().reduce(worse);
         Ok(Node {
             name: name.to_owned(),
             position: [x, 0.0, 0.0],
             displacement: clean(0, |motion| motion.displacement),
             rotation: clean(1, |motion| motion.rotation),
-            displacement2: self
-                .motions
-                .shortening(element, s)
-                .map(|shortening| self.clean_shortening(&shortening)),
+            displacement2: self.motions.shortening(element, s).map(|table| self.clean_shortening(&table)),
             strain,
         })
     }
 
-    fn clean_shortening(&self, shortening: &[Vec<f64>]) -> Vec<Vec<[f64; 3]>> {
-        let length = self.motions.mesh().length();
-        let scale = |k: usize, l: usize| {
-            // Slopes and rotations are of one size, but for shear.
-            self.amplitudes[k][1] * self.amplitudes[l][1] * length
-        };
-        square(shortening.len(), |k, l| [snap(shortening[k][l], scale(k, l)), 0.0, 0.0])
+    fn clean_shortening(&self, shortening: &DMatrix<f64>) -> Vec<Vec<[f64; 3]>> {
+        let length = self.motions.mesh.length();
+        // Slopes and rotations are of one size, but for shear.
+        let scale = |k: usize, l: usize| self.amplitudes[k][1] * self.amplitudes[l][1] * length;
+        square(shortening.nrows(), |k, l| [snap(shortening[(k, l)], scale(k, l)), 0.0, 0.0])
     }
 
     fn strain(&self, element: usize, s: f64) -> Option<Strain> {
-        let segment = self.motions.mesh().segments[element];
+        let segment = self.motions.mesh.segments[element];
         let outline = self.sections[segment].outline?;
         let motions = self.motions.at(element, s);
         let list = |of: &dyn Fn(&Motion) -> f64| -> Vec<f64> {
@@ -185,15 +175,12 @@ impl Beam {
     }
 
     fn measure(&self) -> Vec<[f64; 2]> {
-        let mut largest = vec![[0.0_f64; 2]; self.motions.shapes().len()];
-        for element in 0..self.motions.mesh().segments.len() {
+        let mut largest = vec![[0.0_f64; 2]; self.motions.shapes.len()];
+        for element in 0..self.motions.mesh.segments.len() {
             for s in [-1.0, -0.5, 0.0, 0.5, 1.0] {
                 for (largest, motion) in largest.iter_mut().zip(self.motions.at(element, s)) {
-                    for each in motion.displacement {
-                        largest[0] = largest[0].max(each.abs());
-                    }
-                    for each in motion.rotation {
-                        largest[1] = largest[1].max(each.abs());
+                    for (largest, vector) in largest.iter_mut().zip([motion.displacement, motion.rotation]) {
+                        *largest = vector.into_iter().fold(*largest, |most, each| most.max(each.abs()));
                     }
                 }
             }

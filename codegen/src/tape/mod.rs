@@ -13,7 +13,7 @@ pub use lower::lower;
 pub use registers::Registers;
 pub use split::{PART_LIMIT, Part, Split, split};
 pub use stats::{Operations, unshared_operations};
-pub use verify::{Defect, verify};
+pub use verify::verify;
 
 use std::ops::Range;
 
