@@ -4,15 +4,15 @@
 use linkwear_runtime::wear::Area;
 use serde::Serialize;
 
-use super::error::StudyError;
-use super::job_pool::run_all;
 use super::model::Model;
-use super::options::{AREA_POINTS, Effort};
-use super::progress::Progress;
-use super::tables::{Measured, flexible, job};
+use super::options::Effort;
+use super::tables::{Measured, Survey};
 
-/// From the unworn clearance to that at the threshold, which opens by all the wear.
-const FULL: (f64, f64) = (1.0, 1.0);
+/// With the names that results give them.
+const AREAS: [(&str, Area); 3] =
+    [("projected", Area::Projected), ("Hertz", Area::Hertz), ("conformal", Area::Conformal)];
+/// The fewest points that a table of two ends has.
+const POINTS: usize = 3;
 
 /// Wear of a revolution by one model of the contact area.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,35 +29,41 @@ pub struct AreaGrowth {
     pub ratio_last: f64,
 }
 
-/// Measures every model of the area.
-pub(super) fn areas(
-    threads: usize,
-    effort: &Effort,
-    progress: &Progress<'_>,
-) -> Result<Vec<AreaGrowth>, StudyError> {
-    let areas = [("projected", Area::Projected), ("Hertz", Area::Hertz), ("conformal", Area::Conformal)];
-    let rigid = |area| job(Model::rigid, (area, effort.bins), (effort.rigid, AREA_POINTS), FULL, progress);
-    let flexible = |area| job(flexible, (area, effort.bins), (effort.flexible, AREA_POINTS), FULL, progress);
-    let jobs = areas.iter().map(|area| rigid(area.1)).chain(areas.iter().map(|area| flexible(area.1)));
-    let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs.collect()).into_iter().collect();
-    let found = found?;
-    let (rigid, flexible) = found.split_at(areas.len());
-    let growth = areas.iter().zip(rigid).zip(flexible);
-    Ok(growth.map(|((area, rigid), flexible)| compared(area.0, rigid, flexible)).collect())
+/// What has to be measured: from the unworn clearance to that at the threshold, which opens by all the wear; rigid, which
+/// takes longer, then flexible.
+pub(super) fn surveys(effort: &Effort) -> Vec<Survey> {
+    let models = [(Model::Rigid, effort.rigid), (Model::Flexible, effort.flexible)];
+    let of = |(model, settings)| {
+        AREAS.map(|(_, area)| Survey {
+            model,
+            area,
+            bins: effort.bins,
+            settings,
+            points: POINTS,
+            gamma: 1.0,
+            reach: 1.0,
+        })
+    };
+    models.map(of).concat()
 }
 
-fn compared(area: &'static str, rigid: &Measured, flexible: &Measured) -> AreaGrowth {
+/// Compares what [`surveys`] measured, in that order.
+pub(super) fn growths(measured: &[Measured]) -> Vec<AreaGrowth> {
+    let (rigid, flexible) = measured.split_at(AREAS.len());
     let ends = |model: &Measured| {
         let at = |wear: f64| model.table.at(0, wear).depth;
         (at(0.0), at(model.threshold()))
     };
-    let ((first, last), (rigid_first, rigid_last)) = (ends(flexible), ends(rigid));
-    let opened = libm::log(1.0 + flexible.threshold() / flexible.clearance());
-    AreaGrowth {
-        area,
-        flexible: libm::log(last / first) / opened,
-        rigid: libm::log(rigid_last / rigid_first) / opened,
-        ratio_first: rigid_first / first,
-        ratio_last: rigid_last / last,
-    }
+    let compared = |((area, rigid), flexible): (((&'static str, Area), &Measured), &Measured)| {
+        let ((first, last), (rigid_first, rigid_last)) = (ends(flexible), ends(rigid));
+        let opened = libm::log(flexible.opening());
+        AreaGrowth {
+            area: area.0,
+            flexible: libm::log(last / first) / opened,
+            rigid: libm::log(rigid_last / rigid_first) / opened,
+            ratio_first: rigid_first / first,
+            ratio_last: rigid_last / last,
+        }
+    };
+    AREAS.into_iter().zip(rigid).zip(flexible).map(compared).collect()
 }

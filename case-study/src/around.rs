@@ -12,8 +12,8 @@ use linkwear_runtime::wear::Profile;
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::options::Effort;
-use super::tables::{Definition, Measured, Tables};
+use super::model::JOINT;
+use super::tables::{DEEPEST, FINEST, Measured, Tables};
 
 /// Cycles of the paper's Fig. 5.
 pub const CYCLES: [u64; 3] = [10, 20, 30];
@@ -70,6 +70,15 @@ pub struct Peak {
     pub depth: f64,
 }
 
+impl WornBearing {
+    fn of(snapshots: Vec<Snapshot>) -> Self {
+        Self {
+            angles: snapshots.first().map_or_else(Vec::new, |first| angles(first.depths.len())),
+            snapshots,
+        }
+    }
+}
+
 impl Snapshot {
     /// The deepest peak within 30 deg of an angle [deg].
     pub fn peak_near(&self, angle: f64) -> Option<Peak> {
@@ -79,12 +88,10 @@ impl Snapshot {
     /// Where the worn volume within 30 deg of an angle has its centre [deg]: unlike a peak, it does not jump between
     /// the bins of a flat top.
     pub fn centre_near(&self, angle: f64) -> f64 {
-        let count = self.depths.len();
-        let offset = |bin: usize| turned((bin as f64 + 0.5) * 360.0 / count as f64 - 180.0 - angle);
-        let near =
-            (0..count).map(|bin| (offset(bin), self.depths[bin])).filter(|(x, _)| x.abs() <= SAME_PEAK);
-        let (moment, sum) =
-            near.fold((0.0, 0.0), |(moment, sum), (x, depth)| (moment + x * depth, sum + depth));
+        let offsets = angles(self.depths.len()).into_iter().map(|at| turned(at - angle));
+        let near = offsets.zip(&self.depths).filter(|(offset, _)| offset.abs() <= SAME_PEAK);
+        let add = |(moment, sum), (offset, depth): (f64, &f64)| (moment + offset * depth, sum + depth);
+        let (moment, sum) = near.fold((0.0, 0.0), add);
         if sum > 0.0 { turned(angle + moment / sum) } else { angle }
     }
 }
@@ -95,22 +102,23 @@ pub fn turned(angle: f64) -> f64 {
 }
 
 /// Lives through the wear of the three models.
-pub(super) fn around(tables: &Tables, effort: &Effort) -> Result<Around, StudyError> {
-    let (proposed, finest) = (&tables.flexible, &tables.finest);
-    let revolutions_per_cycle = tables.revolutions_per_cycle(Definition::DEEPEST, effort)?;
-    let deterministic = tables.rigid.table.at(0, 0.0).deposit;
-    let no_profile = || StudyError::Missing { kind: "profile of joint", name: super::model::JOINT.into() };
+pub(super) fn around(tables: &Tables<'_>) -> Result<Around, StudyError> {
+    let revolutions_per_cycle = tables.revolutions_per_cycle(DEEPEST)?;
+    let no_profile = || StudyError::Missing { kind: "profile of joint", name: JOINT.into() };
+    let first = tables.rigid.table.at(0, 0.0).deposit.ok_or_else(no_profile)?;
+    // Without feedback every revolution wears as the first.
+    let multiplied = CYCLES.map(|cycle| snapshot(cycle, &first, cycle as f64 * revolutions_per_cycle));
     Ok(Around {
         revolutions_per_cycle,
-        deterministic: multiplied(&deterministic.ok_or_else(no_profile)?, revolutions_per_cycle),
-        proposed: worn(proposed, effort.wear_step, revolutions_per_cycle)?,
-        finest: worn(finest, effort.finest_wear_step, revolutions_per_cycle)?,
+        deterministic: WornBearing::of(multiplied.to_vec()),
+        proposed: worn(tables.flexible, WearStep::TABLE, revolutions_per_cycle)?,
+        finest: worn(tables.finest, FINEST, revolutions_per_cycle)?,
     })
 }
 
 /// Depths at [`CYCLES`] of a life in which the clearance opens by the largest depth.
 fn worn(measured: &Measured, step: WearStep, revolutions: f64) -> Result<WornBearing, StudyError> {
-    let mut settings = measured.life(Definition::DEEPEST, step)?;
+    let mut settings = measured.life(DEEPEST, step);
     settings.keep_cycles = false;
     for joint in &mut settings.joints {
         joint.revolutions_per_cycle = revolutions;
@@ -124,13 +132,7 @@ fn worn(measured: &Measured, step: WearStep, revolutions: f64) -> Result<WornBea
         let profile = state.joints.first().and_then(|joint| joint.profile.clone());
         snapshots.extend(profile.map(|profile| snapshot(cycle, &profile, 1.0)));
     }
-    let angles = snapshots.first().map_or_else(Vec::new, |first| angles(first.depths.len()));
-    Ok(WornBearing { angles, snapshots })
-}
-
-fn multiplied(profile: &Profile, revolutions_per_cycle: f64) -> WornBearing {
-    let at = |cycle: u64| snapshot(cycle, profile, cycle as f64 * revolutions_per_cycle);
-    WornBearing { angles: angles(profile.depths().len()), snapshots: CYCLES.map(at).to_vec() }
+    Ok(WornBearing::of(snapshots))
 }
 
 fn angles(bins: usize) -> Vec<f64> {

@@ -3,12 +3,11 @@
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::Carrier;
-use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
 use serde::Serialize;
 
 use super::error::StudyError;
 use super::model::Model;
-use super::progress::Progress;
+use super::workers::Workers;
 
 /// Crank positions of the traces.
 const TRACE: usize = 73;
@@ -47,20 +46,8 @@ pub struct Configuration {
 }
 
 /// The assembled mechanism over one turn with ideal joints, which moves as that with clearance to 10 µm.
-pub(super) fn configuration(
-    compiled: &Compiled,
-    progress: &Progress<'_>,
-) -> Result<Configuration, StudyError> {
-    let model = Model::ideal();
-    let system = model.mechanism.system();
-    let settings = Settings::new(Integrator::Rk4 { step: 1e-4 }, Span::Turns(1.0), TRACE);
-    let watch = |_| progress.go_on();
-    let (description, parameters) = (&model.mechanism.description, &model.mechanism.parameters);
-    let run = simulate(&*system, description, parameters, &settings, Watch::new(&watch))?;
-    if let Some(error) = run.stopped {
-        return Err(error.into());
-    }
-    progress.done(1.0);
+pub(super) fn configuration(compiled: &Compiled, workers: &Workers<'_>) -> Result<Configuration, StudyError> {
+    let run = Model::Ideal.turn(0, 1e-4, TRACE, workers)?;
     let mechanism = &compiled.mechanism;
     let mut joints = Vec::new();
     for joint in &mechanism.joints {

@@ -14,12 +14,6 @@ pub enum StudyError {
     /// A mechanism of the study is not accepted by the generator.
     #[error(transparent)]
     Mechanism(#[from] LoadError),
-    /// The file of the mechanism is not written as a variant of the study expects.
-    #[error("the study expects `{expected}` in the file of its mechanism")]
-    Text {
-        /// What was looked for.
-        expected: &'static str,
-    },
     /// The mechanism has no element of this name.
     #[error("the mechanism of the study has no {kind} `{name}`")]
     Missing {

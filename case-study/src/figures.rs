@@ -3,13 +3,12 @@
 mod lives;
 
 use super::Study;
-use super::around::{Around, Snapshot, WornBearing};
+use super::around::{Around, Snapshot};
 use super::configuration::Configuration;
 use super::error::StudyError;
 use super::force::Forces;
 use crate::plot::{
-    Axis, BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Marker, Note, ORANGE, Panel, RED, SKY, Shape, axis,
-    png, svg,
+    Axis, BLACK, BLUE, Chart, Curve, GREEN, GREY, Look, Note, ORANGE, Panel, RED, SKY, Shape, axis, png, svg,
 };
 
 /// Pixels per unit of a picture: 192 to the inch.
@@ -39,7 +38,7 @@ pub fn pictures(study: &Study) -> Result<Vec<Picture>, StudyError> {
         ("table2-errors", lives::errors(&study.lives)),
     ];
     let draw = |(name, chart): (&'static str, Chart)| {
-        let svg = svg(&chart)?;
+        let svg = svg(&chart);
         let png = png(&svg, PIXELS)?;
         Ok(Picture { name, svg, png })
     };
@@ -71,15 +70,11 @@ const LINK: Look = Look::line(BLACK, 6);
 const BENDING: Look = Look::line(BLUE, 6).dashed(&[14, 5]);
 const SHADOW: Look = Look::line(GREY, 2);
 const TRACE: Look = Look::line(RED, 2).dashed(&[3, 4]);
-const BALL: Look = Look::line(BLACK, 0).marked(Marker { shape: Shape::Dot, every: 1, first: 0 });
-const BEARING: Look = Look::line(BLACK, 0).marked(Marker { shape: Shape::Square, every: 1, first: 0 });
+const BALL: Look = Look::line(BLACK, 0).marked(Shape::Dot, 1, 0);
+const BEARING: Look = Look::line(BLACK, 0).marked(Shape::Square, 1, 0);
 
 fn mechanism(configuration: &Configuration) -> Chart {
-    let panel = |title: &str, view: &View| {
-        let mut panel = drawn_from(configuration, view);
-        panel.title = title.to_owned();
-        panel
-    };
+    let panel = |title: &str, view| Panel { title: title.to_owned(), ..drawn_from(configuration, view) };
     let legend = [
         ("rigid link", LINK),
         ("flexible link", BENDING),
@@ -95,29 +90,22 @@ fn mechanism(configuration: &Configuration) -> Chart {
             panel("seen from the side and above", &View::from(-62.0, 24.0)),
             panel("seen along the y axis", &View::from(-90.0, 0.0)),
         ],
-        legend: legend.map(|(text, look)| (text.to_owned(), look)).to_vec(),
+        legend: legend.to_vec(),
     }
 }
 
 fn drawn_from(configuration: &Configuration, view: &View) -> Panel {
     let lowest = configuration.joints.iter().map(|joint| joint.at[2]).fold(f64::INFINITY, f64::min);
-    let place = |at: &[f64; 3]| view.place(*at);
-    let shadow = |at: &[f64; 3]| view.place([at[0], at[1], lowest]);
-    let mut curves = Vec::new();
-    for link in &configuration.links {
-        curves.push(Curve { points: link.through.iter().map(shadow).collect(), look: SHADOW });
-    }
-    for joint in configuration.joints.iter().filter(|joint| !joint.trace.is_empty()) {
-        curves.push(Curve { points: joint.trace.iter().map(place).collect(), look: TRACE });
-    }
-    for link in &configuration.links {
-        let look = if link.flexible { BENDING } else { LINK };
-        curves.push(Curve { points: link.through.iter().map(place).collect(), look });
-    }
-    for joint in &configuration.joints {
-        let look = if joint.on_ground { BEARING } else { BALL };
-        curves.push(Curve { points: vec![place(&joint.at)], look });
-    }
+    let shadow = |at: &[f64; 3]| [at[0], at[1], lowest];
+    let drawn =
+        |points: &[[f64; 3]], look| Curve { points: points.iter().map(|at| view.place(*at)).collect(), look };
+    let Configuration { joints, links } = configuration;
+    let shadows = links.iter().map(|link| link.through.iter().map(shadow).collect::<Vec<_>>());
+    let mut curves: Vec<Curve> = shadows.map(|shadow| drawn(&shadow, SHADOW)).collect();
+    curves.extend(joints.iter().map(|joint| drawn(&joint.trace, TRACE)));
+    curves.extend(links.iter().map(|link| drawn(&link.through, if link.flexible { BENDING } else { LINK })));
+    curves
+        .extend(joints.iter().map(|joint| drawn(&[joint.at], if joint.on_ground { BEARING } else { BALL })));
     let mut notes = names(configuration, view);
     axes(view, lowest, &mut curves, &mut notes);
     let points = || curves.iter().flat_map(|curve| &curve.points);
@@ -139,23 +127,20 @@ fn names(configuration: &Configuration, view: &View) -> Vec<Note> {
         // Links that are seen end-on have no direction.
         if length > 1e-6 { (x / length, y / length) } else { (0.0, 0.0) }
     };
-    #[allow(clippy::cast_possible_truncation, reason = "a name stays beside what it names")]
     let shifted = |at, (x, y): (f64, f64), by: f64, text: &str| Note {
         at,
-        shift: ((by * x) as i32, -(by * y) as i32),
+        shift: (by * x, -by * y),
         text: text.to_owned(),
     };
     let mut notes = Vec::new();
     for joint in &configuration.joints {
         let here = view.place(joint.at);
-        let mut away = (0.0, 0.0);
-        for link in configuration.links.iter().filter(|link| link.through.contains(&joint.at)) {
-            for other in link.through.iter().filter(|at| **at != joint.at) {
-                let there = view.place(*other);
-                let (x, y) = unit((there.0 - here.0, there.1 - here.1));
-                away = (away.0 - x, away.1 - y);
-            }
-        }
+        let links = configuration.links.iter().filter(|link| link.through.contains(&joint.at));
+        let others = links.flat_map(|link| &link.through).filter(|at| **at != joint.at);
+        let away = others.map(|other| view.place(*other)).fold((0.0, 0.0), |away, there| {
+            let (x, y) = unit((there.0 - here.0, there.1 - here.1));
+            (away.0 - x, away.1 - y)
+        });
         notes.push(shifted(here, unit(away), 21.0, &joint.name));
     }
     for link in &configuration.links {
@@ -180,76 +165,66 @@ fn axes(view: &View, lowest: f64, curves: &mut Vec<Curve>, notes: &mut Vec<Note>
         // An axis that points at the eye has no direction.
         if (to.0 - from.0).hypot(to.1 - from.1) > 5.0 {
             curves.push(Curve { points: vec![from, to], look: Look::line(BLACK, 2) });
-            notes.push(Note { at: to, shift: (9, -9), text: name.to_owned() });
+            notes.push(Note { at: to, shift: (9.0, -9.0), text: name.to_owned() });
         }
     }
-    notes.push(Note { at: view.place(origin), shift: (44, 34), text: "axes: 100 mm".to_owned() });
+    notes.push(Note { at: view.place(origin), shift: (44.0, 34.0), text: "axes: 100 mm".to_owned() });
 }
 
 fn force(forces: &Forces) -> Chart {
-    let points = |curve: &super::ForceCurve| {
-        curve.times.iter().copied().zip(curve.forces.iter().copied()).collect::<Vec<_>>()
-    };
-    let ring = Marker { shape: Shape::Ring, every: 14, first: 3 };
-    let looks = [
+    let shown = [
         ("clearance, rigid coupler (one chaotic turn)", &forces.rigid, Look::line(ORANGE, 1)),
         ("ideal joint (reaction)", &forces.ideal, Look::line(SKY, 14)),
         ("clearance, flexible coupler", &forces.flexible, Look::line(BLACK, 3)),
-        ("Exudyn, clearance, flexible coupler", &forces.reference, Look::line(RED, 0).marked(ring)),
+        (
+            "Exudyn, clearance, flexible coupler",
+            &forces.reference,
+            Look::line(RED, 0).marked(Shape::Ring, 14, 3),
+        ),
     ];
-    let all = looks.iter().flat_map(|(_, curve, _)| curve.forces.iter().copied());
-    let curve =
-        |(_, curve, look): &(&str, &super::ForceCurve, Look)| Curve { points: points(curve), look: *look };
+    let all = shown.iter().flat_map(|(_, curve, _)| curve.forces.iter().copied());
     let mut time = axis("time from the start of a turn [s]", [forces.period].into_iter(), 10);
     time.range.1 = forces.period;
+    let curves = shown.map(|(_, curve, look)| Curve::through(&curve.times, &curve.forces, look));
     Chart {
         size: (800, 440),
         columns: 1,
         panels: vec![Panel {
             x: time,
             y: axis("contact force Fₙ at R1 [N]", all, 7),
-            curves: looks.iter().map(curve).collect(),
+            curves: curves.to_vec(),
             ..Panel::default()
         }],
-        legend: looks.iter().map(|(text, _, look)| ((*text).to_owned(), *look)).collect(),
+        legend: shown.map(|(text, _, look)| (text, look)).to_vec(),
     }
 }
 
 fn wear(around: &Around) -> Chart {
-    let ring = Marker { shape: Shape::Ring, every: 6, first: 2 };
-    let models: [(&str, &WornBearing, Look); 3] = [
+    let models = [
         ("deterministic: rigid, no feedback", &around.deterministic, Look::line(ORANGE, 4)),
         ("proposed: flexible, feedback", &around.proposed, Look::line(BLACK, 3).dashed(&[9, 4])),
-        ("finest own model", &around.finest, Look::line(GREEN, 2).marked(ring)),
+        ("finest own model", &around.finest, Look::line(GREEN, 2).marked(Shape::Ring, 6, 2)),
     ];
-    let count = around.proposed.snapshots.len();
-    let depth = |snapshot: &Snapshot| -> Vec<f64> { snapshot.depths.iter().map(|x| 1e6 * x).collect() };
-    let panel = |index: usize| {
-        let shown =
-            || models.iter().filter_map(|(_, worn, look)| Some((worn, worn.snapshots.get(index)?, look)));
-        let values = shown().flat_map(|(_, snapshot, _)| depth(snapshot));
-        let curve = |(worn, snapshot, look): (&&WornBearing, &Snapshot, &Look)| Curve {
-            points: worn.angles.iter().copied().zip(depth(snapshot)).collect(),
-            look: *look,
-        };
-        let is_last = index + 1 == count;
+    let panel = |(at, proposed): (usize, &Snapshot)| {
+        let curves = models.map(|(_, worn, look)| {
+            let depths: Vec<f64> = worn.snapshots[at].depths.iter().map(|depth| 1e6 * depth).collect();
+            Curve::through(&worn.angles, &depths, look)
+        });
+        let depths = curves.iter().flat_map(|curve| curve.points.iter().map(|point| point.1));
+        let is_last = at + 1 == around.proposed.snapshots.len();
         let label = if is_last { "bearing angle [deg], 0 along the ground's x axis" } else { "" };
         Panel {
-            title: around
-                .proposed
-                .snapshots
-                .get(index)
-                .map_or_else(String::new, |s| format!("cycle {}", s.cycle)),
+            title: format!("cycle {}", proposed.cycle),
             x: Axis { label: label.to_owned(), range: (-180.0, 180.0), step: 30.0, ..Axis::default() },
-            y: axis("wear depth [µm]", values, 4),
-            curves: shown().map(curve).collect(),
+            y: axis("wear depth [µm]", depths, 4),
+            curves: curves.to_vec(),
             ..Panel::default()
         }
     };
     Chart {
         size: (800, 820),
         columns: 1,
-        panels: (0..count).map(panel).collect(),
-        legend: models.iter().map(|(text, _, look)| ((*text).to_owned(), *look)).collect(),
+        panels: around.proposed.snapshots.iter().enumerate().map(panel).collect(),
+        legend: models.map(|(text, _, look)| (text, look)).to_vec(),
     }
 }

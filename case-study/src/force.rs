@@ -2,19 +2,17 @@
 //! curve of an independent multibody code. In: models. Out: [`Forces`]. Never knows how it is drawn.
 
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{IdealJoint, Integrator, Run, RunError, Settings, Span, Watch, simulate};
+use linkwear_runtime::{IdealJoint, Run};
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::job_pool::{Job, run_all};
 use super::model::{JOINT, Model};
-use super::progress::Progress;
+use super::options::STEP;
+use super::workers::Workers;
 
 /// Of the coupler in the reference [Hz].
 const REFERENCE_FREQUENCIES: [f64; 3] = [138.042, 550.64, 1233.27];
-/// Steps of a turn of half a second, a sample each.
-const STEP: f64 = 2e-5;
-/// Samples of a turn: 40 µs apart, a twelfth of the fastest vibration of the contact.
+/// Samples of a turn of half a second: 40 µs apart, a twelfth of the fastest vibration of the contact.
 const SAMPLES: usize = 12_501;
 /// Every so many samples of a smooth curve are kept: 1 ms apart, as the reference's rows.
 const THINNED: usize = 25;
@@ -78,24 +76,27 @@ pub struct Forces {
 }
 
 /// Runs the turns of Fig. 4.
-pub(super) fn forces(threads: usize, settle: u32, progress: &Progress<'_>) -> Result<Forces, StudyError> {
-    let settled = |settle: u32| f64::from(settle);
-    type Answer = Result<(ForceCurve, Vec<f64>), StudyError>;
-    let clear = |model: Model, settle: f64, thinned: usize| -> Answer {
-        let run = turn(&model, settle, progress)?;
-        let forces = run.column(&format!("{JOINT}.Fn"))?;
-        Ok((contact_curve(&run, &forces, thinned), forces))
-    };
-    let jobs: Vec<Job<'_, Answer>> = vec![
-        Box::new(|| clear(Model::with_frequencies(REFERENCE_FREQUENCIES)?, settled(settle), THINNED)),
-        Box::new(|| clear(Model::rigid()?, settled(settle), THINNED_CHATTER)),
-        Box::new(|| clear(Model::flexible(), settled(settle), THINNED)),
-        Box::new(|| ideal(settled(settle), progress).map(|curve| (curve, Vec::new()))),
+pub(super) fn forces(settle: u32, workers: &Workers<'_>) -> Result<Forces, StudyError> {
+    let matched = Model::WithFrequencies(REFERENCE_FREQUENCIES);
+    let models = [
+        (matched, THINNED),
+        (Model::Rigid, THINNED_CHATTER),
+        (Model::Flexible, THINNED),
+        (Model::Ideal, THINNED),
     ];
-    let mut answers = run_all(threads, jobs).into_iter();
-    let mut next = || answers.next().expect("as many answers as jobs");
-    let ((matched, matched_forces), (rigid, _)) = (next()?, next()?);
-    let ((flexible, flexible_forces), (ideal, _)) = (next()?, next()?);
+    let turns = workers.each(&models, |(model, thinned)| {
+        let run = model.turn(settle, STEP, SAMPLES, workers)?;
+        let (forces, measure) = match model {
+            Model::Ideal => reaction(&run)?,
+            _ => (run.column(&format!("{JOINT}.Fn"))?, run.turns[run.turns.len() - 1][0].clone()),
+        };
+        Ok::<_, StudyError>((curve(&run, &forces, *thinned, &measure), forces))
+    })?;
+    let Ok([(matched, matched_forces), (rigid, _), (flexible, flexible_forces), (ideal, _)]) =
+        <[_; 4]>::try_from(turns)
+    else {
+        unreachable!("a turn of every model")
+    };
     let period = matched.times[matched.times.len() - 1];
     let reference = reference(period)?;
     Ok(Forces {
@@ -108,28 +109,6 @@ pub(super) fn forces(threads: usize, settle: u32, progress: &Progress<'_>) -> Re
         flexible,
         reference,
     })
-}
-
-/// One turn after settling.
-fn turn(model: &Model, settle: f64, progress: &Progress<'_>) -> Result<Run, StudyError> {
-    let system = model.mechanism.system();
-    let settings = Settings {
-        settle: Span::Turns(settle),
-        ..Settings::new(Integrator::Rk4 { step: STEP }, Span::Turns(1.0), SAMPLES)
-    };
-    let watch = |_| progress.go_on();
-    let (description, parameters) = (&model.mechanism.description, &model.mechanism.parameters);
-    let run = simulate(&*system, description, parameters, &settings, Watch::new(&watch))?;
-    progress.done((settle + 1.0) * model.cost());
-    match run.stopped {
-        Some(RunError::Interrupted { .. }) => Err(StudyError::Interrupted),
-        Some(error) => Err(error.into()),
-        None => Ok(run),
-    }
-}
-
-fn contact_curve(run: &Run, forces: &[f64], thinned: usize) -> ForceCurve {
-    curve(run, forces, thinned, &run.turns[run.turns.len() - 1][0])
 }
 
 fn curve(run: &Run, forces: &[f64], thinned: usize, measure: &ContactMeasure) -> ForceCurve {
@@ -148,15 +127,12 @@ fn curve(run: &Run, forces: &[f64], thinned: usize, measure: &ContactMeasure) ->
     }
 }
 
-/// The reaction of the ideal joint, across its axis.
-fn ideal(settle: f64, progress: &Progress<'_>) -> Result<ForceCurve, StudyError> {
-    let model = Model::ideal();
-    let worn = Model::flexible();
-    let run = turn(&model, settle, progress)?;
-    let radius = worn.mechanism.description.contacts[0].journal_radius;
-    let joint = IdealJoint::revolute(&run, JOINT, [0.0, 0.0, 1.0], radius)?;
-    let forces: Vec<f64> = run.rows.iter().map(|row| joint.normal_force_and_speed(row).0).collect();
-    Ok(curve(&run, &forces, THINNED, &joint.measure(&run, None)))
+/// The reaction of the ideal joint, across its axis, and what it does to a journal as large as that of the worn joint.
+fn reaction(run: &Run) -> Result<(Vec<f64>, ContactMeasure), StudyError> {
+    let radius = Model::Flexible.mechanism()?.description.contacts[0].journal_radius;
+    let joint = IdealJoint::revolute(run, JOINT, [0.0, 0.0, 1.0], radius)?;
+    let forces = run.rows.iter().map(|row| joint.normal_force_and_speed(row).0).collect();
+    Ok((forces, joint.measure(run, None)))
 }
 
 /// The turn of the independent code.

@@ -2,15 +2,17 @@
 //! by the wear before it, one curve for the truth and one per model. Out: [`Learnt`] per data set. Never knows what
 //! wear is or how often this is done.
 
+use std::ops::Range;
+
 use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Model as GammaModel, estimate};
 use linkwear_gamma::monte_carlo::{GammaDraw, MICRO};
 use linkwear_runtime::GammaRates;
-use linkwear_runtime::life::IncrementModel;
+use linkwear_runtime::life::{IncrementModel, MeanIncrement};
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::rate::Cycle;
+use super::rate::Curve;
 use super::statistics::{LifeNumbers, Lived};
 
 /// Histories in a data set: the paper's M, which it gives no number.
@@ -70,91 +72,88 @@ pub(super) struct Learnt {
     pub lives: LifeNumbers,
 }
 
-/// One wearing joint as the Gamma layer sees it.
+/// One wearing joint as the Gamma layer sees it: models are mean increments of a cycle by the wear before it [m].
 pub(super) struct Bearing {
     /// Wear at failure [m].
     pub threshold: f64,
     /// The true parameters.
     pub rates: GammaRates,
-    pub truth: Cycle,
+    pub truth: Curve,
     /// In the order of [`super::MODELS`].
-    pub models: [Cycle; 3],
+    pub models: [Curve; 3],
     pub seed: u64,
 }
 
-/// A history: W before each cycle and the increment in it [m].
+/// A life until failure: W before each cycle and the increment in it [m].
 type History = Vec<(f64, f64)>;
 
 impl Bearing {
     /// Draws the histories of a data set, fits every model under every protocol, predicts so many lives with each:
     /// by protocol, then by model.
     pub fn data_set(&self, set: u64, trajectories: u64) -> Result<Vec<Vec<Learnt>>, StudyError> {
-        let unit =
-            |unit| history(&self.truth, self.threshold, &self.draw(self.rates), set * HISTORIES + unit);
-        let histories: Vec<History> = (0..HISTORIES).map(unit).collect();
-        let learn = |protocol: &Protocol, cycle: &Cycle| -> Result<Learnt, StudyError> {
+        let draw = self.draw(self.rates);
+        let numbers = set * HISTORIES..(set + 1) * HISTORIES;
+        let histories: Vec<History> =
+            numbers.map(|number| self.history(&self.truth, &draw, Purpose::Histories, number)).collect();
+        let learn = |protocol: &Protocol, model: &Curve| -> Result<Learnt, StudyError> {
             let rates = match protocol.cycles() {
-                Some(cycles) => fit(cycle, &histories, cycles)?,
+                Some(cycles) => fit(model, &histories, cycles)?,
                 None => self.rates,
             };
-            let first = set * trajectories;
-            let lives = self.lives(cycle, rates, Purpose::Prediction, first..first + trajectories);
+            let numbers = set * trajectories..(set + 1) * trajectories;
+            let lives = self.lives(model, rates, Purpose::Prediction, numbers);
             Ok(Learnt { rates, lives: LifeNumbers::of(&lives) })
         };
-        let under = |protocol: &Protocol| self.models.iter().map(|cycle| learn(protocol, cycle)).collect();
+        let under = |protocol: &Protocol| self.models.iter().map(|model| learn(protocol, model)).collect();
         PROTOCOLS.iter().map(under).collect()
     }
 
     /// Random lives.
     pub fn lives(
         &self,
-        cycle: &Cycle,
+        model: &Curve,
         rates: GammaRates,
         purpose: Purpose,
-        trajectories: std::ops::Range<u64>,
+        numbers: Range<u64>,
     ) -> Vec<Lived> {
         let draw = self.draw(rates);
-        trajectories.map(|trajectory| life(cycle, self.threshold, &draw, (purpose, trajectory))).collect()
+        numbers.map(|number| self.lived(&self.history(model, &draw, purpose, number))).collect()
+    }
+
+    /// Cycles of the life in which every increment is its mean.
+    pub fn mean_life(&self, model: &Curve) -> f64 {
+        self.lived(&self.history(model, &MeanIncrement, Purpose::Truth, 0)).cycles
     }
 
     fn draw(&self, rates: GammaRates) -> GammaDraw {
         // One stream per purpose, where a life has one per joint.
         GammaDraw::new(self.seed, &[rates; 3])
     }
-}
 
-/// One random life, recorded.
-fn history(cycle: &Cycle, threshold: f64, draw: &GammaDraw, trajectory: u64) -> History {
-    let (mut wear, mut steps) = (0.0, Vec::new());
-    while wear < threshold {
-        let mean = cycle.mean_increment(wear);
-        let increment = draw.draw(Purpose::Histories as usize, trajectory, steps.len() as u64, mean);
-        steps.push((wear, increment));
-        wear += increment;
-    }
-    steps
-}
-
-fn life(cycle: &Cycle, threshold: f64, draw: &GammaDraw, (purpose, trajectory): (Purpose, u64)) -> Lived {
-    let (mut wear, mut cycles) = (0.0, 0);
-    loop {
-        let increment = draw.draw(purpose as usize, trajectory, cycles, cycle.mean_increment(wear));
-        if wear + increment >= threshold {
-            let before = cycles as f64;
-            return Lived { cycles: before + (threshold - wear) / increment, whole: before + 1.0 };
+    fn history(&self, model: &Curve, draw: &impl IncrementModel, purpose: Purpose, number: u64) -> History {
+        let (mut wear, mut steps) = (0.0, Vec::new());
+        while wear < self.threshold {
+            let increment = draw.draw(purpose as usize, number, steps.len() as u64, model.at(wear));
+            steps.push((wear, increment));
+            wear += increment;
         }
-        wear += increment;
-        cycles += 1;
+        steps
+    }
+
+    fn lived(&self, history: &[(f64, f64)]) -> Lived {
+        let (wear, increment) = history[history.len() - 1];
+        let whole = history.len() as f64;
+        Lived { cycles: whole - 1.0 + (self.threshold - wear) / increment, whole }
     }
 }
 
 /// Maximum likelihood with a model's own dLambda, in micrometres.
-fn fit(cycle: &Cycle, histories: &[History], cycles: usize) -> Result<GammaRates, StudyError> {
+fn fit(model: &Curve, histories: &[History], cycles: usize) -> Result<GammaRates, StudyError> {
     let mut increments = Vec::new();
     for (unit, history) in histories.iter().enumerate() {
         let mut from = 0.0;
         for (wear, increment) in history.iter().take(cycles) {
-            let to = from + cycle.mean_increment(*wear) / MICRO;
+            let to = from + model.at(*wear) / MICRO;
             let wear = increment / MICRO;
             increments.push(Increment { unit, from, to, wear, ln_covariates: Vec::new(), row: 0 });
             from = to;
@@ -171,8 +170,8 @@ mod tests {
     use super::*;
 
     /// Wear increments of 3.2 µm a cycle, whatever the wear, times a factor.
-    fn steady(factor: f64) -> Cycle {
-        Cycle::constant(factor * 3.2e-6, 80e-6)
+    fn steady(factor: f64) -> Curve {
+        Curve::constant(factor * 3.2e-6, 80e-6)
     }
 
     #[test]
@@ -180,6 +179,7 @@ mod tests {
         let rates = GammaRates { alpha: 13.65e6, beta: 13.65e6 };
         let models = [steady(1.0), steady(2.0), steady(0.3)];
         let bearing = Bearing { threshold: 80e-6, rates, truth: steady(1.0), models, seed: 3 };
+        assert!((bearing.mean_life(&bearing.models[1]) - 12.5).abs() < 1e-12);
         let learnt = bearing.data_set(0, 500).expect("a fit");
         for (protocol, models) in PROTOCOLS.iter().zip(&learnt) {
             let lives: Vec<f64> = models.iter().map(|model| model.lives.mean).collect();

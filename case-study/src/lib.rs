@@ -8,20 +8,20 @@ mod configuration;
 mod error;
 mod figures;
 mod force;
-mod job_pool;
 mod learn;
 mod lives;
+mod markup;
 mod model;
 mod options;
 mod paper;
 mod parameters;
 mod plot;
-mod progress;
 mod rate;
 mod report;
 mod statistics;
 mod table2;
 mod tables;
+mod workers;
 
 pub use areas::AreaGrowth;
 pub use around::{Around, CYCLES, Peak, Snapshot, WornBearing};
@@ -42,9 +42,10 @@ pub use tables::{TRUE_LIFE, TableQuality};
 use linkwear_runtime::Watch;
 use serde::Serialize;
 
+use lives::DEFINITIONS;
 use options::Effort;
-use progress::Progress;
-use tables::Tables;
+use tables::{Survey, Tables};
+use workers::Workers;
 
 /// Turns before that of Fig. 4.
 const SETTLE: u32 = 5;
@@ -54,8 +55,6 @@ const FORCE_WORK: f64 = 60.0;
 const GAMMAS: [f64; 2] = [0.1, 1.0];
 /// Place of gamma = 1 in [`GAMMAS`], which Fig. 5 is made with.
 const FULL_FEEDBACK: usize = 1;
-/// Tables for Fig. 5 reach this part beyond the threshold: its last cycle lies there.
-const REACH: f64 = 1.4;
 
 /// All results, without timings: the same options give the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -89,30 +88,32 @@ pub struct Study {
 /// If a run fails, or if asked to stop.
 pub fn run(options: Options, threads: usize, watch: Watch<'_>) -> Result<Study, StudyError> {
     let effort = Effort::of(options);
-    let progress = Progress::new(watch, FORCE_WORK + effort.work(GAMMAS.len()));
     let compiled = model::compiled()?;
-    let forces = force::forces(threads, SETTLE, &progress)?;
-    let areas = areas::areas(threads, &effort, &progress)?;
-    let measured = Tables::measure(threads, (&GAMMAS, REACH), &effort, &progress)?;
-    let (mut tables, mut lives) = (Vec::new(), Vec::new());
-    for (gamma, measured) in GAMMAS.into_iter().zip(&measured) {
-        tables.extend(measured.quality(gamma, &effort));
-        for definition in lives::definitions(gamma) {
-            lives.push(lives::lives(measured, definition, (threads, options.seed), &effort, &progress)?);
-        }
-    }
-    let none = || StudyError::Missing { kind: "wear", name: model::JOINT.into() };
-    let (table2, protocol) = table2::table2(&lives, options).ok_or_else(none)?;
+    let (areas, tables) = (areas::surveys(&effort), GAMMAS.map(|gamma| Tables::surveys(gamma, &effort)));
+    let surveys = [areas.as_slice(), tables.as_flattened()].concat();
+    let data_sets = (GAMMAS.len() * DEFINITIONS.len()) as f64 * effort.data_sets as f64;
+    let work =
+        FORCE_WORK + surveys.iter().map(Survey::work).sum::<f64>() + data_sets * effort.work_of_data_set;
+    let workers = Workers::new(threads, watch, work);
+    let forces = force::forces(SETTLE, &workers)?;
+    let measured = workers.each(&surveys, |survey| survey.measure(&workers))?;
+    let (areas, tables) = measured.split_at(areas.len());
+    let tables: Vec<Tables<'_>> = tables.as_chunks().0.iter().map(Tables::of).collect();
+    let pairs = tables.iter().flat_map(|tables| DEFINITIONS.map(|definition| (tables, definition)));
+    let lives =
+        pairs.map(|(tables, definition)| lives::lives(tables, definition, (options, &effort), &workers));
+    let lives = lives.collect::<Result<Vec<Lives>, StudyError>>()?;
+    let (table2, protocol) = table2::table2(&lives[0], options);
     Ok(Study {
         options,
         table2,
         protocol,
         parameters: parameters::parameters(&compiled)?,
-        configuration: configuration::configuration(&compiled, &progress)?,
+        configuration: configuration::configuration(&compiled, &workers)?,
         forces,
-        tables,
-        around: around::around(&measured[FULL_FEEDBACK], &effort)?,
-        areas,
+        tables: tables.iter().flat_map(Tables::quality).collect(),
+        around: around::around(&tables[FULL_FEEDBACK])?,
+        areas: areas::growths(areas),
         lives,
     })
 }

@@ -5,19 +5,20 @@
 //! wear before has opened. Every model fits the Gamma process to the same histories with its own dLambda, then draws
 //! lives from its own fit. One calibration of the cycle, on the truth, serves all models.
 
+use std::ops::ControlFlow;
+
 use linkwear_gamma::monte_carlo::MICRO;
 use linkwear_runtime::life::WearOf;
-use linkwear_runtime::wear::Measure;
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::job_pool::{Job, run_all};
 use super::learn::{Bearing, Learnt, PROTOCOLS, Protocol, Purpose};
-use super::options::Effort;
-use super::progress::Progress;
-use super::rate::{Cycle, Rate};
+use super::model::JOINT;
+use super::options::{Effort, Options};
+use super::rate::Curve;
 use super::statistics::{Density, LifeNumbers, mean_and_scatter};
-use super::tables::{Definition, Tables};
+use super::tables::{DEEPEST, Tables};
+use super::workers::Workers;
 
 /// Names of the models, in the order of all results.
 pub const MODELS: [&str; 3] = ["proposed", "baseline 1 (rigid)", "baseline 2 (no feedback)"];
@@ -66,7 +67,7 @@ pub struct UnderProtocol {
     /// Which.
     pub protocol: Protocol,
     /// In the order of [`MODELS`].
-    pub predictions: Vec<Prediction>,
+    pub predictions: [Prediction; 3],
     /// Over the data sets.
     pub orderings: Orderings,
 }
@@ -83,139 +84,107 @@ pub struct Lives {
     /// Lives of the truth.
     pub truth: LifeNumbers,
     /// Deterministic lives with this cycle, without any fit [cycles], in the order of [`MODELS`].
-    pub deterministic: Vec<f64>,
+    pub deterministic: [f64; 3],
     /// dLambda of each model over that of the truth, at the start and at the end of the life.
-    pub ratio: Vec<(f64, f64)>,
+    pub ratio: [(f64, f64); 3],
     /// Exponent of the growth of the truth's dLambda with the clearance over the life.
     pub exponent: f64,
     /// Data sets.
     pub data_sets: usize,
     /// By protocol.
-    pub protocols: Vec<UnderProtocol>,
+    pub protocols: [UnderProtocol; 4],
     /// Probability densities of life under [`SHOWN`], from the first data set: truth, then [`MODELS`].
     pub densities: Vec<Density>,
 }
 
 impl Lives {
-    /// What came out under a protocol.
-    pub fn under(&self, protocol: Protocol) -> Option<&UnderProtocol> {
-        self.protocols.iter().find(|under| under.protocol == protocol)
+    /// What the models predict under a protocol, in the order of [`MODELS`].
+    pub fn under(&self, protocol: Protocol) -> &[Prediction; 3] {
+        &self.protocols[protocol as usize].predictions
     }
 }
 
 /// The definitions of wear that are studied.
-pub(super) fn definitions(gamma: f64) -> [(&'static str, Definition); 2] {
-    [
-        ("depth", Definition { wear: WearOf::Depth, gamma }),
-        ("largest depth", Definition { wear: WearOf::Profile(Measure::Maximum), gamma }),
-    ]
-}
-
-/// By data set, by protocol, by model.
-type AllLearnt = Vec<Vec<Vec<Learnt>>>;
+pub(super) const DEFINITIONS: [(&str, WearOf); 2] = [("depth", WearOf::Depth), ("largest depth", DEEPEST)];
 
 /// Predicts lives under every protocol.
 pub(super) fn lives(
-    tables: &Tables,
-    (wear, definition): (&'static str, Definition),
-    (threads, seed): (usize, u64),
-    effort: &Effort,
-    progress: &Progress<'_>,
+    tables: &Tables<'_>,
+    (wear, definition): (&'static str, WearOf),
+    (options, effort): (Options, &Effort),
+    workers: &Workers<'_>,
 ) -> Result<Lives, StudyError> {
-    let (bearing, revolutions_per_cycle) = bearing(tables, definition, seed, effort)?;
-    let lived = bearing.lives(&bearing.truth, bearing.rates, Purpose::Truth, 0..effort.trajectories);
+    let no_rates = || StudyError::Missing { kind: "scatter of wear of joint", name: JOINT.into() };
+    let rates = tables.rates().ok_or_else(no_rates)?;
+    let revolutions_per_cycle = tables.revolutions_per_cycle(definition)?;
+    let cycle = |measured, feedback| {
+        Curve::of_revolution(measured, definition, feedback).of_cycle(revolutions_per_cycle)
+    };
+    let end = tables.finest.threshold();
+    let bearing = Bearing {
+        threshold: end,
+        rates,
+        truth: cycle(tables.finest, true),
+        models: [cycle(tables.flexible, true), cycle(tables.rigid, true), cycle(tables.flexible, false)],
+        seed: options.seed,
+    };
+    let lived = bearing.lives(&bearing.truth, rates, Purpose::Truth, 0..effort.trajectories);
     let truth = LifeNumbers::of(&lived);
-    let learnt = learn(&bearing, threads, effort, progress)?;
-    let protocols = PROTOCOLS.iter().enumerate();
-    let protocols = protocols.map(|(at, protocol)| under(*protocol, at, &learnt, &truth)).collect();
+    let sets: Vec<u64> = (0..effort.data_sets).collect();
+    let learnt = workers.each(&sets, |set| {
+        workers.piece(effort.work_of_data_set, |watch| match watch.report(0.0) {
+            ControlFlow::Continue(()) => bearing.data_set(*set, effort.trajectories_per_set),
+            ControlFlow::Break(()) => Err(StudyError::Interrupted),
+        })
+    })?;
     let mut densities = vec![Density::of(&lived)];
-    let shown = PROTOCOLS.iter().position(|protocol| *protocol == SHOWN).unwrap_or(0);
-    for (cycle, first) in bearing.models.iter().zip(&learnt[0][shown]) {
-        let lives = bearing.lives(cycle, first.rates, Purpose::Prediction, 0..effort.trajectories);
+    for (model, first) in bearing.models.iter().zip(&learnt[0][SHOWN as usize]) {
+        let lives = bearing.lives(model, first.rates, Purpose::Prediction, 0..effort.trajectories);
         densities.push(Density::of(&lives));
     }
-    let end = bearing.threshold;
-    let opened = 1.0 + definition.gamma * end / tables.clearance();
-    let growth = bearing.truth.mean_increment(end) / bearing.truth.mean_increment(0.0);
-    let ratio = |cycle: &Cycle, wear: f64| cycle.mean_increment(wear) / bearing.truth.mean_increment(wear);
+    let growth = bearing.truth.at(end) / bearing.truth.at(0.0);
+    let ratio = |model: &Curve, wear: f64| model.at(wear) / bearing.truth.at(wear);
     Ok(Lives {
         wear,
-        gamma: definition.gamma,
+        gamma: tables.gamma(),
         revolutions_per_cycle,
         truth,
-        deterministic: bearing.models.iter().map(|cycle| cycle.mean_life(end)).collect(),
-        ratio: bearing.models.iter().map(|cycle| (ratio(cycle, 0.0), ratio(cycle, end))).collect(),
-        exponent: libm::log(growth) / libm::log(opened),
+        deterministic: bearing.models.each_ref().map(|model| bearing.mean_life(model)),
+        ratio: bearing.models.each_ref().map(|model| (ratio(model, 0.0), ratio(model, end))),
+        exponent: libm::log(growth) / libm::log(tables.finest.opening()),
         data_sets: learnt.len(),
-        protocols,
+        protocols: PROTOCOLS.map(|protocol| under(protocol, &learnt, &truth)),
         densities,
     })
 }
 
-/// The joint with this definition of wear, and the revolutions that a cycle stands for.
-fn bearing(
-    tables: &Tables,
-    definition: Definition,
-    seed: u64,
-    effort: &Effort,
-) -> Result<(Bearing, f64), StudyError> {
-    let no_rates =
-        || StudyError::Missing { kind: "scatter of wear of joint", name: super::model::JOINT.into() };
-    let rates = tables.rates().ok_or_else(no_rates)?;
-    let revolutions = tables.revolutions_per_cycle(definition, effort)?;
-    let threshold = tables.threshold();
-    let cycle = |measured, definition| Rate::of(measured, definition, threshold).cycle(revolutions);
-    let constant = Definition { gamma: 0.0, ..definition };
-    let models = [
-        cycle(&tables.flexible, definition),
-        cycle(&tables.rigid, definition),
-        cycle(&tables.flexible, constant),
-    ];
-    let truth = cycle(&tables.finest, definition);
-    Ok((Bearing { threshold, rates, truth, models, seed }, revolutions))
-}
-
-fn learn(
-    bearing: &Bearing,
-    threads: usize,
-    effort: &Effort,
-    progress: &Progress<'_>,
-) -> Result<AllLearnt, StudyError> {
-    let jobs = (0..effort.data_sets).map(|set| {
-        let job = move || {
-            if progress.go_on().is_break() {
-                return Err(StudyError::Interrupted);
-            }
-            let learnt = bearing.data_set(set, effort.trajectories_per_set);
-            progress.done(effort.work_of_data_set);
-            learnt
-        };
-        Box::new(job) as Job<'_, Result<Vec<Vec<Learnt>>, StudyError>>
-    });
-    run_all(threads, jobs.collect()).into_iter().collect()
-}
-
-fn under(protocol: Protocol, at: usize, learnt: &AllLearnt, truth: &LifeNumbers) -> UnderProtocol {
-    let sets: Vec<&[Learnt]> = learnt.iter().map(|set| set[at].as_slice()).collect();
-    let predictions = (0..MODELS.len()).map(|model| prediction(model, &sets, truth)).collect();
+/// `learnt`: by data set, by protocol, by model.
+fn under(protocol: Protocol, learnt: &[Vec<Vec<Learnt>>], truth: &LifeNumbers) -> UnderProtocol {
+    let sets: Vec<&[Learnt]> = learnt.iter().map(|set| set[protocol as usize].as_slice()).collect();
+    let predictions = [0, 1, 2].map(|model| prediction(model, &sets, truth));
     UnderProtocol { protocol, predictions, orderings: orderings(&sets, truth) }
 }
 
 fn prediction(model: usize, sets: &[&[Learnt]], truth: &LifeNumbers) -> Prediction {
-    let all: Vec<Learnt> = sets.iter().map(|set| set[model]).collect();
-    let lives: Vec<LifeNumbers> = all.iter().map(|learnt| learnt.lives).collect();
-    let mean_of = |of: fn(&Learnt) -> f64| mean_and_scatter(all.iter().map(of)).0;
-    let errors = || lives.iter().map(|life| error(life, truth));
+    let of = |number: fn(&Learnt) -> f64| mean_and_scatter(sets.iter().map(|set| number(&set[model])));
+    let errors = || sets.iter().map(|set| error(&set[model].lives, truth));
     let (mean_error, error_scatter) = mean_and_scatter(errors());
+    let (cov, cov_scatter) = of(|learnt| learnt.lives.cov);
     Prediction {
         model: MODELS[model],
-        alpha: MICRO * mean_of(|learnt| learnt.rates.alpha),
-        beta: MICRO * mean_of(|learnt| learnt.rates.beta),
-        lives: LifeNumbers::typical(&lives),
+        alpha: MICRO * of(|learnt| learnt.rates.alpha).0,
+        beta: MICRO * of(|learnt| learnt.rates.beta).0,
+        lives: LifeNumbers {
+            mean: of(|learnt| learnt.lives.mean).0,
+            std: of(|learnt| learnt.lives.std).0,
+            cov,
+            mean_whole: of(|learnt| learnt.lives.mean_whole).0,
+            cov_whole: of(|learnt| learnt.lives.cov_whole).0,
+        },
         error: mean_error,
         error_scatter,
-        cov_scatter: mean_and_scatter(lives.iter().map(|life| life.cov)).1,
-        over_predicts: errors().filter(|error| *error > 0.0).count() as f64 / all.len() as f64,
+        cov_scatter,
+        over_predicts: errors().filter(|error| *error > 0.0).count() as f64 / sets.len() as f64,
     }
 }
 
@@ -224,21 +193,19 @@ fn error(life: &LifeNumbers, truth: &LifeNumbers) -> f64 {
 }
 
 fn orderings(sets: &[&[Learnt]], truth: &LifeNumbers) -> Orderings {
-    let part = |holds: &dyn Fn(&[LifeNumbers; 3]) -> bool| {
-        let lives = sets.iter().map(|set| [set[0].lives, set[1].lives, set[2].lives]);
-        lives.filter(holds).count() as f64 / sets.len() as f64
+    let error = |learnt: &Learnt| error(&learnt.lives, truth);
+    let part = |holds: &dyn Fn(&&[Learnt]) -> bool| {
+        sets.iter().filter(|set| holds(set)).count() as f64 / sets.len() as f64
     };
-    let error = |life: &LifeNumbers| error(life, truth);
-    let nearest =
-        |lives: &[LifeNumbers; 3]| lives[1..].iter().all(|life| error(&lives[0]).abs() < error(life).abs());
-    let narrowest = |lives: &[LifeNumbers; 3]| lives[1..].iter().all(|life| lives[0].cov < life.cov);
-    let longer = |lives: &[LifeNumbers; 3]| lives[1..].iter().all(|life| error(life) > 0.0);
-    let longest = |lives: &[LifeNumbers; 3]| lives[1].mean > lives[0].mean.max(lives[2].mean);
+    let nearest = |set: &&[Learnt]| set[1..].iter().all(|other| error(&set[0]).abs() < error(other).abs());
+    let narrowest = |set: &&[Learnt]| set[1..].iter().all(|other| set[0].lives.cov < other.lives.cov);
+    let longer = |set: &&[Learnt]| set[1..].iter().all(|other| error(other) > 0.0);
+    let longest = |set: &&[Learnt]| set[1].lives.mean > set[0].lives.mean.max(set[2].lives.mean);
     Orderings {
         proposed_is_nearest: part(&nearest),
         proposed_is_narrowest: part(&narrowest),
         baselines_over_predict: part(&longer),
         rigid_is_longest: part(&longest),
-        all: part(&|lives| nearest(lives) && narrowest(lives) && longer(lives) && longest(lives)),
+        all: part(&|set| nearest(set) && narrowest(set) && longer(set) && longest(set)),
     }
 }

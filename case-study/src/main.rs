@@ -102,8 +102,12 @@ fn answer(arguments: &Arguments) -> Result<(), Failure> {
     let out = &arguments.out;
     let is_new = !out.exists();
     claim_folder(out)?;
-    let studied = study(arguments).and_then(|study| Ok((pictures(&study).map_err(Failure::study)?, study)));
-    let (pictures, study) = studied.inspect_err(|_| {
+    let options = Options { quick: arguments.quick, seed: arguments.seed };
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = arguments.threads.map_or_else(processors, |threads| usize::from(threads.get()));
+    let studied = watched(|watch| run(options, threads, watch));
+    let drawn = studied.and_then(|study| Ok((pictures(&study)?, study)));
+    let (pictures, study) = drawn.map_err(Failure::study).inspect_err(|_| {
         if is_new {
             // Nothing was written: the folder made for it goes, too.
             let _ = fs::remove_dir(out);
@@ -111,34 +115,26 @@ fn answer(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let results = serde_json::to_value(&study)
         .map_err(|error| WriteError::of(&out.join("results.json"))(io::Error::other(error)))?;
-    let files = write(out, &study, &pictures, &results)?;
+    let names = write(out, &study, pictures, &results)?;
     match arguments.format {
         Format::Json => print(&results)?,
-        Format::Text => print(&format!("{}\n\nin {}: {}", summary(&study), out.display(), files.join(", ")))?,
+        Format::Text => print(&format!("{}\n\nin {}: {}", summary(&study), out.display(), names.join(", ")))?,
     }
     Ok(())
 }
 
-fn study(arguments: &Arguments) -> Result<Study, Failure> {
-    let options = Options { quick: arguments.quick, seed: arguments.seed };
-    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = arguments.threads.map_or_else(processors, |threads| usize::from(threads.get()));
-    watched(|watch| run(options, threads, watch)).map_err(Failure::study)
-}
-
 /// Writes every file whole; returns their names.
-fn write(out: &Path, study: &Study, pictures: &[Picture], results: &Value) -> Result<Vec<String>, Failure> {
+fn write(out: &Path, study: &Study, pictures: Vec<Picture>, results: &Value) -> Result<Vec<String>, Failure> {
+    let page = html(study, &pictures);
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
-    for picture in pictures {
-        files.push((format!("{}.svg", picture.name), picture.svg.clone().into_bytes()));
-        files.push((format!("{}.png", picture.name), picture.png.clone()));
+    for Picture { name, svg, png } in pictures {
+        files.extend([(format!("{name}.svg"), svg.into_bytes()), (format!("{name}.png"), png)]);
     }
     files.push(("case-study.md".to_owned(), markdown(study).into_bytes()));
-    files.push(("case-study.html".to_owned(), html(study, pictures).into_bytes()));
+    files.push(("case-study.html".to_owned(), page.into_bytes()));
     files.push(("results.json".to_owned(), format!("{results:#}\n").into_bytes()));
     for (name, bytes) in &files {
-        let path = out.join(name);
-        write_whole(&path, |file| file.write_all(bytes))?;
+        write_whole(&out.join(name), |file| file.write_all(bytes))?;
     }
     Ok(files.into_iter().map(|(name, _)| name).collect())
 }

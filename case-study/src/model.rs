@@ -1,29 +1,32 @@
 //! The mechanisms that the study runs: the shipped case study and its variants. In: shipped mechanisms, their
-//! files. Out: [`Model`], equations with a description. Never knows lives, figures or what is done with a run.
+//! files. Out: mechanisms ready to run, and their turns. Never knows lives, figures or what is done with a run.
 //!
-//! Variants are made as any user makes them: by the options of the generator, by editing the text of a file, and by
-//! changing the laws of contact and wear in a description, which the equations do not know.
+//! Variants are made as any user makes them: by the options of the generator and by editing the text of a file.
 
-use linkwear::backend::{Backend, Equations};
+use linkwear::backend::Backend;
 use linkwear::mechanism::{LoadError, Mechanism};
-use linkwear::mechanisms;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
-use linkwear_runtime::life::{JointWear, WearSource};
-use linkwear_runtime::wear::{Area, ContactMeasure, Measure};
-use linkwear_runtime::{DynamicsSource, Integrator, RevolutionSettings, RunError, TurnState, Watch};
+use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, simulate};
 
 use super::error::StudyError;
-use super::options::INTERPRETED;
-use super::progress::Progress;
+use super::workers::Workers;
 
 /// The file of the case study.
-pub(super) const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
+const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
 /// The joint that wears.
 pub(super) const JOINT: &str = "R1";
 
-/// A mechanism to run.
-pub(super) struct Model {
-    pub mechanism: Mechanism,
+/// A model of the mechanism.
+#[derive(Clone, Copy)]
+pub(super) enum Model {
+    /// The case study as it is shipped: flexible coupler, clearance at R1.
+    Flexible,
+    /// The same with ideal joints.
+    Ideal,
+    /// The case study with a rigid coupler.
+    Rigid,
+    /// The case study with these frequencies of its coupler [Hz], each in both planes.
+    WithFrequencies([f64; 3]),
 }
 
 /// The case study, understood by the generator.
@@ -36,93 +39,58 @@ fn source(text: String) -> SourceFile {
 }
 
 impl Model {
-    /// The case study as it is shipped: flexible coupler, clearance at R1.
-    pub fn flexible() -> Self {
-        let equations = Equations::compiled(|| Box::new(mechanisms::rssr::Mechanism::default()));
-        Self { mechanism: Mechanism::new(mechanisms::rssr::description().clone(), equations) }
-    }
-
-    /// The same with ideal joints.
-    pub fn ideal() -> Self {
-        let equations = Equations::compiled(|| Box::new(mechanisms::rssr_flexible::Mechanism::default()));
-        Self { mechanism: Mechanism::new(mechanisms::rssr_flexible::description().clone(), equations) }
-    }
-
-    /// The case study with a rigid coupler.
-    pub fn rigid() -> Result<Self, StudyError> {
-        Self::interpreted(TEXT.to_owned(), &Options { rigid: true, ..Options::default() })
-    }
-
-    fn interpreted(text: String, options: &Options) -> Result<Self, StudyError> {
-        Ok(Self { mechanism: Mechanism::compile(&source(text), options, Backend::Interpreter)? })
-    }
-
-    /// The case study with these frequencies of its coupler [Hz], each in both planes.
-    pub fn with_frequencies(frequencies: [f64; 3]) -> Result<Self, StudyError> {
-        let expected = "damping = \"zeta\" }";
-        let listed: Vec<String> =
-            frequencies.iter().flat_map(|f| [format!("\"{f} Hz\""), format!("\"{f} Hz\"")]).collect();
-        let given = format!("damping = \"zeta\", frequencies = [{}] }}", listed.join(", "));
-        let text = TEXT.replace(expected, &given);
-        if text == TEXT {
-            Err(StudyError::Text { expected })
-        } else {
-            Self::interpreted(text, &Options::default())
-        }
-    }
-
-    /// With wear over another contact area, and depth kept at so many bearing angles.
-    pub fn wearing(mut self, area: Area, bins: usize) -> Self {
-        for contact in self.mechanism.description.contacts.to_mut() {
-            if let Some(wear) = &mut contact.wear {
-                (wear.area, wear.profile, wear.bins, wear.measure) =
-                    (area, true, bins, Some(Measure::Maximum));
+    pub fn mechanism(self) -> Result<Mechanism, StudyError> {
+        let shipped = |name: &str| {
+            let missing = || StudyError::Missing { kind: "shipped mechanism", name: name.into() };
+            Mechanism::shipped(name).ok_or_else(missing)
+        };
+        let interpreted = |text: String, options: &Options| {
+            Ok(Mechanism::compile(&source(text), options, Backend::Interpreter)?)
+        };
+        match self {
+            Self::Flexible => shipped("rssr"),
+            Self::Ideal => shipped("rssr_flexible"),
+            Self::Rigid => interpreted(TEXT.to_owned(), &Options { rigid: true, ..Options::default() }),
+            Self::WithFrequencies(frequencies) => {
+                let expected = "damping = \"zeta\" }";
+                let twice: Vec<String> = frequencies.map(|f| format!("\"{f} Hz\", \"{f} Hz\"")).to_vec();
+                let given = format!("damping = \"zeta\", frequencies = [{}] }}", twice.join(", "));
+                let text = TEXT.replace(expected, &given);
+                let missing = StudyError::Missing { kind: "text", name: expected.into() };
+                if text == TEXT { Err(missing) } else { interpreted(text, &Options::default()) }
             }
         }
-        self
     }
 
     /// Cost of a turn, roughly, in turns of the compiled flexible mechanism: what progress is counted in.
-    pub fn cost(&self) -> f64 {
-        if self.mechanism.backend() == "compiled" { 1.0 } else { INTERPRETED }
+    pub fn cost(self) -> f64 {
+        match self {
+            Self::Flexible | Self::Ideal => 1.0,
+            Self::Rigid | Self::WithFrequencies(_) => 4.0,
+        }
     }
 
-    /// Runs `action` with revolutions of this mechanism, each of which counts as progress.
-    pub fn measuring<T>(
-        &self,
-        settings: RevolutionSettings,
-        progress: &Progress<'_>,
-        action: impl FnOnce(&mut Watched<'_>) -> Result<T, StudyError>,
-    ) -> Result<T, StudyError> {
-        let system = self.mechanism.system();
-        let stop = |_| progress.go_on();
-        let inner =
-            DynamicsSource::new(&*system, &self.mechanism.description, &self.mechanism.parameters, settings)?;
-        let turns = f64::from(settings.settle + settings.average.max(1));
-        let step = if let Integrator::Rk4 { step } = settings.integrator { 2e-5 / step } else { 1.0 };
-        let cost = turns * step * self.cost();
-        action(&mut Watched { inner: inner.watched_by(Watch::new(&stop)), progress, cost })
-    }
-}
-
-/// Revolutions that tell how far they are.
-pub(super) struct Watched<'a> {
-    pub inner: DynamicsSource<'a>,
-    progress: &'a Progress<'a>,
-    cost: f64,
-}
-
-impl WearSource for Watched<'_> {
-    type State = Option<TurnState>;
-    type Error = RunError;
-
-    fn measure(
-        &mut self,
-        joints: &[JointWear],
-        state: &mut Self::State,
-    ) -> Result<Vec<ContactMeasure>, Self::Error> {
-        let measured = self.inner.measure(joints, state);
-        self.progress.done(self.cost);
-        measured
+    /// A turn as a run, after so many turns to settle, with steps and samples as told.
+    pub fn turn(
+        self,
+        settle: u32,
+        step: f64,
+        samples: usize,
+        workers: &Workers<'_>,
+    ) -> Result<Run, StudyError> {
+        let mechanism = self.mechanism()?;
+        let system = mechanism.system();
+        let settings = Settings {
+            settle: Span::Turns(f64::from(settle)),
+            ..Settings::new(Integrator::Rk4 { step }, Span::Turns(1.0), samples)
+        };
+        let run = workers.piece(self.cost() * f64::from(settle + 1), |watch| {
+            simulate(&*system, &mechanism.description, &mechanism.parameters, &settings, watch)
+        })?;
+        match run.stopped {
+            Some(RunError::Interrupted { .. }) => Err(StudyError::Interrupted),
+            Some(error) => Err(error.into()),
+            None => Ok(run),
+        }
     }
 }

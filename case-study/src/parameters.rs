@@ -3,7 +3,7 @@
 
 use linkwear::mechanism::LoadError;
 use linkwear_codegen::Compiled;
-use linkwear_codegen::spec::{self, ClearanceSpec, Literal, Quantity, WearSpec};
+use linkwear_codegen::spec::{self, Literal, Quantity};
 use serde::Serialize;
 
 use super::error::StudyError;
@@ -23,64 +23,48 @@ pub struct ParameterRow {
     pub assumed: bool,
 }
 
-/// A row of the paper's Table 1.
-struct Printed {
-    name: &'static str,
-    symbol: &'static str,
-    value: f64,
-    unit: &'static str,
-    /// Name in the file, and how many of `unit` are one SI unit; no name: the model does not use it.
-    file: Option<(&'static str, f64)>,
-}
+/// A row of the paper's Table 1: what it is, symbol, value, unit; name in the file, and how many units are one SI unit, or
+/// nothing if the model does not use it.
+type Printed = (&'static str, &'static str, f64, &'static str, Option<(&'static str, f64)>);
 
-const fn printed(
-    (name, symbol): (&'static str, &'static str),
-    (value, unit): (f64, &'static str),
-    file: Option<(&'static str, f64)>,
-) -> Printed {
-    Printed { name, symbol, value, unit, file }
-}
-
-/// Table 1 of the paper, row by row.
-const PAPER: [Printed; 14] = [
-    printed(("Link 1 length", "L1"), (120.0, "mm"), Some(("L1", 1e3))),
-    printed(("Link 2 length", "L2"), (420.0, "mm"), Some(("L2", 1e3))),
-    printed(("Link 3 length", "L3"), (260.0, "mm"), Some(("L3", 1e3))),
-    printed(("Link 2 cross-section radius", "r2"), (6.0, "mm"), Some(("r", 1e3))),
-    printed(("Young's modulus", "E"), (210.0, "GPa"), Some(("E", 1e-9))),
-    printed(("Poisson's ratio", "ν"), (0.3, ""), Some(("nu", 1.0))),
-    printed(("Density", "ρ"), (7850.0, "kg/m³"), Some(("steel", 1.0))),
-    printed(("Modal truncation order of link 2", "n_f"), (6.0, ""), Some(("modes", 1.0))),
-    printed(("Initial radial clearance of R1", "c0"), (10.0, "µm"), Some(("c0", 1e6))),
-    printed(("Equivalent elastic modulus", "E*"), (115.0, "GPa"), Some(("E_contact", 1e-9))),
-    printed(("Equivalent Poisson's ratio", "ν*"), (0.3, ""), None),
-    printed(("Wear coefficient", "k_wear"), (1e-8, ""), Some(("k_wear", 1.0))),
-    printed(("Contact hardness", "H_mat"), (3.5, "GPa"), Some(("hardness", 1e-9))),
-    printed(("Critical wear depth", "W_crit"), (80.0, "µm"), Some(("W_crit", 1e6))),
+const PAPER: [Printed; 15] = [
+    ("Link 1 length", "L1", 120.0, "mm", Some(("L1", 1e3))),
+    ("Link 2 length", "L2", 420.0, "mm", Some(("L2", 1e3))),
+    ("Link 3 length", "L3", 260.0, "mm", Some(("L3", 1e3))),
+    ("Link 2 cross-section radius", "r2", 6.0, "mm", Some(("r", 1e3))),
+    ("Young's modulus", "E", 210.0, "GPa", Some(("E", 1e-9))),
+    ("Poisson's ratio", "ν", 0.3, "", Some(("nu", 1.0))),
+    ("Density", "ρ", 7850.0, "kg/m³", Some(("steel", 1.0))),
+    ("Modal truncation order of link 2", "n_f", 6.0, "", Some(("modes", 1.0))),
+    ("Initial radial clearance of R1", "c0", 10.0, "µm", Some(("c0", 1e6))),
+    ("Equivalent elastic modulus", "E*", 115.0, "GPa", Some(("E_contact", 1e-9))),
+    ("Equivalent Poisson's ratio", "ν*", 0.3, "", None),
+    ("Wear coefficient", "k_wear", 1e-8, "", Some(("k_wear", 1.0))),
+    ("Contact hardness", "H_mat", 3.5, "GPa", Some(("hardness", 1e-9))),
+    ("Critical wear depth", "W_crit", 80.0, "µm", Some(("W_crit", 1e6))),
+    // The drive is in the paper's text, not in its table.
+    ("Crank frequency (section 5)", "f", 2.0, "Hz", Some(("speed", 1.0))),
 ];
-
-/// The drive is in the paper's text, not in its table.
-const DRIVE: Printed = printed(("Crank frequency (section 5)", "f"), (2.0, "Hz"), Some(("speed", 1.0)));
 
 /// Rows of the paper first, then what the file marks as assumed.
 pub(super) fn parameters(compiled: &Compiled) -> Result<Vec<ParameterRow>, StudyError> {
     let file = spec::parse(&compiled.source).map_err(LoadError::Mechanism)?.file;
     let known = &compiled.mechanism.parameters;
     let mut rows = Vec::new();
-    for row in PAPER.iter().chain([&DRIVE]) {
-        let mut assumed = false;
-        let ours = match row.file {
-            Some((name, factor)) => {
-                let found = known.iter().find(|parameter| parameter.name == name);
-                let missing = || StudyError::Missing { kind: "parameter", name: name.to_owned() };
-                let found = found.ok_or_else(missing)?;
-                assumed = found.assumed;
-                Some(with_unit(factor * found.value, row.unit))
-            }
-            None => None,
+    for (name, symbol, value, unit, file) in PAPER {
+        let ours = |(name, factor): (&str, f64)| {
+            let missing = || StudyError::Missing { kind: "parameter", name: name.to_owned() };
+            let found = known.iter().find(|parameter| parameter.name == name).ok_or_else(missing)?;
+            Ok::<_, StudyError>((with_unit(factor * found.value, unit), found.assumed))
         };
-        let (name, symbol) = (row.name.to_owned(), row.symbol.to_owned());
-        rows.push(ParameterRow { name, symbol, paper: Some(with_unit(row.value, row.unit)), ours, assumed });
+        let ours = file.map(ours).transpose()?;
+        rows.push(ParameterRow {
+            name: name.to_owned(),
+            symbol: symbol.to_owned(),
+            paper: Some(with_unit(value, unit)),
+            assumed: ours.as_ref().is_some_and(|ours| ours.1),
+            ours: ours.map(|ours| ours.0),
+        });
     }
     for parameter in known.iter().filter(|parameter| parameter.assumed) {
         let written = file.parameters.0.iter().find(|(name, _)| name.value == parameter.name);
@@ -93,53 +77,37 @@ pub(super) fn parameters(compiled: &Compiled) -> Result<Vec<ParameterRow>, Study
         let at: Vec<String> = at.map(|value| number(1e3 * value.unwrap_or(f64::NAN))).collect();
         rows.push(assumption("Position of a point", &point.name, format!("({}) mm", at.join(", "))));
     }
-    let is_parameter = |text: &str| known.iter().any(|parameter| parameter.name == text);
+    let quantity = |value: &Option<Quantity>| value.as_ref().map(text);
+    let mut keys = Vec::new();
     for (joint, spec) in file.clearance.0.iter().filter(|(_, spec)| spec.value.assumed) {
-        rows.extend(section(&joint.value, clearance_rows(&spec.value), &is_parameter));
+        let spec = &spec.value;
+        let listed = |speeds: &[Quantity]| speeds.iter().map(text).collect::<Vec<_>>().join(", ");
+        let law = spec.law.as_ref().map(|law| law.value.to_string());
+        let speeds = spec.friction_speed.as_ref().map(|speeds| listed(speeds.value.as_slice()));
+        keys.extend([
+            (joint, "Journal radius", quantity(&spec.journal_radius)),
+            (joint, "Bearing length", quantity(&spec.length)),
+            (joint, "Law of the normal force (as in the paper)", law),
+            (joint, "Restitution", quantity(&spec.restitution)),
+            (joint, "Least impact speed", quantity(&spec.impact_speed_floor)),
+            (joint, "Friction", quantity(&spec.friction)),
+            (joint, "Friction smoothed below", speeds),
+        ]);
     }
     for (joint, spec) in file.wear.0.iter().filter(|(_, spec)| spec.value.assumed) {
-        rows.extend(section(&joint.value, wear_rows(&spec.value), &is_parameter));
+        let spec = &spec.value;
+        let area = spec.area.as_ref().map(|area| area.value.to_string());
+        keys.extend([
+            (joint, "Contact area of Archard's law", area),
+            (joint, "Feedback γ", quantity(&spec.feedback)),
+            (joint, "Revolutions per cycle (before calibration)", quantity(&spec.revolutions_per_cycle)),
+        ]);
     }
+    let written = keys.into_iter().filter_map(|(joint, name, text)| Some((joint, name, text?)));
+    // A value that is a parameter has its own row.
+    let ours = written.filter(|(_, _, text)| known.iter().all(|parameter| parameter.name != *text));
+    rows.extend(ours.map(|(joint, name, text)| assumption(name, &joint.value, text)));
     Ok(rows)
-}
-
-/// Keys of a section that stand for numbers of ours: a value that is a parameter has its own row.
-fn section(
-    joint: &str,
-    keys: Vec<(&'static str, Option<String>)>,
-    is_parameter: &dyn Fn(&str) -> bool,
-) -> Vec<ParameterRow> {
-    let written = keys.into_iter().filter_map(|(name, text)| Some((name, text?)));
-    let ours = written.filter(|(_, text)| !is_parameter(text));
-    ours.map(|(name, text)| assumption(name, joint, text)).collect()
-}
-
-fn clearance_rows(spec: &ClearanceSpec) -> Vec<(&'static str, Option<String>)> {
-    let quantity = |value: &Option<Quantity>| value.as_ref().map(text);
-    let speeds = spec.friction_speed.as_ref();
-    let law = spec.law.as_ref().map(|law| law.value.to_string());
-    vec![
-        ("Journal radius", quantity(&spec.journal_radius)),
-        ("Bearing length", quantity(&spec.length)),
-        ("Law of the normal force (as in the paper)", law),
-        ("Restitution", quantity(&spec.restitution)),
-        ("Least impact speed", quantity(&spec.impact_speed_floor)),
-        ("Friction", quantity(&spec.friction)),
-        (
-            "Friction smoothed below",
-            speeds.map(|list| list.value.iter().map(text).collect::<Vec<_>>().join(", ")),
-        ),
-    ]
-}
-
-fn wear_rows(spec: &WearSpec) -> Vec<(&'static str, Option<String>)> {
-    let quantity = |value: &Option<Quantity>| value.as_ref().map(text);
-    let area = spec.area.as_ref().map(|area| area.value.to_string());
-    vec![
-        ("Contact area of Archard's law", area),
-        ("Feedback γ", quantity(&spec.feedback)),
-        ("Revolutions per cycle (before calibration)", quantity(&spec.revolutions_per_cycle)),
-    ]
 }
 
 fn assumption(name: &str, symbol: &str, value: String) -> ParameterRow {

@@ -37,18 +37,6 @@ impl LifeNumbers {
         let (mean_whole, std_whole) = mean_and_scatter(lives.iter().map(|life| life.whole));
         Self { mean, std, cov: std / mean, mean_whole, cov_whole: std_whole / mean_whole }
     }
-
-    /// Means of every number over several samples.
-    pub(super) fn typical(all: &[Self]) -> Self {
-        let mean_of = |of: fn(&Self) -> f64| mean_and_scatter(all.iter().map(of)).0;
-        Self {
-            mean: mean_of(|life| life.mean),
-            std: mean_of(|life| life.std),
-            cov: mean_of(|life| life.cov),
-            mean_whole: mean_of(|life| life.mean_whole),
-            cov_whole: mean_of(|life| life.cov_whole),
-        }
-    }
 }
 
 /// Mean and standard deviation (over n - 1).
@@ -103,7 +91,6 @@ mod tests {
         assert!((numbers.mean - 24.9875).abs() < 1e-12);
         assert!((numbers.std - (400.0_f64 * 401.0 / 12.0).sqrt() / 40.0).abs() < 1e-12);
         assert!((numbers.mean_whole - 25.4875).abs() < 0.02, "{}", numbers.mean_whole);
-        assert_eq!(LifeNumbers::typical(&[numbers, numbers]), numbers);
     }
 
     #[test]

@@ -70,10 +70,8 @@ impl From<&Prediction> for Row {
 }
 
 /// The table and its protocol: the first definition of wear, fitted on what Fig. 6 shows.
-pub(super) fn table2(lives: &[Lives], options: Options) -> Option<(Table2, ShownProtocol)> {
-    let shown = lives.first()?;
-    let [proposed, baseline_1, baseline_2] = shown.under(SHOWN)?.predictions.as_slice() else { return None };
-    let (proposed, baseline_1, baseline_2) = (proposed.into(), baseline_1.into(), baseline_2.into());
+pub(super) fn table2(shown: &Lives, options: Options) -> (Table2, ShownProtocol) {
+    let [proposed, baseline_1, baseline_2] = shown.under(SHOWN).each_ref().map(Row::from);
     let protocol = ShownProtocol {
         wear: shown.wear,
         area: "hertz",
@@ -84,5 +82,5 @@ pub(super) fn table2(lives: &[Lives], options: Options) -> Option<(Table2, Shown
         revolutions_per_cycle: shown.revolutions_per_cycle,
         seed: options.seed,
     };
-    Some((Table2 { truth: shown.truth, proposed, baseline_1, baseline_2, paper: TABLE_2 }, protocol))
+    (Table2 { truth: shown.truth, proposed, baseline_1, baseline_2, paper: TABLE_2 }, protocol)
 }

@@ -4,38 +4,45 @@
 //! A table holds the depth by the area of contact and the depth by bearing angle, so that one serves every
 //! definition of wear W; the feedback factor gamma says up to which clearance it reaches.
 
-use linkwear_runtime::life::{Feedback, JointLife, LifeSettings, WearOf, WearStep, WearTable, calibrate};
-use linkwear_runtime::wear::{Area, Measure, ScalarFeedback};
-use linkwear_runtime::{GammaRates, Integrator, RevolutionSettings, SetupError, Watch};
+use linkwear_runtime::life::{JointLife, LifeSettings, WearOf, WearStep, WearTable, calibrate};
+use linkwear_runtime::wear::{Area, Measure};
+use linkwear_runtime::{DynamicsSource, GammaRates, Integrator, RevolutionSettings};
 use serde::Serialize;
 
 use super::error::StudyError;
-use super::job_pool::{Job, run_all};
 use super::model::Model;
-use super::options::Effort;
-use super::progress::Progress;
+use super::options::{Effort, STEP};
+use super::workers::Workers;
 
-/// What counts as wear and what it does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Definition {
-    /// What W is.
-    pub wear: WearOf,
-    /// Growth of the clearance per W.
-    pub gamma: f64,
-}
-
-impl Definition {
-    /// W is the largest depth around the bearing, and the clearance opens by it.
-    pub const DEEPEST: Self = Self { wear: WearOf::Profile(Measure::Maximum), gamma: 1.0 };
-}
-
+/// W as the largest depth around the bearing.
+pub(super) const DEEPEST: WearOf = WearOf::Profile(Measure::Maximum);
+/// Wear steps that leave no error beside that of a table: those of the finest model.
+pub(super) const FINEST: WearStep = WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1 };
 /// Life of the paper's ground truth [cycles].
 pub const TRUE_LIFE: f64 = 25.1;
 /// Accuracy of the calibration [cycles].
 const CALIBRATED: f64 = 1e-6;
+/// Tables reach this part beyond the threshold: the last cycle of Fig. 5 lies there.
+const REACH: f64 = 1.4;
+
+/// A table to be measured, from the unworn clearance to that at `reach` times the threshold.
+#[derive(Clone, Copy)]
+pub(super) struct Survey {
+    pub model: Model,
+    /// Model of the contact area.
+    pub area: Area,
+    /// Bearing angles of the profile.
+    pub bins: usize,
+    pub settings: RevolutionSettings,
+    pub points: usize,
+    /// Growth of the clearance per W.
+    pub gamma: f64,
+    pub reach: f64,
+}
 
 /// One model, measured.
 pub(super) struct Measured {
+    survey: Survey,
     /// Wear per revolution; a fine scale.
     pub table: WearTable,
     rates: Option<GammaRates>,
@@ -43,11 +50,11 @@ pub(super) struct Measured {
 }
 
 /// All models for one gamma.
-pub(super) struct Tables {
-    pub rigid: Measured,
-    pub flexible: Measured,
+pub(super) struct Tables<'m> {
+    pub rigid: &'m Measured,
+    pub flexible: &'m Measured,
     /// Half the time step, more points.
-    pub finest: Measured,
+    pub finest: &'m Measured,
 }
 
 /// How good a table is.
@@ -75,15 +82,47 @@ pub struct TableQuality {
     pub peak_force_last: f64,
 }
 
+impl Survey {
+    /// In turns of the compiled mechanism with its usual step, roughly.
+    pub fn work(&self) -> f64 {
+        let RevolutionSettings { integrator, settle, average } = self.settings;
+        let steps = if let Integrator::Rk4 { step } = integrator { STEP / step } else { 1.0 };
+        self.model.cost() * steps * f64::from(settle + average) * self.points as f64
+    }
+
+    pub fn measure(&self, workers: &Workers<'_>) -> Result<Measured, StudyError> {
+        let mut mechanism = self.model.mechanism()?;
+        let mut rates = None;
+        for wear in mechanism.description.contacts.to_mut().iter_mut().filter_map(|joint| joint.wear.as_mut())
+        {
+            (wear.area, wear.bins, wear.feedback) = (self.area, self.bins, self.gamma);
+            wear.measure = Some(Measure::Maximum);
+            rates = rates.or(wear.scatter);
+        }
+        let (system, description) = (mechanism.system(), &mechanism.description);
+        workers.piece(self.work(), |watch| {
+            let source = DynamicsSource::new(&*system, description, &mechanism.parameters, self.settings)?;
+            // Within a revolution nothing is told, and the study may stop all the same.
+            let mut source = source.watched_by(watch.piece(0.0, 0.0));
+            let joints = source.joints()?;
+            let further = joints.iter().cloned();
+            let further = further.map(|joint| JointLife {
+                wear: WearOf::Depth,
+                threshold: self.reach * joint.threshold,
+                ..joint
+            });
+            let settings = LifeSettings::new(further.collect());
+            let table = WearTable::measure(&settings, &mut source, self.points, watch)?;
+            Ok(Measured { survey: *self, table, rates, joints })
+        })
+    }
+}
+
 impl Measured {
-    /// A life with this definition of wear.
-    pub fn life(&self, definition: Definition, step: WearStep) -> Result<LifeSettings, StudyError> {
-        let joints = self.joints.iter().map(|joint| {
-            let feedback = scalar(definition.gamma)?;
-            Ok(JointLife { wear: definition.wear, feedback, ..joint.clone() })
-        });
-        let joints: Result<Vec<_>, StudyError> = joints.collect();
-        Ok(LifeSettings { step, ..LifeSettings::new(joints?) })
+    /// A life with this definition of W.
+    pub fn life(&self, wear: WearOf, step: WearStep) -> LifeSettings {
+        let joints = self.joints.iter().cloned();
+        LifeSettings { step, ..LifeSettings::new(joints.map(|joint| JointLife { wear, ..joint }).collect()) }
     }
 
     /// Wear at failure [m].
@@ -91,19 +130,19 @@ impl Measured {
         self.joints[0].threshold
     }
 
-    /// Clearance of the unworn joint [m].
-    pub fn clearance(&self) -> f64 {
-        self.joints[0].clearance
+    /// Clearance at failure over that of the unworn joint.
+    pub fn opening(&self) -> f64 {
+        1.0 + self.survey.gamma * self.threshold() / self.joints[0].clearance
     }
 
-    fn quality(&self, model: &'static str, gamma: f64, turns: u32) -> TableQuality {
+    fn quality(&self, model: &'static str) -> TableQuality {
         let report = self.table.report();
-        let (first, last) = (self.table.at(0, 0.0), self.table.at(0, self.joints[0].threshold));
+        let (first, last) = (self.table.at(0, 0.0), self.table.at(0, self.threshold()));
         TableQuality {
             model,
-            gamma,
+            gamma: self.survey.gamma,
             points: report.points,
-            turns,
+            turns: self.survey.settings.average,
             left_out: report.left_out.iter().copied().fold(0.0, f64::max),
             wear_integral_first: first.wear_integral,
             wear_integral_last: last.wear_integral,
@@ -114,51 +153,36 @@ impl Measured {
     }
 }
 
-fn scalar(gamma: f64) -> Result<Feedback, StudyError> {
-    let wrong = |error: linkwear_runtime::contact::OutOfRange| {
-        StudyError::Setup(SetupError::Setting { name: error.name, value: error.value, need: error.need })
-    };
-    Ok(Feedback::Scalar(ScalarFeedback::new(gamma).map_err(wrong)?))
-}
+impl<'m> Tables<'m> {
+    /// What has to be measured for a gamma: the longest first, in the order of [`Self::of`].
+    pub fn surveys(gamma: f64, effort: &Effort) -> [Survey; 3] {
+        let half = RevolutionSettings { integrator: Integrator::Rk4 { step: 0.5 * STEP }, ..effort.flexible };
+        [
+            (Model::Rigid, effort.rigid, effort.rigid_points),
+            (Model::Flexible, half, effort.finest_points),
+            (Model::Flexible, effort.flexible, effort.points),
+        ]
+        .map(|(model, settings, points)| {
+            let (area, bins) = (Area::Hertz, effort.bins);
+            Survey { model, area, bins, settings, points, gamma, reach: REACH }
+        })
+    }
 
-impl Tables {
-    /// Measures all models, for every gamma from the unworn clearance to that at `reach` times the threshold.
-    pub fn measure(
-        threads: usize,
-        (gammas, reach): (&[f64], f64),
-        effort: &Effort,
-        progress: &Progress<'_>,
-    ) -> Result<Vec<Self>, StudyError> {
-        let half = Integrator::Rk4 { step: 0.5 * effort.step };
-        let fine = RevolutionSettings { integrator: half, ..effort.flexible };
-        let worn = (Area::Hertz, effort.bins);
-        let rigid =
-            |gamma| job(Model::rigid, worn, (effort.rigid, effort.rigid_points), (gamma, reach), progress);
-        let finest = |gamma| job(flexible, worn, (fine, effort.finest_points), (gamma, reach), progress);
-        let proposed =
-            |gamma| job(flexible, worn, (effort.flexible, effort.points), (gamma, reach), progress);
-        let gammas = || gammas.iter().copied();
-        // The longest first.
-        let jobs = gammas().map(rigid).chain(gammas().map(finest)).chain(gammas().map(proposed)).collect();
-        let found: Result<Vec<Measured>, StudyError> = run_all(threads, jobs).into_iter().collect();
-        let mut found = found?;
-        let flexible = found.split_off(2 * gammas().count());
-        let finest = found.split_off(gammas().count());
-        let tables = found.into_iter().zip(finest).zip(flexible);
-        Ok(tables.map(|((rigid, finest), flexible)| Self { rigid, flexible, finest }).collect())
+    pub fn of([rigid, finest, flexible]: &'m [Measured; 3]) -> Self {
+        Self { rigid, flexible, finest }
+    }
+
+    /// Growth of the clearance per W.
+    pub fn gamma(&self) -> f64 {
+        self.finest.survey.gamma
     }
 
     /// Revolutions that a cycle stands for: with them the deterministic life of the finest model is that of the paper's
     /// ground truth. One calibration serves all models.
-    pub fn revolutions_per_cycle(&self, definition: Definition, effort: &Effort) -> Result<f64, StudyError> {
-        let life = self.finest.life(definition, effort.finest_wear_step)?;
+    pub fn revolutions_per_cycle(&self, wear: WearOf) -> Result<f64, StudyError> {
+        let life = self.finest.life(wear, FINEST);
         let factor = calibrate(&life, &mut self.finest.table.clone(), TRUE_LIFE, CALIBRATED)?.factor;
         Ok(factor * life.joints[0].revolutions_per_cycle)
-    }
-
-    /// Wear at failure [m].
-    pub fn threshold(&self) -> f64 {
-        self.finest.threshold()
     }
 
     /// Parameters of the Gamma process that the file gives the joint.
@@ -166,57 +190,8 @@ impl Tables {
         self.finest.rates
     }
 
-    /// Clearance of the unworn joint [m].
-    pub fn clearance(&self) -> f64 {
-        self.finest.clearance()
-    }
-
     /// How good they are.
-    pub fn quality(&self, gamma: f64, effort: &Effort) -> Vec<TableQuality> {
-        vec![
-            self.rigid.quality("rigid", gamma, effort.rigid.average),
-            self.flexible.quality("flexible", gamma, effort.flexible.average),
-            self.finest.quality("finest", gamma, effort.flexible.average),
-        ]
+    pub fn quality(&self) -> [TableQuality; 3] {
+        [self.rigid.quality("rigid"), self.flexible.quality("flexible"), self.finest.quality("finest")]
     }
-}
-
-/// The flexible model, where a model may be refused.
-pub(super) fn flexible() -> Result<Model, StudyError> {
-    Ok(Model::flexible())
-}
-
-/// Measuring one model, worn over an area and by so many bearing angles, as a job: see [`measured`].
-pub(super) fn job<'w>(
-    model: fn() -> Result<Model, StudyError>,
-    (area, bins): (Area, usize),
-    (settings, points): (RevolutionSettings, usize),
-    range: (f64, f64),
-    progress: &'w Progress<'_>,
-) -> Job<'w, Result<Measured, StudyError>> {
-    Box::new(move || measured(&model()?.wearing(area, bins), (settings, points), range, progress))
-}
-
-/// Measures one model from the unworn clearance to that at `reach` times the threshold.
-fn measured(
-    model: &Model,
-    (settings, points): (RevolutionSettings, usize),
-    (gamma, reach): (f64, f64),
-    progress: &Progress<'_>,
-) -> Result<Measured, StudyError> {
-    model.measuring(settings, progress, |revolutions| {
-        let joints = revolutions.inner.joints()?;
-        let feedback = scalar(gamma)?;
-        let further = |joint: &JointLife| JointLife {
-            wear: WearOf::Depth,
-            feedback,
-            threshold: reach * joint.threshold,
-            ..joint.clone()
-        };
-        let wears = model.mechanism.description.contacts.iter().find_map(|contact| contact.wear);
-        let rates = wears.and_then(|wear| wear.scatter);
-        let surveyed = LifeSettings::new(joints.iter().map(further).collect());
-        let table = WearTable::measure(&surveyed, revolutions, points, Watch::NONE)?;
-        Ok(Measured { table, rates, joints })
-    })
 }

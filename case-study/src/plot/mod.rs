@@ -1,32 +1,18 @@
 //! Line charts for print: what to draw as data, drawn as SVG and PNG. In: [`Chart`]. Out: text and bytes, the same for
 //! the same chart, whatever fonts a machine has. Never knows what the numbers mean.
 
-mod draw;
 mod raster;
+mod svg;
 
 use thiserror::Error;
 
-pub use draw::svg;
 pub use raster::png;
+pub use svg::svg;
 
-/// Why a picture could not be drawn.
+/// A picture could not be turned into pixels.
 #[derive(Debug, Error)]
-pub enum PlotError {
-    /// The drawing library refused.
-    #[error("a picture could not be drawn: {0}")]
-    Draw(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// The picture could not be turned into pixels.
-    #[error("a picture could not be turned into pixels: {0}")]
-    Raster(#[source] Box<dyn std::error::Error + Send + Sync>),
-    /// The picture has no pixels.
-    #[error("a picture of {width} by {height} has no pixels")]
-    Empty {
-        /// Width.
-        width: u32,
-        /// Height.
-        height: u32,
-    },
-}
+#[error("a picture could not be turned into pixels: {0}")]
+pub struct PlotError(#[source] Box<dyn std::error::Error + Send + Sync>);
 
 /// A picture: panels in rows, one legend above them.
 #[derive(Clone, Debug, Default)]
@@ -35,35 +21,27 @@ pub struct Chart {
     pub size: (u32, u32),
     /// Panels side by side.
     pub columns: usize,
-    /// Panels, row by row.
     pub panels: Vec<Panel>,
-    /// Legend: texts with the looks they explain.
-    pub legend: Vec<(String, Look)>,
+    pub legend: Vec<(&'static str, Look)>,
 }
 
-/// One coordinate system.
+/// One coordinate system, with its title above.
 #[derive(Clone, Debug, Default)]
 pub struct Panel {
-    /// Text above it.
     pub title: String,
-    /// Horizontal axis.
     pub x: Axis,
-    /// Vertical axis.
     pub y: Axis,
     /// No axes; one unit is as long in both directions.
     pub is_sketch: bool,
-    /// Curves, the later over the earlier.
+    /// The later over the earlier.
     pub curves: Vec<Curve>,
-    /// Notes at places.
     pub notes: Vec<Note>,
 }
 
-/// An axis.
 #[derive(Clone, Debug, Default)]
 pub struct Axis {
     /// What it shows, with its unit.
     pub label: String,
-    /// From and to.
     pub range: (f64, f64),
     /// Distance of the marks.
     pub step: f64,
@@ -71,13 +49,16 @@ pub struct Axis {
     pub words: Vec<(f64, String)>,
 }
 
-/// A curve.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Its points.
     pub points: Vec<(f64, f64)>,
-    /// How it looks.
     pub look: Look,
+}
+
+impl Curve {
+    pub fn through(x: &[f64], y: &[f64], look: Look) -> Self {
+        Self { points: x.iter().copied().zip(y.iter().copied()).collect(), look }
+    }
 }
 
 /// A text at a place.
@@ -86,44 +67,35 @@ pub struct Note {
     /// Where, in the coordinates of the panel.
     pub at: (f64, f64),
     /// Shift of its middle to the right and down from there, in units of the chart's size.
-    pub shift: (i32, i32),
-    /// What.
+    pub shift: (f64, f64),
     pub text: String,
 }
 
-/// Colour, width, dashes and markers. Curves of one chart differ in two of them at least, so that they can be told
-/// apart in greyscale.
+/// Curves of one chart differ in two of its fields at least, so that they can be told apart in greyscale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Red, green, blue.
     pub colour: (u8, u8, u8),
-    /// Width of the line; zero for markers alone.
+    /// In halves of a unit; zero for markers alone.
     pub width: u32,
     /// Lengths of dashes and gaps, in turn; empty for a whole line.
     pub dashes: &'static [u32],
-    /// Marker at some points.
     pub marker: Option<Marker>,
 }
 
-/// Markers at every so many points.
+/// Markers at every so many points, from the first that has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Marker {
-    /// Its shape.
     pub shape: Shape,
-    /// Every so many points have one.
     pub every: usize,
-    /// The first that has one.
     pub first: usize,
 }
 
-/// Shape of a marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// Filled circle.
     Dot,
-    /// Empty circle.
+    /// An empty circle.
     Ring,
-    /// Filled square.
     Square,
 }
 
@@ -139,8 +111,8 @@ impl Look {
     }
 
     /// The same with markers.
-    pub const fn marked(self, marker: Marker) -> Self {
-        Self { marker: Some(marker), ..self }
+    pub const fn marked(self, shape: Shape, every: usize, first: usize) -> Self {
+        Self { marker: Some(Marker { shape, every, first }), ..self }
     }
 
     /// Whether greyscale keeps two looks apart: by a tenth of the brightness at least, or by dashes or markers.
@@ -156,7 +128,6 @@ impl Look {
     }
 }
 
-/// Black.
 pub const BLACK: (u8, u8, u8) = (0, 0, 0);
 /// The dark blue of the palette for colour-blind readers by Okabe and Ito.
 pub const BLUE: (u8, u8, u8) = (0, 114, 178);
@@ -168,7 +139,6 @@ pub const GREEN: (u8, u8, u8) = (0, 90, 65);
 pub const ORANGE: (u8, u8, u8) = (230, 159, 0);
 /// Its sky blue, light.
 pub const SKY: (u8, u8, u8) = (150, 205, 240);
-/// Grey.
 pub const GREY: (u8, u8, u8) = (150, 150, 150);
 
 /// An axis from 0 (or below) that holds all values, with about `marks` round marks.

@@ -17,13 +17,13 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     fonts.load_font_data(dejavu::sans::regular().to_vec());
     fonts.set_sans_serif_family("DejaVu Sans");
     let options = usvg::Options { fontdb: Arc::new(fonts), ..usvg::Options::default() };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| PlotError::Raster(error.into()))?;
+    let tree = usvg::Tree::from_str(svg, &options).map_err(|error| PlotError(error.into()))?;
     let size = tree.size();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "pictures are small")]
     let (width, height) = ((size.width() * scale) as u32, (size.height() * scale) as u32);
-    let mut pixels = Pixmap::new(width, height).ok_or(PlotError::Empty { width, height })?;
+    let mut pixels = Pixmap::new(width, height).ok_or_else(|| PlotError("it has none".into()))?;
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| PlotError::Raster(error.into()))
+    pixels.encode_png().map_err(|error| PlotError(error.into()))
 }
 
 #[cfg(test)]

@@ -2,11 +2,13 @@
 
 use std::fmt::Write as _;
 
+use crate::markup::escaped as safe;
+
 /// A piece of a document. Texts are plain; each form escapes what it has to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A title: 1 for the document, 2 for a part.
-    Heading(usize, String),
+    Heading(usize, &'static str),
     /// A paragraph.
     Text(String),
     /// A list of points.
@@ -29,13 +31,21 @@ pub enum Block {
     },
 }
 
+/// A column of a table: its title, and its cell in the row of an item.
+pub type Column<'c, T> = (&'c str, &'c dyn Fn(&T) -> String);
+
 impl Block {
-    /// A table from texts.
-    pub fn table(caption: &str, head: &[&str], rows: Vec<Vec<String>>) -> Self {
+    /// A table with a row for every item.
+    pub fn table<T>(
+        caption: impl Into<String>,
+        items: impl IntoIterator<Item = T>,
+        columns: &[Column<'_, T>],
+    ) -> Self {
+        let row = |item: T| columns.iter().map(|(_, cell)| cell(&item)).collect();
         Self::Table {
-            caption: caption.to_owned(),
-            head: head.iter().map(|&title| title.to_owned()).collect(),
-            rows,
+            caption: caption.into(),
+            head: columns.iter().map(|(title, _)| (*title).to_owned()).collect(),
+            rows: items.into_iter().map(row).collect(),
         }
     }
 }
@@ -72,14 +82,8 @@ pub fn markdown(blocks: &[Block]) -> String {
 
 /// Signs that Markdown would read as its own.
 fn escaped(text: &str) -> String {
-    let mut result = String::with_capacity(text.len());
-    for letter in text.chars() {
-        if matches!(letter, '*' | '_' | '<' | '[' | ']' | '`') {
-            result.push('\\');
-        }
-        result.push(letter);
-    }
-    result
+    let own = |letter: char| matches!(letter, '*' | '_' | '<' | '[' | ']' | '`');
+    text.chars().flat_map(|letter| own(letter).then_some('\\').into_iter().chain([letter])).collect()
 }
 
 const STYLE: &str = "\
@@ -115,11 +119,14 @@ pub fn html<'s>(title: &str, blocks: &[Block], svg_of: &dyn Fn(&str) -> Option<&
             }
             Block::Table { caption, head, rows } => {
                 let title = |(column, title): (usize, &String)| {
-                    let class = if of_numbers(rows, column) { " class=\"n\"" } else { "" };
-                    format!("<th{class}>{}</th>", safe(title))
+                    let numbers = rows.iter().filter(|row| is_number(&row[column])).count();
+                    format!("<th{}>{}</th>", class(2 * numbers > rows.len()), safe(title))
                 };
+                let cell = |cell: &String| format!("<td{}>{}</td>", class(is_number(cell)), safe(cell));
+                let line =
+                    |row: &Vec<String>| format!("<tr>{}</tr>\n", row.iter().map(cell).collect::<String>());
                 let head: String = head.iter().enumerate().map(title).collect();
-                let body: String = rows.iter().map(|row| table_row(row)).collect();
+                let body: String = rows.iter().map(line).collect();
                 let caption = safe(caption);
                 writeln!(text, "<table>\n<caption>{caption}</caption>\n<tr>{head}</tr>\n{body}</table>")
             }
@@ -133,28 +140,13 @@ pub fn html<'s>(title: &str, blocks: &[Block], svg_of: &dyn Fn(&str) -> Option<&
     text
 }
 
+/// The class of cells with numbers, and of the titles above most of them.
+fn class(of_numbers: bool) -> &'static str {
+    if of_numbers { " class=\"n\"" } else { "" }
+}
+
 fn is_number(cell: &str) -> bool {
-    let first = cell.trim_start_matches(['+', '-', '−', '±', ' ']).chars().next();
-    first.is_some_and(|letter| letter.is_ascii_digit())
-}
-
-/// Whether most cells of a column are numbers.
-fn of_numbers(rows: &[Vec<String>], column: usize) -> bool {
-    let numbers = rows.iter().filter(|row| row.get(column).is_some_and(|cell| is_number(cell))).count();
-    2 * numbers > rows.len()
-}
-
-fn table_row(cells: &[String]) -> String {
-    let cell = |cell: &String| {
-        let class = if is_number(cell) { " class=\"n\"" } else { "" };
-        format!("<td{class}>{}</td>", safe(cell))
-    };
-    format!("<tr>{}</tr>\n", cells.iter().map(cell).collect::<String>())
-}
-
-/// Signs that HTML would read as its own.
-fn safe(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    cell.trim_start_matches(['+', '-', '−', '±', ' ']).starts_with(|letter: char| letter.is_ascii_digit())
 }
 
 #[cfg(test)]
@@ -163,8 +155,8 @@ mod tests {
 
     fn blocks() -> Vec<Block> {
         vec![
-            Block::Heading(2, "F_n < 3 & more".into()),
-            Block::table("A table", &["name", "value"], vec![vec!["a|b".into(), "-1.5".into()]]),
+            Block::Heading(2, "F_n < 3 & more"),
+            Block::table("A table", [-1.5], &[("name", &|_| "a|b".into()), ("value", &f64::to_string)]),
             Block::Figure { name: "fig", caption: "A figure".into() },
         ]
     }

@@ -2,19 +2,21 @@
 //! Never computes results.
 
 use super::block::Block;
-use super::number::{fixed, percent, signed};
+use super::number::{fixed, percent, signed, signed_percent};
 use crate::{AreaGrowth, Lives, Orderings, Prediction, Protocol, Study, TABLE_2, UnderProtocol};
 
 /// Part of the data sets in which a claim holds.
 type Share = fn(&Orderings) -> f64;
 
-/// What the paper says about its three models.
-const CLAIMS: [(&str, Share); 5] = [
-    ("the proposed model has the smallest error", |orderings| orderings.proposed_is_nearest),
-    ("the proposed model has the smallest scatter", |orderings| orderings.proposed_is_narrowest),
-    ("both baselines predict too long a life", |orderings| orderings.baselines_over_predict),
-    ("baseline 1 predicts the longest life", |orderings| orderings.rigid_is_longest),
-    ("all of these at once", |orderings| orderings.all),
+/// What the paper says about its three models: as a sentence, as the title of a column.
+const CLAIMS: [(&str, &str, Share); 5] = [
+    ("the proposed model has the smallest error", "proposed nearest", |found| found.proposed_is_nearest),
+    ("the proposed model has the smallest scatter", "proposed narrowest", |found| {
+        found.proposed_is_narrowest
+    }),
+    ("both baselines predict too long a life", "baselines too long", |found| found.baselines_over_predict),
+    ("baseline 1 predicts the longest life", "baseline 1 longest", |found| found.rigid_is_longest),
+    ("all of these at once", "all", |found| found.all),
 ];
 
 /// Places in [`crate::MODELS`].
@@ -23,48 +25,52 @@ const RIGID: usize = 1;
 const NO_FEEDBACK: usize = 2;
 
 pub(super) fn blocks(study: &Study) -> Vec<Block> {
-    vec![
-        Block::Heading(2, "Findings".to_owned()),
-        Block::List(sentences(study)),
-        orderings(study),
-        areas(study),
-    ]
+    vec![Block::Heading(2, "Findings"), Block::List(sentences(study)), orderings(study), areas(study)]
 }
 
 /// The findings, one by one.
-pub(super) fn sentences(study: &Study) -> Vec<String> {
-    let mut found: Vec<String> = CLAIMS.iter().map(|(claim, of)| claimed(study, claim, *of)).collect();
-    found.push(nearest_to_the_paper(study));
-    found.push(by_definition("Proposed, fitted on all cycles", study, proposed));
-    found.push(by_definition("Baseline 2, no feedback", study, no_feedback) + NO_FEEDBACK_WHY);
-    found.push(by_definition("Baseline 1, rigid coupler", study, rigid) + &rigid_why(study));
-    found.push(cancellation(study));
-    found.push(vibration(study));
-    found.push(area(study));
+fn sentences(study: &Study) -> Vec<String> {
+    let mut found: Vec<String> = CLAIMS.iter().map(|(claim, _, of)| claimed(study, claim, *of)).collect();
+    found.extend([
+        nearest_to_the_paper(study),
+        by_definition("Proposed, fitted on all cycles", study, proposed),
+        by_definition("Baseline 2, no feedback", study, no_feedback) + NO_FEEDBACK_WHY,
+        by_definition("Baseline 1, rigid coupler", study, rigid) + &rigid_why(study),
+        cancellation(study),
+        vibration(study),
+        area(study),
+    ]);
     found
+}
+
+/// Every definition of wear under every protocol.
+fn cases(study: &Study) -> impl Iterator<Item = (&Lives, &UnderProtocol)> {
+    study.lives.iter().flat_map(|lives| lives.protocols.iter().map(move |under| (lives, under)))
+}
+
+fn case((lives, under): (&Lives, &UnderProtocol)) -> String {
+    format!("{}, {}", definition(lives), under.protocol.name())
+}
+
+fn definition(lives: &Lives) -> String {
+    format!("W the {}, gamma {}", lives.wear, lives.gamma)
 }
 
 /// In how many cases a claim of the paper holds.
 fn claimed(study: &Study, claim: &str, of: Share) -> String {
-    let cases: Vec<(String, f64)> = study
-        .lives
-        .iter()
-        .flat_map(|lives| {
-            lives.protocols.iter().map(move |under| (case(lives, under.protocol), of(&under.orderings)))
-        })
-        .collect();
-    let holds = cases.iter().filter(|(_, part)| *part > 0.5).count();
-    let best = cases.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-    let worst = cases.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+    let shares: Vec<_> = cases(study).map(|at| (at, of(&at.1.orderings))).collect();
+    let holds = shares.iter().filter(|(_, part)| *part > 0.5).count();
+    let best = shares.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let worst = shares.iter().min_by(|a, b| a.1.total_cmp(&b.1));
     let (Some(best), Some(worst)) = (best, worst) else { return String::new() };
     format!(
         "The paper: {claim}. Here this holds in most data sets in {holds} of {} cases; most often ({} of the data sets) \
          with {}, least often ({}) with {}.",
-        cases.len(),
+        shares.len(),
         percent(best.1),
-        best.0,
+        case(best.0),
         percent(worst.1),
-        worst.0,
+        case(worst.0),
     )
 }
 
@@ -74,43 +80,27 @@ fn nearest_to_the_paper(study: &Study) -> String {
         let pairs = under.predictions.iter().zip(TABLE_2);
         pairs.map(|(found, printed)| (found.error - printed.error).powi(2)).sum()
     };
-    let cases = study.lives.iter().flat_map(|lives| lives.protocols.iter().map(move |under| (lives, under)));
-    let nearest = cases.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
-    let Some((lives, under)) = nearest else { return String::new() };
-    let models = under.predictions.iter().zip(TABLE_2).map(|(found, printed)| {
-        format!("{} {} (paper: {} %)", found.model, result(Some(found)), signed(100.0 * printed.error, 2))
+    let nearest = cases(study).min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
+    let Some(nearest) = nearest else { return String::new() };
+    let models = nearest.1.predictions.iter().zip(TABLE_2).map(|(found, printed)| {
+        format!("{} {} (paper: {})", found.model, result(found), signed_percent(printed.error, 2))
     });
     format!(
         "Nearest to the errors of the paper's Table 2, of all cases, comes {}: {}.",
-        case(lives, under.protocol),
+        case(nearest),
         models.collect::<Vec<_>>().join(", ")
     )
 }
 
-fn case(lives: &Lives, protocol: Protocol) -> String {
-    format!("W the {}, gamma {}, {}", lives.wear, lives.gamma, protocol.name())
-}
-
-fn of(lives: &Lives, protocol: Protocol, model: usize) -> Option<&Prediction> {
-    lives.under(protocol).and_then(|under: &UnderProtocol| under.predictions.get(model))
-}
-
 /// "+3.1 ± 0.7 % (COV 3.3 %)".
-fn result(prediction: Option<&Prediction>) -> String {
-    prediction.map_or_else(String::new, |prediction| {
-        format!(
-            "{} ± {} % (COV {} %)",
-            signed(100.0 * prediction.error, 2),
-            fixed(100.0 * prediction.error_scatter, 2),
-            fixed(100.0 * prediction.lives.cov, 2)
-        )
-    })
+fn result(found: &Prediction) -> String {
+    let (scatter, cov) = (100.0 * found.error_scatter, 100.0 * found.lives.cov);
+    format!("{} ± {scatter:.2} % (COV {cov:.2} %)", signed(100.0 * found.error, 2))
 }
 
 /// How an error compares with its scatter over data sets.
-fn weight(prediction: Option<&Prediction>) -> &'static str {
-    let part = prediction.map_or(0.0, |prediction| prediction.error.abs() / prediction.error_scatter);
-    match part {
+fn weight(found: &Prediction) -> &'static str {
+    match found.error.abs() / found.error_scatter {
         part if part > 3.0 => "far beyond the scatter",
         part if part > 1.0 => "more than the scatter",
         _ => "within the scatter",
@@ -119,15 +109,13 @@ fn weight(prediction: Option<&Prediction>) -> &'static str {
 
 /// One result after the other, each with its definition of wear.
 fn by_definition(what: &str, study: &Study, says: fn(&Lives) -> String) -> String {
-    let all = study
-        .lives
-        .iter()
-        .map(|lives| format!("W the {}, gamma {}: {}", lives.wear, lives.gamma, says(lives)));
-    format!("{what}. {}.", all.collect::<Vec<_>>().join("; "))
+    let all: Vec<String> =
+        study.lives.iter().map(|lives| format!("{}: {}", definition(lives), says(lives))).collect();
+    format!("{what}. {}.", all.join("; "))
 }
 
 fn proposed(lives: &Lives) -> String {
-    let found = of(lives, Protocol::All, PROPOSED);
+    let found = &lives.under(Protocol::All)[PROPOSED];
     format!("error {}, {}", result(found), weight(found))
 }
 
@@ -137,38 +125,36 @@ const NO_FEEDBACK_WHY: &str = " A model without feedback cannot know that the we
                                the window, and it reads the change as scatter.";
 
 fn no_feedback(lives: &Lives) -> String {
-    let (early, all) = (of(lives, Protocol::First20, NO_FEEDBACK), of(lives, Protocol::All, NO_FEEDBACK));
-    let growth = lives.ratio.get(NO_FEEDBACK).map_or(1.0, |ratio| ratio.0 / ratio.1);
+    let [early, all] = [Protocol::First20, Protocol::All].map(|fitted| &lives.under(fitted)[NO_FEEDBACK]);
+    let (first, last) = lives.ratio[NO_FEEDBACK];
     format!(
-        "error {} fitted on the first 20 cycles, {} on all, where the wear of a cycle changes by {} % over the life",
+        "error {} fitted on the first 20 cycles, {} on all, where the wear of a cycle changes by {} over the life",
         result(early),
         result(all),
-        signed(100.0 * (growth - 1.0), 0),
+        signed_percent(first / last - 1.0, 0),
     )
 }
 
 fn rigid(lives: &Lives) -> String {
-    let (early, all) = (of(lives, Protocol::First20, RIGID), of(lives, Protocol::All, RIGID));
-    let (first, last) = lives.ratio.get(RIGID).copied().unwrap_or((1.0, 1.0));
+    let [early, all] = [Protocol::First20, Protocol::All].map(|fitted| &lives.under(fitted)[RIGID]);
+    let (first, last) = lives.ratio[RIGID];
     format!(
-        "error {} fitted on the first 20 cycles, {}, {} on all; its dLambda is {} times that of the truth at the start \
-         and {} times at the end",
+        "error {} fitted on the first 20 cycles, {}, {} on all; its dLambda is {first:.3} times that of the truth at the \
+         start and {last:.3} times at the end",
         result(early),
         weight(early),
         result(all),
-        fixed(first, 3),
-        fixed(last, 3),
     )
 }
 
 /// What the rigid coupler does to wear, by definition of wear.
 fn rigid_why(study: &Study) -> String {
-    let fitted = [Protocol::All, Protocol::First20, Protocol::First10];
     let apart = |lives: &Lives| {
-        let difference = |protocol: &Protocol| {
-            Some((of(lives, *protocol, RIGID)?.error - of(lives, *protocol, PROPOSED)?.error).abs())
-        };
-        fitted.iter().filter_map(difference).fold(0.0, f64::max)
+        let fitted = [Protocol::All, Protocol::First20, Protocol::First10].map(|fitted| lives.under(fitted));
+        fitted
+            .map(|models| (models[RIGID].error - models[PROPOSED].error).abs())
+            .into_iter()
+            .fold(0.0, f64::max)
     };
     let largest =
         |wear: &str| study.lives.iter().filter(|lives| lives.wear == wear).map(apart).fold(0.0, f64::max);
@@ -184,15 +170,9 @@ fn rigid_why(study: &Study) -> String {
 
 /// Why constant factors do not matter.
 fn cancellation(study: &Study) -> String {
-    let shared = study.lives.iter().filter_map(|lives| {
-        let errors = (of(lives, Protocol::Shared, RIGID)?.error, of(lives, Protocol::All, RIGID)?.error);
-        Some(format!(
-            "{} % and {} % (W the {}, gamma {})",
-            signed(100.0 * errors.0, 1),
-            signed(100.0 * errors.1, 1),
-            lives.wear,
-            lives.gamma
-        ))
+    let shared = study.lives.iter().map(|lives| {
+        let error = |protocol| signed_percent(lives.under(protocol)[RIGID].error, 1);
+        format!("{} and {} ({})", error(Protocol::Shared), error(Protocol::All), definition(lives))
     });
     format!(
         "Cancellation: the fit gives beta = alpha sum dLambda/sum dW, so a constant factor between the dLambda of two \
@@ -208,14 +188,14 @@ fn vibration(study: &Study) -> String {
     let (Some(rigid), Some(flexible)) = (last("rigid"), last("flexible")) else { return String::new() };
     format!(
         "Damping: the journal swings in its bearing as a pendulum under the load, which Coulomb sliding hardly damps. The \
-         elastic coupler damps it, a rigid one keeps it: at the clearance of the worn joint the largest force is {} N \
-         rigid and {} N flexible, and the rigid motion is chaotic. Still the wear integral S differs by {} % only at \
-         the start and by {} % at the end. That vibration, not a redistribution of the load, is what flexibility changes \
+         elastic coupler damps it, a rigid one keeps it: at the clearance of the worn joint the largest force is {:.0} N \
+         rigid and {:.0} N flexible, and the rigid motion is chaotic. Still the wear integral S differs by {} only at \
+         the start and by {} at the end. That vibration, not a redistribution of the load, is what flexibility changes \
          at this speed: the mean force of the flexible linkage is within {:.2} % of that of an ideal joint.",
-        fixed(rigid.peak_force_last, 0),
-        fixed(flexible.peak_force_last, 0),
-        signed(100.0 * (rigid.wear_integral_first / flexible.wear_integral_first - 1.0), 1),
-        signed(100.0 * (rigid.wear_integral_last / flexible.wear_integral_last - 1.0), 1),
+        rigid.peak_force_last,
+        flexible.peak_force_last,
+        signed_percent(rigid.wear_integral_first / flexible.wear_integral_first - 1.0, 1),
+        signed_percent(rigid.wear_integral_last / flexible.wear_integral_last - 1.0, 1),
         100.0 * (study.forces.flexible.mean / study.forces.ideal.mean - 1.0).abs(),
     )
 }
@@ -224,11 +204,11 @@ fn vibration(study: &Study) -> String {
 fn area(study: &Study) -> String {
     let growth = |area: &AreaGrowth| {
         format!(
-            "c^{} by the {} area (rigid over flexible {} % unworn, {} % worn)",
-            fixed(area.flexible, 3),
+            "c^{:.3} by the {} area (rigid over flexible {} unworn, {} worn)",
+            area.flexible,
             area.area,
-            signed(100.0 * (area.ratio_first - 1.0), 1),
-            signed(100.0 * (area.ratio_last - 1.0), 1),
+            signed_percent(area.ratio_first - 1.0, 1),
+            signed_percent(area.ratio_last - 1.0, 1),
         )
     };
     let all: Vec<String> = study.areas.iter().map(growth).collect();
@@ -240,44 +220,34 @@ fn area(study: &Study) -> String {
 }
 
 fn orderings(study: &Study) -> Block {
-    let mut rows = Vec::new();
-    for lives in &study.lives {
-        for under in &lives.protocols {
-            let mut row =
-                vec![lives.wear.to_owned(), lives.gamma.to_string(), under.protocol.name().to_owned()];
-            row.extend(CLAIMS.iter().map(|(_, of)| percent(of(&under.orderings))));
-            rows.push(row);
-        }
-    }
+    let holds =
+        |claim: usize, (_, under): &(&Lives, &UnderProtocol)| percent(CLAIMS[claim].2(&under.orderings));
     Block::table(
         "The orderings of the paper, in so many of the data sets",
+        cases(study),
         &[
-            "W",
-            "gamma",
-            "fitted on",
-            "proposed nearest",
-            "proposed narrowest",
-            "baselines too long",
-            "baseline 1 longest",
-            "all",
+            ("W", &|(lives, _)| lives.wear.to_owned()),
+            ("gamma", &|(lives, _)| lives.gamma.to_string()),
+            ("fitted on", &|(_, under)| under.protocol.name().to_owned()),
+            (CLAIMS[0].1, &|case| holds(0, case)),
+            (CLAIMS[1].1, &|case| holds(1, case)),
+            (CLAIMS[2].1, &|case| holds(2, case)),
+            (CLAIMS[3].1, &|case| holds(3, case)),
+            (CLAIMS[4].1, &|case| holds(4, case)),
         ],
-        rows,
     )
 }
 
 fn areas(study: &Study) -> Block {
-    let row = |area: &AreaGrowth| {
-        vec![
-            area.area.to_owned(),
-            fixed(area.flexible, 4),
-            fixed(area.rigid, 4),
-            fixed(area.ratio_first, 4),
-            fixed(area.ratio_last, 4),
-        ]
-    };
     Block::table(
         "Growth of the depth of a revolution with the clearance, dLambda ~ c^n, by model of the contact area; gamma 1",
-        &["area", "n, flexible", "n, rigid", "rigid/flexible, unworn", "worn"],
-        study.areas.iter().map(row).collect(),
+        &study.areas,
+        &[
+            ("area", &|area| area.area.to_owned()),
+            ("n, flexible", &|area| fixed(area.flexible, 4)),
+            ("n, rigid", &|area| fixed(area.rigid, 4)),
+            ("rigid/flexible, unworn", &|area| fixed(area.ratio_first, 4)),
+            ("worn", &|area| fixed(area.ratio_last, 4)),
+        ],
     )
 }

@@ -2,22 +2,17 @@
 
 use super::block::Block;
 use super::number::fixed;
-use crate::{ForceCurve, Forces};
+use crate::Forces;
 
 pub(super) fn blocks(forces: &Forces) -> Vec<Block> {
-    let row = |name: &str, curve: &ForceCurve| {
-        vec![
-            name.to_owned(),
-            fixed(curve.mean, 3),
-            fixed(curve.peak, 2),
-            fixed(curve.peak_time, 4),
-            fixed(360.0 * curve.peak_time / forces.period, 0),
-            fixed(curve.wear_integral, 5),
-            curve.contact_losses.to_string(),
-        ]
-    };
+    let curves = [
+        ("ideal joint", &forces.ideal),
+        ("clearance, rigid coupler", &forces.rigid),
+        ("clearance, flexible coupler", &forces.flexible),
+        ("Exudyn, from its rows 1 ms apart", &forces.reference),
+    ];
     vec![
-        Block::Heading(2, "Joint contact force (Fig. 4)".to_owned()),
+        Block::Heading(2, "Joint contact force (Fig. 4)"),
         Block::Figure {
             name: "fig4-force",
             caption: "Fig. 4. Contact force at R1 over one turn at 2 Hz, after settling. The turn begins with the crank \
@@ -26,12 +21,15 @@ pub(super) fn blocks(forces: &Forces) -> Vec<Block> {
         },
         Block::table(
             "Fig. 4 in numbers: one turn",
-            &["model", "mean [N]", "peak [N]", "at [s]", "crank [deg]", "wear integral S [J]", "losses of contact"],
-            vec![
-                row("ideal joint", &forces.ideal),
-                row("clearance, rigid coupler", &forces.rigid),
-                row("clearance, flexible coupler", &forces.flexible),
-                row("Exudyn, from its rows 1 ms apart", &forces.reference),
+            curves,
+            &[
+                ("model", &|(name, _)| (*name).to_owned()),
+                ("mean [N]", &|(_, curve)| fixed(curve.mean, 3)),
+                ("peak [N]", &|(_, curve)| fixed(curve.peak, 2)),
+                ("at [s]", &|(_, curve)| fixed(curve.peak_time, 4)),
+                ("crank [deg]", &|(_, curve)| fixed(360.0 * curve.peak_time / forces.period, 0)),
+                ("wear integral S [J]", &|(_, curve)| fixed(curve.wear_integral, 5)),
+                ("losses of contact", &|(_, curve)| curve.contact_losses.to_string()),
             ],
         ),
         Block::Text(agreement(forces)),

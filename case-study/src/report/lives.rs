@@ -2,13 +2,11 @@
 
 use super::block::Block;
 use super::number::{fixed, percent, signed};
-use crate::{
-    HISTORIES, LifeNumbers, Lives, MODELS, Prediction, SHOWN, Study, TABLE_2, TRUE_LIFE, UnderProtocol,
-};
+use crate::{HISTORIES, Lives, MODELS, Prediction, SHOWN, Study, TABLE_2, TRUE_LIFE};
 
 pub(super) fn blocks(study: &Study) -> Vec<Block> {
     let mut blocks = vec![
-        Block::Heading(2, "Remaining useful life (Fig. 6, Table 2)".to_owned()),
+        Block::Heading(2, "Remaining useful life (Fig. 6, Table 2)"),
         Block::Text(setting(study)),
         Block::Figure {
             name: "fig6-life",
@@ -32,7 +30,7 @@ pub(super) fn blocks(study: &Study) -> Vec<Block> {
 }
 
 fn setting(study: &Study) -> String {
-    let sets = study.lives.first().map_or(0, |lives| lives.data_sets);
+    let sets = study.lives[0].data_sets;
     format!(
         "The paper does not say what its ground truth is, to which wear the models are fitted, nor gamma. Here the \
          truth is the finest own model: flexible coupler, feedback, half the time step; the wear of every cycle is drawn \
@@ -48,98 +46,76 @@ fn setting(study: &Study) -> String {
 
 /// The paper's own numbers.
 fn the_paper() -> Block {
-    let rows = MODELS.iter().zip(TABLE_2).map(|(model, printed)| {
-        vec![
-            (*model).to_owned(),
-            fixed(printed.mean, 1),
-            fixed(printed.std, 2),
-            fixed(100.0 * printed.cov, 2),
-            signed(100.0 * printed.error, 2),
-        ]
-    });
     Block::table(
         "Table 2 of the paper (ground truth 25.1 cycles, backed out of mean and error)",
-        &["model", "mean [cycles]", "std. [cycles]", "COV [%]", "error [%]"],
-        rows.collect(),
+        MODELS.iter().zip(TABLE_2),
+        &[
+            ("model", &|(model, _)| (**model).to_owned()),
+            ("mean [cycles]", &|(_, printed)| fixed(printed.mean, 1)),
+            ("std. [cycles]", &|(_, printed)| fixed(printed.std, 2)),
+            ("COV [%]", &|(_, printed)| fixed(100.0 * printed.cov, 2)),
+            ("error [%]", &|(_, printed)| signed(100.0 * printed.error, 2)),
+        ],
     )
 }
 
 fn table(lives: &Lives) -> Block {
-    let mut rows = vec![truth(&lives.truth)];
-    for under in &lives.protocols {
-        rows.extend(under.predictions.iter().map(|prediction| row(under, prediction)));
-    }
+    let predictions = lives
+        .protocols
+        .iter()
+        .flat_map(|under| under.predictions.iter().map(move |found| (under.protocol.name(), Some(found))));
+    let numbers = |found: &Option<&Prediction>| found.map_or(lives.truth, |found| found.lives);
+    // The truth has no scatter and no error.
+    let with_scatter = |value: String, scatter: Option<f64>| match scatter {
+        Some(scatter) => format!("{value} ± {}", fixed(100.0 * scatter, 2)),
+        None => value,
+    };
     Block::table(
-        &format!(
+        format!(
             "Table 2, recomputed: W is the {}, gamma = {}; means over {} data sets, ± standard deviation over them",
             lives.wear, lives.gamma, lives.data_sets
         ),
+        std::iter::once(("", None)).chain(predictions),
         &[
-            "fitted on",
-            "model",
-            "mean [cycles]",
-            "std. [cycles]",
-            "COV [%]",
-            "error [%]",
-            "too long in",
-            "whole cycles: mean",
-            "COV [%]",
+            ("fitted on", &|(fitted_on, _)| (*fitted_on).to_owned()),
+            ("model", &|(_, found)| found.map_or("truth", |found| found.model).to_owned()),
+            ("mean [cycles]", &|(_, found)| fixed(numbers(found).mean, 2)),
+            ("std. [cycles]", &|(_, found)| fixed(numbers(found).std, 3)),
+            ("COV [%]", &|(_, found)| {
+                with_scatter(fixed(100.0 * numbers(found).cov, 2), found.map(|found| found.cov_scatter))
+            }),
+            ("error [%]", &|(_, found)| {
+                let error = found.map_or(String::new(), |found| signed(100.0 * found.error, 2));
+                with_scatter(error, found.map(|found| found.error_scatter))
+            }),
+            ("too long in", &|(_, found)| found.map_or(String::new(), |found| percent(found.over_predicts))),
+            ("whole cycles: mean", &|(_, found)| fixed(numbers(found).mean_whole, 2)),
+            ("COV [%]", &|(_, found)| fixed(100.0 * numbers(found).cov_whole, 2)),
         ],
-        rows,
     )
 }
 
-fn truth(truth: &LifeNumbers) -> Vec<String> {
-    let mut row = vec!["".to_owned(), "truth".to_owned()];
-    row.extend([fixed(truth.mean, 2), fixed(truth.std, 3), fixed(100.0 * truth.cov, 2)]);
-    row.extend(["".to_owned(), "".to_owned()]);
-    row.extend([fixed(truth.mean_whole, 2), fixed(100.0 * truth.cov_whole, 2)]);
-    row
-}
-
-fn row(under: &UnderProtocol, prediction: &Prediction) -> Vec<String> {
-    let lives = &prediction.lives;
-    vec![
-        under.protocol.name().to_owned(),
-        prediction.model.to_owned(),
-        fixed(lives.mean, 2),
-        fixed(lives.std, 3),
-        format!("{} ± {}", fixed(100.0 * lives.cov, 2), fixed(100.0 * prediction.cov_scatter, 2)),
-        format!("{} ± {}", signed(100.0 * prediction.error, 2), fixed(100.0 * prediction.error_scatter, 2)),
-        percent(prediction.over_predicts),
-        fixed(lives.mean_whole, 2),
-        fixed(100.0 * lives.cov_whole, 2),
-    ]
-}
-
 fn calibration(study: &Study) -> Block {
-    let rows = study.lives.iter().map(|lives| {
-        let mut row = vec![
-            lives.wear.to_owned(),
-            lives.gamma.to_string(),
-            format!("{:.4e}", lives.revolutions_per_cycle),
-            fixed(lives.exponent, 3),
-        ];
-        for (life, ratio) in lives.deterministic.iter().zip(&lives.ratio) {
-            row.extend([fixed(*life, 2), format!("{} {}", fixed(ratio.0, 4), fixed(ratio.1, 4))]);
-        }
-        row
-    });
+    let life = |lives: &Lives, model: usize| fixed(lives.deterministic[model], 2);
+    let ratio = |lives: &Lives, model: usize| {
+        let (first, last) = lives.ratio[model];
+        format!("{} {}", fixed(first, 4), fixed(last, 4))
+    };
     Block::table(
         "Behind the lives: the calibrated cycle, the exponent n of dLambda ~ c^n along the life of the truth; and for every \
          model its deterministic life without any fit, and its dLambda over that of the truth at the start and at the end",
+        &study.lives,
         &[
-            "W",
-            "gamma",
-            "revolutions per cycle",
-            "n",
-            "proposed: life",
-            "ratio",
-            "baseline 1: life",
-            "ratio",
-            "baseline 2: life",
-            "ratio",
+            ("W", &|lives| lives.wear.to_owned()),
+            ("gamma", &|lives| lives.gamma.to_string()),
+            ("revolutions per cycle", &|lives| format!("{:.4e}", lives.revolutions_per_cycle)),
+            ("n", &|lives| fixed(lives.exponent, 3)),
+            ("proposed: life", &|lives| life(lives, 0)),
+            ("ratio", &|lives| ratio(lives, 0)),
+            ("baseline 1: life", &|lives| life(lives, 1)),
+            ("ratio", &|lives| ratio(lives, 1)),
+            ("baseline 2: life", &|lives| life(lives, 2)),
+            ("ratio", &|lives| ratio(lives, 2)),
         ],
-        rows.collect(),
     )
 }

@@ -9,9 +9,9 @@ mod number;
 mod wear;
 
 use block::Block;
-use number::{fixed, signed};
+use number::signed;
 
-use super::{Lives, MODELS, Picture, SHOWN, Study};
+use super::{Lives, Picture, SHOWN, Study};
 
 const TITLE: &str = "The case study of the RSSR linkage, recomputed";
 
@@ -45,22 +45,18 @@ pub fn summary(study: &Study) -> String {
         peak(&around.deterministic),
         peak(&around.proposed),
         peak(&around.finest),
-    ) + &study.lives.iter().map(|lives| life_in_short(study, lives)).collect::<String>()
+    ) + &study.lives.iter().enumerate().map(life_in_short).collect::<String>()
 }
 
-fn life_in_short(study: &Study, lives: &Lives) -> String {
-    let Some(under) = lives.under(SHOWN) else { return String::new() };
-    let predicted = MODELS.iter().zip(&under.predictions).map(|(model, found)| {
-        format!(
-            "\n        {model:<24} {:>6} ± {} %, COV {} %",
-            signed(100.0 * found.error, 2),
-            fixed(100.0 * found.error_scatter, 2),
-            fixed(100.0 * found.lives.cov, 2)
-        )
+fn life_in_short((at, lives): (usize, &Lives)) -> String {
+    let predicted = lives.under(SHOWN).iter().map(|found| {
+        let (scatter, cov) = (100.0 * found.error_scatter, 100.0 * found.lives.cov);
+        let error = signed(100.0 * found.error, 2);
+        format!("\n        {:<24} {error:>6} ± {scatter:.2} %, COV {cov:.2} %", found.model)
     });
-    let title = if study.lives.first() == Some(lives) { "Fig. 6" } else { "      " };
     format!(
-        "\n{title}  error of the mean life, W the {}, gamma {}, fitted on the {}{}",
+        "\n{:<6}  error of the mean life, W the {}, gamma {}, fitted on the {}{}",
+        if at == 0 { "Fig. 6" } else { "" },
         lives.wear,
         lives.gamma,
         SHOWN.name(),
@@ -70,7 +66,7 @@ fn life_in_short(study: &Study, lives: &Lives) -> String {
 
 fn document(study: &Study) -> Vec<Block> {
     let mut blocks = vec![
-        Block::Heading(1, TITLE.to_owned()),
+        Block::Heading(1, TITLE),
         Block::Text(
             "Section 5 of \"A Coupled Rigid-Flexible Dynamics and Stochastic Process Model for Wear Prediction in \
              Multi-bar Linkages\", figure by figure: what linkwear computes from mechanisms/rssr.toml beside what \
@@ -93,19 +89,9 @@ fn document(study: &Study) -> Vec<Block> {
 }
 
 fn mechanism(study: &Study) -> Vec<Block> {
-    let known = study.parameters.iter();
-    let rows = known.map(|row| {
-        vec![
-            row.name.clone(),
-            row.symbol.clone(),
-            row.paper.clone().unwrap_or_else(|| "not given".to_owned()),
-            row.ours.clone().unwrap_or_else(|| "not used".to_owned()),
-            if row.assumed { "assumed" } else { "" }.to_owned(),
-        ]
-    });
     let assumed = study.parameters.iter().filter(|row| row.assumed).count();
     vec![
-        Block::Heading(2, "Mechanism (Fig. 3, Table 1)".to_owned()),
+        Block::Heading(2, "Mechanism (Fig. 3, Table 1)"),
         Block::Figure {
             name: "fig3-mechanism",
             caption: "Fig. 3. The mechanism at t = 0, assembled; the crank turns about z at R1. The paper calls the \
@@ -114,8 +100,14 @@ fn mechanism(study: &Study) -> Vec<Block> {
         },
         Block::table(
             "Table 1. Parameters, the paper's and ours",
-            &["parameter", "symbol or place", "paper", "here", ""],
-            rows.collect(),
+            &study.parameters,
+            &[
+                ("parameter", &|row| row.name.clone()),
+                ("symbol or place", &|row| row.symbol.clone()),
+                ("paper", &|row| row.paper.clone().unwrap_or_else(|| "not given".to_owned())),
+                ("here", &|row| row.ours.clone().unwrap_or_else(|| "not used".to_owned())),
+                ("", &|row| if row.assumed { "assumed" } else { "" }.to_owned()),
+            ],
         ),
         Block::Text(format!(
             "{assumed} values are ours because the paper is silent; the file marks them as assumed. So are, as \

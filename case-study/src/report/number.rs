@@ -16,3 +16,8 @@ pub fn signed(value: f64, digits: usize) -> String {
     let rounded = (value * 10_f64.powi(digits as i32)).round() / 10_f64.powi(digits as i32) + 0.0;
     format!("{rounded:+.digits$}")
 }
+
+/// A part of all in per cents, with its sign.
+pub fn signed_percent(part: f64, digits: usize) -> String {
+    format!("{} %", signed(100.0 * part, digits))
+}

@@ -3,14 +3,22 @@
 use super::block::Block;
 use super::number::{fixed, signed};
 use crate::around::turned;
-use crate::{Around, Peak, TRUE_LIFE, WornBearing};
+use crate::{Around, Peak, Snapshot, TRUE_LIFE, WornBearing};
 
 /// Peaks listed per cycle.
 const LISTED: usize = 3;
 
 pub(super) fn blocks(around: &Around) -> Vec<Block> {
+    let largest = |model: &WornBearing, at: usize| fixed(1e6 * model.snapshots[at].maximum, 2);
+    let mean = |model: &WornBearing, at: usize| fixed(1e6 * model.snapshots[at].mean, 3);
+    let (rigid, proposed, finest) = (&around.deterministic, &around.proposed, &around.finest);
+    let shift =
+        |other: &Option<Compared>| other.map_or("none near".to_owned(), |found| signed(found.peak, 1));
+    let centre = |other: &Option<Compared>| other.map_or(String::new(), |found| signed(found.centre, 1));
+    let depth = |other: &Option<Compared>| other.map_or(String::new(), |found| fixed(1e6 * found.depth, 2));
+    let rows = rows(around);
     vec![
-        Block::Heading(2, "Wear around the bearing (Fig. 5)".to_owned()),
+        Block::Heading(2, "Wear around the bearing (Fig. 5)"),
         Block::Figure {
             name: "fig5-wear",
             caption: "Fig. 5. Depth of wear by bearing angle. Cycle 30 lies beyond the threshold of 80 µm."
@@ -25,51 +33,39 @@ pub(super) fn blocks(around: &Around) -> Vec<Block> {
         )),
         Block::table(
             "Depth over the circumference [µm]",
+            0..proposed.snapshots.len(),
             &[
-                "cycle",
-                "deterministic, largest",
-                "mean",
-                "proposed, largest",
-                "mean",
-                "finest, largest",
-                "mean",
+                ("cycle", &|at| proposed.snapshots[*at].cycle.to_string()),
+                ("deterministic, largest", &|at| largest(rigid, *at)),
+                ("mean", &|at| mean(rigid, *at)),
+                ("proposed, largest", &|at| largest(proposed, *at)),
+                ("mean", &|at| mean(proposed, *at)),
+                ("finest, largest", &|at| largest(finest, *at)),
+                ("mean", &|at| mean(finest, *at)),
             ],
-            depths(around),
         ),
         Block::table(
             "Peaks of the proposed model, and how far from them the deepest peak of another model within 30 deg is, \
              and the centre of its worn volume there from that of the proposed one",
+            &rows,
             &[
-                "cycle",
-                "angle [deg]",
-                "depth [µm]",
-                "deterministic: peak [deg]",
-                "centre [deg]",
-                "depth [µm]",
-                "finest: peak [deg]",
-                "centre [deg]",
-                "depth [µm]",
+                ("cycle", &|row| row.cycle.to_string()),
+                ("angle [deg]", &|row| signed(row.peak.angle, 1)),
+                ("depth [µm]", &|row| fixed(1e6 * row.peak.depth, 2)),
+                ("deterministic: peak [deg]", &|row| shift(&row.deterministic)),
+                ("centre [deg]", &|row| centre(&row.deterministic)),
+                ("depth [µm]", &|row| depth(&row.deterministic)),
+                ("finest: peak [deg]", &|row| shift(&row.finest)),
+                ("centre [deg]", &|row| centre(&row.finest)),
+                ("depth [µm]", &|row| depth(&row.finest)),
             ],
-            peaks(around),
         ),
-        Block::Text(shifts(around)),
+        Block::Text(shifts(around, &rows)),
     ]
 }
 
-fn depths(around: &Around) -> Vec<Vec<String>> {
-    let models = [&around.deterministic, &around.proposed, &around.finest];
-    let row = |index: usize| {
-        let mut row = vec![around.proposed.snapshots[index].cycle.to_string()];
-        for model in models {
-            let snapshot = &model.snapshots[index];
-            row.extend([fixed(1e6 * snapshot.maximum, 2), fixed(1e6 * snapshot.mean, 3)]);
-        }
-        row
-    };
-    (0..around.proposed.snapshots.len()).map(row).collect()
-}
-
 /// How another model differs from a peak of the proposed one.
+#[derive(Clone, Copy)]
 struct Compared {
     /// Shift of the deepest peak near by [deg].
     peak: f64,
@@ -79,48 +75,42 @@ struct Compared {
     depth: f64,
 }
 
-fn compared(around: &Around, model: &WornBearing, index: usize, peak: &Peak) -> Option<Compared> {
-    let (ours, other) = (&around.proposed.snapshots[index], &model.snapshots[index]);
-    let near = other.peak_near(peak.angle)?;
-    Some(Compared {
-        peak: turned(near.angle - peak.angle),
-        centre: turned(other.centre_near(peak.angle) - ours.centre_near(peak.angle)),
-        depth: near.depth,
-    })
+/// A peak of the proposed model, and what other models have near it.
+struct Row {
+    cycle: u64,
+    peak: Peak,
+    deterministic: Option<Compared>,
+    finest: Option<Compared>,
 }
 
-fn peaks(around: &Around) -> Vec<Vec<String>> {
-    let mut rows = Vec::new();
-    for (index, snapshot) in around.proposed.snapshots.iter().enumerate() {
-        for peak in snapshot.peaks.iter().take(LISTED) {
-            let mut row = vec![snapshot.cycle.to_string(), signed(peak.angle, 1), fixed(1e6 * peak.depth, 2)];
-            for model in [&around.deterministic, &around.finest] {
-                let cells = compared(around, model, index, peak).map_or_else(
-                    || ["none near".to_owned(), String::new(), String::new()],
-                    |found| [signed(found.peak, 1), signed(found.centre, 1), fixed(1e6 * found.depth, 2)],
-                );
-                row.extend(cells);
-            }
-            rows.push(row);
-        }
-    }
-    rows
+fn rows(around: &Around) -> Vec<Row> {
+    let row = |ours: &Snapshot, at: usize, peak: Peak| {
+        let compared = |model: &WornBearing| {
+            let other = &model.snapshots[at];
+            let near = other.peak_near(peak.angle)?;
+            Some(Compared {
+                peak: turned(near.angle - peak.angle),
+                centre: turned(other.centre_near(peak.angle) - ours.centre_near(peak.angle)),
+                depth: near.depth,
+            })
+        };
+        let (deterministic, finest) = (compared(&around.deterministic), compared(&around.finest));
+        Row { cycle: ours.cycle, peak, deterministic, finest }
+    };
+    let snapshots = around.proposed.snapshots.iter().enumerate();
+    let peaks =
+        snapshots.flat_map(|(at, ours)| ours.peaks.iter().take(LISTED).map(move |peak| (ours, at, *peak)));
+    peaks.map(|(ours, at, peak)| row(ours, at, peak)).collect()
 }
 
-fn shifts(around: &Around) -> String {
-    let largest = |model: &WornBearing, of: fn(&Compared) -> f64| {
-        let all = around.proposed.snapshots.iter().enumerate();
-        let found = all.flat_map(|(index, snapshot)| {
-            let peaks = snapshot.peaks.iter().take(LISTED);
-            peaks.filter_map(move |peak| compared(around, model, index, peak))
-        });
-        found.map(|found| of(&found).abs()).fold(0.0, f64::max)
+fn shifts(around: &Around, rows: &[Row]) -> String {
+    let largest = |model: fn(&Row) -> Option<Compared>, of: fn(Compared) -> f64| {
+        rows.iter().filter_map(model).map(|found| of(found).abs()).fold(0.0, f64::max)
     };
     let bin = 360.0 / around.proposed.angles.len() as f64;
-    let (peak, centre) = (|found: &Compared| found.peak, |found: &Compared| found.centre);
-    let (rigid, rigid_centre) =
-        (largest(&around.deterministic, peak), largest(&around.deterministic, centre));
-    let (finest, finest_centre) = (largest(&around.finest, peak), largest(&around.finest, centre));
+    let [(rigid, rigid_centre), (finest, finest_centre)] =
+        [|row: &Row| row.deterministic, |row: &Row| row.finest]
+            .map(|model| (largest(model, |found| found.peak), largest(model, |found| found.centre)));
     let verdict = match (
         rigid > 2.0 * finest.max(0.5 * bin),
         rigid_centre > (2.0 * finest_centre).max(0.2 * bin),
