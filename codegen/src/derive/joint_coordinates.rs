@@ -82,7 +82,7 @@ struct UniversalAxes {
 
 impl UniversalAxes {
     fn new(geometry: &Geometry<'_>, motion: &RelativeMotion<'_>, first: Axis, second: Axis) -> Self {
-        let frame = motion.child.link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+        let frame = geometry.linkage.frame(motion.child.link);
         let joint = Frame::with_z_and_x(first.child, second.child);
         Self { second_in_child: frame.local(second.child), second: joint.local(second.child) }
     }

@@ -40,7 +40,7 @@ pub fn joint_markers<'g>(
     links: [LinkIndex; 2],
     in_child: bool,
 ) -> [Marker<'g>; 2] {
-    let [parent, child] = links.map(|link| link_frame(geometry, link));
+    let [parent, child] = links.map(|link| geometry.linkage.frame(link));
     let (outer_parent, outer_child) = match geometry.mechanism.joint(joint).model.axes[..] {
         [] => {
             let frame = if in_child { child } else { parent };
@@ -65,12 +65,8 @@ pub fn split_body_markers<'g>(
     joint: JointId,
     links: [LinkIndex; 2],
 ) -> [Marker<'g>; 2] {
-    let [body, copy] = links.map(|link| link_frame(geometry, link));
+    let [body, copy] = links.map(|link| geometry.linkage.frame(link));
     at_joint(geometry, joint, links, [body.transposed().times(&copy).snapped(), Frame::IDENTITY])
-}
-
-fn link_frame(geometry: &Geometry<'_>, link: LinkIndex) -> Frame {
-    link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame)
 }
 
 fn at_joint<'g>(

@@ -4,7 +4,6 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::JointModel;
 
-use super::frame::Frame;
 use super::geometry::Geometry;
 use super::relative_motion::RelativeMotion;
 use super::row::Row;
@@ -125,7 +124,7 @@ impl<'a, 'g> RowMaker<'a, 'g> {
     /// The two axes a, b of a universal joint keep their angle: one row about their common normal u = a x b.
     fn cross(&mut self, geometry: &Geometry<'g>, second: [f64; 3]) {
         let motion = self.motion;
-        let frame = motion.child.link.map_or(Frame::IDENTITY, |at| geometry.linkage.links[at].frame);
+        let frame = geometry.linkage.frame(motion.child.link);
         let a = motion.parent_axis(2);
         let b_child = self.g.vector(frame.local(second));
         let b = motion.from_child * b_child;

@@ -187,6 +187,11 @@ impl Linkage {
         }
     }
 
+    /// Axes of a link in W at the reference pose.
+    pub fn frame(&self, link: LinkIndex) -> Frame {
+        link.map_or(Frame::IDENTITY, |at| self.links[at].frame)
+    }
+
     /// Number of all coordinates, driven ones included.
     pub fn coordinates(&self) -> usize {
         self.links.iter().map(|link| link.freedom.coordinates()).sum()

@@ -81,7 +81,7 @@ impl Builder<'_> {
                 Primitive::Ball => Some(self.single(step, parent, coordinate, Freedom::Ball)),
                 Primitive::Pose => Some(self.single(step, None, coordinate, Freedom::Free)),
                 Primitive::Shift => (0..3).fold(parent, |parent, index| {
-                    let axis = self.parent_frame(parent).axis(index).map(|x| sign * x);
+                    let axis = self.linkage.frame(parent).axis(index).map(|x| sign * x);
                     Some(self.slide(step, parent, coordinate + index, axis))
                 }),
             };
@@ -100,10 +100,6 @@ impl Builder<'_> {
         last
     }
 
-    fn parent_frame(&self, parent: LinkIndex) -> Frame {
-        parent.map_or(Frame::IDENTITY, |at| self.linkage.links[at].frame)
-    }
-
     fn turn(
         &mut self,
         step: TreeJoint,
@@ -112,7 +108,7 @@ impl Builder<'_> {
         axis: [f64; 3],
         advance: f64,
     ) -> usize {
-        let outer = self.parent_frame(parent);
+        let outer = self.linkage.frame(parent);
         let (mount, offset) =
             canonical_frame(outer.local(axis), |_| self.target(step).map(|direction| outer.local(direction)));
         let frame = outer.times(&mount).times(&Frame::about_z(offset)).snapped();
@@ -120,14 +116,14 @@ impl Builder<'_> {
     }
 
     fn slide(&mut self, step: TreeJoint, parent: LinkIndex, coordinate: usize, axis: [f64; 3]) -> usize {
-        let frame = self.parent_frame(parent);
+        let frame = self.linkage.frame(parent);
         let axis = reduce(frame.local(axis));
         self.push(step, parent, coordinate, Freedom::Translation { axis }, Frame::IDENTITY, frame)
     }
 
     /// A chain of one link whose orientation is free to choose (ball, free) or the parent's (weld).
     fn single(&mut self, step: TreeJoint, parent: LinkIndex, coordinate: usize, freedom: Freedom) -> usize {
-        let outer = self.parent_frame(parent);
+        let outer = self.linkage.frame(parent);
         let frame = match freedom {
             Freedom::Weld => outer,
             _ => match self.mechanism.body(step.outboard).flexible.as_ref() {

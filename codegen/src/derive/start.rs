@@ -4,7 +4,6 @@
 use crate::expr::{Expr, Vec3};
 use crate::model::{Carrier, Formula, Start};
 
-use super::frame::Frame;
 use super::geometry::Geometry;
 use super::kinematics::{Poses, Twist, carried_twist, twists};
 use super::linkage::{Freedom, Link};
@@ -156,8 +155,7 @@ impl<'g> StartValues<'g> {
             let parent = link.parent.map_or_else(|| Twist::none(g), |parent| all[parent]);
             let carried = carried_twist(parent, &poses.relative[at]);
             // Wished components are along axes that move with the parent and are parallel to W at the reference pose.
-            let parent_frame = link.parent.map_or(Frame::IDENTITY, |p| linkage.links[p].frame);
-            let turning = poses.relative[at].inwards(geometry.turn(&parent_frame, relative));
+            let turning = poses.relative[at].inwards(geometry.turn(&linkage.frame(link.parent), relative));
             let mut speeds = (carried.omega + turning).0.to_vec();
             if link.freedom == Freedom::Free {
                 speeds.extend(poses.world[at].inwards(Vec3::first_of(&wished[3..])));

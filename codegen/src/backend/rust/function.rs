@@ -212,11 +212,8 @@ fn constant(number: f64) -> TokenStream {
         return quote!(T::constant(f64::NAN));
     }
     if number.is_infinite() {
-        return if number > 0.0 {
-            quote!(T::constant(f64::INFINITY))
-        } else {
-            quote!(T::constant(f64::NEG_INFINITY))
-        };
+        let name = if number > 0.0 { quote!(INFINITY) } else { quote!(NEG_INFINITY) };
+        return quote!(T::constant(f64::#name));
     }
     let literal: Literal = format!("{:?}", number.abs()).parse().expect("Debug of f64 is a literal");
     if number.is_sign_negative() { quote!(T::constant(-#literal)) } else { quote!(T::constant(#literal)) }
