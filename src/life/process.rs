@@ -8,7 +8,7 @@ use linkwear_runtime::{Description, GammaRates};
 
 use super::error::Cause;
 use super::fit::JointFit;
-use super::study::LifeStudy;
+use super::study::{LifeStudy, Trajectories};
 
 /// Step in ln alpha and ln beta for the derivatives of a mean life: curvature leaves an error of 1e-4 of them.
 const STEP: f64 = 0.02;
@@ -54,7 +54,8 @@ impl Process {
             return Err(Cause::TwoFits { joint: fit.joint.clone() });
         }
         let shared = study.shared_factor.map(shared).transpose()?;
-        let is_asked = study.trajectories.is_asked() || !study.fits.is_empty() || shared.is_some();
+        let is_counted = matches!(study.trajectories, Trajectories::Count(_));
+        let is_asked = is_counted || !study.fits.is_empty() || shared.is_some();
         let mut joints = Vec::new();
         for (contact, joint) in contacts().zip(known) {
             let fit = study.fits.iter().find(|fit| fit.joint == joint);

@@ -50,8 +50,11 @@ impl LifeStudy<'_> {
         // Within a revolution and along a table nothing is told, and the watch may stop all the same.
         let ask = |_: f64| watch.report(f64::from_bits(last.load(Ordering::Relaxed)));
         let (watch, silent) = (Watch::new(&tell), Watch::new(&ask));
+        if !self.mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
+            return Err(Cause::NoWear.into());
+        }
         let system = self.mechanism.system();
-        let mut source = self.source(&*system, silent)?;
+        let mut source = self.source(&*system, silent).map_err(Cause::from)?;
         let plan = Plan::new(self, &source, (watch, silent))?;
         let mut result = match plan.coupling {
             Coupling::Table => plan.by_table(&mut source),
@@ -66,12 +69,8 @@ impl LifeStudy<'_> {
         &'s self,
         system: &'s dyn System<f64>,
         silent: Watch<'s>,
-    ) -> Result<DynamicsSource<'s>, Cause> {
-        let mechanism = self.mechanism;
-        if !mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
-            return Err(Cause::NoWear);
-        }
-        let (description, parameters) = (&mechanism.description, &mechanism.parameters);
+    ) -> Result<DynamicsSource<'s>, RunError> {
+        let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
         Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.watched_by(silent))
     }
 }
@@ -133,10 +132,7 @@ impl<'s> Plan<'s> {
         let mut result = self.mean_path(source, self.watch)?;
         self.draw(&mut result, &|body: Body<'_>| {
             let system = self.study.mechanism.system();
-            let (description, parameters) =
-                (&self.study.mechanism.description, &self.study.mechanism.parameters);
-            let made = DynamicsSource::new(&*system, description, parameters, self.study.revolutions)?;
-            body(&mut made.watched_by(self.silent));
+            body(&mut self.study.source(&*system, self.silent)?);
             Ok(())
         })?;
         Ok(result)

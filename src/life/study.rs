@@ -29,11 +29,6 @@ pub enum Trajectories {
 }
 
 impl Trajectories {
-    /// Whether random lives are asked for by number.
-    pub(super) fn is_asked(self) -> bool {
-        matches!(self, Self::Count(_))
-    }
-
     /// The number of lives; none: the mean path alone.
     pub(super) fn count(self, coupling: Coupling) -> Option<u64> {
         /// A standard error of a thirtieth of the scatter.
