@@ -127,14 +127,15 @@ fn everything<T: Scalar>(x: [T; 11]) -> Vec<T> {
     out.extend([next.touching, next.closing_speed]);
     for laws in laws() {
         let f = flat.force(&laws, stiffness, &memory);
-        out.extend([f.force[0], f.force[1], f.torque, f.elastic_energy, f.damping_loss, f.friction_loss]);
+        out.extend([f.force[0], f.force[1], f.moment[2]]);
+        out.extend([f.normal.elastic_energy, f.normal.damping_loss, f.friction_loss]);
         let g = ball.force(&laws, stiffness, &memory);
         out.extend(g.force.into_iter().chain(g.moment).chain([g.friction_loss]));
         out.push(laws.normal.resting_penetration(stiffness, f.force[0]));
         for area in [Area::Projected, Area::Hertz, Area::Conformal] {
             let pair = Pair { journal_radius: radius, length: c(0.02), clearance, modulus: c(115e9) };
             let load = Load {
-                normal_force: f.normal_force,
+                normal_force: f.normal.force,
                 penetration: flat.penetration,
                 sliding_speed: flat.sliding_speed,
             };

@@ -2,6 +2,7 @@
 //! Reads the paths in the source (tests inside modules excepted) and compares.
 
 mod graph;
+mod laws;
 mod source;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -79,8 +79,6 @@ impl Clearance {
             Some((strength, onset, slope)) => Friction::new(strength, onset, slope)?,
             None => Friction::none(),
         };
-        let (Stiffness::Given(stiffness) | Stiffness::Hertz { modulus: stiffness }) = info.stiffness;
-        positive("contact stiffness", stiffness)?;
         let wear = match info.wear {
             Some(wear) => {
                 ScalarFeedback::new(wear.feedback)?;
@@ -94,7 +92,7 @@ impl Clearance {
         };
         Ok(Self {
             laws: Laws { normal, friction },
-            stiffness: info.stiffness,
+            stiffness: info.stiffness.checked()?,
             radius: positive("journal radius", info.journal_radius)?,
             length: positive("bearing length", info.length)?,
             modulus: positive("contact modulus", info.modulus)?,
@@ -174,68 +172,39 @@ impl Clearance {
         let round = motion[9] + worn;
         let clearance = round + profile.map_or(0.0, Profile::mean);
         let stiffness = self.stiffness(clearance);
-        let mut touch = if self.ball {
+        let (angle, contact, force) = if self.ball {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
-            self.ball_contact(&motion, clearance, stiffness, memory)
+            let contact = SphericalContact::new(&motion, self.radius, clearance);
+            let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
+            (0.0, geometry, contact.force(&self.laws, stiffness, memory))
         } else {
-            let offset = [offset[0], offset[1]];
+            let [[x, y, _], [vx, vy, _]] = [offset, offset_rate];
             let support = match self.grid.as_ref().zip(profile) {
-                Some((grid, profile)) => grid.support(profile, round, offset),
-                None => Support::round(offset, round),
+                Some((grid, profile)) => grid.support(profile, round, [x, y]),
+                None => Support::round([x, y], round),
             };
-            let offset_rate = [offset_rate[0], offset_rate[1]];
-            let motion = RevoluteMotion { offset, offset_rate, joint_speed: turning[2] };
-            self.journal_contact(&motion, &support, stiffness, memory)
+            let motion = RevoluteMotion { offset: [x, y], offset_rate: [vx, vy], joint_speed: turning[2] };
+            let contact = RevoluteContact::new(&motion, self.radius, &support);
+            let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
+            (contact.angle, geometry, contact.force(&self.laws, stiffness, memory))
         };
-        touch.clearance = clearance;
-        self.finish(&mut touch);
-        touch
-    }
-
-    fn journal_contact(
-        &self,
-        motion: &RevoluteMotion<f64>,
-        support: &Support<f64>,
-        stiffness: f64,
-        memory: &ImpactMemory<f64>,
-    ) -> ContactState {
-        let contact = RevoluteContact::new(motion, self.radius, support);
-        let force = contact.force(&self.laws, stiffness, memory);
-        ContactState {
-            offset: [motion.offset[0], motion.offset[1], 0.0],
-            angle: contact.angle,
-            gap: contact.gap,
-            penetration_rate: contact.penetration_rate,
-            normal_force: force.normal_force,
-            sliding_speed: contact.sliding_speed,
-            elastic_energy: force.elastic_energy,
-            loss: force.damping_loss + force.friction_loss,
-            wrench: [force.force[0], force.force[1], 0.0, 0.0, 0.0, force.torque],
-            ..ContactState::default()
-        }
-    }
-
-    fn ball_contact(
-        &self,
-        motion: &SphericalMotion<f64>,
-        clearance: f64,
-        stiffness: f64,
-        memory: &ImpactMemory<f64>,
-    ) -> ContactState {
-        let contact = SphericalContact::new(motion, self.radius, clearance);
-        let force = contact.force(&self.laws, stiffness, memory);
+        let [penetration, penetration_rate, sliding_speed] = contact;
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
-        ContactState {
-            offset: motion.offset,
-            gap: contact.gap,
-            penetration_rate: contact.penetration_rate,
-            normal_force: force.normal_force,
-            sliding_speed: contact.sliding_speed,
-            elastic_energy: force.elastic_energy,
-            loss: force.damping_loss + force.friction_loss,
+        let mut touch = ContactState {
+            offset: if self.ball { offset } else { [offset[0], offset[1], 0.0] },
+            angle,
+            clearance,
+            gap: -penetration,
+            penetration_rate,
+            normal_force: force.normal.force,
+            sliding_speed,
+            elastic_energy: force.normal.elastic_energy,
+            loss: force.normal.damping_loss + force.friction_loss,
             wrench: [fx, fy, fz, mx, my, mz],
             ..ContactState::default()
-        }
+        };
+        self.finish(&mut touch);
+        touch
     }
 
     fn finish(&self, touch: &mut ContactState) {

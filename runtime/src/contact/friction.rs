@@ -33,6 +33,20 @@ pub enum Strength {
     },
 }
 
+impl Strength {
+    /// By the coefficient at high speed and, where friction is stronger at rest, the coefficient there and the Stribeck
+    /// speed [m/s].
+    pub fn new(coefficient: f64, at_rest: Option<(f64, f64)>) -> Self {
+        match at_rest {
+            None => Self::Coulomb { coefficient },
+            Some((static_coefficient, stribeck_speed)) => {
+                let kinetic_coefficient = coefficient;
+                Self::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, exponent: 2.0 }
+            }
+        }
+    }
+}
+
 /// How friction grows from zero speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -50,6 +64,13 @@ pub enum Onset {
         /// v_1 [m/s].
         upper: f64,
     },
+}
+
+impl Onset {
+    /// By one speed [m/s] up to which friction is smoothed, or by the two between which it grows.
+    pub fn new(speed: f64, upper: Option<f64>) -> Self {
+        upper.map_or(Self::Smoothed { speed }, |upper| Self::Ambrosio { lower: speed, upper })
+    }
 }
 
 /// A law of friction with its constants.

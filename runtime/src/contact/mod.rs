@@ -21,12 +21,12 @@ mod spherical;
 mod stiffness;
 
 pub use friction::{Friction, Onset, Strength};
-pub use laws::Laws;
+pub use laws::{ContactForce, Laws};
 pub use memory::{ImpactMemory, crossing_speed};
 pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce};
 pub use range::OutOfRange;
 pub(crate) use range::{not_negative, positive};
 pub use restitution::Restitution;
-pub use revolute::{RevoluteContact, RevoluteForce, RevoluteMotion, Support, bearing_angle};
-pub use spherical::{SphericalContact, SphericalForce, SphericalMotion};
+pub use revolute::{RevoluteContact, RevoluteMotion, Support, bearing_angle};
+pub use spherical::{SphericalContact, SphericalMotion};
 pub use stiffness::{Stiffness, effective_radius, equivalent_modulus};

@@ -1,8 +1,8 @@
 //! A journal in its bearing, [CS (9)-(13), (16), (17)]: gap, penetration, sliding, forces on the journal.
 //! In: motion of the journal's centre in the bearing's frame, relative speed of the joint, penetration with its gradient.
-//! Out: one [`RevoluteContact`], from it one [`RevoluteForce`]. Never knows generalised coordinates.
+//! Out: one [`RevoluteContact`], from it one [`ContactForce`]. Never knows generalised coordinates.
 
-use super::laws::Laws;
+use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
 use crate::scalar::Scalar;
 
@@ -47,11 +47,7 @@ impl<T: Scalar> Support<T> {
 pub struct RevoluteContact<T> {
     /// Contact angle atan2(y, x) of the offset in the bearing's frame, in (-pi, pi] [rad].
     pub angle: T,
-    /// Distance of the centres [m].
-    pub distance: T,
-    /// Gap [m]; negative while the bodies touch.
-    pub gap: T,
-    /// Penetration, minus the gap [m].
+    /// Penetration, negative while the bodies are apart [m].
     pub penetration: T,
     /// Rate of the penetration [m/s].
     pub penetration_rate: T,
@@ -64,27 +60,6 @@ pub struct RevoluteContact<T> {
     journal_radius: T,
 }
 
-/// Forces of a contact at one instant and where their power goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RevoluteForce<T> {
-    /// Normal force F_n >= 0 [N].
-    pub normal_force: T,
-    /// Friction force along minus the tangent [N], with the sign of the sliding speed.
-    pub friction_force: T,
-    /// Force on the journal, at its centre, in the bearing's frame [N].
-    pub force: [T; 2],
-    /// Torque on the journal about its centre [N m].
-    pub torque: T,
-    /// Energy stored in the contact [J].
-    pub elastic_energy: T,
-    /// Its rate [W].
-    pub elastic_power: T,
-    /// Power lost in the contact's damping [W].
-    pub damping_loss: T,
-    /// Power lost in friction [W].
-    pub friction_loss: T,
-}
-
 /// Contact angle atan2(y, x) [rad] of a journal centre at `offset` [m] in the bearing's frame, in
 /// (-pi, pi]; zero for a centred journal. Where a profile is to be read.
 #[inline]
@@ -93,14 +68,21 @@ pub fn bearing_angle<T: Scalar>(offset: [T; 2]) -> T {
     normal[1].atan2(normal[0])
 }
 
+/// Scalar product.
+#[inline(always)]
+pub(super) fn dot<T: Scalar, const N: usize>(a: [T; N], b: [T; N]) -> T {
+    (1..N).fold(a[0] * b[0], |sum, i| sum + a[i] * b[i])
+}
+
 /// Distance and unit vector of an offset; finite, with finite derivatives, also at zero.
 #[inline]
-fn direction<T: Scalar>([x, y]: [T; 2]) -> (T, [T; 2]) {
+pub(super) fn direction<T: Scalar, const N: usize>(offset: [T; N]) -> (T, [T; N]) {
     let c = T::constant;
-    let square = x * x + y * y;
+    let square = dot(offset, offset);
     let centred = square.lt(c(CENTRED));
     let distance = T::select(centred, c(1.0), square).sqrt();
-    let normal = [T::select(centred, c(1.0), x / distance), T::select(centred, c(0.0), y / distance)];
+    let instead = |axis: usize| c(if axis == 0 { 1.0 } else { 0.0 });
+    let normal = core::array::from_fn(|axis| T::select(centred, instead(axis), offset[axis] / distance));
     (T::select(centred, c(0.0), distance), normal)
 }
 
@@ -111,20 +93,16 @@ impl<T: Scalar> RevoluteContact<T> {
     /// the other way round, bearing minus journal, which is right only for forces on the bearing.
     #[inline]
     pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, support: &Support<T>) -> Self {
-        let (distance, outward) = direction(motion.offset);
+        let (_, outward) = direction(motion.offset);
         let Support { penetration, gradient: normal } = *support;
         let tangent = [-normal[1], normal[0]];
-        let [vx, vy] = motion.offset_rate;
-        let around = tangent[0] * vx + tangent[1] * vy;
         Self {
             angle: outward[1].atan2(outward[0]),
-            distance,
-            gap: -penetration,
             penetration,
-            penetration_rate: normal[0] * vx + normal[1] * vy,
+            penetration_rate: dot(normal, motion.offset_rate),
             normal,
             tangent,
-            sliding_speed: around + journal_radius * motion.joint_speed,
+            sliding_speed: dot(tangent, motion.offset_rate) + journal_radius * motion.joint_speed,
             journal_radius,
         }
     }
@@ -132,21 +110,16 @@ impl<T: Scalar> RevoluteContact<T> {
     /// Forces on the journal, [CS (16)] in the direction that takes energy away:
     /// F = -F_n n - mu F_n sign(v_t) t, torque -r_j mu F_n sign(v_t).
     #[inline]
-    pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> RevoluteForce<T> {
+    pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
         let friction_force = laws.friction.signed(self.sliding_speed) * normal.force;
-        RevoluteForce {
-            normal_force: normal.force,
-            friction_force,
-            force: [
-                -(normal.force * self.normal[0] + friction_force * self.tangent[0]),
-                -(normal.force * self.normal[1] + friction_force * self.tangent[1]),
-            ],
-            torque: -(self.journal_radius * friction_force),
-            elastic_energy: normal.elastic_energy,
-            elastic_power: normal.elastic_power,
-            damping_loss: normal.damping_loss,
+        let force = |i: usize| -(normal.force * self.normal[i] + friction_force * self.tangent[i]);
+        let zero = T::constant(0.0);
+        ContactForce {
+            normal,
+            force: [force(0), force(1), zero],
+            moment: [zero, zero, -(self.journal_radius * friction_force)],
             friction_loss: friction_force * self.sliding_speed,
         }
     }
@@ -189,7 +162,7 @@ mod tests {
         // The rate is a difference of numbers of 2e-3 m/s with ten digits.
         assert!((contact.penetration_rate + 6.290_717_92e-5).abs() < 1e-11, "{}", contact.penetration_rate);
         assert!((contact.sliding_speed - 0.128_390_334_8).abs() < 1e-9, "{}", contact.sliding_speed);
-        assert!((force.normal_force / 4.765_438_801 - 1.0).abs() < 2e-7, "{}", force.normal_force);
+        assert!((force.normal.force / 4.765_438_801 - 1.0).abs() < 2e-7, "{}", force.normal.force);
     }
 
     #[test]
@@ -204,11 +177,11 @@ mod tests {
         let contact = RevoluteContact::new(&motion, d(0.01, 0.0), &support);
         let force = contact.force(&laws(), d(K, 0.0), &ImpactMemory::apart());
         assert_eq!((contact.angle.value, contact.penetration.value), (0.0, -1e-5));
-        assert_eq!((force.force[0].value, force.force[1].value, force.torque.value), (0.0, 0.0, 0.0));
-        for x in [contact.angle, contact.distance, contact.penetration_rate, contact.sliding_speed] {
+        assert_eq!((force.force[0].value, force.force[1].value, force.moment[2].value), (0.0, 0.0, 0.0));
+        for x in [contact.angle, contact.penetration_rate, contact.sliding_speed] {
             assert!(x.value.is_finite() && x.derivative.is_finite());
         }
-        for x in [force.force[0], force.force[1], force.torque, force.friction_loss] {
+        for x in [force.force[0], force.force[1], force.moment[2], force.friction_loss] {
             assert!(x.value.is_finite() && x.derivative.is_finite());
         }
     }
@@ -225,11 +198,11 @@ mod tests {
         let motion = RevoluteMotion { offset: [1.1e-5, 0.0], offset_rate: [0.0, 0.0], joint_speed: 12.0 };
         let contact = RevoluteContact::new(&motion, 0.01, &Support::round(motion.offset, 1e-5));
         let out = contact.force(&laws(), K, &ImpactMemory::in_contact(0.0));
-        assert!(out.normal_force > 0.0 && out.torque < 0.0);
-        assert_eq!(out.force[0], -out.normal_force);
+        assert!(out.normal.force > 0.0 && out.moment[2] < 0.0);
+        assert_eq!(out.force[0], -out.normal.force);
         // mu F_n against the surface's motion, which at this contact is along +y.
-        assert!((out.force[1] / (-0.05 * out.normal_force) - 1.0).abs() < 1e-15);
-        assert!((out.torque / (0.01 * out.force[1]) - 1.0).abs() < 1e-15);
+        assert!((out.force[1] / (-0.05 * out.normal.force) - 1.0).abs() < 1e-15);
+        assert!((out.moment[2] / (0.01 * out.force[1]) - 1.0).abs() < 1e-15);
     }
 
     /// A wall: the penetration goes with a constant gradient.
@@ -238,11 +211,11 @@ mod tests {
     }
 
     /// Inputs as one list: offset, its rate, joint speed, clearance, gradient, impact speed.
-    fn evaluate<T: Scalar>(x: [T; 9]) -> ([T; 3], RevoluteForce<T>) {
+    fn evaluate<T: Scalar>(x: [T; 9]) -> ([T; 3], ContactForce<T>) {
         let motion = RevoluteMotion { offset: [x[0], x[1]], offset_rate: [x[2], x[3]], joint_speed: x[4] };
         let contact = RevoluteContact::new(&motion, T::constant(0.01), &wall(&x));
         let out = contact.force(&laws(), T::constant(K), &ImpactMemory::in_contact(x[8]));
-        ([out.force[0], out.force[1], out.torque], out)
+        ([out.force[0], out.force[1], out.moment[2]], out)
     }
 
     fn inputs() -> impl Strategy<Value = [f64; 9]> {
@@ -262,11 +235,11 @@ mod tests {
         fn power_of_the_forces_is_stored_or_lost(x in inputs()) {
             let ([fx, fy, torque], out) = evaluate(x);
             let power = fx * x[2] + fy * x[3] + torque * x[4];
-            let expected = -(out.elastic_power + out.damping_loss + out.friction_loss);
-            let scale = out.normal_force * (x[2].abs() + x[3].abs() + 0.01 * x[4].abs());
+            let expected = -(out.normal.elastic_power + out.normal.damping_loss + out.friction_loss);
+            let scale = out.normal.force * (x[2].abs() + x[3].abs() + 0.01 * x[4].abs());
             // Some twenty roundings of terms below the scale, which is below three times the largest.
             prop_assert!((power - expected).abs() <= 1e-14 * scale, "{} {}", power, expected);
-            prop_assert!(out.friction_loss >= 0.0 && out.damping_loss >= 0.0);
+            prop_assert!(out.friction_loss >= 0.0 && out.normal.damping_loss >= 0.0);
         }
 
         #[test]
@@ -275,9 +248,9 @@ mod tests {
             let mut dual = x.map(Dual::<f64>::constant);
             (dual[0], dual[1]) = (Dual::new(x[0], x[2]), Dual::new(x[1], x[3]));
             let (_, out) = evaluate(dual);
-            let scale = out.elastic_power.value.abs() + out.normal_force.value * 0.01;
+            let scale = out.normal.elastic_power.value.abs() + out.normal.force.value * 0.01;
             // As above.
-            prop_assert!((out.elastic_energy.derivative - out.elastic_power.value).abs() <= 1e-14 * scale);
+            prop_assert!((out.normal.elastic_energy.derivative - out.normal.elastic_power.value).abs() <= 1e-14 * scale);
         }
 
         #[test]
@@ -302,7 +275,7 @@ mod tests {
                 // Rounding of a force over the step, and (step/size)² of truncation: sizes are 2e-8 m for
                 // the penetration (2e-4 of an offset of 1e-4 m for the gradient), 1e-3 m/s and 0.1 rad/s
                 // (r_j omega = 1e-3 m/s) for the speeds.
-                let scale = out.normal_force.value * [5e7, 5e7, 1e3, 1e3, 10.0, 5e7, 5e3, 5e3, 1e3][index];
+                let scale = out.normal.force.value * [5e7, 5e7, 1e3, 1e3, 10.0, 5e7, 5e3, 5e3, 1e3][index];
                 prop_assert!(
                     (exact[i].derivative - difference).abs() <= 1e-3 * exact[i].derivative.abs() + 2e-4 * scale,
                     "{} {} {}", i, exact[i].derivative, difference

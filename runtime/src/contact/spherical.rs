@@ -1,15 +1,14 @@
 //! A ball in its socket: gap, penetration, sliding, force and moment on the ball.
 //! In: motion of the ball's centre in the socket's frame, relative angular velocity, clearance.
-//! Out: one [`SphericalContact`], from it one [`SphericalForce`]. Never knows generalised coordinates.
+//! Out: one [`SphericalContact`], from it one [`ContactForce`]. Never knows generalised coordinates.
 //!
 //! The same laws as in [`super::revolute`], with vectors for the tangential parts.
 
-use super::laws::Laws;
+use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
+use super::revolute::{direction, dot};
 use crate::scalar::Scalar;
 
-/// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
-const CENTRED: f64 = 1e-60;
 /// Squared sliding speeds [m²/s²] below this count as this: the root has no derivative at zero.
 const AT_REST: f64 = 1e-40;
 
@@ -27,11 +26,7 @@ pub struct SphericalMotion<T> {
 /// Geometry and sliding of a contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalContact<T> {
-    /// Distance of the centres [m].
-    pub distance: T,
-    /// Gap [m]; negative while the bodies touch.
-    pub gap: T,
-    /// Penetration, minus the gap [m].
+    /// Penetration, negative while the bodies are apart [m].
     pub penetration: T,
     /// Rate of the penetration [m/s].
     pub penetration_rate: T,
@@ -44,32 +39,6 @@ pub struct SphericalContact<T> {
     ball_radius: T,
 }
 
-/// Forces of a contact at one instant and where their power goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SphericalForce<T> {
-    /// Normal force F_n >= 0 [N].
-    pub normal_force: T,
-    /// Friction force on the ball, against the sliding velocity [N].
-    pub friction_force: [T; 3],
-    /// Force on the ball, at its centre, in the socket's frame [N].
-    pub force: [T; 3],
-    /// Moment on the ball about its centre [N m].
-    pub moment: [T; 3],
-    /// Energy stored in the contact [J].
-    pub elastic_energy: T,
-    /// Its rate [W].
-    pub elastic_power: T,
-    /// Power lost in the contact's damping [W].
-    pub damping_loss: T,
-    /// Power lost in friction [W].
-    pub friction_loss: T,
-}
-
-#[inline(always)]
-fn dot<T: Scalar>(a: [T; 3], b: [T; 3]) -> T {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 #[inline(always)]
 fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -78,18 +47,6 @@ fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
 #[inline(always)]
 fn scaled<T: Scalar>(a: [T; 3], factor: T) -> [T; 3] {
     a.map(|component| component * factor)
-}
-
-/// Distance and unit vector of an offset; finite, with finite derivatives, also at zero.
-#[inline]
-fn direction<T: Scalar>(offset: [T; 3]) -> (T, [T; 3]) {
-    let c = T::constant;
-    let square = dot(offset, offset);
-    let centred = square.lt(c(CENTRED));
-    let distance = T::select(centred, c(1.0), square).sqrt();
-    let along = |component: T, instead: f64| T::select(centred, c(instead), component / distance);
-    let normal = [along(offset[0], 1.0), along(offset[1], 0.0), along(offset[2], 0.0)];
-    (T::select(centred, c(0.0), distance), normal)
 }
 
 impl<T: Scalar> SphericalContact<T> {
@@ -101,11 +58,8 @@ impl<T: Scalar> SphericalContact<T> {
         let turning = cross(motion.angular_velocity, scaled(normal, ball_radius));
         let sliding = |i: usize| (motion.offset_rate[i] - penetration_rate * normal[i]) + turning[i];
         let sliding_velocity = [sliding(0), sliding(1), sliding(2)];
-        let penetration = distance - clearance;
         Self {
-            distance,
-            gap: -penetration,
-            penetration,
+            penetration: distance - clearance,
             penetration_rate,
             normal,
             sliding_velocity,
@@ -116,20 +70,16 @@ impl<T: Scalar> SphericalContact<T> {
 
     /// Force and moment on the ball: -F_n n - mu F_n v_t/|v_t|, moment r n x (friction force).
     #[inline]
-    pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> SphericalForce<T> {
+    pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
         let drag = laws.friction.over_speed(self.sliding_speed) * normal.force;
         let friction_force = scaled(self.sliding_velocity, -drag);
         let total = |i: usize| friction_force[i] - normal.force * self.normal[i];
-        SphericalForce {
-            normal_force: normal.force,
-            friction_force,
+        ContactForce {
+            normal,
             force: [total(0), total(1), total(2)],
             moment: cross(scaled(self.normal, self.ball_radius), friction_force),
-            elastic_energy: normal.elastic_energy,
-            elastic_power: normal.elastic_power,
-            damping_loss: normal.damping_loss,
             friction_loss: drag * dot(self.sliding_velocity, self.sliding_velocity),
         }
     }
@@ -166,11 +116,11 @@ mod tests {
         };
         let ball = SphericalContact::new(&motion, 0.01, 1e-5);
         let space = ball.force(&laws(), K, &ImpactMemory::in_contact(2e-3));
-        let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * plane.normal_force;
-        assert!(plane.normal_force > 0.0);
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * plane.normal.force;
+        assert!(plane.normal.force > 0.0);
         // The same formulas in another order of operations.
         assert!(same(space.force[0], plane.force[0]) && same(space.force[1], plane.force[1]));
-        assert!(same(space.moment[2], plane.torque) && same(space.force[2], 0.0));
+        assert!(same(space.moment[2], plane.moment[2]) && same(space.force[2], 0.0));
         assert!(same(space.friction_loss, plane.friction_loss));
     }
 
@@ -208,11 +158,11 @@ mod tests {
             let contact = SphericalContact::new(&motion, 0.01, 1e-5);
             let out = contact.force(&laws(), K, &ImpactMemory::in_contact(impact));
             let power = dot(out.force, rate) + dot(out.moment, omega);
-            let expected = -(out.elastic_power + out.damping_loss + out.friction_loss);
+            let expected = -(out.normal.elastic_power + out.normal.damping_loss + out.friction_loss);
             // Some thirty roundings of terms below F_n times the largest speed, 0.02 + 0.01 * 9 m/s.
-            prop_assert!((power - expected).abs() <= 1e-15 * 0.2 * 10.0 * out.normal_force);
+            prop_assert!((power - expected).abs() <= 1e-15 * 0.2 * 10.0 * out.normal.force);
             prop_assert!(dot(contact.sliding_velocity, contact.normal).abs() < 1e-16);
-            prop_assert!(dot(out.friction_force, contact.sliding_velocity) <= 0.0);
+            prop_assert!(out.friction_loss >= 0.0);
         }
     }
 }

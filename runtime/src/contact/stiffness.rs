@@ -42,6 +42,20 @@ pub enum Stiffness {
 }
 
 impl Stiffness {
+    /// The one that is given, or that of two spheres of the pair's modulus E* [Pa].
+    pub fn new(given: Option<f64>, modulus: f64) -> Self {
+        given.map_or(Self::Hertz { modulus }, Self::Given)
+    }
+
+    /// Itself, if its constant is in range.
+    ///
+    /// # Errors
+    /// If it is not above zero and finite.
+    pub fn checked(self) -> Result<Self, OutOfRange> {
+        let (Self::Given(constant) | Self::Hertz { modulus: constant }) = self;
+        positive("contact stiffness", constant).map(|_| self)
+    }
+
     /// K [N/m^n] at a journal radius and a clearance [m].
     #[inline]
     pub fn value<T: Scalar>(&self, journal_radius: T, clearance: T) -> T {

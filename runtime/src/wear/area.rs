@@ -47,6 +47,11 @@ pub struct Load<T> {
 }
 
 impl Area {
+    /// Whether it takes the bodies as half-spaces, which only narrow contacts are.
+    pub fn is_half_space(self) -> bool {
+        self == Self::Hertz
+    }
+
     /// Mean pressure F_n/A [Pa]; zero where there is no force, with a finite derivative.
     #[inline]
     pub fn pressure<T: Scalar>(self, load: &Load<T>, pair: &Pair<T>) -> T {

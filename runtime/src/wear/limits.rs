@@ -68,7 +68,7 @@ impl Observed {
         raise(&mut self.pressure, pressure);
         raise(&mut self.pressure_speed, pressure * Scalar::abs(load.sliding_speed));
         raise(&mut self.penetration, load.penetration);
-        if area == Area::Hertz {
+        if area.is_half_space() {
             let half_width = area.half_angle(load, pair) * (pair.journal_radius + pair.clearance);
             raise(&mut self.hertz_half_width, half_width);
         }

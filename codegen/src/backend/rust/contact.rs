@@ -2,28 +2,29 @@
 
 use std::fmt::Debug;
 
-use linkwear_runtime::contact::{Onset, Stiffness, Strength};
+use linkwear_runtime::contact::{Onset, Strength};
 use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
-use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use proc_macro2::{Group, Literal, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
 
 fn number(value: f64) -> Literal {
     Literal::f64_unsuffixed(value)
 }
 
-/// The variant of an enumeration of laws, whichever laws there are.
-fn variant(law: impl Debug) -> Ident {
-    format_ident!("{}", format!("{law:?}"))
+/// A law with its constants as an expression, whichever laws there are: what `Debug` writes, with the numbers as they
+/// are written everywhere.
+fn law(law: impl Debug) -> TokenStream {
+    let Ok(tokens) = format!("{law:?}").parse::<TokenStream>() else { return TokenStream::new() };
+    with_plain_numbers(tokens)
 }
 
-/// A variant with fields.
-fn with_fields<const N: usize>(name: &str, fields: [(&str, f64); N]) -> TokenStream {
-    let name = format_ident!("{name}");
-    let fields = fields.map(|(field, value)| {
-        let (field, value) = (format_ident!("{field}"), number(value));
-        quote!(#field: #value)
-    });
-    quote!(#name { #(#fields),* })
+fn with_plain_numbers(tokens: TokenStream) -> TokenStream {
+    let plain = |token: TokenTree| match token {
+        TokenTree::Literal(literal) => literal.to_string().parse().map_or(literal, number).into(),
+        TokenTree::Group(group) => Group::new(group.delimiter(), with_plain_numbers(group.stream())).into(),
+        other => other,
+    };
+    tokens.into_iter().map(plain).collect()
 }
 
 /// `Some` of a value, or `None`.
@@ -33,17 +34,11 @@ pub fn option(value: Option<impl ToTokens>) -> TokenStream {
 
 /// A `ContactInfo` literal.
 pub fn contact(info: &ContactInfo, runtime: &TokenStream) -> TokenStream {
-    let (joint, ball, law) = (&*info.joint, info.ball, variant(info.law));
+    let (joint, ball, restitution_law) = (&*info.joint, info.ball, law(info.law));
     let [radius, length, modulus] = [info.journal_radius, info.length, info.modulus].map(number);
     let [restitution, exponent, floor] =
         [info.restitution, info.exponent, info.impact_speed_floor].map(number);
-    let stiffness = match info.stiffness {
-        Stiffness::Given(value) => {
-            let value = number(value);
-            quote!(Given(#value))
-        }
-        Stiffness::Hertz { modulus } => with_fields("Hertz", [("modulus", modulus)]),
-    };
+    let stiffness = law(info.stiffness);
     let friction =
         option(info.friction.map(|(strength, onset, slope)| friction(strength, onset, slope, runtime)));
     let wear = option(info.wear.as_ref().map(|info| wear(info, runtime)));
@@ -51,29 +46,14 @@ pub fn contact(info: &ContactInfo, runtime: &TokenStream) -> TokenStream {
         #runtime::ContactInfo {
             joint: ::std::borrow::Cow::Borrowed(#joint), ball: #ball, journal_radius: #radius, length: #length,
             modulus: #modulus, stiffness: #runtime::contact::Stiffness::#stiffness,
-            law: #runtime::contact::Restitution::#law, restitution: #restitution, exponent: #exponent,
+            law: #runtime::contact::Restitution::#restitution_law, restitution: #restitution, exponent: #exponent,
             impact_speed_floor: #floor, friction: #friction, wear: #wear,
         }
     }
 }
 
 fn friction(strength: Strength, onset: Onset, slope: f64, runtime: &TokenStream) -> TokenStream {
-    let strength = match strength {
-        Strength::Coulomb { coefficient } => with_fields("Coulomb", [("coefficient", coefficient)]),
-        Strength::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, exponent } => {
-            let fields = [
-                ("static_coefficient", static_coefficient),
-                ("kinetic_coefficient", kinetic_coefficient),
-                ("stribeck_speed", stribeck_speed),
-                ("exponent", exponent),
-            ];
-            with_fields("Stribeck", fields)
-        }
-    };
-    let onset = match onset {
-        Onset::Smoothed { speed } => with_fields("Smoothed", [("speed", speed)]),
-        Onset::Ambrosio { lower, upper } => with_fields("Ambrosio", [("lower", lower), ("upper", upper)]),
-    };
+    let (strength, onset) = (law(strength), law(onset));
     let slope = number(slope);
     quote!((#runtime::contact::Strength::#strength, #runtime::contact::Onset::#onset, #slope))
 }
@@ -81,9 +61,9 @@ fn friction(strength: Strength, onset: Onset, slope: f64, runtime: &TokenStream)
 fn wear(info: &WearInfo, runtime: &TokenStream) -> TokenStream {
     let [k, hardness, feedback] = [info.coefficient, info.hardness, info.feedback].map(number);
     let [threshold, revolutions] = [info.threshold, info.revolutions_per_cycle].map(number);
-    let (area, profile, bins) = (variant(info.area), info.profile, Literal::usize_unsuffixed(info.bins));
+    let (area, profile, bins) = (law(info.area), info.profile, Literal::usize_unsuffixed(info.bins));
     let measure = option(info.measure.map(|measure| {
-        let measure = variant(measure);
+        let measure = law(measure);
         quote!(#runtime::wear::Measure::#measure)
     }));
     let scatter = option(info.scatter.map(|GammaRates { alpha, beta }| {

@@ -119,16 +119,15 @@ impl Resolver<'_> {
         };
         let journal_radius = positive("journal_radius", &own.journal_radius, Dimension::LENGTH, f64::NAN);
         let modulus = positive("modulus", &own.modulus, PRESSURE, f64::NAN);
+        let given = own.stiffness.as_ref();
+        let given = given.map(|_| positive("stiffness", &own.stiffness, Dimension::NONE, f64::NAN));
         let laws = ContactInfo {
             joint: name.value.clone().into(),
             ball,
             journal_radius,
             length: positive("length", &own.length, Dimension::LENGTH, 2.0 * journal_radius),
             modulus,
-            stiffness: match &own.stiffness {
-                Some(_) => Stiffness::Given(positive("stiffness", &own.stiffness, Dimension::NONE, f64::NAN)),
-                None => Stiffness::Hertz { modulus },
-            },
+            stiffness: Stiffness::new(given, modulus),
             law: own.law.as_ref().map_or_else(Restitution::default, |law| law.value),
             restitution: positive("restitution", &own.restitution, Dimension::NONE, 1.0),
             exponent: positive("exponent", &own.exponent, Dimension::NONE, 1.5),
@@ -162,25 +161,15 @@ impl Resolver<'_> {
         let static_coefficient = number("static_friction", at_rest, Dimension::NONE, true, 0.0);
         let stribeck = own.stribeck_speed.as_ref().filter(|_| at_rest.is_some());
         let stribeck_speed = number("stribeck_speed", stribeck, SPEED, false, STRIBECK_SPEED);
-        let kinetic_coefficient = coefficient;
-        let strength = match at_rest {
-            Some(_) => {
-                Strength::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, exponent: 2.0 }
-            }
-            None => Strength::Coulomb { coefficient },
-        };
+        let at_rest = at_rest.map(|_| (static_coefficient, stribeck_speed));
         let written = own.friction_speed.as_ref().map_or(&[][..], |list| &list.value);
         let speeds = written.iter().map(|speed| number("friction_speed", Some(speed), SPEED, true, 0.0));
         let speeds: Vec<f64> = speeds.collect();
-        let onset = match speeds.as_slice() {
-            [] => Onset::Smoothed { speed: FRICTION_SPEED },
-            [speed] => Onset::Smoothed { speed: *speed },
-            [lower, upper, ..] => Onset::Ambrosio { lower: *lower, upper: *upper },
-        };
         self.check_onset(name, own, &speeds);
         let slope =
             self.fixed(name, "friction_slope", own.friction_slope.as_ref(), Dimension::of(-1, 0, 1), 0.0);
-        Some((strength, onset, slope))
+        let onset = Onset::new(speeds.first().copied().unwrap_or(FRICTION_SPEED), speeds.get(1).copied());
+        Some((Strength::new(coefficient, at_rest), onset, slope))
     }
 
     /// Keys that friction would need, without friction.
