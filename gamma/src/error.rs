@@ -127,6 +127,11 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<f64, LifeError>
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(LifeError::NotPositive { what, value }) }
 }
 
+/// Refuses what is not between 0 and 1, both excluded.
+pub(crate) fn probability(value: f64) -> Result<f64, LifeError> {
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err(LifeError::Probability { value }) }
+}
+
 /// Refuses what is negative or not finite.
 pub(crate) fn non_negative(what: &'static str, value: f64) -> Result<f64, LifeError> {
     if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(LifeError::Negative { what, value }) }

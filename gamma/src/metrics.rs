@@ -46,15 +46,11 @@ pub fn crps_gamma(shape: f64, rate: f64, truth: f64) -> f64 {
 pub fn crps_life(life: &dyn Lifetime, truth: f64) -> Result<f64, LifeError> {
     let end = life.quantile(1.0 - 1e-12)?.max(truth);
     let median = life.quantile(0.5)?;
-    let mut limits = vec![0.0, median, truth, end];
-    limits.extend(life.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
-    limits.sort_by(f64::total_cmp);
-    limits.dedup();
     let square = |t: f64| {
         let miss = if t < truth { life.failed(t) } else { life.reliability(t) };
         [miss * miss]
     };
-    Ok(integrate(&square, &limits, [1e-11 * median]).0[0])
+    Ok(integrate(&square, &life.limits(end, &[median, truth]), [1e-11 * median]).0[0])
 }
 
 /// How often intervals held the truth.

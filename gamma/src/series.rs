@@ -13,7 +13,7 @@
 use rand::RngExt;
 
 use crate::error::{LifeError, positive};
-use crate::life::{FirstPassage, Lifetime};
+use crate::life::{FirstPassage, Lifetime, mixed_hazard};
 use crate::quadrature::integrate;
 use crate::random::{LnGamma, StandardNormal, Stream};
 
@@ -138,11 +138,7 @@ impl SeriesSystem {
     /// Those of [`Lifetime::quantile`], by which the range of integration is found.
     pub fn first_to_fail(&self) -> Result<Vec<f64>, LifeError> {
         let end = self.quantile(1.0 - 1e-12)?;
-        let mut limits = vec![0.0];
-        limits.extend(self.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
-        limits.extend([self.quantile(0.5)?, end]);
-        limits.sort_by(f64::total_cmp);
-        limits.dedup();
+        let limits = self.limits(end, &[self.quantile(0.5)?]);
         let part = |j: usize| {
             let density = |t: f64| {
                 let at =
@@ -185,13 +181,10 @@ impl Lifetime for SeriesSystem {
     }
 
     fn hazard(&self, t: f64) -> f64 {
-        let (mut density, mut alive) = (0.0, 0.0);
-        for (z, weight) in &self.factors {
-            let here = weight * self.alive(t, *z);
-            density += here * self.members.iter().map(|member| member.hazard_at(t, *z)).sum::<f64>();
-            alive += here;
-        }
-        density / alive
+        mixed_hazard(self.factors.iter().map(|(z, weight)| {
+            let hazards = self.members.iter().map(|member| member.hazard_at(t, *z));
+            (weight * self.alive(t, *z), hazards.sum())
+        }))
     }
 
     /// A factor near 0 lets joints live long: T grows as Z^(-1/g) where exposure grows as t^g, and E Z^-k of a Gamma

@@ -213,45 +213,35 @@ pub struct Tables {
 impl Description {
     /// The description that the tables of generated code stand for.
     pub fn from_tables(name: &'static str, tables: Tables) -> Self {
-        let variables = |table: &'static [(&'static str, &'static str, bool)]| -> List<VariableInfo> {
-            let entry = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {
-                name: name.into(),
-                unit: unit.into(),
-                held,
-            };
-            table.iter().map(entry).collect()
+        let variable = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {
+            name: name.into(),
+            unit: unit.into(),
+            held,
+        };
+        let parameter = |&(name, unit, default): &(&'static str, &'static str, f64)| ParameterInfo {
+            name: name.into(),
+            unit: unit.into(),
+            default,
+        };
+        let row = |&(joint, meaning, angular, kept): &(&'static str, &'static str, bool, Option<usize>)| {
+            RowInfo { joint: joint.into(), meaning: meaning.into(), angular, kept }
+        };
+        let driver = |&(joint, angular): &(&'static str, bool)| DriverInfo { joint: joint.into(), angular };
+        let channel = |&(name, unit, wraps): &(&'static str, &'static str, bool)| Channel {
+            name: name.into(),
+            unit: unit.into(),
+            wraps,
         };
         Self {
             name: name.into(),
-            parameters: tables
-                .parameters
-                .iter()
-                .map(|&(name, unit, default)| ParameterInfo { name: name.into(), unit: unit.into(), default })
-                .collect(),
-            coordinates: variables(tables.coordinates),
-            speeds: variables(tables.speeds),
+            parameters: tables.parameters.iter().map(parameter).collect(),
+            coordinates: tables.coordinates.iter().map(variable).collect(),
+            speeds: tables.speeds.iter().map(variable).collect(),
             motions: tables.motions.into(),
             quaternions: tables.quaternions.into(),
-            rows: tables
-                .rows
-                .iter()
-                .map(|&(joint, meaning, angular, kept)| RowInfo {
-                    joint: joint.into(),
-                    meaning: meaning.into(),
-                    angular,
-                    kept,
-                })
-                .collect(),
-            drivers: tables
-                .drivers
-                .iter()
-                .map(|&(joint, angular)| DriverInfo { joint: joint.into(), angular })
-                .collect(),
-            channels: tables
-                .channels
-                .iter()
-                .map(|&(name, unit, wraps)| Channel { name: name.into(), unit: unit.into(), wraps })
-                .collect(),
+            rows: tables.rows.iter().map(row).collect(),
+            drivers: tables.drivers.iter().map(driver).collect(),
+            channels: tables.channels.iter().map(channel).collect(),
             turn_driver: tables.turn_driver,
             contacts: tables.contacts.into(),
         }

@@ -2,6 +2,10 @@
 //! In: a [`System`], its [`Description`], parameter values. Out: slices by [`Entry`].
 //! Never knows integrators.
 
+mod answers;
+
+pub use answers::{Closure, Equations, Forward, LoopError, Rates};
+
 use crate::clearance_joint::Clearances;
 use crate::description::Description;
 use crate::error::SetupError;
@@ -26,80 +30,6 @@ pub struct Evaluator<'a> {
     input: Vec<f64>,
     workspace: Vec<f64>,
     outputs: [Vec<f64>; Entry::ALL.len()],
-}
-
-/// Answer of [`Entry::ForwardDynamics`].
-#[derive(Clone, Copy, Debug)]
-pub struct Forward<'a> {
-    /// Accelerations of the free speeds.
-    pub accelerations: &'a [f64],
-    /// Multipliers of the kept rows.
-    pub multipliers: &'a [f64],
-    /// Drive forces.
-    pub drives: &'a [f64],
-    /// Loop pivots, one per kept row.
-    pub pivots: &'a [f64],
-}
-
-/// Answer of [`Entry::Closure`].
-#[derive(Clone, Copy, Debug)]
-pub struct Closure<'a> {
-    /// Position residuals of all rows [m, rad].
-    pub positions: &'a [f64],
-    /// Velocity residuals of the kept rows [m/s, rad/s].
-    pub speeds: &'a [f64],
-    /// Jacobian of the kept rows by the free speeds, row major.
-    pub jacobian: &'a [f64],
-}
-
-/// Answer of [`Entry::Rates`].
-#[derive(Clone, Copy, Debug)]
-pub struct Rates<'a> {
-    /// Derivatives of the free coordinates.
-    pub coordinates: &'a [f64],
-    /// Power put in by drivers and prescribed forces [W].
-    pub supplied: f64,
-    /// Power taken out by dampers and friction [W].
-    pub dissipated: f64,
-}
-
-/// Answer of [`Entry::EquationsOfMotion`], over all speeds.
-#[derive(Clone, Copy, Debug)]
-pub struct Equations<'a> {
-    /// Upper triangle of the mass matrix, row by row.
-    pub mass: &'a [f64],
-    /// Velocity terms, gravity, springs and damping, on the left side.
-    pub bias: &'a [f64],
-    /// Position residuals of all rows.
-    pub positions: &'a [f64],
-    /// Jacobian of all rows, row major.
-    pub jacobian: &'a [f64],
-    /// Right side of the acceleration constraints, of all rows.
-    pub gamma: &'a [f64],
-}
-
-impl Equations<'_> {
-    /// Writes the full mass matrix, row major, `n` x `n`.
-    pub fn unpack_mass(&self, n: usize, full: &mut [f64]) {
-        let mut packed = self.mass.iter();
-        for i in 0..n {
-            for (j, value) in (i..n).zip(&mut packed) {
-                full[i * n + j] = *value;
-                full[j * n + i] = *value;
-            }
-        }
-    }
-}
-
-/// How far loops are open, over all rows, dropped ones too.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LoopError {
-    /// Largest residual of a row in metres.
-    pub metres: f64,
-    /// Largest residual of a row in radians.
-    pub radians: f64,
-    /// The row with the largest number.
-    pub worst: usize,
 }
 
 impl<'a> Evaluator<'a> {

@@ -65,38 +65,27 @@ pub use sincos::sin_cos;
 pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 
 #[cfg(feature = "std")]
-pub use assemble::{
-    State, assemble, assemble_static_contact, assemble_with, check_clearances, offset_columns, place,
+pub use {
+    assemble::{
+        State, assemble, assemble_static_contact, assemble_with, check_clearances, offset_columns, place,
+    },
+    column::Column,
+    contact_frequency::contact_frequencies,
+    description::{
+        Channel, ContactInfo, Description, DriverInfo, GammaRates, List, Motion, ParameterInfo, RowInfo,
+        Tables, Text, VariableInfo, WearInfo,
+    },
+    dynamics::{Dynamics, SINGULAR_PIVOT},
+    dynamics_source::{DynamicsSource, RevolutionSettings},
+    error::{AssemblyError, NoColumn, RunError, SetupError},
+    evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
+    layout::{Group, Layout},
+    projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
+    record::{Cells, Table, TableColumn, write_csv},
+    simulate::{
+        BRANCH_PART, IdealJoint, Integrator, JUMP_FLOOR, Run, RunWarning, Settings, Span, Statistics,
+        TurnMeasures, TurnRunner, TurnState, simulate,
+    },
+    singular_dynamics::{LOST_RANK, NEARLY_LOST},
+    watch::Watch,
 };
-#[cfg(feature = "std")]
-pub use column::Column;
-#[cfg(feature = "std")]
-pub use contact_frequency::contact_frequencies;
-#[cfg(feature = "std")]
-pub use description::{
-    Channel, ContactInfo, Description, DriverInfo, GammaRates, List, Motion, ParameterInfo, RowInfo, Tables,
-    Text, VariableInfo, WearInfo,
-};
-#[cfg(feature = "std")]
-pub use dynamics::{Dynamics, SINGULAR_PIVOT};
-#[cfg(feature = "std")]
-pub use dynamics_source::{DynamicsSource, RevolutionSettings};
-#[cfg(feature = "std")]
-pub use error::{AssemblyError, NoColumn, RunError, SetupError};
-#[cfg(feature = "std")]
-pub use evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates};
-#[cfg(feature = "std")]
-pub use layout::{Group, Layout};
-#[cfg(feature = "std")]
-pub use projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE};
-#[cfg(feature = "std")]
-pub use record::{Cells, Table, TableColumn, write_csv};
-#[cfg(feature = "std")]
-pub use simulate::{
-    BRANCH_PART, IdealJoint, Integrator, JUMP_FLOOR, Run, RunWarning, Settings, Span, Statistics,
-    TurnMeasures, TurnRunner, TurnState, simulate,
-};
-#[cfg(feature = "std")]
-pub use singular_dynamics::{LOST_RANK, NEARLY_LOST};
-#[cfg(feature = "std")]
-pub use watch::Watch;

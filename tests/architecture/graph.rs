@@ -113,7 +113,7 @@ fn next_use(text: &str) -> Option<(&str, &str)> {
 }
 
 /// Every path of a use tree with the name it is known by: `a::{b as c, d::e}`.
-fn expanded(tree: &str) -> Vec<(Vec<String>, String)> {
+pub fn expanded(tree: &str) -> Vec<(Vec<String>, String)> {
     let Some((head, group)) = tree.split_once('{') else {
         let (path, name) = tree.split_once(" as ").unwrap_or((tree, ""));
         let mut segments: Vec<String> = path.split("::").map(|part| part.trim().to_owned()).collect();

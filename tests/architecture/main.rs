@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-use graph::Graph;
+use graph::{Graph, expanded};
 use source::{code, heads, must_use_functions, rust_files};
 
 type Arrows = BTreeMap<String, BTreeSet<String>>;
@@ -33,21 +33,10 @@ fn backticked(cell: &str) -> Vec<String> {
 
 /// Names that `lib.rs` re-exports, each with the module it comes from.
 fn reexports(lib: &str) -> BTreeMap<String, String> {
-    let mut names = BTreeMap::new();
-    for statement in lib.split("pub use ").skip(1) {
-        let statement = statement.split(';').next().unwrap_or_default();
-        let Some((path, last)) = statement.rsplit_once("::") else { continue };
-        let (path, items) = match statement.split_once("::{") {
-            Some((path, items)) => (path, items.trim_end_matches('}')),
-            None => (path, last),
-        };
-        let module = path.trim_start_matches("crate::").split("::").next().unwrap_or_default();
-        for item in items.split(',').map(str::trim).filter(|item| !item.is_empty()) {
-            let name = item.rsplit([' ', ':']).next().unwrap_or(item);
-            names.insert(name.to_owned(), module.to_owned());
-        }
-    }
-    names
+    let statements = lib.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next());
+    let names = statements.flat_map(|statement| expanded(statement.trim()));
+    let module = |path: Vec<String>| path.into_iter().find(|segment| segment != "crate").unwrap_or_default();
+    names.map(|(path, name)| (name, module(path))).collect()
 }
 
 /// The module a file belongs to: first folder or file name below the source folder.

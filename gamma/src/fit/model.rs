@@ -45,11 +45,6 @@ impl Model {
         2 + usize::from(self.power_law) + self.covariates
     }
 
-    /// Exponent of Lambda at phi.
-    pub fn exponent(&self, phi: &[f64]) -> f64 {
-        if self.power_law { phi[2] } else { 1.0 }
-    }
-
     /// ln dLambda of an increment and its derivatives in the parameters from the third on; and its second derivative
     /// in c, the only one there is.
     fn ln_lambda(&self, phi: &[f64], increment: &Increment) -> (f64, Vec<f64>, f64) {

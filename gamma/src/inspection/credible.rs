@@ -1,6 +1,7 @@
 //! What the parameters leave open after readings: weighted intervals over nodes or particles.
 //! In: values with weights. Out: an interval. Never knows what is asked.
 
+use crate::error::probability;
 use crate::life::{Band, FirstPassage, LifeError, Lifetime};
 
 /// A law of life mixed from those of possible parameters.
@@ -19,15 +20,12 @@ pub trait Mixture: Lifetime {
         level: f64,
         of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
     ) -> Result<Band, LifeError> {
-        if !(level > 0.0 && level < 1.0) {
-            return Err(LifeError::Probability { value: level });
-        }
         let mut values = Vec::new();
         for (weight, life) in self.parts() {
             values.push((of(life)?, weight));
         }
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let tail = 0.5 - 0.5 * level;
+        let tail = 0.5 - 0.5 * probability(level)?;
         Ok(Band { value, lower: weighted(&values, tail), upper: weighted(&values, 1.0 - tail) })
     }
 }

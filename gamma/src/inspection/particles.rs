@@ -14,7 +14,7 @@ use super::credible::Mixture;
 use super::error::InspectionError;
 use super::history::History;
 use crate::error::LifeError;
-use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState};
+use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState, mixed_hazard};
 use crate::process::Process;
 use crate::random::Stream;
 
@@ -216,13 +216,7 @@ impl Lifetime for Particles {
     }
 
     fn hazard(&self, t: f64) -> f64 {
-        let (mut density, mut alive) = (0.0, 0.0);
-        for life in &self.lives {
-            let here = life.reliability(t);
-            density += here * life.hazard(t);
-            alive += here;
-        }
-        density / alive
+        mixed_hazard(self.lives.iter().map(|life| (life.reliability(t), life.hazard(t))))
     }
 }
 

@@ -12,7 +12,7 @@ use super::history::History;
 use super::likelihood::Likelihood;
 use super::prior::Prior;
 use crate::error::LifeError;
-use crate::life::{FirstPassage, Lifetime, OperatingState};
+use crate::life::{FirstPassage, Lifetime, OperatingState, mixed_hazard};
 use crate::process::{Process, Slice};
 use crate::quadrature::Hump;
 
@@ -136,13 +136,8 @@ impl Lifetime for Posterior {
     }
 
     fn hazard(&self, t: f64) -> f64 {
-        let (mut density, mut alive) = (0.0, 0.0);
-        for node in &self.nodes {
-            let here = node.weight * node.life.reliability(t);
-            density += here * node.life.hazard(t);
-            alive += here;
-        }
-        density / alive
+        let part = |node: &Node| (node.weight * node.life.reliability(t), node.life.hazard(t));
+        mixed_hazard(self.nodes.iter().map(part))
     }
 
     fn finite_moments(&self) -> Result<(), LifeError> {

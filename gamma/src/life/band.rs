@@ -9,7 +9,7 @@ use super::estimate::Estimate;
 use super::first_passage::FirstPassage;
 use super::lifetime::Lifetime;
 use super::state::OperatingState;
-use crate::error::LifeError;
+use crate::error::{LifeError, probability};
 use crate::order::sorted_quantile;
 use crate::random::Stream;
 use crate::special::normal_quantile;
@@ -94,11 +94,8 @@ impl<'a> Bands<'a> {
         level: f64,
         method: Method,
     ) -> Result<Self, LifeError> {
-        if !(level > 0.0 && level < 1.0) {
-            return Err(LifeError::Probability { value: level });
-        }
+        let z = normal_quantile(0.5 + 0.5 * probability(level)?);
         let life = state.life(estimate)?;
-        let z = normal_quantile(0.5 + 0.5 * level);
         let drawn = match method {
             Method::Delta => Vec::new(),
             Method::Draws { count, seed } => {

@@ -1,7 +1,7 @@
 //! What every law of life can tell from its reliability function: quantiles, moments, whole cycles, hazard.
 //! In: reliability over time from the present. Out: numbers in the unit of that time. Never knows wear.
 
-use crate::error::LifeError;
+use crate::error::{LifeError, probability};
 use crate::quadrature::integrate;
 use crate::special::rising_root;
 
@@ -52,6 +52,17 @@ pub trait Lifetime {
         Vec::new()
     }
 
+    /// Limits of integrals from the present to `end`, which end a piece where the reliability has kinks and at the times
+    /// `more`.
+    fn limits(&self, end: f64, more: &[f64]) -> Vec<f64> {
+        let mut limits = vec![0.0, end];
+        limits.extend(self.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
+        limits.extend(more);
+        limits.sort_by(f64::total_cmp);
+        limits.dedup();
+        limits
+    }
+
     /// Whether mean and standard deviation are finite.
     ///
     /// # Errors
@@ -77,9 +88,7 @@ pub trait Lifetime {
     /// # Errors
     /// [`LifeError::Probability`].
     fn quantile(&self, p: f64) -> Result<f64, LifeError> {
-        if !(p > 0.0 && p < 1.0) {
-            return Err(LifeError::Probability { value: p });
-        }
+        probability(p)?;
         // The smaller of the two tails keeps its digits.
         let miss = |t: f64| if p <= 0.5 { self.failed(t) - p } else { (1.0 - p) - self.reliability(t) };
         Ok(rising_root(&miss, self.typical()))
@@ -94,20 +103,14 @@ pub trait Lifetime {
         self.finite_moments()?;
         let scale = self.typical();
         let end = end(&|t| self.reliability(t), scale, GONE * self.accuracy());
-        let mut limits = vec![0.0];
-        limits.extend(self.breaks().into_iter().filter(|t| *t > 0.0 && *t < end));
-        limits.extend([scale, end]);
         // From the median both ways, the failed part below it and the survivors above: nothing is a small difference.
         let centre = self.quantile(0.5)?;
-        limits.push(centre);
-        limits.sort_by(f64::total_cmp);
-        limits.dedup();
         let integrand = |t: f64| {
             let part = if t < centre { -self.failed(t) } else { self.reliability(t) };
             [part, 2.0 * (t - centre) * part]
         };
         let tolerance = [self.accuracy() * centre, self.accuracy() * centre * centre];
-        let (sums, errors) = integrate(&integrand, &limits, tolerance);
+        let (sums, errors) = integrate(&integrand, &self.limits(end, &[scale, centre]), tolerance);
         let variance = (sums[1] - sums[0] * sums[0]).max(0.0);
         Ok(Moments { mean: centre + sums[0], std: variance.sqrt(), error: errors[0] })
     }
@@ -138,6 +141,16 @@ pub trait Lifetime {
         }
         Ok(Moments { mean, std: (square - mean * mean).max(0.0).sqrt(), error: gone })
     }
+}
+
+/// Hazard of a mixture, from the part of each law that is alive and its hazard.
+pub(crate) fn mixed_hazard(laws: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut density, mut alive) = (0.0, 0.0);
+    for (here, hazard) in laws {
+        density += here * hazard;
+        alive += here;
+    }
+    density / alive
 }
 
 /// A time after which nothing counts, neither for the mean nor for the variance.

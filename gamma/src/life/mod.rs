@@ -22,6 +22,7 @@ pub use clock::Clock;
 pub use estimate::Estimate;
 pub use first_passage::FirstPassage;
 pub use law::Law;
+pub(crate) use lifetime::mixed_hazard;
 pub use lifetime::{Lifetime, Moments};
 pub use state::OperatingState;
 pub use statistics::{LifeStatistics, WithError};

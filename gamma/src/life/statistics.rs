@@ -1,7 +1,7 @@
 //! Statistics of simulated lives with their Monte-Carlo standard errors. In: lives. Out: mean, spread, quantiles.
 //! Never knows where lives come from.
 
-use crate::error::LifeError;
+use crate::error::{LifeError, probability};
 use crate::order::sorted_quantile;
 
 /// A statistic and its standard error.
@@ -93,9 +93,7 @@ impl LifeStatistics {
     /// # Errors
     /// [`LifeError::Probability`].
     pub fn quantile(&self, p: f64) -> Result<WithError, LifeError> {
-        if !(p > 0.0 && p < 1.0) {
-            return Err(LifeError::Probability { value: p });
-        }
+        probability(p)?;
         let step = (p * (1.0 - p) / self.sorted.len() as f64).sqrt();
         let at = |p: f64| sorted_quantile(&self.sorted, p.clamp(0.0, 1.0));
         Ok(WithError { value: at(p), error: 0.5 * (at(p + step) - at(p - step)) })

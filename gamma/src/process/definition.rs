@@ -65,8 +65,11 @@ pub trait Process: Debug + Sync {
     /// Increment over an exposure that is not exceeded with probability `p`.
     fn quantile(&self, logs: [f64; 2], exposure: f64, p: f64) -> f64;
 
-    /// Probability that wear stays below `left` > 0 throughout an exposure > 0.
-    fn survival(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64;
+    /// Probability that wear stays below `left` > 0 throughout an exposure > 0. Wear that does not fall does so exactly if
+    /// it is below in the end.
+    fn survival(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64 {
+        self.cumulative(logs, exposure, left)
+    }
 
     /// Probability that wear reaches `left` > 0 within an exposure > 0, right to its last digits when small.
     fn failure(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64;

@@ -6,8 +6,8 @@ use rand::RngExt;
 use super::definition::{Process, Slice, Term, scatters};
 use crate::random::{LnGamma, Stream};
 use crate::special::{
-    digamma, gamma_p, gamma_q, gamma_quantile, ln_gamma, ln_gamma_p_of_ln, ln_gamma_p_slope, tetragamma,
-    trigamma,
+    digamma, gamma_p, gamma_q, gamma_quantile, guarded, ln_gamma, ln_gamma_p_of_ln, ln_gamma_p_slope,
+    tetragamma, trigamma,
 };
 
 /// Steps of Newton's method; 5 to 15 are usual.
@@ -130,11 +130,6 @@ impl Process for Gamma {
         gamma_quantile(alpha * exposure, p) / beta
     }
 
-    /// Wear does not fall, so it is below `left` throughout exactly if it is so in the end.
-    fn survival(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64 {
-        self.cumulative(logs, exposure, left)
-    }
-
     fn failure(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64 {
         let [alpha, beta] = logs.map(libm::exp);
         gamma_q(alpha * exposure, beta * left)
@@ -181,14 +176,7 @@ fn profile_ln_alpha(lambdas: &[f64], wears: &[f64]) -> Option<f64> {
         } else {
             high = s
         }
-        let mut next = s - value / slope;
-        if !(next > low && next < high) {
-            next = match (low.is_finite(), high.is_finite()) {
-                (true, true) => 0.5 * (low + high),
-                (true, false) => s + 1.0,
-                _ => s - 1.0,
-            };
-        }
+        let next = guarded(s - value / slope, s, (low, high));
         if (next - s).abs() <= 1e-15 * s.abs().max(1.0) {
             return Some(next);
         }

@@ -112,11 +112,6 @@ impl Process for InverseGaussian {
         rising_root(&miss, mean)
     }
 
-    fn survival(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64 {
-        let (mean, shape) = law(logs, exposure);
-        inverse_gaussian(mean, shape, left).0
-    }
-
     fn failure(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64 {
         let (mean, shape) = law(logs, exposure);
         inverse_gaussian(mean, shape, left).1

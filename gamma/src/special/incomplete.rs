@@ -37,11 +37,6 @@ pub fn ln_gamma_p_of_ln(shape: f64, ln_x: f64) -> f64 {
     ln_both(shape, libm::exp(ln_x), ln_x).0
 }
 
-/// ln Q(shape, exp(ln_x)), also where x itself underflows.
-pub fn ln_gamma_q_of_ln(shape: f64, ln_x: f64) -> f64 {
-    ln_both(shape, libm::exp(ln_x), ln_x).1
-}
-
 /// ln P and ln Q; x = exp(ln_x), which may have underflowed to 0.
 pub(super) fn ln_both(shape: f64, x: f64, ln_x: f64) -> (f64, f64) {
     if shape.is_nan() || ln_x.is_nan() || shape <= 0.0 {

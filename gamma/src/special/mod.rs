@@ -12,13 +12,13 @@ mod quantile;
 mod root;
 mod shape_slope;
 
-pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q, ln_gamma_q_of_ln};
+pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q};
 pub use inverse_gaussian::inverse_gaussian;
 pub use ln_gamma::{EULER, ln_gamma, ln_gamma_1p};
 pub use normal::{normal_cdf, normal_density, normal_mills, normal_quantile};
 pub use polygamma::{digamma, tetragamma, trigamma};
-pub use quantile::{gamma_quantile, ln_gamma_quantile, ln_gamma_quantile_upper};
-pub(crate) use root::rising_root;
+pub use quantile::{gamma_quantile, ln_gamma_quantile};
+pub(crate) use root::{guarded, rising_root};
 pub use shape_slope::ln_gamma_p_slope;
 
 #[cfg(test)]

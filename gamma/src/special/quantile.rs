@@ -6,6 +6,7 @@
 use super::incomplete::ln_both;
 use super::ln_gamma::{EULER, ln_gamma, ln_gamma_1p};
 use super::normal::normal_quantile;
+use super::root::guarded;
 
 /// The p-quantile of Gamma(shape, 1). It underflows to 0 at small shapes: see [`ln_gamma_quantile`].
 pub fn gamma_quantile(shape: f64, p: f64) -> f64 {
@@ -20,17 +21,6 @@ pub fn ln_gamma_quantile(shape: f64, p: f64) -> f64 {
         solve_upper(shape, libm::log1p(-p))
     } else {
         solve_lower(shape, libm::log(p))
-    }
-}
-
-/// ln of the x that Gamma(shape, 1) exceeds with probability q, right for tiny q.
-pub fn ln_gamma_quantile_upper(shape: f64, q: f64) -> f64 {
-    if !(0.0..=1.0).contains(&q) || shape.is_nan() || shape <= 0.0 {
-        f64::NAN
-    } else if q > 0.5 {
-        solve_lower(shape, libm::log1p(-q))
-    } else {
-        solve_upper(shape, libm::log(q))
     }
 }
 
@@ -82,15 +72,7 @@ fn newton(shape: f64, target: f64, start: f64, side: impl Fn((f64, f64)) -> f64,
             low = y
         }
         let rate = slope * libm::exp(shape * y - x - ln_gamma - value);
-        let mut next = y - miss / rate;
-        if !next.is_finite() || next <= low || next >= high {
-            // Only while far off: half of the bracket, or a step of one e-fold towards the open end.
-            next = match (low.is_finite(), high.is_finite()) {
-                (true, true) => 0.5 * (low + high),
-                (true, false) => y + 1.0,
-                _ => y - 1.0,
-            };
-        }
+        let next = guarded(y - miss / rate, y, (low, high));
         if (next - y).abs() <= 2e-16 * y.abs().max(1.0) {
             return next;
         }

@@ -1,5 +1,18 @@
 //! The root of a rising function. In and out: numbers. Never knows the function.
 
+/// A step of Newton's method within a bracket that may still be open: where it leaves the bracket, its middle, or one unit
+/// from `x` towards the open end.
+pub(crate) fn guarded(next: f64, x: f64, (low, high): (f64, f64)) -> f64 {
+    if next > low && next < high {
+        return next;
+    }
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => 0.5 * (low + high),
+        (true, false) => x + 1.0,
+        _ => x - 1.0,
+    }
+}
+
 /// Positive root of a rising function, looked for from `start` > 0 on by doubling and halving, then by the method of
 /// C. J. F. Ridders (1979): halving with exponential correction. Relative accuracy 1e-13.
 pub(crate) fn rising_root(f: &dyn Fn(f64) -> f64, start: f64) -> f64 {

@@ -153,18 +153,12 @@ fn quantiles_invert_the_law_at_every_shape_and_tail() {
     for shape in [1e-8, 1e-4, 0.01, 0.3, 1.0, 4.5, 50.0, 1092.0, 1e5] {
         for p in [1e-200, 1e-12, 1e-3, 0.2, 0.5, 0.9, 1.0 - 1e-9] {
             let y = ln_gamma_quantile(shape, p);
-            let (ln_p, ln_q) = (ln_gamma_p_of_ln(shape, y), ln_gamma_q_of_ln(shape, y));
+            let (ln_p, ln_q) = incomplete::ln_both(shape, libm::exp(y), y);
             let (found, expected) = if p <= 0.5 { (ln_p, libm::log(p)) } else { (ln_q, libm::log1p(-p)) };
             // One ulp of y is shape |y| ulp of P and, at large shapes, sqrt(shape) |y| z of it.
             let tolerance =
                 1e-15 * (10.0 + expected.abs() * 30.0 + (1.0 + shape.sqrt()) * y.abs().min(500.0) * 30.0);
             assert!((found - expected).abs() < tolerance, "shape {shape}, p {p}: {found} for {expected}");
-            let upper = ln_gamma_quantile_upper(shape, p);
-            let back = if p <= 0.5 { ln_gamma_q_of_ln(shape, upper) } else { ln_gamma_p_of_ln(shape, upper) };
-            assert!(
-                (back - expected).abs() < tolerance * (1.0 + upper.abs().min(20.0)),
-                "upper, shape {shape}, p {p}: {back}, {expected}"
-            );
         }
     }
     assert!(ln_gamma_quantile(2.0, -0.1).is_nan());

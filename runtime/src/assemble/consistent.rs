@@ -1,6 +1,6 @@
 //! Closed loops first, then speeds that keep them closed. In: a mechanism's start values. Out: a [`State`].
 
-use super::held::wanted_and_reached;
+use super::held::conflicts;
 use super::newton::Newton;
 use super::speeds;
 use super::state::State;
@@ -55,7 +55,8 @@ fn close(
     if held.contains(&true)
         && let Ok(free) = Newton::new(evaluator, t, guess, wish, &vec![false; held.len()]).run()
     {
-        let names = conflicts(evaluator, &held, guess, &free);
+        // Far above the accuracy of assembly, far below what a user would call different.
+        let names = conflicts(&evaluator.description().coordinates, guess, &free, |_| 1e-8);
         let AssemblyError::NoConvergence { residual_m, residual_rad, .. } = failure else {
             return Err(failure);
         };
@@ -64,17 +65,4 @@ fn close(
         }
     }
     Err(failure)
-}
-
-/// Held coordinates that moved when nothing was held, with where they went.
-fn conflicts(evaluator: &Evaluator<'_>, held: &[bool], wanted: &[f64], reached: &[f64]) -> Vec<String> {
-    evaluator
-        .description()
-        .coordinates
-        .iter()
-        .enumerate()
-        // Far above the accuracy of assembly, far below what a user would call different.
-        .filter(|(i, _)| held[*i] && (wanted[*i] - reached[*i]).abs() > 1e-8)
-        .map(|(i, c)| wanted_and_reached(c, wanted[i], reached[i]))
-        .collect()
 }

@@ -4,10 +4,33 @@ use crate::description::{Motion, VariableInfo};
 use crate::evaluate::Evaluator;
 
 /// A variable with both of its values, for a message: rounded to a millionth.
-pub(super) fn wanted_and_reached(variable: &VariableInfo, wanted: f64, reached: f64) -> String {
+fn wanted_and_reached(variable: &VariableInfo, wanted: f64, reached: f64) -> String {
     // Adding 0 turns -0 into 0.
     let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
     format!("`{}` ({} {}, reachable {})", variable.name, rounded(wanted), variable.unit, rounded(reached))
+}
+
+/// Held variables that are elsewhere when nothing is held, by more than what `slack` says of the wanted value.
+pub(super) fn conflicts(
+    variables: &[VariableInfo],
+    wanted: &[f64],
+    reached: &[f64],
+    slack: impl Fn(f64) -> f64,
+) -> Vec<String> {
+    let values = wanted.iter().zip(reached).map(|(wanted, reached)| (*wanted, *reached));
+    let moved = variables
+        .iter()
+        .zip(values)
+        .filter(|(variable, (wanted, reached))| variable.held && (wanted - reached).abs() > slack(*wanted));
+    moved.map(|(variable, (wanted, reached))| wanted_and_reached(variable, wanted, reached)).collect()
+}
+
+/// Free speeds that move a held coordinate.
+pub(super) fn frozen_speeds(evaluator: &Evaluator<'_>) -> Vec<bool> {
+    let held: Vec<bool> = evaluator.description().coordinates.iter().map(|c| c.held).collect();
+    let (mut fixed, rows) = frozen(evaluator, &held);
+    rows.iter().for_each(|(_, speed, axis)| fixed[speed + 3 + axis] = true);
+    fixed
 }
 
 /// Columns of the Jacobian that held coordinates freeze, and for held positions of poses (in W) the rows

@@ -1,6 +1,6 @@
 //! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
 
-use super::held::wanted_and_reached;
+use super::held::conflicts;
 use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
@@ -30,15 +30,9 @@ pub(super) fn consistent(
     if held.contains(&true) {
         let (free, _, open) = solve(evaluator, t, q, wish, &vec![false; held.len()]);
         if open <= limit {
-            let names = evaluator
-                .description()
-                .speeds
-                .iter()
-                .enumerate()
-                // Far above rounding, far below what a user would call different.
-                .filter(|(i, _)| held[*i] && (wish[*i] - free[*i]).abs() > 1e-8 * wish[*i].abs().max(1.0))
-                .map(|(i, s)| wanted_and_reached(s, wish[i], free[i]))
-                .collect();
+            // Far above rounding, far below what a user would call different.
+            let slack = |wish: f64| 1e-8 * wish.abs().max(1.0);
+            let names = conflicts(&evaluator.description().speeds, wish, &free, slack);
             return Err(AssemblyError::HeldSpeeds { names, joint, residual });
         }
     }

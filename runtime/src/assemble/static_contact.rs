@@ -7,7 +7,7 @@
 //! offset is demanded in the file stays where the file puts it.
 
 use super::consistent::assemble_with;
-use super::held::frozen;
+use super::held::frozen_speeds;
 use super::state::State;
 use crate::error::{AssemblyError, SetupError};
 use crate::evaluate::Evaluator;
@@ -110,11 +110,15 @@ pub fn offset_columns(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<[
     columns
 }
 
+/// Joint and axis of every component of the offsets of the joints that count.
+fn offset_places(evaluator: &Evaluator<'_>, counts: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
+    let joints = evaluator.clearances().joints().iter().enumerate().filter(|(joint, _)| counts(*joint));
+    joints.flat_map(|(joint, law)| (0..law.freedoms()).map(move |axis| (joint, axis))).collect()
+}
+
 /// Contacts whose offset no demanded start value fixes.
 fn free_contacts(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bool> {
-    let held: Vec<bool> = evaluator.description().coordinates.iter().map(|c| c.held).collect();
-    let (mut fixed, rows) = frozen(evaluator, &held);
-    rows.iter().for_each(|(_, speed, axis)| fixed[speed + 3 + axis] = true);
+    let fixed = frozen_speeds(evaluator);
     let moved = |column: &[Vec<f64>; 3], speed: usize| column.iter().any(|row| row[speed].abs() > MOVES);
     columns.iter().map(|column| !(0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed))).collect()
 }
@@ -143,11 +147,7 @@ fn ideal_reactions(
 ) -> Vec<[f64; 3]> {
     let (q, v) = (&state.q[..], &state.v[..]);
     let columns = offset_columns(evaluator, t, q);
-    let freedoms: Vec<usize> = evaluator.clearances().joints().iter().map(|joint| joint.freedoms()).collect();
-    let places: Vec<(usize, usize)> = (0..placeable.len())
-        .filter(|joint| placeable[*joint])
-        .flat_map(|joint| (0..freedoms[joint]).map(move |axis| (joint, axis)))
-        .collect();
+    let places = offset_places(evaluator, |joint| placeable[joint]);
     evaluator.evaluate_contacts(t, q, v);
     let mut wrenches = evaluator.clearances().wrenches().to_vec();
     for (joint, wrench) in wrenches.chunks_exact_mut(CONTACT_WRENCH).enumerate() {
@@ -216,18 +216,11 @@ struct Placing {
 
 impl Placing {
     fn new(evaluator: &Evaluator<'_>, targets: &Targets) -> Self {
-        let held: Vec<bool> = evaluator.description().coordinates.iter().map(|c| c.held).collect();
-        let (mut frozen, rows) = frozen(evaluator, &held);
-        rows.iter().for_each(|(_, speed, axis)| frozen[speed + 3 + axis] = true);
-        let joints = evaluator.clearances().joints();
-        let places: Vec<_> = (0..targets.len())
-            .filter(|joint| targets[*joint].is_some())
-            .flat_map(|joint| (0..joints[joint].freedoms()).map(move |axis| (joint, axis)))
-            .collect();
+        let places = offset_places(evaluator, |joint| targets[joint].is_some());
         let (m, n) = (evaluator.sizes().rows + places.len(), evaluator.sizes().speeds);
         let held = evaluator.description().speeds.iter().map(|speed| speed.held).collect();
         Self {
-            frozen: [frozen, held],
+            frozen: [frozen_speeds(evaluator), held],
             places,
             matrix: vec![0.0; m * n],
             right: vec![0.0; m],

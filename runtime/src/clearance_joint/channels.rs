@@ -4,32 +4,25 @@
 use super::joint::ContactState;
 use crate::description::{Channel, Description};
 
-/// One quantity of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
-    Offset(usize),
-    Gap,
-    NormalForce,
-    SlidingSpeed,
-    Angle,
-}
+/// Suffix, unit and value of a column.
+type Quantity = (&'static str, &'static str, fn(&ContactState) -> f64);
 
-const BALL: &[(&str, &str, Quantity)] = &[
-    ("x", "m", Quantity::Offset(0)),
-    ("y", "m", Quantity::Offset(1)),
-    ("z", "m", Quantity::Offset(2)),
-    ("gap", "m", Quantity::Gap),
-    ("Fn", "N", Quantity::NormalForce),
-    ("vt", "m/s", Quantity::SlidingSpeed),
+const BALL: &[Quantity] = &[
+    ("x", "m", |contact| contact.offset[0]),
+    ("y", "m", |contact| contact.offset[1]),
+    ("z", "m", |contact| contact.offset[2]),
+    ("gap", "m", |contact| contact.gap),
+    ("Fn", "N", |contact| contact.normal_force),
+    ("vt", "m/s", |contact| contact.sliding_speed),
 ];
 
-const JOURNAL: &[(&str, &str, Quantity)] = &[
-    ("x", "m", Quantity::Offset(0)),
-    ("y", "m", Quantity::Offset(1)),
-    ("gap", "m", Quantity::Gap),
-    ("Fn", "N", Quantity::NormalForce),
-    ("vt", "m/s", Quantity::SlidingSpeed),
-    ("contact_angle", "rad", Quantity::Angle),
+const JOURNAL: &[Quantity] = &[
+    ("x", "m", |contact| contact.offset[0]),
+    ("y", "m", |contact| contact.offset[1]),
+    ("gap", "m", |contact| contact.gap),
+    ("Fn", "N", |contact| contact.normal_force),
+    ("vt", "m/s", |contact| contact.sliding_speed),
+    ("contact_angle", "rad", |contact| contact.angle),
 ];
 
 /// All columns of a mechanism: the generated ones, then those that contacts add; names that exist already are not
@@ -38,7 +31,8 @@ const JOURNAL: &[(&str, &str, Quantity)] = &[
 pub(crate) struct Channels {
     /// Their names and units.
     pub(crate) channels: Vec<Channel>,
-    sources: Vec<(usize, Quantity)>,
+    /// Joint and value of those that contacts add.
+    sources: Vec<(usize, fn(&ContactState) -> f64)>,
 }
 
 impl Channels {
@@ -46,12 +40,12 @@ impl Channels {
     pub(crate) fn new(description: &Description) -> Self {
         let mut list = Self { channels: description.channels.to_vec(), sources: Vec::new() };
         for (joint, info) in description.contacts.iter().enumerate() {
-            for (suffix, unit, quantity) in if info.ball { BALL } else { JOURNAL } {
+            for (suffix, unit, value) in if info.ball { BALL } else { JOURNAL } {
                 let name = format!("{}.{suffix}", info.joint);
                 if list.channels.iter().all(|channel| channel.name != name) {
                     // The contact angle keeps to (-pi, pi]: a bearing has no turns.
                     list.channels.push(Channel { name: name.into(), unit: (*unit).into(), wraps: false });
-                    list.sources.push((joint, *quantity));
+                    list.sources.push((joint, *value));
                 }
             }
         }
@@ -60,15 +54,8 @@ impl Channels {
 
     /// Writes the values of the columns that contacts add.
     pub(crate) fn write(&self, contacts: &[ContactState], values: &mut [f64]) {
-        for ((joint, quantity), value) in self.sources.iter().zip(values) {
-            let contact = &contacts[*joint];
-            *value = match quantity {
-                Quantity::Offset(axis) => contact.offset[*axis],
-                Quantity::Gap => contact.gap,
-                Quantity::NormalForce => contact.normal_force,
-                Quantity::SlidingSpeed => contact.sliding_speed,
-                Quantity::Angle => contact.angle,
-            };
+        for ((joint, of), value) in self.sources.iter().zip(values) {
+            *value = of(&contacts[*joint]);
         }
     }
 }

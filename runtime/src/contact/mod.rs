@@ -25,6 +25,8 @@ pub use laws::{ContactForce, Laws};
 pub use memory::{ImpactMemory, crossing_speed};
 pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce};
 pub use range::OutOfRange;
+#[cfg(feature = "std")]
+pub(crate) use range::checked;
 pub(crate) use range::{not_negative, positive};
 pub use restitution::Restitution;
 pub use revolute::{RevoluteContact, RevoluteMotion, Support, bearing_angle};

@@ -11,9 +11,10 @@ use super::cycle::{LifeOutcome, run_life};
 use super::error::LifeError;
 use super::increment::MeanIncrement;
 use super::path::{Walker, rates};
-use super::settings::{LifeSettings, WearStep};
+use super::settings::{JointLife, LifeSettings, WearStep};
 use super::source::WearSource;
 use super::state::LifeState;
+use super::worn::WearState;
 use crate::watch::Watch;
 
 /// Lives tried at most: bisection alone halves any bracket to rounding in fewer.
@@ -116,15 +117,12 @@ fn first_guess<F: WearSource>(
     let state = LifeState::<F::State>::new(settings, 0).map_err(LifeError::from)?;
     let mut walker =
         Walker { settings, fine, base: &state.joints, state: F::State::default(), cycle: 0, measurements: 0 };
-    let width = settings.joints.iter().map(|joint| joint.width()).sum();
-    let measured = walker.measure(&vec![0.0; width], &mut F::State::default())?;
+    let measured = walker.measure(&vec![0.0; settings.width()], &mut F::State::default())?;
     let rates = rates(settings, &measured);
-    let (mut rest, mut fastest) = (rates.as_slice(), 0.0_f64);
-    for (joint, base) in settings.joints.iter().zip(&state.joints) {
-        let (rate, others) = rest.split_at(joint.width());
-        rest = others;
-        fastest = fastest.max(joint.after(base, rate, 1.0).wear / joint.threshold);
-    }
+    let pace = |((joint, rate), base): ((&JointLife, &[f64]), &WearState)| {
+        joint.after(base, rate, 1.0).wear / joint.threshold
+    };
+    let fastest = settings.parts(&rates).zip(&state.joints).map(pace).fold(0.0, f64::max);
     if fastest > 0.0 { Ok(1.0 / (fastest * cycles)) } else { Err(LifeError::NoWear { cycle: 1 }.into()) }
 }
 

@@ -74,9 +74,8 @@ fn advance<F: WearSource>(
     let measured = match state.measured.clone() {
         Some(measured) => measured,
         None => {
-            let width = settings.joints.iter().map(|joint| joint.width()).sum();
             let mut fine_state = walker.state.clone();
-            let measured = walker.measure(&vec![0.0; width], &mut fine_state)?;
+            let measured = walker.measure(&vec![0.0; settings.width()], &mut fine_state)?;
             walker.state = fine_state;
             measured
         }
@@ -125,10 +124,8 @@ fn reachable<E>(
     is_mean: bool,
 ) -> Result<u64, LifeError<E>> {
     let rates = rates(settings, measured);
-    let (mut rest, mut life) = (rates.as_slice(), f64::INFINITY);
-    for (joint, base) in settings.joints.iter().zip(base) {
-        let (rate, others) = rest.split_at(joint.width());
-        rest = others;
+    let mut life = f64::INFINITY;
+    for ((joint, rate), base) in settings.parts(&rates).zip(base) {
         let increment = joint.after(base, rate, 1.0).wear - base.wear;
         if cycle == 0 && increment >= joint.threshold {
             let (joint, threshold) = (joint.joint.clone(), joint.threshold);
@@ -234,14 +231,8 @@ impl Cycles {
 
 /// All joints after `factors` times the increments.
 fn worn(settings: &LifeSettings, base: &[WearState], increments: &[f64], factors: &[f64]) -> Vec<WearState> {
-    let mut rest = increments;
-    let mut joints = Vec::with_capacity(base.len());
-    for ((joint, base), factor) in settings.joints.iter().zip(base).zip(factors) {
-        let (increment, others) = rest.split_at(joint.width());
-        rest = others;
-        joints.push(joint.after(base, increment, *factor));
-    }
-    joints
+    let each = settings.parts(increments).zip(base).zip(factors);
+    each.map(|(((joint, increment), base), factor)| joint.after(base, increment, *factor)).collect()
 }
 
 /// When, in cycles since the start of the path, a joint reached its threshold in a cycle of it.
@@ -252,11 +243,10 @@ fn crossing(
     joint: usize,
     (factor, cycle): (f64, u64),
 ) -> f64 {
-    let first = settings.joints[..joint].iter().map(|joint| joint.width()).sum::<usize>();
-    let lives = &settings.joints[joint];
     let is_worn = |time: f64| {
         let increments = path.at(time);
-        lives.after(&base[joint], &increments[first..first + lives.width()], factor).wear >= lives.threshold
+        let own = settings.parts(&increments).nth(joint);
+        own.is_some_and(|(lives, own)| lives.after(&base[joint], own, factor).wear >= lives.threshold)
     };
     let (mut early, mut late) = ((cycle - 1) as f64, cycle as f64);
     // Down to neighbouring numbers.

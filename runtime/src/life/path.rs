@@ -5,7 +5,7 @@
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
 use super::error::LifeError;
-use super::settings::{Feedback, LifeSettings, WearStep};
+use super::settings::{Feedback, JointLife, LifeSettings, WearStep};
 use super::source::{JointWear, WearSource};
 use super::state::Control;
 use super::worn::WearState;
@@ -99,15 +99,11 @@ impl<F: WearSource> Walker<'_, F> {
         increments: &[f64],
         state: &mut F::State,
     ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
-        let mut rest = increments;
-        let mut joints = Vec::with_capacity(self.base.len());
-        for (joint, base) in self.settings.joints.iter().zip(self.base) {
-            let (increment, others) = rest.split_at(joint.width());
-            rest = others;
+        let worn = |((joint, increment), base): ((&JointLife, &[f64]), &WearState)| {
             let WearState { clearance, wear, profile, .. } = joint.after(base, increment, 1.0);
-            let profile = profile.filter(|_| joint.feedback == Feedback::Profile);
-            joints.push(JointWear { clearance, wear, profile });
-        }
+            JointWear { clearance, wear, profile: profile.filter(|_| joint.feedback == Feedback::Profile) }
+        };
+        let joints: Vec<JointWear> = self.settings.parts(increments).zip(self.base).map(worn).collect();
         self.measurements += 1;
         measure(self.settings, self.fine, &joints, state, self.cycle + 1)
     }
@@ -202,16 +198,13 @@ impl<F: WearSource> Walker<'_, F> {
     /// An error of W early in life grows with the rate of wear, the same error as a time does not: it can be summed.
     fn judge(&self, errors: &[f64], gains: &[f64], length: f64) -> (Vec<f64>, f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let (mut first, mut per_joint) = (0, Vec::with_capacity(self.base.len()));
+        let mut per_joint = Vec::with_capacity(self.base.len());
         let (mut error, mut gain) = (0.0_f64, 0.0_f64);
-        for joint in &self.settings.joints {
-            let next = first + joint.width();
-            let wrong = largest(joint.decisive(&errors[first..next]));
-            let gained = largest(joint.decisive(&gains[first..next]));
+        for ((joint, errors), (_, gains)) in self.settings.parts(errors).zip(self.settings.parts(gains)) {
+            let (wrong, gained) = (largest(joint.decisive(errors)), largest(joint.decisive(gains)));
             error = error.max(wrong / joint.threshold);
             gain = gain.max(gained / joint.threshold);
             per_joint.push(if gained > 0.0 { wrong / gained * length } else { 0.0 });
-            first = next;
         }
         (per_joint, if gain > 0.0 { error / gain } else { 0.0 })
     }
@@ -243,7 +236,7 @@ fn accepts(
 
 /// Mean increments per cycle.
 pub(super) fn rates(settings: &LifeSettings, measured: &[ContactMeasure]) -> Increments {
-    let mut rates = Vec::with_capacity(settings.joints.iter().map(|joint| joint.width()).sum());
+    let mut rates = Vec::with_capacity(settings.width());
     for (joint, wear) in settings.joints.iter().zip(measured) {
         rates.push(joint.revolutions_per_cycle * wear.depth);
         if let (Some(_), Some(profile)) = (joint.bins, &wear.deposit) {

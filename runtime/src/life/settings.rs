@@ -4,7 +4,7 @@
 use thiserror::Error;
 
 use super::worn::WearState;
-use crate::contact::OutOfRange;
+use crate::contact::{OutOfRange, checked, positive};
 use crate::description::ContactInfo;
 use crate::wear::{Limits, Measure, Profile, ScalarFeedback};
 
@@ -97,27 +97,16 @@ pub enum SettingsError {
     #[error("no joint wears; give a joint with clearance a `[wear]` section")]
     NoJoint,
     /// A number of a joint is out of range.
-    #[error("{name} of joint `{joint}` is {value}; it must be {need}")]
+    #[error("{} of joint `{joint}` is {}; it must be {}", reason.name, reason.value, reason.need)]
     Joint {
         /// The joint.
         joint: String,
-        /// What it is.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it must be.
-        need: &'static str,
+        /// Which number, its value, and what it must be.
+        reason: OutOfRange,
     },
     /// A number of the run is out of range.
-    #[error("{name} is {value}; it must be {need}")]
-    Run {
-        /// What it is.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What it must be.
-        need: &'static str,
-    },
+    #[error(transparent)]
+    Run(#[from] OutOfRange),
     /// W or the feedback need a profile, and none is kept.
     #[error("joint `{joint}` needs a wear profile; give the number of its bins")]
     NoProfile {
@@ -166,6 +155,23 @@ impl LifeSettings {
         self
     }
 
+    /// Length of the increments of all joints.
+    pub(super) fn width(&self) -> usize {
+        self.joints.iter().map(JointLife::width).sum()
+    }
+
+    /// The joints, each with its part of the increments of all.
+    pub(super) fn parts<'i>(
+        &'i self,
+        mut increments: &'i [f64],
+    ) -> impl Iterator<Item = (&'i JointLife, &'i [f64])> {
+        self.joints.iter().map(move |joint| {
+            let (own, others) = increments.split_at(joint.width());
+            increments = others;
+            (joint, own)
+        })
+    }
+
     /// Whether everything makes sense.
     ///
     /// # Errors
@@ -175,17 +181,13 @@ impl LifeSettings {
             return Err(SettingsError::NoJoint);
         }
         self.joints.iter().try_for_each(JointLife::check)?;
-        let run = |name, value: f64, need, fits: bool| {
-            if fits { Ok(()) } else { Err(SettingsError::Run { name, value, need }) }
-        };
         let touching = self.least_touching;
-        run("the least part in contact", touching, "from 0 to below 1", (0.0..1.0).contains(&touching))?;
+        checked("the least part in contact", touching, "from 0 to below 1", |x| (0.0..1.0).contains(&x))?;
         if let WearStep::Adaptive { tolerance, shortest, longest } = self.step {
-            let in_open = tolerance > 0.0 && tolerance < 1.0;
-            run("the tolerance of the wear step", tolerance, "between 0 and 1", in_open)?;
-            let part = shortest > 0.0 && shortest <= 1.0;
-            run("the shortest wear step", shortest, "above 0 and at most 1 cycle", part)?;
-            run("the longest wear step", longest as f64, "1 cycle or more", longest >= 1)?;
+            checked("the tolerance of the wear step", tolerance, "between 0 and 1", |x| x > 0.0 && x < 1.0)?;
+            let need = "above 0 and at most 1 cycle";
+            checked("the shortest wear step", shortest, need, |x| x > 0.0 && x <= 1.0)?;
+            checked("the longest wear step", longest as f64, "1 cycle or more", |x| x >= 1.0)?;
         }
         Ok(())
     }
@@ -204,12 +206,7 @@ impl JointLife {
         let feedback = if wear.profile {
             Feedback::Profile
         } else {
-            let wrong = |error: OutOfRange| SettingsError::Joint {
-                joint: joint.clone(),
-                name: error.name,
-                value: error.value,
-                need: error.need,
-            };
+            let wrong = |reason| SettingsError::Joint { joint: joint.clone(), reason };
             Feedback::Scalar(ScalarFeedback::new(wear.feedback).map_err(wrong)?)
         };
         let lives = Self {
@@ -238,15 +235,14 @@ impl JointLife {
             ("the wear threshold", self.threshold),
             ("revolutions_per_cycle", self.revolutions_per_cycle),
         ];
-        let wrong = |name, value, need| SettingsError::Joint { joint: self.joint.clone(), name, value, need };
-        if let Some((name, value)) =
-            numbers.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()))
-        {
-            return Err(wrong(name, value, "finite and above 0"));
+        let wrong = |reason| SettingsError::Joint { joint: self.joint.clone(), reason };
+        for (name, value) in numbers {
+            positive(name, value).map_err(wrong)?;
         }
         match self.bins {
             Some(bins) if bins < Profile::FEWEST_BINS => {
-                Err(wrong("the number of bins", bins as f64, "4 or more"))
+                let (name, need) = ("the number of bins", "4 or more");
+                Err(wrong(OutOfRange { name, value: bins as f64, need }))
             }
             None if self.wear != WearOf::Depth || self.feedback == Feedback::Profile => {
                 Err(SettingsError::NoProfile { joint: self.joint.clone() })

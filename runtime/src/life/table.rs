@@ -15,6 +15,7 @@ use super::interpolate::{Curve, find};
 use super::path::measure;
 use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf};
 use super::source::{JointWear, WearSource};
+use crate::contact::OutOfRange;
 use crate::watch::Watch;
 use crate::wear::{ContactMeasure, Observed, Profile};
 
@@ -81,7 +82,7 @@ impl WearTable {
         settings.check()?;
         if points < 3 {
             let (name, need) = ("the number of points of a table", "3 or more");
-            return Err(SettingsError::Run { name, value: points as f64, need }.into());
+            return Err(SettingsError::Run(OutOfRange { name, value: points as f64, need }).into());
         }
         if let Some(joint) = settings.joints.iter().find(|joint| joint.feedback == Feedback::Profile) {
             return Err(SettingsError::TableOfProfile { joint: joint.joint.clone() }.into());

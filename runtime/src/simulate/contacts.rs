@@ -35,12 +35,14 @@ struct Track {
 pub(super) struct Follower {
     tracks: Vec<Track>,
     /// Contacts at the last accepted step.
-    contacts: Vec<ContactState>,
+    pub(super) contacts: Vec<ContactState>,
     t: f64,
-    turn_begin: f64,
+    /// When the present turn began [s].
+    pub(super) turn_begin: f64,
     longest_step: f64,
     probe: Vec<f64>,
-    measures: Vec<Vec<ContactMeasure>>,
+    /// What every joint did, turn by turn.
+    pub(super) measures: Vec<Vec<ContactMeasure>>,
 }
 
 impl Follower {
@@ -79,16 +81,6 @@ impl Follower {
         follower.probe_frequencies(motion, state);
         follower.begin_turn(motion);
         Some(follower)
-    }
-
-    /// Contacts at the last accepted step.
-    pub(super) fn contacts(&self) -> &[ContactState] {
-        &self.contacts
-    }
-
-    /// What turns did.
-    pub(super) fn into_measures(self) -> Vec<Vec<ContactMeasure>> {
-        self.measures
     }
 
     /// Accumulates an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
@@ -157,11 +149,6 @@ impl Follower {
         };
         self.measures.push(self.tracks.iter_mut().map(measure).collect());
         self.begin_turn(motion);
-    }
-
-    /// When the present turn began [s].
-    pub(super) fn turn_begin(&self) -> f64 {
-        self.turn_begin
     }
 
     /// What of the run is doubtful.

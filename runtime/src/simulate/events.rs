@@ -38,10 +38,10 @@ pub(super) fn stop_at_contact(
     let (q, v, _) = motion.split(after);
     motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
     let mut first: Option<Event> = None;
-    for joint in 0..follower.contacts().len() {
+    for joint in 0..follower.contacts.len() {
         let after = motion.dynamics.evaluator.clearances().contacts()[joint];
         let touching = motion.dynamics.evaluator.clearances().states()[joint].memory.touching > 0.5;
-        let curve = Cubic::new(&follower.contacts()[joint], &after, length);
+        let curve = Cubic::new(&follower.contacts[joint], &after, length);
         let mut penetration = |part: f64| -> f64 {
             method.interpolate(begin + part * length, between);
             motion.penetration(joint, begin + part * length, between)

@@ -21,7 +21,7 @@ pub(super) fn run_generalized_alpha(
     let (mut before, mut now) = (vec![0.0; powers], vec![0.0; powers]);
     let mut sampled = state.to_vec();
     let mut method: Option<(GeneralizedAlpha, f64)> = None;
-    let (mut t, n) = (sampler.begin(), motion.first_integral());
+    let (mut t, n) = (sampler.schedule.begin, motion.first_integral());
     while let Some(target) = sampler.next_stop(t) {
         let (from, steps) = (t, steps_between(t, target, longest));
         // One step size up to the next stop; another one starts the method afresh, because its own
@@ -99,5 +99,5 @@ fn start(
     }
     let (q, v, _) = motion.split(state);
     let method = GeneralizedAlpha::new(&motion.dynamics.evaluator, rho, (q, v), &v_dot, &shifted);
-    Ok(method.with_sizes(motion.sizes()))
+    Ok(method.with_sizes(&motion.sizes))
 }

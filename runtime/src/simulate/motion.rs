@@ -6,7 +6,6 @@ use crate::assemble::{State, offset_columns};
 use crate::description::Motion;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
-use crate::evaluate::LoopError;
 use crate::integrate::Problem;
 use crate::linear::largest;
 use crate::projection::{Correction, Projector};
@@ -65,7 +64,7 @@ impl Totals {
 pub(super) struct ConstrainedMotion<'a> {
     pub(super) dynamics: Dynamics<'a>,
     pub(super) projections: u64,
-    projector: Projector,
+    pub(super) projector: Projector,
     stage: Vec<f64>,
     coordinates: usize,
     speeds: usize,
@@ -73,7 +72,7 @@ pub(super) struct ConstrainedMotion<'a> {
     /// Natural size of every coordinate and speed, 1 unless it moves a journal in its bearing.
     scales: Vec<f64>,
     /// Natural size of the motion along every free speed.
-    sizes: Vec<f64>,
+    pub(super) sizes: Vec<f64>,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
     pub(super) energy_scale: f64,
 }
@@ -129,11 +128,6 @@ impl<'a> ConstrainedMotion<'a> {
         self.dynamics.evaluator.clearances().contacts()[joint].penetration()
     }
 
-    /// Natural sizes of the motion along the free speeds.
-    pub(super) fn sizes(&self) -> &[f64] {
-        &self.sizes
-    }
-
     /// Learns at a state how small the motion in the clearances is. Without clearance nothing changes.
     pub(super) fn learn_sizes(&mut self, t: f64, state: &State) {
         if self.contacts == 0 {
@@ -178,11 +172,6 @@ impl<'a> ConstrainedMotion<'a> {
         let (q, rest) = y.split_at(self.coordinates);
         let (v, work) = rest.split_at(self.speeds);
         (q, v, (work[0], work[1]))
-    }
-
-    /// Loop error after the last projection.
-    pub(super) fn loop_error(&self) -> LoopError {
-        self.projector.loop_error()
     }
 
     /// Puts a state onto the constraints, however far it moves.

@@ -15,7 +15,7 @@ use crate::watch::Watch;
 
 /// Recorder of one run.
 pub(super) struct Sampler {
-    schedule: Schedule,
+    pub(super) schedule: Schedule,
     pub(super) statistics: Statistics,
     times: Vec<f64>,
     rows: Vec<Vec<f64>>,
@@ -67,11 +67,6 @@ impl Sampler {
         sampler
     }
 
-    /// Where the run begins [s].
-    pub(super) fn begin(&self) -> f64 {
-        self.schedule.begin
-    }
-
     /// Length of the run [s].
     pub(super) fn duration(&self) -> f64 {
         self.schedule.end - self.schedule.begin
@@ -89,7 +84,7 @@ impl Sampler {
     fn find_turn_end(&mut self, motion: &mut ConstrainedMotion<'_>) {
         self.turn_end = match &self.follower {
             Some(follower) if motion.dynamics.evaluator.description().turn_driver.is_some() => {
-                self.schedule.end_of_turn(&mut motion.dynamics.evaluator, follower.turn_begin())
+                self.schedule.end_of_turn(&mut motion.dynamics.evaluator, follower.turn_begin)
             }
             _ => None,
         };
@@ -107,11 +102,6 @@ impl Sampler {
             follower.end_turn(motion);
             self.find_turn_end(motion);
         }
-    }
-
-    /// End of the run [s].
-    pub(super) fn end(&self) -> f64 {
-        self.schedule.end
     }
 
     /// The time up to which steps may be spread evenly from `t`; `None` at the end.
@@ -143,7 +133,7 @@ impl Sampler {
         state: &[f64],
     ) -> Result<(), RunError> {
         let mut state = state.to_vec();
-        let begin = self.begin();
+        let begin = self.schedule.begin;
         if self.is_due(begin) {
             self.sample(motion, begin, &mut state)
         } else {
@@ -159,7 +149,7 @@ impl Sampler {
         state: &mut [f64],
     ) -> Result<(), RunError> {
         motion.put_on(t, state)?;
-        self.note_loop_error(motion.loop_error());
+        self.note_loop_error(motion.projector.loop_error());
         self.note_energy(motion, t, state);
         let mut row = vec![0.0; self.values.len()];
         self.observe(motion, t, state, Some(&mut row))?;
@@ -272,7 +262,7 @@ impl Sampler {
         };
         if let Some(follower) = self.follower {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
-            run.turns = follower.into_measures();
+            run.turns = follower.measures;
         }
         run
     }

@@ -38,7 +38,7 @@ fn run_rk4(
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
     let mut method = Rk4::new(state.len());
-    let mut t = sampler.begin();
+    let mut t = sampler.schedule.begin;
     sampler.sample_at_start(motion, state)?;
     while let Some(target) = sampler.next_stop(t) {
         let (from, steps) = (t, steps_between(t, target, longest));
@@ -46,7 +46,7 @@ fn run_rk4(
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             method.step(motion, t, state, next - t)?;
             t = next;
-            sampler.note_loop_error(motion.loop_error());
+            sampler.note_loop_error(motion.projector.loop_error());
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
@@ -64,7 +64,7 @@ fn run_dopri5(
     (tolerance, longest): (f64, f64),
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    let (begin, end) = (sampler.begin(), sampler.end());
+    let (begin, end) = (sampler.schedule.begin, sampler.schedule.end);
     let mut between = state.to_vec();
     sampler.sample_at_start(motion, state)?;
     let mut method = Dopri5::start(motion, (begin, end), state, tolerance, longest)?;
@@ -73,7 +73,7 @@ fn run_dopri5(
         sampler.statistics.rejected = method.rejected();
         outcome?;
         events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
-        sampler.note_loop_error(motion.loop_error());
+        sampler.note_loop_error(motion.projector.loop_error());
         while let Some(t) = sampler.due_before(method.t()) {
             method.interpolate(t, &mut between);
             sampler.sample(motion, t, &mut between)?;
