@@ -99,7 +99,7 @@ pub enum AssemblyError {
     #[error(
         "the start values of {} cannot all be met: with them the loops stay open by {residual_m:.3e} m and \
          {residual_rad:.3e} rad; make some of them guesses, or change them",
-        list(names)
+        names.join(", ")
     )]
     HeldPositions {
         /// Coordinates whose demanded values cannot be met, with the nearest reachable value.
@@ -113,7 +113,7 @@ pub enum AssemblyError {
     #[error(
         "the start speeds of {} contradict the loops at joint `{joint}` (residual {residual:.3e} m/s or rad/s); \
          make some of them guesses, or change them",
-        list(names)
+        names.join(", ")
     )]
     HeldSpeeds {
         /// Speeds whose demanded values cannot be met, with the nearest reachable value.
@@ -240,8 +240,4 @@ pub enum RunError {
         /// Time reached.
         t: f64,
     },
-}
-
-fn list(names: &[String]) -> String {
-    names.join(", ")
 }

@@ -3,7 +3,7 @@
 //! Never knows equations.
 
 use crate::description::Motion;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, cross, dot};
 
 /// One group of coordinates and speeds, with its places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,7 +153,7 @@ fn rotate(q: &mut [f64], angle: [f64; 3]) {
 
 /// Pose times the exponential of a twist in the body's own frame.
 fn displace(q: &mut [f64], angle: [f64; 3], shift: [f64; 3]) {
-    let square = dot3(angle, angle);
+    let square = dot(angle, angle);
     let size = square.sqrt();
     let (sine, cosine) = Scalar::sin_cos(size);
     // (1 - cos)/x² and (x - sin)/x³; the series' next terms are 1e-13 of x⁴ below 1e-2.
@@ -165,8 +165,8 @@ fn displace(q: &mut [f64], angle: [f64; 3], shift: [f64; 3]) {
     } else {
         ((1.0 - cosine) / square, (size - sine) / (square * size))
     };
-    let once = cross3(angle, shift);
-    let twice = cross3(angle, once);
+    let once = cross(angle, shift);
+    let twice = cross(angle, once);
     let moved: [f64; 3] = core::array::from_fn(|i| shift[i] + a * once[i] + b * twice[i]);
     let global = turn([q[0], q[1], q[2], q[3]], moved);
     for (position, step) in q[4..7].iter_mut().zip(global) {
@@ -178,17 +178,9 @@ fn displace(q: &mut [f64], angle: [f64; 3], shift: [f64; 3]) {
 /// Rotates a vector from the body's frame to W by a unit quaternion.
 pub fn turn(q: [f64; 4], x: [f64; 3]) -> [f64; 3] {
     let axis = [q[1], q[2], q[3]];
-    let once = cross3(axis, x);
-    let twice = cross3(axis, once);
+    let once = cross(axis, x);
+    let twice = cross(axis, once);
     core::array::from_fn(|i| x[i] + 2.0 * (q[0] * once[i] + twice[i]))
-}
-
-fn dot3(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross3(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The one scalar trait that generated code and hand-written laws are generic over.
 //! Out: `Scalar`, implemented for `f64` here; lanes and dual numbers implement it too.
-//! Never knows mechanisms. Every function is deterministic: same input, same bits, on every machine.
+//! Beside it scalar and cross product. Never knows mechanisms. Every function is deterministic: same input, same bits, on every machine.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -35,4 +35,16 @@ pub trait Scalar:
     fn lt(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` holds, else `no`; both are evaluated.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// Scalar product.
+#[inline(always)]
+pub(crate) fn dot<T: Scalar, const N: usize>(a: [T; N], b: [T; N]) -> T {
+    (1..N).fold(a[0] * b[0], |sum, i| sum + a[i] * b[i])
+}
+
+/// Vector product.
+#[inline(always)]
+pub(crate) fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

@@ -4,8 +4,9 @@
 use super::joint::ContactState;
 use crate::description::{Channel, Description};
 
+type Value = fn(&ContactState) -> f64;
 /// Suffix, unit and value of a column.
-type Quantity = (&'static str, &'static str, fn(&ContactState) -> f64);
+type Quantity = (&'static str, &'static str, Value);
 
 const BALL: &[Quantity] = &[
     ("x", "m", |contact| contact.offset[0]),
@@ -32,7 +33,7 @@ pub(crate) struct Channels {
     /// Their names and units.
     pub(crate) channels: Vec<Channel>,
     /// Joint and value of those that contacts add.
-    sources: Vec<(usize, fn(&ContactState) -> f64)>,
+    sources: Vec<(usize, Value)>,
 }
 
 impl Channels {

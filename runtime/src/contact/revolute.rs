@@ -4,7 +4,7 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, dot};
 
 /// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
 const CENTRED: f64 = 1e-60;
@@ -68,12 +68,6 @@ pub fn bearing_angle<T: Scalar>(offset: [T; 2]) -> T {
     normal[1].atan2(normal[0])
 }
 
-/// Scalar product.
-#[inline(always)]
-pub(super) fn dot<T: Scalar, const N: usize>(a: [T; N], b: [T; N]) -> T {
-    (1..N).fold(a[0] * b[0], |sum, i| sum + a[i] * b[i])
-}
-
 /// Distance and unit vector of an offset; finite, with finite derivatives, also at zero.
 #[inline]
 pub(super) fn direction<T: Scalar, const N: usize>(offset: [T; N]) -> (T, [T; N]) {
@@ -93,11 +87,10 @@ impl<T: Scalar> RevoluteContact<T> {
     /// the other way round, bearing minus journal, which is right only for forces on the bearing.
     #[inline]
     pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, support: &Support<T>) -> Self {
-        let (_, outward) = direction(motion.offset);
         let Support { penetration, gradient: normal } = *support;
         let tangent = [-normal[1], normal[0]];
         Self {
-            angle: outward[1].atan2(outward[0]),
+            angle: bearing_angle(motion.offset),
             penetration,
             penetration_rate: dot(normal, motion.offset_rate),
             normal,

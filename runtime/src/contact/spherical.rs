@@ -6,8 +6,8 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use super::revolute::{direction, dot};
-use crate::scalar::Scalar;
+use super::revolute::direction;
+use crate::scalar::{Scalar, cross, dot};
 
 /// Squared sliding speeds [m²/s²] below this count as this: the root has no derivative at zero.
 const AT_REST: f64 = 1e-40;
@@ -37,11 +37,6 @@ pub struct SphericalContact<T> {
     /// Its magnitude [m/s].
     pub sliding_speed: T,
     ball_radius: T,
-}
-
-#[inline(always)]
-fn cross<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 #[inline(always)]

@@ -44,13 +44,10 @@ impl Coefficients {
 #[must_use]
 pub struct GeneralizedAlpha {
     coefficients: Coefficients,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    /// Accelerations at the last time.
-    v_dot: Vec<f64>,
-    /// The method's own accelerations, which belong to a shifted time.
-    a: Vec<f64>,
-    next: Next,
+    now: Point,
+    /// Trial values at the end of a step.
+    next: Point,
+    trial: Trial,
     x: Vec<f64>,
     /// Multipliers times `h²`.
     scaled_multipliers: Vec<f64>,
@@ -72,12 +69,19 @@ pub struct GeneralizedAlpha {
     evaluations: u64,
 }
 
-/// Trial values at the end of a step.
-struct Next {
+/// What the method carries from step to step.
+#[derive(Clone)]
+struct Point {
     q: Vec<f64>,
     v: Vec<f64>,
+    /// Accelerations.
     v_dot: Vec<f64>,
+    /// The method's own accelerations, which belong to a shifted time.
     a: Vec<f64>,
+}
+
+/// Equations of motion at a trial, of all coordinates.
+struct Trial {
     all_q: Vec<f64>,
     all_v: Vec<f64>,
     all_a: Vec<f64>,
@@ -100,11 +104,9 @@ impl GeneralizedAlpha {
         let sizes = evaluator.sizes();
         let (n, m, all) = (sizes.speeds, sizes.rows, sizes.all_speeds);
         let (free, driven) = evaluator.layout().speed_places(sizes.drivers);
-        let next = Next {
-            q: state.0.to_vec(),
-            v: state.1.to_vec(),
-            v_dot: v_dot.to_vec(),
-            a: shifted.to_vec(),
+        let (q, v) = (state.0.to_vec(), state.1.to_vec());
+        let now = Point { q, v, v_dot: v_dot.to_vec(), a: shifted.to_vec() };
+        let trial = Trial {
             all_q: vec![0.0; sizes.all_coordinates],
             all_v: vec![0.0; all],
             all_a: vec![0.0; all],
@@ -115,11 +117,9 @@ impl GeneralizedAlpha {
         };
         Self {
             coefficients: Coefficients::new(rho),
-            q: state.0.to_vec(),
-            v: state.1.to_vec(),
-            v_dot: v_dot.to_vec(),
-            a: shifted.to_vec(),
-            next,
+            next: now.clone(),
+            now,
+            trial,
             x: vec![0.0; n],
             scaled_multipliers: vec![0.0; m],
             kept: evaluator.kept().to_vec(),
@@ -151,12 +151,12 @@ impl GeneralizedAlpha {
 
     /// Coordinates reached.
     pub fn q(&self) -> &[f64] {
-        &self.q
+        &self.now.q
     }
 
     /// Speeds reached.
     pub fn v(&self) -> &[f64] {
-        &self.v
+        &self.now.v
     }
 
     /// Newton iterations so far.
@@ -179,7 +179,7 @@ impl GeneralizedAlpha {
         let rescale = if self.factored_step > 0.0 { (h / self.factored_step).powi(2) } else { 1.0 };
         self.scaled_multipliers.iter_mut().for_each(|x| *x *= rescale);
         for i in 0..self.x.len() {
-            self.x[i] = h * (self.v[i] + 0.5 * h * self.a[i]);
+            self.x[i] = h * (self.now.v[i] + 0.5 * h * self.now.a[i]);
         }
         let mut before = f64::INFINITY;
         let mut fresh = false;
@@ -195,7 +195,7 @@ impl GeneralizedAlpha {
                 fresh = true;
             }
             let size = self.correct();
-            let rounding = 2.0 * f64::EPSILON * largest(&self.q).max(1.0);
+            let rounding = 2.0 * f64::EPSILON * largest(&self.now.q).max(1.0);
             if size <= rounding || (size > 0.5 * before && size < ROUNDING) {
                 return self.accept(evaluator, t + h, h);
             }
@@ -230,38 +230,38 @@ impl GeneralizedAlpha {
         self.evaluations += 1;
         let Coefficients { alpha_m, alpha_f, beta, gamma } = self.coefficients;
         let (n, m) = (self.x.len(), self.scaled_multipliers.len());
-        let next = &mut self.next;
-        let all = next.all_a.len();
+        let (now, next, trial) = (&self.now, &mut self.next, &mut self.trial);
+        let all = trial.all_a.len();
         for i in 0..n {
-            next.a[i] = (self.x[i] - h * self.v[i] - h * h * (0.5 - beta) * self.a[i]) / (h * h * beta);
-            next.v[i] = self.v[i] + h * ((1.0 - gamma) * self.a[i] + gamma * next.a[i]);
-            next.v_dot[i] = ((1.0 - alpha_m) * next.a[i] + alpha_m * self.a[i] - alpha_f * self.v_dot[i])
-                / (1.0 - alpha_f);
+            next.a[i] = (self.x[i] - h * now.v[i] - h * h * (0.5 - beta) * now.a[i]) / (h * h * beta);
+            next.v[i] = now.v[i] + h * ((1.0 - gamma) * now.a[i] + gamma * next.a[i]);
+            next.v_dot[i] =
+                ((1.0 - alpha_m) * next.a[i] + alpha_m * now.a[i] - alpha_f * now.v_dot[i]) / (1.0 - alpha_f);
         }
-        next.q.copy_from_slice(&self.q);
+        next.q.copy_from_slice(&now.q);
         evaluator.layout().advance(&mut next.q, &self.x);
-        evaluator.expand(t, &next.q, &next.v, &mut next.all_q, &mut next.all_v);
-        for (place, law) in next.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
-            next.all_a[*place] = law[2];
+        evaluator.expand(t, &next.q, &next.v, &mut trial.all_q, &mut trial.all_v);
+        for (place, law) in trial.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
+            trial.all_a[*place] = law[2];
         }
-        for (place, a) in next.free.iter().zip(&next.v_dot) {
-            next.all_a[*place] = *a;
+        for (place, a) in trial.free.iter().zip(&next.v_dot) {
+            trial.all_a[*place] = *a;
         }
         evaluator.evaluate_contacts(t, &next.q, &next.v);
-        let equations = evaluator.equations(t, &next.all_q, &next.all_v);
-        equations.unpack_mass(all, &mut next.mass);
-        for (i, balance) in next.balance.iter_mut().enumerate() {
-            *balance = h * h * (dot(&next.mass[i * all..][..all], &next.all_a) + equations.bias[i]);
+        let equations = evaluator.equations(t, &trial.all_q, &trial.all_v);
+        equations.unpack_mass(all, &mut trial.mass);
+        for (i, balance) in trial.balance.iter_mut().enumerate() {
+            *balance = h * h * (dot(&trial.mass[i * all..][..all], &trial.all_a) + equations.bias[i]);
         }
         for (k, index) in self.kept.iter().enumerate() {
             let row = &equations.jacobian[index * all..][..all];
-            add_scaled(&mut next.balance, -self.scaled_multipliers[k], row);
-            for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&next.free) {
+            add_scaled(&mut trial.balance, -self.scaled_multipliers[k], row);
+            for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&trial.free) {
                 *entry = row[*place];
             }
         }
-        for (residual, place) in self.residual.iter_mut().zip(&self.next.free) {
-            *residual = self.next.balance[*place];
+        for (residual, place) in self.residual.iter_mut().zip(&self.trial.free) {
+            *residual = self.trial.balance[*place];
         }
         for (residual, index) in self.residual[n..n + m].iter_mut().zip(&self.kept) {
             *residual = equations.positions[*index];
@@ -306,16 +306,13 @@ impl GeneralizedAlpha {
         for (value, scaled) in output[n..n + m].iter_mut().zip(&self.scaled_multipliers) {
             *value = scaled / (h * h);
         }
-        for (value, place) in output[n + m..].iter_mut().zip(&self.next.driven) {
-            *value = self.next.balance[*place] / (h * h);
+        for (value, place) in output[n + m..].iter_mut().zip(&self.trial.driven) {
+            *value = self.trial.balance[*place] / (h * h);
         }
-        if output.iter().take(n + m + self.next.driven.len()).any(|x| !x.is_finite()) {
+        if output.iter().take(n + m + self.trial.driven.len()).any(|x| !x.is_finite()) {
             return Err(RunError::NonFinite { t, what: "the result of the implicit step".to_owned() });
         }
-        self.q.copy_from_slice(&self.next.q);
-        self.v.copy_from_slice(&self.next.v);
-        self.v_dot.copy_from_slice(&self.next.v_dot);
-        self.a.copy_from_slice(&self.next.a);
+        core::mem::swap(&mut self.now, &mut self.next);
         Ok(())
     }
 }

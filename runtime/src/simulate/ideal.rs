@@ -8,6 +8,7 @@
 use super::run::Run;
 use crate::clearance_joint::Clearance;
 use crate::error::SetupError;
+use crate::scalar::{cross, dot};
 use crate::wear::{ContactMeasure, Load};
 
 /// Where the motion of an ideal joint is found.
@@ -35,7 +36,7 @@ impl IdealJoint {
     /// # Errors
     /// If the run has no columns of such a joint, or axis or radius make no sense.
     pub fn revolute(run: &Run, joint: &str, axis: [f64; 3], journal_radius: f64) -> Result<Self, SetupError> {
-        let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = length(axis);
         positive("length of the axis", length)?;
         positive("journal radius", journal_radius)?;
         let speed = find(run, joint, "v")?;
@@ -117,12 +118,8 @@ fn positive(name: &'static str, value: f64) -> Result<(), SetupError> {
     if fits { Ok(()) } else { Err(SetupError::Setting { name, value, need: "finite and above 0" }) }
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length([x, y, z]: [f64; 3]) -> f64 {
-    (x * x + y * y + z * z).sqrt()
+fn length(vector: [f64; 3]) -> f64 {
+    dot(vector, vector).sqrt()
 }
 
 #[cfg(test)]

@@ -9,9 +9,9 @@
 //! In `f64` only: to look something up by an angle is not an operation of lanes. What a profile does to a contact
 //! enters the lanes as a penetration with its gradient, see [`crate::contact::Support`].
 
-use core::error::Error;
 use core::f64::consts::PI;
-use core::fmt;
+
+use thiserror::Error;
 
 use super::feedback::Measure;
 
@@ -27,14 +27,16 @@ pub struct Profile {
 }
 
 /// Depths that make no profile.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum ProfileError {
     /// Fewer bins than an interpolation around the circle needs.
+    #[error("a wear profile has {found} bins; it needs {} or more", Profile::FEWEST_BINS)]
     TooFewBins {
         /// Number given.
         found: usize,
     },
     /// A depth is not a finite number.
+    #[error("depth {value} in bin {bin} of a wear profile; it must be finite")]
     Depth {
         /// Its bin, counted from 0.
         bin: usize,
@@ -42,21 +44,6 @@ pub enum ProfileError {
         value: f64,
     },
 }
-
-impl fmt::Display for ProfileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooFewBins { found } => {
-                write!(f, "a wear profile has {found} bins; it needs {} or more", Profile::FEWEST_BINS)
-            }
-            Self::Depth { bin, value } => {
-                write!(f, "depth {value} in bin {bin} of a wear profile; it must be finite")
-            }
-        }
-    }
-}
-
-impl Error for ProfileError {}
 
 impl TryFrom<Vec<f64>> for Profile {
     type Error = ProfileError;
