@@ -152,6 +152,21 @@ fn one_unit_is_refused_until_it_is_accepted() {
     assert_eq!(fit(HEAVY, &["--power-law"])["warnings"], Value::Array(Vec::new()));
 }
 
+#[test]
+fn a_fit_that_its_own_test_rejects_is_called_bad_with_what_to_try() {
+    let found = fit(HEAVY, &["--from-zero"]);
+    close(&found["goodness"]["anderson_darling"], 14.8, 0.01);
+    assert!(found["goodness"]["p_anderson_darling"].as_f64().expect("a number") < 1e-10);
+    assert_eq!(found["goodness"]["p_values_by"], "asymptotic");
+    let warning = found["warnings"][0].as_str().expect("a text");
+    assert!(warning.contains("reject this fit") && warning.contains("--power-law"), "{warning}");
+    let text = linkwear(&[&["fit", HEAVY], &COLUMNS[..], &["--from-zero"]].concat());
+    assert!(text.code == 0 && text.out.contains("warning: the data reject this fit"), "{}", text.out);
+    let drawn = fit(HEAVY, &["--from-zero", "--bootstrap", "200"]);
+    assert_eq!(drawn["goodness"]["p_values_by"], "bootstrap");
+    assert!(drawn["warnings"][0].as_str().expect("a text").contains("reject"), "{drawn}");
+}
+
 /// Log-likelihood of an increment of wear of this shape.
 fn term(shape: f64, beta: f64, wear: f64) -> f64 {
     shape * beta.ln() - ln_gamma(shape) + (shape - 1.0) * wear.ln() - beta * wear

@@ -101,6 +101,14 @@ pub enum LifeError {
         /// Where a finite variance begins.
         below: f64,
     },
+    /// An integral over a reliability is outside of the bounds that a falling function has.
+    #[error(
+        "the {what} of the life cannot be computed: its quadrature fails the check against bounds by steps; use the quantiles, and report the parameters"
+    )]
+    Moments {
+        /// `mean` or `variance`.
+        what: &'static str,
+    },
     /// Statistics of too few lives.
     #[error("{lives} lives: at least two are needed for a standard deviation")]
     FewLives {

@@ -257,3 +257,27 @@ fn load_enters_as_a_power_with_the_published_exponent() {
     let found = estimate(&data, &model).unwrap().parameters();
     assert!((found[2] - 0.191).abs() < 0.05 && (found[3] - 0.649).abs() < 0.05, "{found:?}");
 }
+
+#[test]
+fn the_asymptotic_p_value_rejects_true_fits_as_often_as_it_says() {
+    let (truth, like) = known();
+    let replicates = 1000;
+    let mut rejected = [0_u32; 2];
+    for replicate in 0..replicates {
+        let increments = draw(&truth, &like.increments, 78, replicate);
+        let data = Observations { increments, ..like.clone() };
+        let p = goodness(&estimate(&data, &Model::default()).unwrap(), &data.increments, 1).asymptotic_p();
+        rejected[0] += u32::from(p < 0.05);
+        rejected[1] += u32::from(p < 0.3);
+    }
+    let [few, many] = rejected.map(|count| f64::from(count) / replicates as f64);
+    // Three standard errors of 1000, and a fifth of the level for shapes of 1.5 to 4 in the place of large ones.
+    assert!((few - 0.05).abs() < 0.021 + 0.01 && (many - 0.3).abs() < 0.044 + 0.06, "{few} {many}");
+}
+
+#[test]
+fn a_straight_line_through_sliding_wear_is_rejected_and_a_power_is_not() {
+    let data = load_100(true);
+    let p = |model: &Model| goodness(&estimate(&data, model).unwrap(), &data.increments, 1).asymptotic_p();
+    assert!(p(&Model::default()) < 1e-10 && p(&POWER) > 0.05, "{} {}", p(&Model::default()), p(&POWER));
+}

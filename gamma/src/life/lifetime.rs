@@ -7,6 +7,15 @@ use crate::special::rising_root;
 
 /// Survivors that are no longer counted, as a part of the accuracy asked for.
 const GONE: f64 = 1e-5;
+/// Width of the flank of a reliability, as a part of the median, below which it gets pieces of its own: a wider one is
+/// seen by the 15 points of the first rule, a narrower one may fall between them.
+const NARROW: f64 = 0.01;
+/// Where the pieces of a narrow flank end: probabilities of failure below the median, of survival above it.
+const FLANK: [f64; 4] = [0.1, 1e-3, 1e-7, 1e-12];
+/// Steps on either side of the median by which moments are enclosed: to some 5 % of the standard deviation.
+const ENCLOSING: u32 = 24;
+/// Tail whose quantile decides how long these steps are.
+const ENCLOSED_TAIL: f64 = 1e-3;
 /// Whole cycles that are summed one by one; longer lives take the sum as an integral.
 const SUMMED: f64 = 2000.0;
 
@@ -95,22 +104,44 @@ pub trait Lifetime {
     }
 
     /// Mean and standard deviation, time as it runs, by integrals of failed part and survivors; relative accuracy ten times
-    /// [`Self::accuracy`].
+    /// [`Self::accuracy`]. They are held against what the reliability, because it only falls, leaves possible.
     ///
     /// # Errors
-    /// [`LifeError::HeavyTail`].
+    /// [`LifeError::HeavyTail`]; [`LifeError::Moments`] for an integral outside of what is possible.
     fn moments(&self) -> Result<Moments, LifeError> {
         self.finite_moments()?;
         let scale = self.typical();
         let end = end(&|t| self.reliability(t), scale, GONE * self.accuracy());
         // From the median both ways, the failed part below it and the survivors above: nothing is a small difference.
         let centre = self.quantile(0.5)?;
+        let mut marks = vec![scale, centre];
+        let narrow = self.failed((1.0 - 0.5 * NARROW) * centre) < 0.1
+            && self.reliability((1.0 + 0.5 * NARROW) * centre) < 0.1;
+        let mut unit = centre;
+        if narrow {
+            for tail in FLANK {
+                marks.extend([self.quantile(tail)?, self.quantile(1.0 - tail)?]);
+            }
+            unit = self.quantile(1.0 - FLANK[0])? - self.quantile(FLANK[0])?;
+        }
         let integrand = |t: f64| {
             let part = if t < centre { -self.failed(t) } else { self.reliability(t) };
             [part, 2.0 * (t - centre) * part]
         };
-        let tolerance = [self.accuracy() * centre, self.accuracy() * centre * centre];
-        let (sums, errors) = integrate(&integrand, &self.limits(end, &[scale, centre]), tolerance);
+        let tolerance = [self.accuracy() * unit, self.accuracy() * unit * unit];
+        let (sums, errors) = integrate(&integrand, &self.limits(end, &marks), tolerance);
+        for ((what, [low, high]), (sum, slack)) in ["mean", "variance"]
+            .into_iter()
+            .zip(enclosure(self, centre, end)?)
+            .zip(sums.into_iter().zip(tolerance))
+        {
+            // Rounding of the sums, some hundred terms.
+            let slack = 10.0 * slack + 1e-13 * (high - low).abs();
+            let within = sum >= low - slack && sum <= high + slack;
+            if !within {
+                return Err(LifeError::Moments { what });
+            }
+        }
         let variance = (sums[1] - sums[0] * sums[0]).max(0.0);
         Ok(Moments { mean: centre + sums[0], std: variance.sqrt(), error: errors[0] })
     }
@@ -151,6 +182,41 @@ pub(crate) fn mixed_hazard(laws: impl Iterator<Item = (f64, f64)>) -> f64 {
         alive += here;
     }
     density / alive
+}
+
+/// Bounds of the integrals of the parts, by steps: of S above the median and -F below it, and of the same times twice the
+/// distance from the median. S falls and F rises, so in every step each lies between its values at both ends, whatever
+/// it does between.
+fn enclosure<L: Lifetime + ?Sized>(life: &L, centre: f64, end: f64) -> Result<[[f64; 2]; 2], LifeError> {
+    let mut bounds = [[0.0; 2]; 2];
+    for upper in [false, true] {
+        let quantile = life.quantile(if upper { 1.0 - ENCLOSED_TAIL } else { ENCLOSED_TAIL })?;
+        let reach = (quantile - centre).abs();
+        let last = if upper { (end - centre).max(reach) } else { centre };
+        let part = |distance: f64| {
+            if upper { life.reliability(centre + distance) } else { life.failed(centre - distance) }
+        };
+        let (mut near, mut above, mut k) = (0.0, part(0.0), 0);
+        while near < last {
+            k += 1;
+            // Even steps to the quantile, then growing ones.
+            let even = reach * f64::from(k) / f64::from(ENCLOSING);
+            let far = if k <= ENCLOSING && even > near { even } else { 1.25 * near }.min(last);
+            let below = part(far);
+            let (width, square) = (far - near, far * far - near * near);
+            let (first, second) = ([below * width, above * width], [below * square, above * square]);
+            let first = if upper { first } else { [-first[1], -first[0]] };
+            for side in 0..2 {
+                bounds[0][side] += first[side];
+                bounds[1][side] += second[side];
+            }
+            if far <= near {
+                break;
+            }
+            (near, above) = (far, below);
+        }
+    }
+    Ok(bounds)
 }
 
 /// A time after which nothing counts, neither for the mean nor for the variance.
@@ -214,6 +280,22 @@ mod tests {
         let law = Weibull { scale: 8000.0, shape: 1.0 };
         let q = -(-1.0 / 8000.0_f64).exp_m1();
         assert!((law.whole_cycles().expect("finite").mean - 1.0 / q).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_flank_is_found_however_narrow_and_missing_it_is_out_of_bounds() {
+        let narrow = Weibull { scale: 5.0, shape: 1e7 };
+        let moments = narrow.moments().expect("finite");
+        // Gumbel's law: mean -gamma, standard deviation pi / sqrt 6, over the shape.
+        assert!((moments.mean / (5.0 * (1.0 - 0.577_215_664_9e-7)) - 1.0).abs() < 1e-13, "{moments:?}");
+        let std = 5.0e-7 * std::f64::consts::PI / 6.0_f64.sqrt();
+        assert!((moments.std / std - 1.0).abs() < 1e-6, "{moments:?} {std}");
+        let median = narrow.quantile(0.5).expect("valid");
+        let [first, second] = enclosure(&narrow, median, 6.0).expect("valid");
+        let width = |bounds: [f64; 2]| bounds[1] - bounds[0];
+        assert!(width(first) < 0.2 * std && width(second) < 0.3 * std * std, "{first:?} {second:?} {std}");
+        // Both integrals came out as 0 where no point of the rule saw the flank.
+        assert!(second[0] > 0.8 * std * std, "{second:?}");
     }
 
     #[test]

@@ -175,3 +175,33 @@ fn the_law_of_the_logarithm_lives_where_x_underflows() {
     assert_eq!(gamma_q(3.0, f64::INFINITY), 0.0);
     assert!(gamma_p(f64::NAN, 1.0).is_nan());
 }
+
+#[test]
+fn large_shapes_have_all_digits_by_the_uniform_expansion() {
+    // mpmath 1.3.0 at 40 digits: z, smaller of P and Q at shape 1e6, x = shape + z sqrt(shape).
+    let known = [
+        (-20.0, 1.837_185_732_907_132_6e-90),
+        (-3.0, 0.001_338_104_167_313_599_7),
+        (0.0, 0.500_132_980_760_872_6),
+        (1.0, 0.158_655_213_631_659_7),
+        (5.0, 2.987_490_140_114_635e-7),
+        (30.0, 3.262_430_144_876_734e-194),
+    ];
+    for (z, expected) in known {
+        let x = 1e6 + z * 1e3;
+        // At z = 0 it is P that is given.
+        let found = if z > 0.0 { gamma_q(1e6, x) } else { gamma_p(1e6, x) };
+        // exp of a logarithm of up to 445: 445 times 1e-16.
+        assert!((found / expected - 1.0).abs() < 2e-13, "{z}: {found:e}");
+    }
+    // Continuous where series and fraction take over: neighbours one rounding apart.
+    for (shape, x) in [(1e6, 1e6), (1e6, 0.99e6), (1e6, 1.002e6), (2e6, 0.71 * 2e6), (2e6, 1.29 * 2e6)] {
+        let (inside, outside) = (f64::next_up(shape), f64::next_down(shape));
+        let step = if shape > 1e6 { x * 1e-12 } else { 0.0 };
+        for side in [ln_gamma_p, ln_gamma_q] {
+            let (a, b) = (side(inside, x + step), side(outside, x - step));
+            // Two steps at a slope of up to 0.41; rounding of series of 1e4 terms.
+            assert!((a - b).abs() < 1e-11 + 1e-13 * a.abs() + step, "{shape} {x}: {a} {b}");
+        }
+    }
+}

@@ -47,9 +47,34 @@ pub fn answer(
     Answer { text, json }
 }
 
-fn warnings(analysis: &Analysis) -> Vec<&'static str> {
-    let one = analysis.file.units == 1;
-    if one { vec!["one unit only; how units differ cannot be seen"] } else { Vec::new() }
+/// Probability of so bad a fit below which its reader is warned: a true process is called bad in one fit of a hundred.
+const REJECTED: f64 = 0.01;
+
+fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
+    let one = own.file.units == 1;
+    let mut warnings: Vec<String> =
+        one.then(|| "one unit only; how units differ cannot be seen".to_owned()).into_iter().collect();
+    let p = p_anderson_darling(own);
+    if p < REJECTED {
+        let mut cures = Vec::new();
+        if !arguments.power_law && arguments.lambda.is_none() {
+            cures.push("wear that slows down or speeds up with exposure: --power-law");
+        }
+        if arguments.covariate.is_empty() && arguments.groups.is_none() {
+            cures.push("units that ran under different loads: --covariate COL or --groups COL");
+        }
+        if own.alternatives.is_empty() {
+            cures.push("another process: --compare");
+        }
+        cures.push("readings that are wrong");
+        let cures = cures.join("; ");
+        warnings.push(format!(
+            "the data reject this fit (A^2 = {:.3}, p = {}, below {REJECTED}): predictions from it are wrong. Look for: {cures}",
+            own.goodness.anderson_darling,
+            number(p)
+        ));
+    }
+    warnings
 }
 
 fn one(arguments: &FitArguments, own: &Analysis) -> Value {
@@ -76,11 +101,12 @@ fn one(arguments: &FitArguments, own: &Analysis) -> Value {
             "kolmogorov_smirnov": own.goodness.kolmogorov_smirnov,
             "anderson_darling": own.goodness.anderson_darling,
             "p_kolmogorov_smirnov": p_values(own).map(|p| p.0),
-            "p_anderson_darling": p_values(own).map(|p| p.1),
+            "p_anderson_darling": p_anderson_darling(own),
+            "p_values_by": if own.bootstrap.is_some() { "bootstrap" } else { "asymptotic" },
             "quantiles": own.goodness.quantiles,
         },
         "comparison": comparison(own),
-        "warnings": warnings(own),
+        "warnings": warnings(arguments, own),
     });
     for (key, entry) in more.as_object().into_iter().flatten() {
         value[key] = entry.clone();
@@ -100,6 +126,11 @@ fn p_values(own: &Analysis) -> Option<(f64, f64)> {
             Bootstrap::p_value(&drawn.anderson_darling, own.goodness.anderson_darling),
         )
     })
+}
+
+/// By bootstrap where there is one; otherwise for many increments.
+fn p_anderson_darling(own: &Analysis) -> f64 {
+    p_values(own).map_or_else(|| own.goodness.asymptotic_p(), |p| p.1)
 }
 
 fn comparison(own: &Analysis) -> Vec<Value> {
@@ -162,7 +193,7 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         fit.bic()
     );
     fit_quality(text, own);
-    for warning in warnings(own) {
+    for warning in warnings(arguments, own) {
         let _ = writeln!(text, "warning: {warning}");
     }
     if !own.alternatives.is_empty() {
@@ -197,6 +228,10 @@ fn fit_quality(text: &mut String, own: &Analysis) {
             number(p_ks),
             number(p_ad)
         ),
-        None => writeln!(text, "goodness of fit: D = {ks:.4}, A^2 = {ad:.4}; p-values with --bootstrap N"),
+        None => writeln!(
+            text,
+            "goodness of fit: D = {ks:.4}, A^2 = {ad:.4} (p = {}), p for many increments; exact with --bootstrap N",
+            number(p_anderson_darling(own))
+        ),
     };
 }
