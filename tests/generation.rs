@@ -3,6 +3,7 @@
 
 mod support;
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::process::Command;
 
@@ -104,4 +105,83 @@ fn source_of_the_pendulum_reads_well() {
     // The hash of the file says nothing to a reader and changes with every comment in it.
     let hash = shipped("pendulum").sha256();
     insta::assert_snapshot!(source.replace(&hash, "<sha256>"));
+}
+
+/// A pendulum with these tunable parameters, each of which its gravity needs; its own names are as odd.
+fn with_parameters(names: &BTreeSet<String>) -> SourceFile {
+    let parameters = names.iter().map(|name| format!("{name} = {{ value = 1, tunable = true }}\n"));
+    let used = names.iter().map(String::as_str).collect::<Vec<_>>();
+    // Formulas have a greatest length.
+    let sums =
+        used.chunks(40).enumerate().map(|(at, names)| format!("sum{at} = \"{}\"\n", names.join(" + ")));
+    let sums: Vec<String> = sums.collect();
+    let total = (0..sums.len()).map(|at| format!("sum{at}")).collect::<Vec<_>>().join(" + ");
+    let text = format!(
+        "spec = 1\nname = \"match\"\n[parameters]\n{}{}total = \"({total})*1 m/s^2\"\n[points]\n\
+         type = [0, 0, 0]\nwhere = [\"1 m\", 0, 0]\n[bodies]\nfn = {{ rod = [\"type\", \"where\"], \
+         radius = \"1 cm\", mass = \"1 kg\" }}\n[joints]\nlet = {{ revolute = [\"ground\", \"fn\"], \
+         at = \"type\", axis = [0, 1, 0] }}\n",
+        parameters.collect::<String>(),
+        sums.concat(),
+    );
+    let text = text.replace("[parameters]", "gravity = [0, 0, \"total\"]\n[parameters]");
+    SourceFile { name: "odd_names.toml".to_owned(), text }
+}
+
+/// Names that a file may use, among the words of a text.
+fn legal_names(text: &str) -> BTreeSet<String> {
+    const OWN: [&str; 9] = ["t", "pi", "energy", "ground", "type", "where", "fn", "let", "total"];
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    let legal =
+        words.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()) && !OWN.contains(word));
+    legal.filter(|word| !word.starts_with("sum")).map(str::to_owned).collect()
+}
+
+/// Whether rustc takes the source as the contents of a module, against the runtime that these tests are built with.
+fn compiles(source: &str, edition: &str) -> Result<(), String> {
+    let dependencies =
+        std::env::current_exe().expect("a test").parent().expect("target/debug/deps").to_owned();
+    let runtimes = std::fs::read_dir(&dependencies).expect("a folder").filter_map(|entry| {
+        let entry = entry.ok()?;
+        let name = entry.file_name().into_string().ok()?;
+        let is_runtime = name.starts_with("liblinkwear_runtime-") && name.ends_with(".rlib");
+        is_runtime.then(|| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))?
+    });
+    let (_, runtime) = runtimes.max().expect("the runtime is built before its users");
+    let folder = std::env::temp_dir().join(format!("linkwear-names-{edition}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("mechanism.rs"), source).expect("a file");
+    let root = folder.join("lib.rs");
+    std::fs::write(&root, "#[path = \"mechanism.rs\"] pub mod mechanism;\n").expect("a file");
+    let output = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+        .args(["--crate-type", "lib", "--emit", "metadata", "--edition", edition, "--cap-lints", "allow"])
+        .arg("--extern")
+        .arg(format!("linkwear_runtime={}", runtime.display()))
+        .arg("-L")
+        .arg(format!("dependency={}", dependencies.display()))
+        .args(["--out-dir".as_ref(), folder.as_os_str(), root.as_os_str()])
+        .output()
+        .expect("rustc runs");
+    std::fs::remove_dir_all(&folder).expect("its own folder");
+    if output.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&output.stderr).into_owned()) }
+}
+
+#[test]
+fn every_legal_name_of_a_parameter_gives_code_that_compiles() {
+    // Keywords of every edition, weak ones too, and what the prelude brings in.
+    const WORDS: &str = "abstract as async await auto become box break const continue crate default do dyn else enum \
+        extern false final for gen if impl in loop macro macro_rules match mod move mut override priv pub raw ref \
+        return safe self Self static struct super trait true try typeof union unsafe unsized use virtual while yield \
+        Box Clone Copy Debug Default Drop Eq Err Fn FnMut FnOnce From Into Iterator None Ok Option Ord PartialEq \
+        PartialOrd Result Send Sized Some String Sync ToOwned ToString Vec bool char drop f32 f64 i32 str u8 usize \
+        assert panic println vec x x_ y y_ w w_ T std core alloc";
+    let first = legal_names(WORDS);
+    let source = compile_source(&with_parameters(&first), &[], None).rust_source();
+    // Then every identifier of that file as well.
+    let all: BTreeSet<String> = first.union(&legal_names(&source)).cloned().collect();
+    assert!(all.contains("ROWS") && all.contains("SIZES") && all.contains("log_coefficient"));
+    let source = compile_source(&with_parameters(&all), &[], None).rust_source();
+    for edition in ["2021", "2024"] {
+        compiles(&source, edition).unwrap_or_else(|error| panic!("edition {edition}:\n{error}"));
+    }
 }

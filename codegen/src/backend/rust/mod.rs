@@ -14,6 +14,7 @@ use quote::{format_ident, quote};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use comment::one_line;
+use names::Names;
 
 /// What is emitted.
 pub struct EmitInput<'a> {
@@ -82,7 +83,8 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
         input.runtime_path
     );
     let parameters = input.description.parameters.iter();
-    let fields: Vec<_> = parameters.clone().map(|parameter| names::identifier(&parameter.name)).collect();
+    let mut names = Names::default();
+    let fields: Vec<_> = parameters.clone().map(|parameter| names.unique(&parameter.name)).collect();
     let docs = parameters
         .clone()
         .map(|parameter| format!(" [{}], {:?} in the file.", one_line(&parameter.unit), parameter.default));
