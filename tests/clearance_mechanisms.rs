@@ -2,8 +2,10 @@
 
 mod support;
 
-use linkwear_runtime::{Integrator, Settings, Span};
-use support::{compiled, run_with};
+use linkwear_codegen::source::SourceFile;
+use linkwear_codegen::{Options, compile};
+use linkwear_runtime::{Evaluator, Integrator, Settings, Span, assemble_static_contact};
+use support::{compile_source, compiled, run_with, shipped};
 
 /// A few turns at a tolerance that resolves every impact.
 fn check(name: &str, turns: f64) {
@@ -41,4 +43,51 @@ fn a_four_bar_wears_at_two_bearings() {
 #[test]
 fn a_loose_ball_wears() {
     check("rssr_ball_wear", 1.0);
+}
+
+/// What a user is told about a file.
+fn refusal(source: &SourceFile, overrides: &[(&str, &str)]) -> String {
+    let overrides = overrides.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
+    let options = Options { overrides, ..Options::default() };
+    compile(source, &options).map(drop).expect_err("its parts do not reach each other").to_string()
+}
+
+/// Two bearings that wear, with a part of the text replaced.
+fn four_bar(from: &str, to: &str) -> SourceFile {
+    let source = shipped("four_bar_wear");
+    assert!(source.text.contains(from));
+    SourceFile { text: source.text.replace(from, to), ..source }
+}
+
+#[test]
+fn parts_that_do_not_reach_each_other_are_refused_at_their_joint() {
+    let guesses = "[assembly]\nR2 = \"56 deg\"\nR4 = \"97 deg\"\n";
+    let axis = "at = \"C\", axis = [0, 0, 1]";
+    let cases = [
+        ("R1", shipped("rssr"), &[("L2", "42 mm")][..]),
+        ("R2", four_bar(guesses, ""), &[]),
+        ("R3", four_bar(axis, "at = \"C\", axis = [0, 1, 0]"), &[]),
+        // Scaled up, the same.
+        ("R3", four_bar(guesses, ""), &[("a", "1 km"), ("b", "3 km"), ("c", "2.5 km"), ("d", "3 km")]),
+    ];
+    for (joint, source, overrides) in cases {
+        let text = refusal(&source, overrides);
+        assert!(text.contains("E0601") && text.contains(&format!("the parts of joint `{joint}`")), "{text}");
+    }
+}
+
+#[test]
+fn a_linkage_that_closes_thanks_to_its_clearances_starts_within_them() {
+    // Crank, coupler and rocker in line, 30 um too short for their pivots; 20 um of clearance at either end.
+    let source = four_bar("R2 = \"56 deg\"\nR4 = \"97 deg\"", "R2 = \"0 deg\"\nR4 = \"180 deg\"");
+    let compiled = compile_source(&source, &[("d", "650.03 mm")], None);
+    let system = compiled.interpreter();
+    let mut evaluator =
+        Evaluator::new(&system, compiled.description(), &compiled.parameters()).expect("it fits");
+    let start = assemble_static_contact(&mut evaluator, 0.0).expect("it closes");
+    evaluator.evaluate_contacts(0.0, &start.q, &start.v);
+    for touch in evaluator.clearances().contacts() {
+        // The shortest offsets share what is missing; Gauss-Newton ends within a millionth.
+        assert!((touch.offset[0].hypot(touch.offset[1]) - 15e-6).abs() < 1e-10, "{:?}", touch.offset);
+    }
 }

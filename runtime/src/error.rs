@@ -134,6 +134,20 @@ pub enum AssemblyError {
         /// That residual [m/s or rad/s].
         residual: f64,
     },
+    /// The parts of a joint with clearance do not reach each other.
+    #[error(
+        "the parts of joint `{joint}` cannot be put together: the centres of journal and bearing stay {distance:.3e} m \
+         apart, with a radial clearance of {clearance:.3e} m; check lengths, points and axes of its loop, or give start values nearer \
+         to the wanted position"
+    )]
+    OutsideClearance {
+        /// The joint that is farthest outside, measured in clearances.
+        joint: String,
+        /// Distance of the journal's centre from the bearing's [m].
+        distance: f64,
+        /// Radial clearance [m].
+        clearance: f64,
+    },
     /// The start values or the residuals are infinite or not numbers.
     #[error(
         "{what} is not a finite number in the start position; check parameters, start values and drivers"
@@ -233,6 +247,50 @@ pub enum RunError {
         step: f64,
         /// Largest component of the last correction.
         correction: f64,
+    },
+    /// A contact is pressed in so far that no law of contact holds.
+    #[error(
+        "at t = {t} s joint `{joint}` is pressed in by {penetration:.3e} m, with a journal radius of \
+         {journal_radius:.3e} m: no contact carries that; check assembly, loads and stiffness, or shorten the step"
+    )]
+    Penetration {
+        /// Time at which it was seen.
+        t: f64,
+        /// The joint.
+        joint: String,
+        /// Depth of the contact [m].
+        penetration: f64,
+        /// Radius of the journal or ball [m].
+        journal_radius: f64,
+    },
+    /// Energy appears or vanishes that no force explains.
+    #[error(
+        "up to t = {t} s the energy balance is off by {error:.3e} J while {throughput:.3e} J went through: the numbers \
+         are wrong; shorten the step or tighten the tolerance, or check how stiff and how fast the mechanism is"
+    )]
+    EnergyLost {
+        /// Time up to which the balance goes.
+        t: f64,
+        /// Largest error of the balance [J].
+        error: f64,
+        /// Energy that went through [J].
+        throughput: f64,
+    },
+    /// Steps are so short that the end is out of reach.
+    #[error(
+        "at t = {t} s the run makes no progress: {tried} steps gained {gained:.3e} s{}; check its start and how stiff \
+         its forces are, or loosen the tolerance or lengthen the step",
+        joint.as_ref().map_or_else(String::new, |joint| format!(", joint `{joint}` pressed in deepest"))
+    )]
+    NoProgress {
+        /// Time reached.
+        t: f64,
+        /// Last steps, accepted or not.
+        tried: u64,
+        /// Time that they gained [s].
+        gained: f64,
+        /// Joint with clearance that is pressed in deepest, if there is one.
+        joint: Option<String>,
     },
     /// The caller asked to stop.
     #[error("stopped on request at t = {t} s; the samples up to then are kept")]

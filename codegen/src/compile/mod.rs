@@ -57,6 +57,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     };
     let system = compiled.interpreter();
     preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
+    preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
     let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
     compiled.warnings.extend(near);
     Ok(compiled)

@@ -62,6 +62,15 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
                 Diagnostic::new(Code::LoopDoesNotClose, message).help("start in another position");
             at_joint(diagnostic, mechanism, joint, "in this loop")
         }
+        AssemblyError::OutsideClearance { joint, distance, clearance } => {
+            let message = format!(
+                "the parts of joint `{joint}` cannot be put together: the centres of journal and bearing stay {} apart, \
+                 with a radial clearance of {clearance:.3e} m",
+                gap(*distance, 0.0)
+            );
+            let diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message).help(CLOSE);
+            at_joint(diagnostic, mechanism, joint, "journal and bearing do not meet")
+        }
         AssemblyError::NonFinite { what } => {
             let message = format!("the {what} is not a finite number in the start position");
             let diagnostic = Diagnostic::new(Code::StartNotFinite, message)

@@ -14,6 +14,7 @@ mod rank;
 mod reactions;
 mod resonance;
 mod samples;
+mod start;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Mechanism;
@@ -22,6 +23,7 @@ pub use analysis::{Analysis, Redundant};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
 pub use prescribed::check_prescribed;
+pub use start::check_start;
 
 use rank::Rows;
 

@@ -8,10 +8,13 @@
 mod consistent;
 mod held;
 mod newton;
+mod offset;
 mod speeds;
 mod state;
 mod static_contact;
+mod within_clearance;
 
 pub use consistent::{assemble, assemble_with};
+pub use offset::offset_columns;
 pub use state::State;
-pub use static_contact::{assemble_static_contact, check_clearances, offset_columns, place};
+pub use static_contact::{assemble_static_contact, check_clearances, place};

@@ -8,7 +8,9 @@
 
 use super::consistent::assemble_with;
 use super::held::frozen_speeds;
+use super::offset::{offset_columns, offset_places};
 use super::state::State;
+use super::within_clearance::{self, DEEPEST_START};
 use crate::error::{AssemblyError, SetupError};
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
@@ -28,11 +30,12 @@ const MOVES: f64 = 1e-9;
 const DIFFERENCE: f64 = 1e-6;
 
 /// As [`assemble_with`]; where the mechanism has joints with clearance they touch as the file says, or rest on
-/// the side to which the ideal reaction presses them. Where it does not close with centred journals
-/// they stay as assembled. What contacts remember begins here.
+/// the side to which the ideal reaction presses them. Where it does not close with centred journals they stay as
+/// assembled, or as near to the middle as the loops let them. What contacts remember begins here.
 ///
 /// # Errors
-/// As [`assemble_with`]; [`SetupError::Clearance`] if a clearance is no clearance.
+/// As [`assemble_with`]; [`SetupError::Clearance`] if a clearance is no clearance,
+/// [`AssemblyError::OutsideClearance`] if the parts of a joint cannot be put together.
 pub fn assemble_static_contact(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, AssemblyError> {
     let mut state = assemble_with(evaluator, t)?;
     if evaluator.clearances().is_empty() {
@@ -43,15 +46,23 @@ pub fn assemble_static_contact(evaluator: &mut Evaluator<'_>, t: f64) -> Result<
     let placeable = free_contacts(evaluator, &columns);
     let centred: Vec<Option<[f64; 3]>> = placeable.iter().map(|free| free.then_some([0.0; 3])).collect();
     let mut middle = state.clone();
+    let mut rests = false;
     if place(evaluator, t, &mut middle, &centred) {
         let forces = ideal_reactions(evaluator, t, &middle, &placeable);
         let targets: Vec<_> = (0..placeable.len())
             .map(|index| placeable[index].then(|| resting_offset(evaluator, index, forces[index])))
             .collect();
         if place(evaluator, t, &mut middle, &targets) {
-            state = middle;
+            (state, rests) = (middle, true);
         }
     }
+    if !rests && within_clearance::check(evaluator, t, &state, (&placeable, 0.0)).is_err() {
+        // It may close thanks to its clearances alone.
+        within_clearance::pull_in(evaluator, t, &mut state)?;
+    }
+    // Journals at rest are as deep as their load presses them.
+    let asked: Vec<bool> = placeable.iter().map(|free| !(rests && *free)).collect();
+    within_clearance::check(evaluator, t, &state, (&asked, DEEPEST_START))?;
     evaluator.evaluate_contacts(t, &state.q, &state.v);
     evaluator.clearances_mut().begin();
     Ok(state)
@@ -87,33 +98,6 @@ pub fn place(evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, targets: 
         *state = placed;
     }
     fits
-}
-
-/// How the offset of every contact moves with every free speed: `[joint][axis][speed]`, exactly, because rates
-/// are linear in the speeds.
-pub fn offset_columns(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<[Vec<f64>; 3]> {
-    let (n, contacts) = (evaluator.sizes().speeds, evaluator.sizes().contacts);
-    let mut v = vec![0.0; n];
-    let still = evaluator.contact_motion(t, q, &v).to_vec();
-    let mut columns = vec![[(); 3].map(|()| vec![0.0; n]); contacts];
-    for speed in 0..n {
-        v[speed] = 1.0;
-        let moving = evaluator.contact_motion(t, q, &v);
-        for (joint, column) in columns.iter_mut().enumerate() {
-            for (axis, row) in column.iter_mut().enumerate() {
-                let at = joint * CONTACT_MOTION + 3 + axis;
-                row[speed] = moving[at] - still[at];
-            }
-        }
-        v[speed] = 0.0;
-    }
-    columns
-}
-
-/// Joint and axis of every component of the offsets of the joints that count.
-fn offset_places(evaluator: &Evaluator<'_>, counts: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
-    let joints = evaluator.clearances().joints().iter().enumerate().filter(|(joint, _)| counts(*joint));
-    joints.flat_map(|(joint, law)| (0..law.freedoms()).map(move |axis| (joint, axis))).collect()
 }
 
 /// Contacts whose offset no demanded start value fixes.

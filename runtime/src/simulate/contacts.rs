@@ -8,12 +8,16 @@ use super::motion::{ConstrainedMotion, Totals};
 use super::warning::RunWarning;
 use crate::clearance_joint::{Clearance, ContactState};
 use crate::contact_frequency::inverse_mass;
+use crate::error::RunError;
 use crate::evaluate::Evaluator;
 use crate::system::CONTACT_WRENCH;
 use crate::wear::{ContactMeasure, Observed, Profile};
 
 /// Contact for less than this part of a turn draws a warning.
 const RARE: f64 = 0.5;
+/// Part of the journal's radius from which a depth is none of contact: the areas of Hertz and the laws of stiffness are
+/// those of depths far below the radius.
+const TOO_DEEP: f64 = 0.1;
 /// A penetration this many times that of the last probe makes the effective mass worth asking again.
 const PROBE_AGAIN: f64 = 1.1;
 
@@ -29,6 +33,15 @@ struct Track {
     observed: Option<Observed>,
     probed_penetration: f64,
     frequency: f64,
+    deepest: Depth,
+}
+
+/// The largest depth of a contact so far [m], when [s], and the radial clearance there [m].
+#[derive(Clone, Copy, Default)]
+struct Depth {
+    penetration: f64,
+    t: f64,
+    clearance: f64,
 }
 
 /// Follows all joints with clearance of a run.
@@ -62,6 +75,7 @@ impl Follower {
             observed: None,
             probed_penetration: 0.0,
             frequency: 0.0,
+            deepest: Depth::default(),
         };
         let mut follower = Self {
             tracks: evaluator.clearances().joints().iter().map(track).collect(),
@@ -84,13 +98,16 @@ impl Follower {
     }
 
     /// Accumulates an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
+    ///
+    /// # Errors
+    /// [`RunError::Penetration`].
     pub(super) fn accept(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
         t: f64,
         state: &[f64],
         closing: Option<usize>,
-    ) {
+    ) -> Result<(), RunError> {
         let step = t - self.t;
         self.longest_step = self.longest_step.max(step);
         self.t = t;
@@ -111,6 +128,25 @@ impl Follower {
         }
         self.contacts.copy_from_slice(clearances.contacts());
         self.probe_frequencies(motion, state);
+        self.check_depths(&motion.dynamics.evaluator)
+    }
+
+    /// Notes how deep contacts are.
+    fn check_depths(&mut self, evaluator: &Evaluator<'_>) -> Result<(), RunError> {
+        let t = self.t;
+        let joints = evaluator.clearances().joints().iter().zip(&*evaluator.description().contacts);
+        for ((track, touch), (joint, info)) in self.tracks.iter_mut().zip(&self.contacts).zip(joints) {
+            let (penetration, clearance) = (touch.penetration(), touch.clearance);
+            if penetration > track.deepest.penetration {
+                track.deepest = Depth { penetration, t, clearance };
+            }
+            let journal_radius = joint.journal_radius();
+            if penetration > TOO_DEEP * journal_radius {
+                let joint = info.joint.to_string();
+                return Err(RunError::Penetration { t, joint, penetration, journal_radius });
+            }
+        }
+        Ok(())
     }
 
     /// Forgets what was before: a turn begins here.
@@ -161,6 +197,10 @@ impl Follower {
                 && step * frequency > accurate
             {
                 warnings.push(RunWarning::StepTooCoarse { joint: name(), step, frequency, accurate, stable });
+            }
+            let Depth { penetration, t, clearance } = track.deepest;
+            if penetration > clearance {
+                warnings.push(RunWarning::DeepContact { joint: name(), t, penetration, clearance });
             }
             let parts = self.measures.iter().map(|turn| turn[joint].touching).enumerate();
             let rarest = parts.min_by(|(_, a), (_, b)| a.total_cmp(b));

@@ -45,7 +45,8 @@ pub(super) fn run_generalized_alpha(
             take_over(motion, method, t, (state, &mut before, &mut now), *h);
             let evaluator = &mut motion.dynamics.evaluator;
             evaluator.closure(t, method.q(), method.v());
-            sampler.note_loop_error(evaluator.loop_error());
+            let open = evaluator.loop_error();
+            sampler.note_loop_error(motion, t, open)?;
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampled.copy_from_slice(state);

@@ -4,6 +4,7 @@
 
 mod contacts;
 mod events;
+mod guard;
 mod ideal;
 mod implicit;
 mod motion;

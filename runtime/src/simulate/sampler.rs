@@ -5,12 +5,15 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::contacts::Follower;
+use super::guard::Guard;
 use super::motion::ConstrainedMotion;
 use super::run::{Run, Statistics};
 use super::schedule::Schedule;
+use super::warning::RunWarning;
 use crate::clearance_joint::Channels;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
+use crate::linear::largest;
 use crate::watch::Watch;
 
 /// Recorder of one run.
@@ -27,6 +30,7 @@ pub(super) struct Sampler {
     kinetic: f64,
     work: (f64, f64),
     contact_loss: f64,
+    guard: Guard,
     /// Joints with clearance, where there are any.
     pub(super) follower: Option<Follower>,
     /// Where the present turn ends; the run stops there when joints with clearance are measured.
@@ -41,6 +45,7 @@ impl Sampler {
         let columns = Channels::new(description);
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
+        let guard = Guard::new(motion, (begin, schedule.end), state);
         let (q, v, work) = motion.split(state);
         let (kinetic, potential) = motion.dynamics.evaluator.energy(begin, q, v);
         motion.energy_scale = motion.energy_scale.max(kinetic);
@@ -57,6 +62,7 @@ impl Sampler {
             kinetic,
             work,
             contact_loss: motion.contact_loss(state),
+            guard,
             follower,
             turn_end: None,
             closing: None,
@@ -91,10 +97,10 @@ impl Sampler {
     }
 
     /// Joints with clearance after an accepted step: what they remember, what turns did.
-    fn follow(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
+    fn follow(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) -> Result<(), RunError> {
         let closing = self.closing.take();
-        let Some(follower) = &mut self.follower else { return };
-        follower.accept(motion, t, state, closing);
+        let Some(follower) = &mut self.follower else { return Ok(()) };
+        follower.accept(motion, t, state, closing)?;
         if t == self.schedule.start {
             follower.begin_turn(motion);
             self.find_turn_end(motion);
@@ -102,6 +108,7 @@ impl Sampler {
             follower.end_turn(motion);
             self.find_turn_end(motion);
         }
+        Ok(())
     }
 
     /// The time up to which steps may be spread evenly from `t`; `None` at the end.
@@ -149,7 +156,7 @@ impl Sampler {
         state: &mut [f64],
     ) -> Result<(), RunError> {
         motion.put_on(t, state)?;
-        self.note_loop_error(motion.projector.loop_error());
+        self.note_loop_error(motion, t, motion.projector.loop_error())?;
         self.note_energy(motion, t, state);
         let mut row = vec![0.0; self.values.len()];
         self.observe(motion, t, state, Some(&mut row))?;
@@ -166,7 +173,7 @@ impl Sampler {
         state: &[f64],
     ) -> Result<(), RunError> {
         self.statistics.steps += 1;
-        self.follow(motion, t, state);
+        self.follow(motion, t, state)?;
         let kinetic = self.note_energy(motion, t, state);
         let (_, _, work) = motion.split(state);
         self.statistics.energy_throughput_J +=
@@ -174,7 +181,11 @@ impl Sampler {
         let contact_loss = motion.contact_loss(state);
         self.statistics.energy_throughput_J += (contact_loss - self.contact_loss).abs();
         (self.kinetic, self.work, self.contact_loss) = (kinetic, work, contact_loss);
+        if !self.statistics.energy_throughput_J.is_finite() {
+            return Err(RunError::NonFinite { t, what: "energy".to_owned() });
+        }
         motion.energy_scale = motion.energy_scale.max(kinetic);
+        self.guard.check_step(motion, t, state, &self.statistics)?;
         // Between samples an angle may turn more than once: follow it at every step.
         if self.columns.channels.iter().any(|channel| channel.wraps) && !self.is_due(t) {
             self.observe(motion, t, state, None)
@@ -223,10 +234,19 @@ impl Sampler {
         Ok(())
     }
 
-    /// Notes how far loops are open.
-    pub(super) fn note_loop_error(&mut self, error: LoopError) {
+    /// Notes how far loops are open at `t`.
+    ///
+    /// # Errors
+    /// [`RunError::LostAssembly`] if that is no closed loop.
+    pub(super) fn note_loop_error(
+        &mut self,
+        motion: &ConstrainedMotion<'_>,
+        t: f64,
+        error: LoopError,
+    ) -> Result<(), RunError> {
         self.statistics.max_loop_error_m = self.statistics.max_loop_error_m.max(error.metres);
         self.statistics.max_loop_error_rad = self.statistics.max_loop_error_rad.max(error.radians);
+        self.guard.check_loops(motion, t, error)
     }
 
     /// Notes the balance and returns the kinetic energy [J].
@@ -237,6 +257,7 @@ impl Sampler {
         if self.follower.is_some() {
             error += motion.elastic_energy(t, q, v) + motion.contact_loss(state);
         }
+        self.guard.note_energy(largest(&[kinetic, potential, supplied, dissipated]));
         let error = error.abs();
         self.statistics.energy_error_J = self.statistics.energy_error_J.max(error);
         kinetic
@@ -263,6 +284,10 @@ impl Sampler {
         if let Some(follower) = self.follower {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
             run.turns = follower.measures;
+        }
+        if run.stopped.is_none() && self.guard.is_doubtful(&run.statistics) {
+            let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
+            run.warnings.push(RunWarning::EnergyOff { error, throughput });
         }
         run
     }

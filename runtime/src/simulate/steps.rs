@@ -46,7 +46,7 @@ fn run_rk4(
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
             method.step(motion, t, state, next - t)?;
             t = next;
-            sampler.note_loop_error(motion.projector.loop_error());
+            sampler.note_loop_error(motion, t, motion.projector.loop_error())?;
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
@@ -73,7 +73,7 @@ fn run_dopri5(
         sampler.statistics.rejected = method.rejected();
         outcome?;
         events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
-        sampler.note_loop_error(motion.projector.loop_error());
+        sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
         while let Some(t) = sampler.due_before(method.t()) {
             method.interpolate(t, &mut between);
             sampler.sample(motion, t, &mut between)?;

@@ -22,6 +22,24 @@ pub enum RunWarning {
         /// Step times frequency up to which it is stable at all.
         stable: f64,
     },
+    /// A contact is pressed in by more than its clearance.
+    DeepContact {
+        /// The joint.
+        joint: String,
+        /// Time of the largest depth [s].
+        t: f64,
+        /// That depth [m].
+        penetration: f64,
+        /// Radial clearance [m].
+        clearance: f64,
+    },
+    /// The energy balance does not close.
+    EnergyOff {
+        /// Largest error of the balance [J].
+        error: f64,
+        /// Energy that went through [J].
+        throughput: f64,
+    },
     /// The bodies were apart for most of a turn.
     ContactLost {
         /// The joint.
@@ -46,6 +64,17 @@ impl fmt::Display for RunWarning {
                     accurate / frequency
                 )
             }
+            Self::DeepContact { joint, t, penetration, clearance } => write!(
+                f,
+                "joint `{joint}` is pressed in by {penetration:.3e} m at t = {t:.6} s, more than its clearance of \
+                 {clearance:.3e} m: laws of contact hold for small depths; check loads and stiffness"
+            ),
+            Self::EnergyOff { error, throughput } => write!(
+                f,
+                "the energy balance is off by {error:.3e} J while {throughput:.3e} J went through ({:.1} %); shorten \
+                 the step or tighten the tolerance",
+                100.0 * error / throughput
+            ),
             Self::ContactLost { joint, turn, touching_part } => write!(
                 f,
                 "joint `{joint}` is without contact for {:.1} % of turn {turn}; forces and wear are those of \

@@ -1,0 +1,32 @@
+//! Whether the mechanism as it runs can be put together with its clearances open. In: the mechanism with its drivers, run
+//! by the interpreter. Out: diagnostics. Never knows how journals find their places.
+
+use linkwear_runtime::{Description, Evaluator, System, assemble_static_contact};
+
+use crate::diagnostic::Diagnostics;
+use crate::model::Mechanism;
+use crate::source::SourceFile;
+
+use super::failures;
+
+/// Assembles a mechanism with clearance as every run does; without clearance there is nothing to find.
+///
+/// # Errors
+/// If a run could not start.
+pub fn check_start(
+    source: &SourceFile,
+    mechanism: &Mechanism,
+    description: &Description,
+    system: &dyn System<f64>,
+) -> Result<(), Diagnostics> {
+    if description.contacts.is_empty() {
+        return Ok(());
+    }
+    let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
+    let start = Evaluator::new(system, description, &parameters)
+        .map_err(Into::into)
+        .and_then(|mut evaluator| assemble_static_contact(&mut evaluator, 0.0));
+    let refused =
+        |error| Diagnostics::from_list(vec![failures::cannot_close(mechanism, &error)]).located(source);
+    start.map(drop).map_err(refused)
+}

@@ -1,0 +1,34 @@
+//! How journals move in their bearings with the free speeds. In: a position. Out: columns and places of the offsets.
+
+use crate::evaluate::Evaluator;
+use crate::system::CONTACT_MOTION;
+
+/// How the offset of every contact moves with every free speed: `[joint][axis][speed]`, exactly, because rates
+/// are linear in the speeds.
+pub fn offset_columns(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<[Vec<f64>; 3]> {
+    let (n, contacts) = (evaluator.sizes().speeds, evaluator.sizes().contacts);
+    let mut v = vec![0.0; n];
+    let still = evaluator.contact_motion(t, q, &v).to_vec();
+    let mut columns = vec![[(); 3].map(|()| vec![0.0; n]); contacts];
+    for speed in 0..n {
+        v[speed] = 1.0;
+        let moving = evaluator.contact_motion(t, q, &v);
+        for (joint, column) in columns.iter_mut().enumerate() {
+            for (axis, row) in column.iter_mut().enumerate() {
+                let at = joint * CONTACT_MOTION + 3 + axis;
+                row[speed] = moving[at] - still[at];
+            }
+        }
+        v[speed] = 0.0;
+    }
+    columns
+}
+
+/// Joint and axis of every component of the offsets of the joints that count.
+pub(super) fn offset_places(
+    evaluator: &Evaluator<'_>,
+    counts: impl Fn(usize) -> bool,
+) -> Vec<(usize, usize)> {
+    let joints = evaluator.clearances().joints().iter().enumerate().filter(|(joint, _)| counts(*joint));
+    joints.flat_map(|(joint, law)| (0..law.freedoms()).map(move |axis| (joint, axis))).collect()
+}
