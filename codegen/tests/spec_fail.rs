@@ -35,7 +35,9 @@ fn diagnostics_of(case: &str) -> Diagnostics {
         let (mechanism, warnings) = resolve(&spec, &overrides)?;
         spanning_tree(&mechanism)?;
         // Files about assembly and rank are well-formed; those about warnings need not be assembled.
-        if case.starts_with("E06") || ["W0107", "W0108", "W0109"].iter().any(|code| case.starts_with(code)) {
+        if case.starts_with("E06")
+            || ["W0107", "W0108", "W0109", "W0110"].iter().any(|code| case.starts_with(code))
+        {
             return Ok(Diagnostics::from_list(compile(&source, &Options::default())?.warnings));
         }
         Ok(Diagnostics::from_list(warnings))

@@ -7,7 +7,7 @@ use crate::backend::interp::Interpreted;
 use crate::derive::{self, Purpose};
 use crate::diagnostic::Diagnostics;
 use crate::model::{self, Closure, Mechanism, Overrides, Topology};
-use crate::preflight::{self, Findings};
+use crate::preflight::{self, Case, Findings, OwnUnits};
 use crate::source::SourceFile;
 use crate::spec;
 use crate::tape;
@@ -64,17 +64,35 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
 }
 
 fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {
+    let mut findings = examine(source, mechanism, topology, preflight::analyse)?;
+    if mechanism.joints.iter().any(|joint| joint.clearance.is_some()) {
+        let closed = mechanism.with_clearances_closed();
+        let check = |case: &Case<'_>| preflight::check_without_play(case, mechanism, &findings.analysis);
+        let warnings = examine(source, &closed, topology, check)?;
+        findings.warnings.extend(warnings);
+    }
+    Ok(findings)
+}
+
+/// Asks something of a mechanism whose drivers are released and whose rows are all kept.
+fn examine<T>(
+    source: &SourceFile,
+    mechanism: &Mechanism,
+    topology: &Topology,
+    ask: impl Fn(&Case<'_>) -> T,
+) -> T {
     let released = preflight::released(mechanism);
     let derived = derive::derive(&released, topology, None, Purpose::Analysis);
     let tapes = tape::lower(&derived.equations);
     let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
-    let case = preflight::Case {
+    let case = Case {
         source,
         mechanism,
         topology,
         linkage: &derived.linkage,
         description: &derived.description,
         system: &interpreter,
+        units: OwnUnits::new(mechanism, &derived.description),
     };
-    preflight::analyse(&case)
+    ask(&case)
 }

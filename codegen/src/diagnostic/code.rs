@@ -150,6 +150,8 @@ codes! {
     StartNotFinite = "E0606",
     /// A freedom that moves no mass.
     MasslessFreedom = "E0607",
+    /// A start in a singular position: loops that lose rank there, or a driver at its dead point.
+    SingularStart = "E0608",
 
     /// Gravity is not mentioned.
     NoGravity = "W0101",
@@ -169,6 +171,10 @@ codes! {
     NearResonance = "W0108",
     /// A contact that vibrates near a frequency of a flexible body.
     ContactNearMode = "W0109",
+    /// A linkage that moves only thanks to its clearances.
+    MovesByClearance = "W0110",
+    /// A point that nothing says which body carries: it rests.
+    UnplacedPoint = "W0120",
 }
 
 impl Code {

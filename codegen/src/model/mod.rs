@@ -260,6 +260,23 @@ impl Mechanism {
         }
     }
 
+    /// The linkage with ideal joints in place of those with clearance: no play, no forces, and start values only as
+    /// guesses, because those that play lets be met all together an ideal joint need not.
+    pub fn with_clearances_closed(&self) -> Self {
+        let mut closed = self.clone();
+        closed.forces.clear();
+        for joint in &mut closed.joints {
+            joint.model.clearance = false;
+            joint.clearance = None;
+            joint.passive.clear();
+        }
+        closed.starts.retain_mut(|start| {
+            start.held = false;
+            start.coordinate < closed.joints[start.joint.index()].model.start_values().len()
+        });
+        closed
+    }
+
     /// Name of a body, or `ground`.
     pub fn carrier_name(&self, carrier: Carrier) -> &str {
         match carrier {

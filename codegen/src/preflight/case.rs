@@ -1,14 +1,15 @@
 //! What an analysis looks at.
 //! In: a mechanism, its derivation run by the interpreter. Out: [`Case`]. Never knows what is asked of it.
 
-use linkwear_runtime::{AssemblyError, Description, Entry, System};
+use linkwear_runtime::{AssemblyError, Description, Entry, Layout, System};
 
 use crate::derive::{Link, Linkage};
 use crate::id::JointId;
-use crate::model::{Mechanism, Start, Topology};
+use crate::model::{Carrier, Mechanism, Start, Topology};
 use crate::source::SourceFile;
 
-use super::samples::{ClosedPositions, evaluate};
+use super::own_units::OwnUnits;
+use super::samples::{ClosedPositions, Walker, evaluate};
 
 /// What an analysis looks at: a mechanism and its derivation with all rows kept and all drivers
 /// [`released`], run by the interpreter.
@@ -25,12 +26,25 @@ pub struct Case<'a> {
     pub description: &'a Description,
     /// The released mechanism.
     pub system: &'a dyn System<f64>,
+    /// What its lengths are measured in.
+    pub units: OwnUnits,
 }
 
 impl Case<'_> {
     /// Default values of the tunable parameters.
     pub fn parameters(&self) -> Vec<f64> {
         self.description.parameters.iter().map(|parameter| parameter.default).collect()
+    }
+
+    /// The mechanism, to be moved.
+    pub fn walker(&self) -> Walker<'_> {
+        Walker {
+            system: self.system,
+            parameters: self.parameters(),
+            layout: Layout::new(&self.description.motions),
+            joint_speeds: self.linkage.joint_speeds(),
+            units: &self.units,
+        }
     }
 
     /// Every driver's joint, and the link that it moves.
@@ -50,18 +64,24 @@ impl Case<'_> {
         description
     }
 
-    /// Closed positions; if the drivers' start positions are out of reach, such that drivers follow, with the reason.
+    /// The description with nothing demanded.
+    fn with_guesses_only(&self) -> Description {
+        let mut description = self.description.clone();
+        description.coordinates.to_mut().iter_mut().for_each(|coordinate| coordinate.held = false);
+        description.speeds.to_mut().iter_mut().for_each(|speed| speed.held = false);
+        description
+    }
+
+    /// Closed positions; if what drivers and the file demand of the start is out of reach, such that it follows, with the
+    /// reason.
     pub fn closed_positions(&self) -> Result<(ClosedPositions, Option<AssemblyError>), AssemblyError> {
-        let parameters = self.parameters();
-        let joint_speeds = self.linkage.joint_speeds();
-        let walk = |description: &Description| {
-            ClosedPositions::walk(description, self.system, &parameters, &joint_speeds)
-        };
+        let walker = self.walker();
+        let walk = |description: &Description| ClosedPositions::walk(&walker, description);
         let error = match walk(self.description) {
             Ok(positions) => return Ok((positions, None)),
             Err(error) => error,
         };
-        match walk(&self.with_drivers_as_guesses()) {
+        match walk(&self.with_drivers_as_guesses()).or_else(|_| walk(&self.with_guesses_only())) {
             Ok(positions) => Ok((positions, Some(error))),
             Err(_) => Err(error),
         }
@@ -72,7 +92,52 @@ impl Case<'_> {
         self.driven_links().map(|(joint, link)| (joint, link.first_speed)).collect()
     }
 
-    /// All channels at t = 0 without accelerations.
+    /// Scalar coordinates whose start value the file demands: their joints and speeds.
+    pub fn demanded(&self) -> Vec<(JointId, usize)> {
+        let demanded = self.mechanism.starts.iter().filter(|start| start.held && start.position.is_some());
+        demanded
+            .filter_map(|start| {
+                let link = self.linkage.link_of_coordinate(start.joint, start.coordinate)?;
+                Some((start.joint, self.linkage.links[link].first_speed))
+            })
+            .collect()
+    }
+
+    /// Amounts of all speeds that are `amounts`, in own units, of the speeds listed, and else zero; SI.
+    pub fn speeds_of<'a>(&self, listed: &[usize], amounts: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+        let mut all = vec![0.0; self.system.sizes().all_speeds];
+        for (speed, amount) in listed.iter().zip(amounts) {
+            all[*speed] = amount * self.units.speeds[*speed];
+        }
+        all
+    }
+
+    /// What drives against every speed at t = 0, in own units: inertia forces at these speeds, gravity, springs, dampers
+    /// and forces by expression.
+    pub fn resistance(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let sizes = self.system.sizes();
+        let input = [&self.parameters(), &[0.0][..], q, v].concat();
+        let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
+        evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
+        let n = sizes.all_speeds;
+        let bias = output[n * (n + 1) / 2..].iter().zip(&self.units.speeds);
+        bias.map(|(force, unit)| force * unit).collect()
+    }
+
+    /// Indices of a body's angular velocity among the channels, where the file's names are all different.
+    pub fn turn_channels(&self, carrier: Carrier) -> Option<[usize; 3]> {
+        let Carrier::Body(body) = carrier else { return None };
+        let name = &self.mechanism.body(body).name;
+        let channel = |axis: &str| self.channel(&format!("{name}.w{axis}"));
+        Some([channel("x")?, channel("y")?, channel("z")?])
+    }
+
+    /// Index of the channel with this name.
+    pub fn channel(&self, name: &str) -> Option<usize> {
+        self.description.channels.iter().position(|channel| channel.name == name)
+    }
+
+    /// All channels at t = 0 without accelerations, SI.
     pub fn observe(&self, q: &[f64], v: &[f64], multipliers: &[f64]) -> Vec<f64> {
         let sizes = self.system.sizes();
         let accelerations = vec![0.0; sizes.speeds];

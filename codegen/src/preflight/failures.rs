@@ -8,7 +8,7 @@ use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
-use super::rank::Rows;
+use super::rank::{Lost, Rows};
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
 
@@ -146,6 +146,68 @@ pub fn out_of_reach(
         diagnostic = diagnostic.help(format!("nearest positions found: {}", names.join(", ")));
     }
     diagnostic.at_each(joints.iter().map(|joint| joint.span), "driven here")
+}
+
+/// A start in a singular position; `held` are the joints of the speeds that were asked about.
+pub fn singular_start(
+    mechanism: &Mechanism,
+    analysis: &Analysis,
+    held: &[JointId],
+    lost: &Lost,
+) -> Diagnostic {
+    let joints: Vec<&Joint> = match lost {
+        Lost::Rows => analysis.cuts.iter().filter_map(|cut| named(mechanism, cut)).take(1).collect(),
+        Lost::Held(list) => list.iter().map(|at| mechanism.joint(held[*at])).collect(),
+    };
+    let names = quoted(joints.iter().map(|joint| joint.name.as_str()));
+    let driver = mechanism.joints.iter().find(|joint| !joint.drives.is_empty());
+    let (message, label) = match lost {
+        Lost::Rows => (
+            format!(
+                "the mechanism starts in a singular position: the loop through {names} can leave it in more ways than \
+                 one, and its forces there have no bounds"
+            ),
+            "this loop",
+        ),
+        Lost::Held(_) => (
+            format!(
+                "the mechanism starts at a dead point of {names}: there the other joints of its loop can move while it \
+                 rests, so it cannot set them going either way"
+            ),
+            "held at its dead point",
+        ),
+    };
+    let diagnostic =
+        Diagnostic::new(Code::SingularStart, message).at_each(joints.iter().map(|joint| joint.span), label);
+    diagnostic.help(match (driver, lost) {
+        (Some(driver), Lost::Rows) => format!(
+            "start a little beside it: let the law of `{}` begin 1 deg (or 1 % of its stroke) away, and say with \
+             [assembly] on which branch the other joints are",
+            driver.name
+        ),
+        (None, Lost::Rows) => "start a little beside it: give a joint of the loop a start value 1 deg away in [initial], \
+                               and say with [assembly] on which branch the other joints are"
+            .to_owned(),
+        (_, Lost::Held(_)) => "start a little beside it, drive another joint of the loop, or, if its own start is \
+                               elsewhere, give another joint of the loop a guess on the wanted side in [assembly], \
+                               5 deg for instance"
+            .to_owned(),
+    })
+}
+
+/// A linkage that moves only thanks to its clearances, with the reason: what is so when they are closed.
+pub fn moves_by_clearance(mechanism: &Mechanism, reason: &str) -> Diagnostic {
+    let loose = mechanism.joints.iter().filter(|joint| joint.clearance.is_some());
+    Diagnostic::new(Code::MovesByClearance, format!("only thanks to its clearances can the linkage move: {reason}"))
+        .at_each(loose.map(|joint| joint.span), "with clearance")
+        .help(
+            "if that is not meant, correct lengths and axes, or free a joint (for instance make a revolute spherical)",
+        )
+}
+
+/// Says that play was not counted as freedom.
+pub fn with_closed_clearances(error: Diagnostic) -> Diagnostic {
+    error.help("this holds with the clearances closed: play is no freedom that could be driven")
 }
 
 /// No freedom at all.

@@ -1,5 +1,7 @@
 //! Joints that never move although the mechanism does, and motions that move no mass.
-//! In: closed positions with Jacobian and mass matrix. Out: joints. Never words a message.
+//! In: closed positions with Jacobian and mass matrix, output columns. Out: joints. Never words a message.
+
+use std::ops::Range;
 
 use nalgebra::DMatrix;
 
@@ -27,6 +29,11 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
             moves[*speed] |= free.row(row).amax() > REST;
         }
     }
+    let balls = Ball::all(case);
+    balls.iter().for_each(|ball| moves[ball.speeds.clone()].fill(false));
+    for position in &positions.positions {
+        note_balls(case, position, (&balls, &joint_speeds), &mut moves);
+    }
     let own = |link: &&Link, joint: JointId| {
         link.joint == joint && !matches!(link.freedom, Freedom::Flexible { .. })
     };
@@ -49,6 +56,48 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     rigid.extend(cuts);
     rigid.sort_by_key(|joint| joint.index());
     rigid
+}
+
+/// A ball of the tree. Its speeds are absolute: those of a Delta robot's platform are zero though all its joints turn.
+struct Ball {
+    speeds: Range<usize>,
+    /// Channels of the angular velocities of the bodies that it joins, nothing for the ground.
+    sides: [Option<[usize; 3]>; 2],
+}
+
+impl Ball {
+    fn all(case: &Case<'_>) -> Vec<Self> {
+        let balls = case.linkage.links.iter().filter(|link| link.freedom == Freedom::Ball);
+        let ball = |link: &Link| {
+            let joint = case.mechanism.joint(link.joint);
+            let sides = [joint.parent, joint.child].map(|carrier| case.turn_channels(carrier));
+            Self { speeds: link.first_speed..link.first_speed + 3, sides }
+        };
+        balls.map(ball).collect()
+    }
+
+    /// Whether the ball turns when the channels are these.
+    fn turns(&self, channels: &[f64]) -> bool {
+        let turn = |side: usize, axis: usize| self.sides[side].map_or(0.0, |place| channels[place[axis]]);
+        (0..3).any(|axis| (turn(1, axis) - turn(0, axis)).abs() > REST)
+    }
+}
+
+/// Notes which balls turn in a position.
+fn note_balls(
+    case: &Case<'_>,
+    position: &Position,
+    (balls, joint_speeds): (&[Ball], &[usize]),
+    moves: &mut [bool],
+) {
+    if balls.iter().all(|ball| moves[ball.speeds.start]) {
+        return;
+    }
+    for amounts in null_space(&position.jacobian.select_columns(joint_speeds)).column_iter() {
+        let v = case.speeds_of(joint_speeds, amounts.iter());
+        let channels = case.observe(&position.q, &v, &vec![0.0; case.system.sizes().rows]);
+        balls.iter().for_each(|ball| moves[ball.speeds.start] |= ball.turns(&channels));
+    }
 }
 
 /// A joint (with the body it carries) whose motion moves no mass in any position tried. Elimination divides by the

@@ -9,12 +9,14 @@ mod contact_resonance;
 mod failures;
 mod idle;
 mod immobile;
+mod own_units;
 mod prescribed;
 mod rank;
 mod reactions;
 mod resonance;
 mod samples;
 mod start;
+mod without_play;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Mechanism;
@@ -22,8 +24,10 @@ use crate::model::Mechanism;
 pub use analysis::{Analysis, Redundant};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
+pub use own_units::OwnUnits;
 pub use prescribed::check_prescribed;
 pub use start::check_start;
+pub use without_play::check_without_play;
 
 use rank::Rows;
 
@@ -77,8 +81,8 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     if analysis.speeds == analysis.independent_rows {
         errors.insert(0, failures::locked(mechanism, &analysis));
     }
-    if let Some(error) = refusal.filter(|_| errors.is_empty()) {
-        errors.push(failures::out_of_reach(mechanism, &drivers, &error));
+    if errors.is_empty() {
+        errors.extend(start_fault(case, &analysis, &rows, refusal.as_ref()));
     }
     if let Some((joint, body)) = immobile::massless(case, &positions).filter(|_| errors.is_empty()) {
         errors.push(failures::massless(mechanism, joint, &body));
@@ -93,6 +97,26 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     Ok(Findings { analysis, keep, warnings })
+}
+
+/// What is wrong with a start that loops as such allow: out of reach, or singular.
+fn start_fault(
+    case: &Case<'_>,
+    analysis: &Analysis,
+    rows: &Rows,
+    refusal: Option<&linkwear_runtime::AssemblyError>,
+) -> Option<Diagnostic> {
+    let drivers = case.drivers();
+    let mut held = drivers.clone();
+    if refusal.is_some() {
+        held.extend(case.demanded());
+    }
+    let (joints, speeds): (Vec<_>, Vec<_>) = held.into_iter().unzip();
+    match (rows.lost_at_start(&speeds), refusal) {
+        (Some(lost), _) => Some(failures::singular_start(case.mechanism, analysis, &joints, &lost)),
+        (None, Some(error)) => Some(failures::out_of_reach(case.mechanism, &drivers, error)),
+        (None, None) => None,
+    }
 }
 
 /// 6 (bodies) minus what every joint takes away.

@@ -5,6 +5,10 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::samples::{ClosedPositions, RANK_TOLERANCE};
 
+/// A start is singular below this share of the rank's weakest direction elsewhere: at a double root assembly ends within
+/// the square root of rounding, 1e-8, and a start that is meant to be beside it is farther away than 1e-6 rad.
+const SINGULAR_START: f64 = 1e-6;
+
 /// Normalised rows at every position tried.
 pub struct Rows {
     samples: Vec<DMatrix<f64>>,
@@ -78,10 +82,29 @@ impl Rows {
         (0..ranks.len()).filter(|at| ranks[*at] == highest).collect()
     }
 
+    /// What the start lacks of the rank that other positions have: that of the rows, or of the rows together with what
+    /// moves each of these speeds.
+    pub fn lost_at_start(&self, held: &[usize]) -> Option<Lost> {
+        if singular_start(&self.samples) {
+            return Some(Lost::Rows);
+        }
+        let alone = |speed: usize| {
+            let with: Vec<_> =
+                self.samples.iter().map(|sample| stack(sample, &units(sample.ncols(), &[speed]))).collect();
+            singular_start(&with)
+        };
+        let lost: Vec<usize> = (0..held.len()).filter(|at| alone(held[*at])).collect();
+        (!lost.is_empty()).then_some(Lost::Held(lost))
+    }
+
     /// Groups of drivers that the loops couple, each as small as one driver that breaks independence together
     /// with those it depends on.
     pub fn driver_conflicts(&self) -> Vec<Vec<usize>> {
-        let Some(at) = self.generic_samples().first().copied() else { return Vec::new() };
+        // A driver at its dead point is coupled with nothing elsewhere.
+        let with_drivers =
+            |at: &usize| rank(&stack(&self.samples[*at], &units(self.samples[*at].ncols(), &self.driven)));
+        let best = self.generic_samples().into_iter().rev().max_by_key(with_drivers);
+        let Some(at) = best else { return Vec::new() };
         let n = self.samples[at].ncols();
         let mut rows = self.samples[at].clone();
         let mut taken: Vec<usize> = Vec::new();
@@ -107,13 +130,39 @@ impl Rows {
     fn coupled(&self, at: usize, n: usize, taken: &[usize], other: usize, speed: usize) -> bool {
         let held: Vec<usize> =
             taken.iter().copied().filter(|d| *d != other).map(|d| self.driven[d]).collect();
-        let unit = |index: usize| DMatrix::from_fn(1, n, |_, j| f64::from(u8::from(j == index)));
-        let mut rows = self.samples[at].clone();
-        for index in held {
-            rows = stack(&rows, &unit(index));
-        }
-        rank(&stack(&rows, &unit(speed))) > rank(&rows)
+        let rows = stack(&self.samples[at], &units(n, &held));
+        rank(&stack(&rows, &units(n, &[speed]))) > rank(&rows)
     }
+}
+
+/// What a singular start lacks.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lost {
+    /// Rank of the rows.
+    Rows,
+    /// These of the held speeds, by index, move nothing there.
+    Held(Vec<usize>),
+}
+
+/// Whether the first of the matrices has a lower rank than others. Their weakest direction is compared, because
+/// what is weak everywhere is no singular position.
+fn singular_start(samples: &[DMatrix<f64>]) -> bool {
+    let rank = samples.iter().map(rank).max().unwrap_or(0);
+    if rank == 0 {
+        return false;
+    }
+    let weakest = |matrix: &DMatrix<f64>| {
+        let mut values: Vec<f64> = matrix.clone().singular_values().iter().copied().collect();
+        values.sort_by(|a, b| b.total_cmp(a));
+        values[rank - 1]
+    };
+    let best = samples.iter().map(weakest).fold(0.0, f64::max);
+    weakest(&samples[0]) < SINGULAR_START * best
+}
+
+/// A row for each of the speeds, that this one moves.
+fn units(columns: usize, speeds: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(speeds.len(), columns, |i, j| f64::from(u8::from(j == speeds[i])))
 }
 
 fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {

@@ -4,7 +4,7 @@
 use super::case::Case;
 use super::samples::{ClosedPositions, null_space};
 
-/// Components below this share of the largest of a self-stress count as untouched by it.
+/// Components below this share of a self-stress, or of the loads that it is as large as, count as untouched by it.
 const UNTOUCHED: f64 = 1e-7;
 
 /// Positions looked at: a component that a self-stress leaves alone in one position it may touch in the next.
@@ -19,12 +19,18 @@ pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
     for position in positions.positions.iter().step_by(stride) {
         let observe = |multipliers: &[f64]| case.observe(&position.q, &vec![0.0; sizes.speeds], multipliers);
         let unloaded = observe(&vec![0.0; sizes.rows]);
-        let stresses = null_space(&position.jacobian.transpose());
-        for stress in stresses.column_iter() {
-            let loaded = observe(stress.clone_owned().as_slice());
-            for (index, channel) in channels.iter().enumerate() {
-                touched[index] |=
-                    is_wrench(&channel.name) && (loaded[index] - unloaded[index]).abs() > UNTOUCHED;
+        let own = |index: usize, values: &[f64]| values[index] / case.units.channels[index];
+        let wrenches: Vec<usize> = (0..channels.len()).filter(|i| is_wrench(&channels[*i].name)).collect();
+        // As large as the loads, for it must stand out of their rounding.
+        let size = wrenches.iter().map(|i| own(*i, &unloaded).abs()).fold(1.0, f64::max);
+        for stress in null_space(&position.jacobian.transpose()).column_iter() {
+            // A row in metres has a force as its multiplier, a row in radians a moment.
+            let multipliers = stress.iter().zip(&case.units.rows);
+            let multipliers: Vec<f64> =
+                multipliers.map(|(stress, row)| stress * size * (case.units.length / row)).collect();
+            let loaded = observe(&multipliers);
+            for index in &wrenches {
+                touched[*index] |= (own(*index, &loaded) - own(*index, &unloaded)).abs() > UNTOUCHED * size;
             }
         }
     }

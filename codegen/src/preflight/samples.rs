@@ -4,6 +4,8 @@
 use linkwear_runtime::{AssemblyError, Description, Entry, Layout, System, assemble};
 use nalgebra::{DMatrix, DVector};
 
+use super::own_units::OwnUnits;
+
 /// Positions tried beyond the first, of small mechanisms: enough to walk once round a closed motion, since rows
 /// that are independent here may depend on each other elsewhere.
 const MANY_STEPS: usize = 48;
@@ -11,10 +13,10 @@ const MANY_STEPS: usize = 48;
 const FEW_STEPS: usize = 6;
 /// Speeds from which a mechanism counts as large: decompositions then cost milliseconds each.
 const LARGE: usize = 24;
-/// Length of a step along the freedoms [rad, m]: large enough to change the geometry, small enough that a few
+/// Length of a step along the freedoms [rad, own units]: large enough to change the geometry, small enough that a few
 /// Newton steps close the loops again.
 const STEP: f64 = 0.25;
-/// Loops count as closed below this residual [rad, m]; Newton ends near 1e-15.
+/// Loops count as closed below this residual [rad, own units]; Newton ends near 1e-15.
 const CLOSED: f64 = 1e-11;
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
 /// meant to be special has none below 1e-4.
@@ -25,9 +27,9 @@ pub const RANK_TOLERANCE: f64 = 1e-8;
 pub struct Position {
     /// All coordinates.
     pub q: Vec<f64>,
-    /// Jacobian of all rows by all speeds, scaled so that lengths count as angles times the mechanism's size.
+    /// Jacobian of all rows by all speeds, in own units.
     pub jacobian: DMatrix<f64>,
-    /// Mass matrix of all speeds.
+    /// Mass matrix of all speeds, in own units but for a common factor.
     pub mass: DMatrix<f64>,
 }
 
@@ -38,22 +40,15 @@ pub struct ClosedPositions {
 }
 
 impl ClosedPositions {
-    /// Assembles the mechanism at t = 0 and walks on from there, along the given speeds; modes keep their shape.
+    /// Assembles the mechanism at t = 0 and walks on from there.
     ///
     /// # Errors
     /// If Newton cannot close the loops.
-    pub fn walk(
-        description: &Description,
-        system: &dyn System<f64>,
-        parameters: &[f64],
-        joint_speeds: &[usize],
-    ) -> Result<Self, AssemblyError> {
-        let state = assemble(system, description, parameters, 0.0)?;
-        let layout = Layout::new(&description.motions);
-        let walker = Walker { system, parameters, layout: &layout, joint_speeds };
+    pub fn walk(walker: &Walker<'_>, description: &Description) -> Result<Self, AssemblyError> {
+        let state = assemble(walker.system, description, &walker.parameters, 0.0)?;
         let mut positions = vec![walker.position(state.q)];
         let mut generator = 0x2545_F491_4F6C_DD1D_u64;
-        let steps = if system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
+        let steps = if walker.system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
         let mut direction = None;
         for step in 0..steps {
             // Half of the steps go on from the last position, half set out from the start again another way.
@@ -77,30 +72,38 @@ pub fn evaluate(system: &dyn System<f64>, entry: Entry, input: &[f64], output: &
     system.evaluate(entry, &all, output, &mut workspace);
 }
 
-struct Walker<'a> {
-    system: &'a dyn System<f64>,
-    parameters: &'a [f64],
-    layout: &'a Layout,
-    joint_speeds: &'a [usize],
+/// A mechanism without drivers, moved by its joint speeds.
+pub struct Walker<'a> {
+    /// The mechanism.
+    pub system: &'a dyn System<f64>,
+    /// Values of the tunable parameters.
+    pub parameters: Vec<f64>,
+    /// Places of coordinates and speeds.
+    pub layout: Layout,
+    /// The speeds that move joints; modes keep their shape.
+    pub joint_speeds: Vec<usize>,
+    /// What lengths are measured in.
+    pub units: &'a OwnUnits,
 }
 
 impl Walker<'_> {
-    /// Residuals of all rows, their Jacobian and the mass matrix.
+    /// Residuals of all rows, their Jacobian and the mass matrix, in own units.
     fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>, DMatrix<f64>) {
         let sizes = self.system.sizes();
         let (n, m) = (sizes.all_speeds, sizes.all_rows);
         let zeros = vec![0.0; n];
-        let input = [self.parameters, &[0.0], q, &zeros].concat();
+        let input = [&self.parameters, &[0.0][..], q, &zeros].concat();
         let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
         evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
         let first = n * (n + 1) / 2 + n;
-        let phi = DVector::from_column_slice(&output[first..first + m]);
-        let jacobian = DMatrix::from_row_slice(m, n, &output[first + m..first + m + m * n]);
+        let OwnUnits { speeds, rows, .. } = self.units;
+        let phi = DVector::from_fn(m, |i, _| output[first + i] / rows[i]);
+        let jacobian = DMatrix::from_fn(m, n, |i, j| output[first + m + i * n + j] * (speeds[j] / rows[i]));
         let mut mass = DMatrix::zeros(n, n);
         let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
         for ((i, j), value) in upper.zip(&output) {
-            mass[(i, j)] = *value;
-            mass[(j, i)] = *value;
+            mass[(i, j)] = *value * (speeds[i] / self.units.length) * (speeds[j] / self.units.length);
+            mass[(j, i)] = mass[(i, j)];
         }
         (phi, jacobian, mass)
     }
@@ -117,7 +120,7 @@ impl Walker<'_> {
         last: &mut Option<DVector<f64>>,
         generator: &mut u64,
     ) -> Option<Position> {
-        let free = null_space(&from.jacobian.select_columns(self.joint_speeds));
+        let free = null_space(&from.jacobian.select_columns(&self.joint_speeds));
         if free.ncols() == 0 {
             return None;
         }
@@ -143,17 +146,49 @@ impl Walker<'_> {
             if phi.iter().all(|residual| residual.abs() < CLOSED) {
                 return Some(Position { q, jacobian, mass });
             }
-            let correction = least_norm(&jacobian.select_columns(self.joint_speeds), &-phi)?;
+            let correction = least_norm(&jacobian.select_columns(&self.joint_speeds), &-phi)?;
             self.layout.advance(&mut q, &self.all_speeds(&correction));
         }
         None
     }
 
-    /// A step of all speeds that moves only joints.
+    /// How far the loops stay open at least [rad, own units] when a driver goes on by a small step, forwards or backwards,
+    /// and the other held speeds rest.
+    pub fn driver_misses(&self, start: &Position, driver: usize, held: &[usize]) -> f64 {
+        let misses = |amount: f64| self.misses(start, (driver, amount), held);
+        misses(STEP).min(misses(-STEP))
+    }
+
+    /// The same for a speed and an amount.
+    fn misses(&self, from: &Position, (driven, amount): (usize, f64), held: &[usize]) -> f64 {
+        let followers: Vec<usize> = self
+            .joint_speeds
+            .iter()
+            .copied()
+            .filter(|speed| *speed != driven && !held.contains(speed))
+            .collect();
+        let mut q = from.q.clone();
+        let mut least = f64::INFINITY;
+        let mut step = vec![0.0; self.units.speeds.len()];
+        step[driven] = amount * self.units.speeds[driven];
+        for _ in 0..20 {
+            self.layout.advance(&mut q, &step);
+            let (phi, jacobian, _) = self.equations(&q);
+            least = least.min(phi.amax());
+            let Some(correction) = least_norm(&jacobian.select_columns(&followers), &-phi) else { break };
+            step.fill(0.0);
+            for (speed, amount) in followers.iter().zip(correction.iter()) {
+                step[*speed] = *amount * self.units.speeds[*speed];
+            }
+        }
+        least
+    }
+
+    /// A step of all speeds, in SI, that moves only joints.
     fn all_speeds(&self, step: &DVector<f64>) -> Vec<f64> {
         let mut all = vec![0.0; self.system.sizes().all_speeds];
         for (speed, amount) in self.joint_speeds.iter().zip(step.iter()) {
-            all[*speed] = *amount;
+            all[*speed] = *amount * self.units.speeds[*speed];
         }
         all
     }

@@ -12,6 +12,7 @@ mod offset;
 mod speeds;
 mod state;
 mod static_contact;
+mod units;
 mod within_clearance;
 
 pub use consistent::{assemble, assemble_with};

@@ -3,12 +3,13 @@
 //! linkage keeps 2 of 5); the Jacobian of dropped rows comes from central differences. Kept rows polish.
 
 use super::held::frozen;
+use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
 use crate::layout::turn;
 use crate::linear::{Orthogonal, dot, largest};
 
-/// A loop open by more than this [m, rad] after assembly is an error.
+/// A loop open by more than this [rad, [`Units::length`]] after assembly is an error.
 const ASSEMBLED: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 60;
 /// Singular values below this part of the largest are not followed; first strict, then bolder when stuck.
@@ -30,6 +31,7 @@ pub(super) struct Newton<'e, 'a> {
     columns: Vec<bool>,
     pose_rows: Vec<(usize, usize, usize)>,
     angles: Vec<bool>,
+    units: Units,
     iterations: usize,
     decomposition: Orthogonal,
 }
@@ -48,7 +50,6 @@ impl<'e, 'a> Newton<'e, 'a> {
         let rows = evaluator.sizes().all_rows + pose_rows.len();
         let decomposition = Orthogonal::new(rows, evaluator.sizes().speeds);
         Self {
-            evaluator,
             t,
             guess: guess.to_vec(),
             wish: wish.to_vec(),
@@ -56,8 +57,10 @@ impl<'e, 'a> Newton<'e, 'a> {
             columns,
             pose_rows,
             angles,
+            units: Units::new(evaluator, t, guess, wish),
             iterations: 0,
             decomposition,
+            evaluator,
         }
     }
 
@@ -83,7 +86,9 @@ impl<'e, 'a> Newton<'e, 'a> {
         self.evaluator.closure(self.t, &q, &self.wish);
         let error = self.evaluator.loop_error();
         // Rounding of large coordinates moves the loops by about their last place.
-        if error.metres.max(error.radians) <= ASSEMBLED + 4.0 * f64::EPSILON * largest(&q) {
+        if (error.metres / self.units.length).max(error.radians)
+            <= ASSEMBLED + 4.0 * f64::EPSILON * largest(&q)
+        {
             return Ok(q);
         }
         Err(AssemblyError::NoConvergence {
@@ -96,7 +101,8 @@ impl<'e, 'a> Newton<'e, 'a> {
     }
 
     fn residuals(&mut self, q: &[f64]) -> Vec<f64> {
-        self.evaluator.closure(self.t, q, &self.wish).positions.to_vec()
+        let residuals = self.evaluator.closure(self.t, q, &self.wish).positions;
+        residuals.iter().zip(&self.units.rows).map(|(residual, unit)| residual * unit).collect()
     }
 
     /// Minimum-norm step, limited in length.
@@ -156,7 +162,7 @@ impl<'e, 'a> Newton<'e, 'a> {
             for j in 0..n {
                 let mut delta = vec![0.0; n];
                 let mut sides = [DIFFERENCE, -DIFFERENCE].map(|step| {
-                    delta[j] = step;
+                    delta[j] = step * self.units.speeds[j];
                     let mut moved = q.to_vec();
                     self.evaluator.layout().advance(&mut moved, &delta);
                     self.residuals(&moved).into_iter()
@@ -168,7 +174,8 @@ impl<'e, 'a> Newton<'e, 'a> {
             }
         }
         self.evaluator.closure(self.t, q, &self.wish);
-        let exact = self.evaluator.last_closure().jacobian;
+        let mut exact = self.evaluator.last_closure().jacobian.to_vec();
+        self.units.scale(&mut exact, self.evaluator.kept().iter().copied());
         for (k, row) in self.evaluator.kept().iter().enumerate() {
             jacobian[row * n..(row + 1) * n].copy_from_slice(&exact[k * n..(k + 1) * n]);
         }
@@ -192,7 +199,8 @@ impl<'e, 'a> Newton<'e, 'a> {
     }
 
     fn moved(&mut self, q: &[f64], delta: &[f64], part: f64) -> Vec<f64> {
-        let step: Vec<f64> = delta.iter().map(|x| part * x).collect();
+        let mut step: Vec<f64> = delta.iter().map(|x| part * x).collect();
+        self.units.restore(&mut step);
         let mut moved = q.to_vec();
         self.evaluator.layout().advance(&mut moved, &step);
         self.evaluator.layout().normalize(&mut moved);
@@ -210,8 +218,9 @@ impl<'e, 'a> Newton<'e, 'a> {
         let mut before = f64::INFINITY;
         for _ in 0..8 {
             let n = self.columns.len();
-            let closure = self.evaluator.closure(self.t, q, &self.wish);
-            let (positions, jacobian) = (closure.positions.to_vec(), closure.jacobian.to_vec());
+            let positions = self.residuals(q);
+            let mut jacobian = self.evaluator.last_closure().jacobian.to_vec();
+            self.units.scale(&mut jacobian, self.evaluator.kept().iter().copied());
             let kept: Vec<f64> = self.evaluator.kept().iter().map(|row| positions[*row]).collect();
             let size = largest(&kept);
             if size == 0.0 || size > 0.5 * before || n == 0 {
@@ -220,7 +229,7 @@ impl<'e, 'a> Newton<'e, 'a> {
             before = size;
             let delta = self.least_squares(q, jacobian, &kept, TOLERANCES[0]);
             let moved = self.moved(q, &delta, 1.0);
-            let after = self.evaluator.closure(self.t, &moved, &self.wish).positions.to_vec();
+            let after = self.residuals(&moved);
             if self.evaluator.kept().iter().all(|row| after[*row].abs() <= size) {
                 *q = moved;
             }

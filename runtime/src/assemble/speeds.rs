@@ -1,11 +1,12 @@
 //! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
 
 use super::held::conflicts;
+use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
 
-/// Largest residual [m/s, rad/s] per unit of the largest speed (at least 1).
+/// Largest residual [rad/s, [`Units::length`] per second] per unit of the largest speed (at least 1).
 const CONSISTENT: f64 = 1e-10;
 /// Singular values below this part of the largest count as zero.
 const TOLERANCE: f64 = 1e-10;
@@ -18,8 +19,11 @@ pub(super) fn consistent(
     wish: &[f64],
 ) -> Result<Vec<f64>, AssemblyError> {
     let held: Vec<bool> = evaluator.description().speeds.iter().map(|speed| speed.held).collect();
-    let (v, worst, residual) = solve(evaluator, t, q, wish, &held);
-    let limit = CONSISTENT * largest(wish).max(largest(&v)).max(1.0);
+    let units = Units::new(evaluator, t, q, wish);
+    let (v, worst, residual) = solve(evaluator, t, q, wish, &held, &units);
+    let pure =
+        |v: &[f64]| largest(&v.iter().zip(&units.speeds).map(|(v, unit)| v / unit).collect::<Vec<_>>());
+    let limit = CONSISTENT * pure(wish).max(pure(&v)).max(1.0);
     if residual <= limit {
         return Ok(v);
     }
@@ -28,7 +32,7 @@ pub(super) fn consistent(
         return Err(AssemblyError::NonFinite { what: format!("speed residual of {joint}") });
     }
     if held.contains(&true) {
-        let (free, _, open) = solve(evaluator, t, q, wish, &vec![false; held.len()]);
+        let (free, _, open) = solve(evaluator, t, q, wish, &vec![false; held.len()], &units);
         if open <= limit {
             // Far above rounding, far below what a user would call different.
             let slack = |wish: f64| 1e-8 * wish.abs().max(1.0);
@@ -39,23 +43,27 @@ pub(super) fn consistent(
     Err(AssemblyError::SpeedsImpossible { joint, residual })
 }
 
-/// Speeds, kept row with the largest residual left, and that residual.
+/// Speeds, kept row with the largest residual left, and that residual in the units given.
 fn solve(
     evaluator: &mut Evaluator<'_>,
     t: f64,
     q: &[f64],
     wish: &[f64],
     held: &[bool],
+    units: &Units,
 ) -> (Vec<f64>, usize, f64) {
     let (n, m) = (wish.len(), evaluator.sizes().rows);
     let mut v = wish.to_vec();
     let mut delta = vec![0.0; n];
     let mut decomposition = Orthogonal::new(m, n);
+    let kept = evaluator.kept().to_vec();
     // The second pass removes what rounding of a large first correction left.
     for _ in 0..2 {
         let closure = evaluator.closure(t, q, &v);
         let mut jacobian = closure.jacobian.to_vec();
-        let right: Vec<f64> = closure.speeds.iter().map(|x| -x).collect();
+        let right: Vec<f64> =
+            closure.speeds.iter().zip(&kept).map(|(x, row)| -x * units.rows[*row]).collect();
+        units.scale(&mut jacobian, kept.iter().copied());
         if n > 0 {
             for row in jacobian.chunks_exact_mut(n) {
                 row.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(entry, _)| *entry = 0.0);
@@ -63,10 +71,12 @@ fn solve(
         }
         decomposition.factor(&jacobian, m, n, TOLERANCE);
         decomposition.solve(&right, &mut delta);
+        units.restore(&mut delta);
         add_scaled(&mut v, 1.0, &delta);
     }
-    let left = evaluator.closure(t, q, &v).speeds;
-    let residual = largest(left);
+    let left = evaluator.closure(t, q, &v).speeds.iter().zip(&kept);
+    let left: Vec<f64> = left.map(|(speed, row)| speed * units.rows[*row]).collect();
+    let residual = largest(&left);
     let worst = left.iter().position(|x| x.abs() >= residual || x.is_nan()).unwrap_or(0);
     (v, worst, residual)
 }

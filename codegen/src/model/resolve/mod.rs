@@ -85,7 +85,7 @@ impl Resolver<'_> {
         self.resolve_clearances(&file, &mut joints);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
-        self.find_carriers(&file, &bodies, &joints);
+        self.find_carriers(&file, &bodies, &joints, &forces);
         self.resolve_flexible(&file, &mut bodies, &joints, &forces);
         self.check_connected(&file, &joints);
         self.warn_unused(written);

@@ -4,7 +4,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Formula, Joint, Point, Position};
+use crate::model::{Body, Carrier, Force, Formula, Joint, Point, Position};
 use crate::source::Span;
 use crate::spec::{At, Dimension, File, Name, PerBody, PointSpec, Table, Triple};
 
@@ -100,7 +100,7 @@ impl Resolver<'_> {
 
     /// The body whose material point each point is: the one written, else the first body described with it, else the
     /// child of the first joint there, else the ground.
-    pub(super) fn find_carriers(&mut self, file: &File, bodies: &[Body], joints: &[Joint]) {
+    pub(super) fn find_carriers(&mut self, file: &File, bodies: &[Body], joints: &[Joint], forces: &[Force]) {
         for position in 0..self.points.len() {
             if file.points.0.get(position).is_some_and(|(_, point)| point.value.on.is_some()) {
                 continue;
@@ -121,7 +121,17 @@ impl Resolver<'_> {
                 let joint = joints.iter().find(|joint| joint.at == id)?;
                 Some(if joint.child == Carrier::Ground { joint.parent } else { joint.child })
             };
-            self.points[position].carrier = body.or_else(joint).unwrap_or(Carrier::Ground);
+            let found = body.or_else(joint);
+            let held =
+                |force: &Force| force.at.iter().zip(&force.bodies).any(|end| end == (&id, &Carrier::Ground));
+            if found.is_none() && !bodies.is_empty() && !forces.iter().any(held) && !self.has_errors() {
+                let (name, span) = (point.name.clone(), point.span);
+                let message = format!("nothing says which body carries the point `{name}`: it rests");
+                self.refuse(Code::UnplacedPoint, span, message).help(format!(
+                    "write `{name} = {{ at = [...], on = \"crank\" }}` with the body that carries it, or `on = \"ground\"`"
+                ));
+            }
+            self.points[position].carrier = found.unwrap_or(Carrier::Ground);
         }
     }
 }

@@ -1,0 +1,89 @@
+//! What a mechanism would be if its joints had no clearance: play gives every loop freedoms that hide an extra driver, a
+//! wrong axis or a wrong length.
+//! In: the mechanism with its clearances closed, and the analysis with them open. Out: errors and warnings.
+
+use linkwear_runtime::AssemblyError;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::model::Mechanism;
+
+use super::analysis::Analysis;
+use super::case::Case;
+use super::failures;
+use super::rank::{Lost, Rows};
+
+/// Checks drivers, freedoms and loops of the case of [`Mechanism::with_clearances_closed`].
+///
+/// # Errors
+/// If a driver has nothing to drive but play, or starts at its dead point. Loops that miss closure by more than their
+/// clearances are found where a run starts.
+pub fn check_without_play(
+    case: &Case<'_>,
+    loose: &Mechanism,
+    with_play: &Analysis,
+) -> Result<Vec<Diagnostic>, Diagnostics> {
+    let mechanism = case.mechanism;
+    let fail = |errors: Vec<Diagnostic>| {
+        let errors = errors.into_iter().map(failures::with_closed_clearances).collect();
+        Err(Diagnostics::from_list(errors).located(case.source))
+    };
+    let by_clearance = |reason: &str| vec![failures::moves_by_clearance(loose, reason)];
+    let play = play(loose);
+    let within = |error: &AssemblyError| {
+        matches!(error, AssemblyError::NoConvergence { residual_m, residual_rad, .. }
+        | AssemblyError::HeldPositions { residual_m, residual_rad, .. } if residual_m + residual_rad * case.units.length <= play)
+    };
+    const MISSES: &str = "without them its loops stay open, by less than the clearances";
+    let drivers = case.drivers();
+    let (positions, refusal) = match case.closed_positions() {
+        Ok(found) => found,
+        Err(error) if within(&error) => return Ok(by_clearance(MISSES)),
+        // The start with the clearances open says which journal is out of reach.
+        Err(_) => return Ok(Vec::new()),
+    };
+    let (joints, speeds): (Vec<_>, Vec<usize>) = drivers.iter().copied().unzip();
+    let rows = Rows::new(&positions, speeds.clone());
+    let conflicts = rows.driver_conflicts();
+    // A linkage that its clearances let follow the driver is no structure, however its ideal twin would jam.
+    let follows = |group: &Vec<usize>| {
+        let [driver] = group.as_slice() else { return false };
+        case.walker().driver_misses(&positions.positions[0], speeds[*driver], &speeds) * case.units.length
+            <= play
+    };
+    if conflicts.iter().any(|group| !follows(group)) {
+        return fail(failures::conflicts(mechanism, &drivers, &rows));
+    }
+    if !conflicts.is_empty() {
+        return Ok(by_clearance("without them its drivers would be blocked"));
+    }
+    if let Some(error) = &refusal {
+        return Ok(if within(error) { by_clearance(MISSES) } else { Vec::new() });
+    }
+    if let Some(lost @ Lost::Held(_)) = rows.lost_at_start(&speeds) {
+        return fail(vec![failures::singular_start(mechanism, with_play, &joints, &lost)]);
+    }
+    let sizes = case.system.sizes();
+    let rank = rows.rank();
+    if rank == sizes.all_speeds {
+        return Ok(by_clearance("without them it is a structure"));
+    }
+    let redundant = |all: usize, independent: usize| all - independent;
+    let more = redundant(sizes.all_rows, rank)
+        .saturating_sub(redundant(with_play.constraint_rows, with_play.independent_rows));
+    Ok(match more {
+        0 => Vec::new(),
+        1 => by_clearance(
+            "without them one more constraint of its loops is redundant, and they close only if made exactly",
+        ),
+        _ => by_clearance(&format!(
+            "without them {more} more constraints of its loops are redundant, and they close only if made exactly"
+        )),
+    })
+}
+
+/// Sum of all radial clearances [m].
+fn play(mechanism: &Mechanism) -> f64 {
+    let parameters = mechanism.parameter_values();
+    let clearances = mechanism.joints.iter().filter_map(|joint| joint.clearance.as_ref());
+    clearances.filter_map(|clearance| clearance.radial.value(&parameters)).sum()
+}

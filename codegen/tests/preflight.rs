@@ -1,0 +1,210 @@
+//! What `check` answers does not depend on size or speed, and is true of linkages that once were misjudged.
+
+use linkwear_codegen::compile::{Compiled, Options, compile};
+use linkwear_codegen::source::SourceFile;
+
+const SLIDER_CRANK: &str = r#"
+[points]
+O = [0, 0, 0]
+A = ["0.05*s", 0, 0]
+P = ["0.17*s", 0, 0]
+Q = ["0.19*s", 0, 0]
+[bodies]
+crank = { rod = ["O", "A"], radius = "0.005*s", density = "7850 kg/m^3" }
+rod = { rod = ["A", "P"], radius = "0.005*s", density = "7850 kg/m^3" }
+slider = { box = ["P", "Q"], width = "0.02*s", density = "7850 kg/m^3" }
+[joints]
+R1 = { revolute = ["ground", "crank"], at = "O", axis = [0, 0, 1], drive = "2*pi*speed*t" }
+R2 = { revolute = ["crank", "rod"], at = "A", axis = [0, 0, 1] }
+R3 = { revolute = ["rod", "slider"], at = "P", axis = [0, 0, 1] }
+G = { prismatic = ["ground", "slider"], at = "P", axis = [1, 0, 0] }
+"#;
+
+/// The coupler spins between its balls; the loop is drawn open.
+const RSSR: &str = r#"
+[points]
+O = [0, 0, 0]
+A = ["0.12*s", 0, 0]
+P = ["0.35*s", "0.05*s", "-0.3*s"]
+B = { coupler = ["0.54*s", 0, 0], rocker = ["0.61*s", "0.05*s", "-0.3*s"] }
+[bodies]
+crank = { rod = ["O", "A"], radius = "0.006*s", density = "7850 kg/m^3" }
+coupler = { rod = ["A", "B"], radius = "0.006*s", density = "7850 kg/m^3" }
+rocker = { rod = ["P", "B"], radius = "0.006*s", density = "7850 kg/m^3" }
+[joints]
+R1 = { revolute = ["ground", "crank"], at = "O", axis = [0, 0, 1], drive = "2*pi*speed*t" }
+S2 = { spherical = ["crank", "coupler"], at = "A" }
+R4 = { revolute = ["ground", "rocker"], at = "P", axis = [0, 1, 0] }
+S3 = { spherical = ["coupler", "rocker"], at = "B" }
+[assembly]
+R4 = "-48 deg"
+"#;
+
+/// A wishbone on two balls, held by a strut whose lower end turns in a fork.
+const WISHBONE: &str = r#"
+[points]
+S1 = [0, 0, 0]
+S2 = ["0.3*s", 0, 0]
+S3 = ["0.15*s", 0, "0.4*s"]
+S4 = ["0.15*s", "0.5*s", "0.4*s"]
+M = ["0.15*s", "0.25*s", "0.4*s"]
+[bodies]
+wishbone = { rod = ["S1", "S3"], radius = "0.01*s", density = "7850 kg/m^3" }
+lower = { rod = ["S3", "M"], radius = "0.005*s", density = "7850 kg/m^3" }
+upper = { rod = ["S4", "M"], radius = "0.008*s", density = "7850 kg/m^3" }
+[joints]
+B1 = { spherical = ["ground", "wishbone"], at = "S1" }
+B2 = { spherical = ["ground", "wishbone"], at = "S2" }
+U = { universal = ["wishbone", "lower"], at = "S3", axes = [[1, 0, 0], [0, 0, 1]] }
+strut = { prismatic = ["lower", "upper"], at = "M", axis = [0, 1, 0] }
+B4 = { spherical = ["ground", "upper"], at = "S4" }
+"#;
+
+/// A link on two balls, with or without a spring beside the line through them.
+const LEVER: &str = r#"
+[points]
+S1 = [0, 0, 0]
+S2 = ["0.3*s", 0, 0]
+C = ["0.15*s", 0, 0]
+E = ["0.15*s", 0, "0.4*s"]
+T = ["0.15*s", "0.5*s", "0.4*s"]
+[bodies]
+lever = { mass = "2 kg", centre = "C", inertia = ["1 kg*s^2", "1 kg*s^2", "1 kg*s^2"] }
+[joints]
+B1 = { spherical = ["ground", "lever"], at = "S1", friction = "1e-4 N m s/rad" }
+B2 = { spherical = ["ground", "lever"], at = "S2" }
+"#;
+
+fn file(body: &str, more: &str) -> SourceFile {
+    let head = "spec = 1\nname = \"tried\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[parameters]\ns = \"1 m\"\nspeed = \"2 Hz\"\n";
+    SourceFile { name: "tried.toml".to_owned(), text: format!("{head}{body}{more}") }
+}
+
+fn compiled(body: &str, more: &str, overrides: &[(&str, String)]) -> Compiled {
+    let overrides = overrides.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+    compile(&file(body, more), &Options { overrides, ..Options::default() }).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The arms of a Delta robot, each with its parallelogram of rods on balls: the platform never turns.
+fn delta() -> String {
+    let (mut points, mut bodies, mut joints) = (String::new(), String::new(), String::new());
+    let (base, platform, arm, rod, half) = (0.2_f64, 0.05, 0.2, 0.5_f64, 0.06);
+    let (x, down) = (base + arm * 0.4_f64.cos(), -arm * 0.4_f64.sin());
+    let z = down - (rod * rod - (x - platform).powi(2)).sqrt();
+    for i in 0..3 {
+        let (sine, cosine) = (f64::from(i) * std::f64::consts::TAU / 3.0).sin_cos();
+        let place = |x: f64, y: f64, z: f64| {
+            format!("[\"{:?}*s\", \"{:?}*s\", \"{z:?}*s\"]", x * cosine - y * sine, x * sine + y * cosine)
+        };
+        points += &format!("B{i} = {}\nE{i} = {}\n", place(base, 0.0, 0.0), place(x, 0.0, down));
+        bodies += &format!(
+            "arm{i} = {{ rod = [\"B{i}\", \"E{i}\"], radius = \"0.008*s\", density = \"2700 kg/m^3\" }}\n"
+        );
+        joints += &format!(
+            "R{i} = {{ revolute = [\"ground\", \"arm{i}\"], at = \"B{i}\", axis = [{:?}, {cosine:?}, 0], drive = \"0.2*sin(2*pi*speed*t)\" }}\n",
+            -sine
+        );
+        for (side, y) in [("a", half), ("b", -half)] {
+            let k = format!("{i}{side}");
+            points += &format!("E{k} = {}\nP{k} = {}\n", place(x, y, down), place(platform, y, z));
+            bodies += &format!(
+                "f{k} = {{ rod = [\"E{k}\", \"P{k}\"], radius = \"0.004*s\", density = \"1600 kg/m^3\" }}\n"
+            );
+            joints += &format!(
+                "U{k} = {{ spherical = [\"arm{i}\", \"f{k}\"], at = \"E{k}\" }}\nL{k} = {{ spherical = [\"f{k}\", \"platform\"], at = \"P{k}\" }}\n"
+            );
+        }
+    }
+    format!(
+        "[points]\n{points}C = [0, 0, \"{z:?}*s\"]\nC2 = [0, 0, \"{:?}*s\"]\n[bodies]\n{bodies}platform = {{ rod = [\"C\", \"C2\"], radius = \"0.05*s\", density = \"2700 kg/m^3\" }}\n[joints]\n{joints}",
+        z - 0.01
+    )
+}
+
+#[test]
+fn a_mechanism_of_any_size_and_speed_is_judged_alike() {
+    let delta = delta();
+    for (name, body, mobility, redundant, idle) in [
+        ("slider-crank", SLIDER_CRANK, 1, 3, 0),
+        ("RSSR", RSSR, 2, 0, 1),
+        ("wishbone", WISHBONE, 1, 1, 0),
+        ("Delta", &delta, 9, 0, 6),
+    ] {
+        let ordinary = compiled(body, "", &[]).analysis;
+        for size in ["1e-9 m", "1e-6 m", "1 m", "1e4 m"] {
+            for speed in ["1e-6 Hz", "1e4 Hz"] {
+                let case = format!("{name} at {size}, {speed}");
+                let compiled = compiled(body, "", &[("s", size.to_owned()), ("speed", speed.to_owned())]);
+                let warnings: Vec<_> =
+                    compiled.warnings.iter().map(|warning| warning.code.as_str()).collect();
+                assert!(warnings.iter().all(|code| *code == "W0104"), "{case}: {warnings:?}");
+                assert_eq!(compiled.analysis.mobility, mobility, "{case}");
+                assert_eq!(compiled.analysis.redundant.len(), redundant, "{case}");
+                assert_eq!(compiled.analysis.idle.len(), idle, "{case}: {:?}", compiled.analysis.idle);
+                assert_eq!(compiled.analysis, ordinary, "{case}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_spring_on_an_idle_freedom_makes_it_none() {
+    let spring = "[forces]\nspring = { spring = [\"ground\", \"lever\"], at = [\"T\", \"E\"], stiffness = \"1 kN/m\", length = \"0.4 m\" }\n";
+    let along = "[forces]\nspring = { spring = [\"ground\", \"lever\"], at = [\"S2\", \"C\"], stiffness = \"1 kN/m\", length = \"0.4 m\" }\n";
+    let idle = |more: &str| compiled(LEVER, more, &[]).analysis.idle;
+    assert_eq!(idle(spring), [""; 0]);
+    let spins = ["lever spins freely about the line through B1 and B2"];
+    assert_eq!(idle(along), spins);
+    // Friction slows a spin down and leaves open where it ends.
+    assert_eq!(idle("[forces]\n"), spins);
+}
+
+#[test]
+fn a_start_beside_a_singular_position_is_taken() {
+    let parallelogram = |start: &str| {
+        format!(
+            "[points]\nO = [0, 0, 0]\nA = [\"0.1 m\", 0, 0]\nB = [\"0.4 m\", 0, 0]\nD = [\"0.3 m\", 0, 0]\n[bodies]\n\
+             crank = {{ rod = [\"O\", \"A\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}\n\
+             coupler = {{ rod = [\"A\", \"B\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}\n\
+             rocker = {{ rod = [\"D\", \"B\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}\n[joints]\n\
+             R1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1], drive = \"{start} + 10 rad/s*t\" }}\n\
+             R2 = {{ revolute = [\"crank\", \"coupler\"], at = \"A\", axis = [0, 0, 1] }}\n\
+             R3 = {{ revolute = [\"coupler\", \"rocker\"], at = \"B\", axis = [0, 0, 1] }}\n\
+             R4 = {{ revolute = [\"ground\", \"rocker\"], at = \"D\", axis = [0, 0, 1] }}\n\
+             [assembly]\nR4 = \"{start}\"\nR2 = \"-({start})\"\n"
+        )
+    };
+    let code = |start: &str| match compile(&file(&parallelogram(start), ""), &Options::default()) {
+        Ok(_) => "taken",
+        Err(errors) => errors.list()[0].code.as_str(),
+    };
+    assert_eq!(
+        ["0 deg", "1 deg", "180 deg", "90 deg", "1e-3 deg"].map(code),
+        ["E0608", "taken", "E0608", "taken", "taken"]
+    );
+}
+
+#[test]
+fn a_linkage_with_clearance_is_judged_as_if_it_had_none() {
+    let joint = |text: &str, from: &str, to: &str| text.replacen(from, to, 1);
+    let clearance = "[clearance.R3]\nradial = \"0.1 mm\"\njournal_radius = \"5 mm\"\nlength = \"20 mm\"\nmodulus = \"100 GPa\"\nlaw = \"lankarani_nikravesh\"\nrestitution = 0.9\n";
+    let codes = |body: &str| -> Vec<&str> {
+        match compile(&file(body, clearance), &Options::default()) {
+            Ok(compiled) => compiled.warnings.iter().map(|warning| warning.code.as_str()).collect(),
+            Err(errors) => errors.list().iter().map(|error| error.code.as_str()).collect(),
+        }
+    };
+    let guide = "at = \"P\", axis = [1, 0, 0]";
+    assert_eq!(codes(SLIDER_CRANK), [""; 0]);
+    let second = joint(SLIDER_CRANK, guide, "at = \"P\", axis = [1, 0, 0], drive = \"0.01*s*sin(t*1 Hz)\"");
+    assert_eq!(codes(&second), ["E0603"]);
+    let crooked = joint(SLIDER_CRANK, "at = \"P\", axis = [0, 0, 1]", "at = \"P\", axis = [0, 0.5, 1]");
+    assert_eq!(codes(&crooked), ["E0603"]);
+    let driven = joint(&second, ", drive = \"2*pi*speed*t\"", "");
+    assert_eq!(codes(&driven), ["E0608"]);
+    let apart = "P = { rod = [\"0.17*s\", 0, 0], slider = [\"0.17*s\", \"0.3*s\", 0] }";
+    let short = joint(SLIDER_CRANK, "P = [\"0.17*s\", 0, 0]", apart);
+    let short = joint(&short, "Q = [\"0.19*s\", 0, 0]", "Q = [\"0.19*s\", \"0.3*s\", 0]");
+    let short = joint(&short, guide, "at = \"Q\", axis = [1, 0, 0]");
+    assert_eq!(codes(&short), ["E0601"]);
+}

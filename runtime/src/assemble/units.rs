@@ -1,0 +1,52 @@
+//! The unit of length in which assembly compares residuals with tolerances and lengths with angles.
+//! In: a mechanism at its guess. Out: factors of rows and speeds. Never solves.
+
+use crate::evaluate::Evaluator;
+
+/// Mechanisms of ordinary size [m] count in metres; smaller and larger ones in their own longest lever arm, so that
+/// a tolerance means the same share of every mechanism.
+const ORDINARY: core::ops::RangeInclusive<f64> = 1e-2..=1e2;
+
+/// What rows and speeds are multiplied with.
+pub(super) struct Units {
+    /// The unit of length [m].
+    pub length: f64,
+    /// Residual of every row, kept or dropped, times this: a pure number.
+    pub rows: Vec<f64>,
+    /// Pure number times this: a free speed, or its step.
+    pub speeds: Vec<f64>,
+}
+
+impl Units {
+    /// Measures the lever arms at a position.
+    pub(super) fn new(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) -> Self {
+        let description = evaluator.description();
+        let angles: Vec<bool> =
+            description.speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect();
+        let linear: Vec<bool> = evaluator.kept().iter().map(|row| !description.rows[*row].angular).collect();
+        let jacobian = evaluator.closure(t, q, v).jacobian;
+        let rows = jacobian.chunks_exact(angles.len().max(1)).zip(linear).filter(|(_, linear)| *linear);
+        let arms = rows.flat_map(|(row, _)| row.iter().zip(&angles).filter(|(_, angle)| **angle));
+        let longest = arms.fold(0.0_f64, |longest, (arm, _)| longest.max(arm.abs()));
+        let own = longest.is_finite() && longest > 0.0 && !ORDINARY.contains(&longest);
+        let length = if own { longest } else { 1.0 };
+        let speed = |unit: &str| if unit == "m/s" { length } else { 1.0 };
+        Self {
+            length,
+            rows: description.rows.iter().map(|row| if row.angular { 1.0 } else { 1.0 / length }).collect(),
+            speeds: description.speeds.iter().map(|info| speed(&info.unit)).collect(),
+        }
+    }
+
+    /// Brings a Jacobian of some rows by all speeds to pure numbers.
+    pub(super) fn scale(&self, jacobian: &mut [f64], rows: impl IntoIterator<Item = usize>) {
+        for (line, row) in jacobian.chunks_exact_mut(self.speeds.len().max(1)).zip(rows) {
+            line.iter_mut().zip(&self.speeds).for_each(|(entry, unit)| *entry *= self.rows[row] * unit);
+        }
+    }
+
+    /// Brings a step from pure numbers to SI.
+    pub(super) fn restore(&self, step: &mut [f64]) {
+        step.iter_mut().zip(&self.speeds).for_each(|(x, unit)| *x *= unit);
+    }
+}
