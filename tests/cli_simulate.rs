@@ -186,6 +186,50 @@ fn an_interrupt_keeps_what_was_computed() {
 }
 
 #[test]
+fn peaks_are_those_of_the_steps_however_many_rows_there_are() {
+    for (file, length) in
+        [(RSSR, ["--turns", "1"]), ("mechanisms/slider_crank_clearance.toml", ["--turns", "1"])]
+    {
+        let answer = |samples: &str| {
+            let all = [&["simulate", file, "--samples", samples, "--format", "json"], &length[..]].concat();
+            linkwear(&all).json()
+        };
+        let few = answer("2");
+        let forces = |answer: &serde_json::Value| -> Vec<(f64, f64)> {
+            let peaks = answer["peaks"].as_array().expect("a list").iter();
+            let both = |peak: &serde_json::Value| {
+                ["force_N", "force_time_s"].map(|key| peak[key].as_f64().expect("a number"))
+            };
+            peaks.map(both).map(|[force, time]| (force, time)).collect()
+        };
+        let expected = forces(&few);
+        assert!(expected.iter().any(|(force, time)| *force > 1.0 && *time > 0.0), "{expected:?}");
+        for samples in ["201", "20001"] {
+            // Steps do not know the rows: nothing but rounding of states put onto the constraints once more.
+            for ((force, time), (known, at)) in forces(&answer(samples)).into_iter().zip(&expected) {
+                assert!(
+                    (force - known).abs() <= 1e-6 * known && (time - at).abs() < 1e-6,
+                    "{force} {known} {time} {at}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_peak_at_a_pin_is_that_of_the_turn() {
+    let answer =
+        linkwear(&["simulate", "mechanisms/slider_crank_clearance.toml", "--turns", "1", "--format", "json"])
+            .json();
+    let turn = answer["turns"][0].clone();
+    let peak = answer["peaks"].as_array().expect("a list").iter().find(|peak| peak["joint"] == turn["joint"]);
+    let (peak, turn) = (&peak.expect("the pin")["force_N"], &turn["peak_normal_force_N"]);
+    let [peak, turn] = [peak, turn].map(|value| value.as_f64().expect("a number"));
+    // Friction adds to the normal force, by its square: at most a part in a hundred at a coefficient of 0.1.
+    assert!(peak >= turn * (1.0 - 1e-9) && peak < 1.02 * turn, "{peak} {turn}");
+}
+
+#[test]
 fn a_person_sees_curves_and_peak_loads() {
     let answer = linkwear(&["simulate", RSSR]);
     assert_eq!(answer.code, 0, "{}", answer.err);

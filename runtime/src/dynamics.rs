@@ -36,6 +36,14 @@ pub struct Dynamics<'a> {
     solver: SingularSolver,
 }
 
+/// What evaluations change in [`Dynamics`].
+pub(crate) struct Aside {
+    evaluations: u64,
+    rank_revealing_solves: u64,
+    nearness: f64,
+    largest_pivots: Vec<f64>,
+}
+
 impl<'a> Dynamics<'a> {
     /// Prepares storage; `singular_pivot` is the threshold, [`SINGULAR_PIVOT`] by default.
     pub fn new(evaluator: Evaluator<'a>, singular_pivot: f64) -> Self {
@@ -70,6 +78,18 @@ impl<'a> Dynamics<'a> {
             self.solver.solve(&mut self.evaluator, t, (q, v), reference);
         }
         self.check(t)
+    }
+
+    /// What to go on with after a look that is no part of the run.
+    pub(crate) fn aside(&self) -> Aside {
+        let Self { evaluations, rank_revealing_solves, nearness, .. } = *self;
+        Aside { evaluations, rank_revealing_solves, nearness, largest_pivots: self.largest_pivots.clone() }
+    }
+
+    /// Goes on as if nothing had been evaluated since.
+    pub(crate) fn resume(&mut self, aside: Aside) {
+        (self.evaluations, self.rank_revealing_solves) = (aside.evaluations, aside.rank_revealing_solves);
+        (self.nearness, self.largest_pivots) = (aside.nearness, aside.largest_pivots);
     }
 
     /// Smallest pivot at the last state, each relative to the largest value it has had (1: as regular as

@@ -27,6 +27,8 @@ pub struct Evaluator<'a> {
     /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
     multipliers: Vec<f64>,
     clearances: Clearances,
+    /// Time, coordinates, speeds and wrenches of the last forward dynamics; empty if its answer is not there any more.
+    last_forward_at: Vec<f64>,
     input: Vec<f64>,
     workspace: Vec<f64>,
     outputs: [Vec<f64>; Entry::ALL.len()],
@@ -80,6 +82,7 @@ impl<'a> Evaluator<'a> {
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
             clearances: Clearances::new(&description.contacts)?,
+            last_forward_at: Vec::new(),
             input,
             workspace: vec![0.0; sizes.workspace],
             outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
@@ -154,11 +157,20 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state.
+    /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state. Asked again
+    /// for the same state, as by a step that begins where one was looked at, it has the answer.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
         self.evaluate_contacts(t, q, v);
         let clearances = core::mem::take(&mut self.clearances);
-        self.forward_under(t, q, v, clearances.wrenches());
+        let time = [t];
+        let at = || [&time[..], q, v, clearances.wrenches()].into_iter().flatten();
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        if self.last_forward_at.len() == at().count() && self.last_forward_at.iter().zip(at()).all(same) {
+            self.multipliers.fill(0.0);
+        } else {
+            self.forward_under(t, q, v, clearances.wrenches());
+            self.last_forward_at.extend(at());
+        }
         self.clearances = clearances;
         self.last_forward()
     }
@@ -166,6 +178,7 @@ impl<'a> Evaluator<'a> {
     /// The same with given wrenches of the contacts, whatever the laws say.
     pub fn forward_under(&mut self, t: f64, q: &[f64], v: &[f64], wrenches: &[f64]) -> Forward<'_> {
         self.multipliers.fill(0.0);
+        self.last_forward_at.clear();
         self.ask(Entry::ForwardDynamics, t, &[q, v, wrenches]);
         self.last_forward()
     }
@@ -182,6 +195,7 @@ impl<'a> Evaluator<'a> {
     /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.
     pub fn forward_mut(&mut self) -> &mut [f64] {
         self.multipliers.fill(0.0);
+        self.last_forward_at.clear();
         &mut self.outputs[Entry::ForwardDynamics as usize]
     }
 

@@ -83,8 +83,8 @@ pub use {
     projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::{Cells, Table, TableColumn, write_csv},
     simulate::{
-        BRANCH_PART, IdealJoint, Integrator, JUMP_FLOOR, Run, RunWarning, Settings, Span, Statistics,
-        TurnMeasures, TurnRunner, TurnState, simulate,
+        At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,
+        RunWarning, Settings, Span, Statistics, TurnMeasures, TurnRunner, TurnState, simulate,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

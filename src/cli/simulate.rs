@@ -119,7 +119,7 @@ fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f
         "max_loop_error_rad": numbers.max_loop_error_rad,
         "energy_error_J": numbers.energy_error_J,
         "energy_throughput_J": numbers.energy_throughput_J,
-        "peaks": summary::peaks(run).iter().map(summary::Peak::to_json).collect::<Vec<_>>(),
+        "peaks": run.peaks.iter().map(summary::peak_entry).collect::<Vec<_>>(),
         "out": out.map(|path| path.display().to_string()),
         "turns": turns(description, run).map(turn_entry).collect::<Vec<_>>(),
         "warnings": warnings(&mechanism.warnings, "run", &run.warnings),

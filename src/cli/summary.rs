@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use linkwear::number::number;
-use linkwear_runtime::{Description, Run};
+use linkwear_runtime::{At, Description, Extremes, Peak, Run};
 use serde_json::{Value, json};
 
-use super::plot::{range, sparkline};
+use super::plot::sparklines;
 use super::table::{count, plural, short_table, table};
 
 /// Curves shown at most.
@@ -14,45 +14,13 @@ const CURVES: usize = 8;
 /// Part of the largest load (N and N m alike, for machines of about a metre) that is rounding: some thousand
 /// roundings of 1e-16 each.
 const ROUNDING: f64 = 1e-12;
-/// Width of a curve.
-const WIDTH: usize = 48;
 
-/// Largest force [N] and moment [N m] at a joint over the recorded rows, each with its time [s].
-pub struct Peak {
-    joint: String,
-    force: (f64, f64),
-    moment: (f64, f64),
-}
-
-impl Peak {
-    pub fn to_json(&self) -> Value {
-        json!({
-            "joint": self.joint, "force_N": self.force.0, "force_time_s": self.force.1,
-            "moment_N_m": self.moment.0, "moment_time_s": self.moment.1,
-        })
-    }
-}
-
-/// Peaks of every joint that has a wrench, in column order.
-pub fn peaks(run: &Run) -> Vec<Peak> {
-    let joints = run.channels.iter().filter_map(|channel| channel.name.strip_suffix(".Fx"));
-    let peak = |joint: &str| {
-        let [force, moment] = ["F", "M"].map(|vector| largest(run, &format!("{joint}.{vector}")));
-        Peak { joint: joint.to_owned(), force, moment }
-    };
-    joints.map(peak).collect()
-}
-
-/// Largest length of a vector, and when; zero if there is none.
-fn largest(run: &Run, stem: &str) -> (f64, f64) {
-    let vectors = run.vector(stem).unwrap_or_default();
-    let lengths = vectors.iter().map(|vector| vector.iter().map(|x| x * x).sum::<f64>().sqrt());
-    lengths.zip(&run.times).fold(
-        (0.0, 0.0),
-        |best, (length, time)| {
-            if length > best.0 { (length, *time) } else { best }
-        },
-    )
+/// A peak for machines.
+pub fn peak_entry(Peak { joint, force, moment }: &Peak) -> Value {
+    json!({
+        "joint": joint, "force_N": force.value, "force_time_s": force.t,
+        "moment_N_m": moment.value, "moment_time_s": moment.t,
+    })
 }
 
 /// The screenful.
@@ -82,20 +50,20 @@ pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> S
     }
     text.push_str(&table(&["", ""], &facts));
     curves(&mut text, run);
-    let peaks = peaks(run);
+    let peaks = &run.peaks;
     if !peaks.is_empty() {
         let header = ["peak load at", "force [N]", "at t [s]", "moment [N m]", "at t [s]"];
-        let _ = write!(text, "\n{}", short_table(&header, peak_rows(&peaks)));
+        let _ = write!(text, "\n{}", short_table(&header, peak_rows(peaks)));
     }
     text
 }
 
 /// Loads of no more than rounding are shown as the zero they are.
 fn peak_rows(peaks: &[Peak]) -> Vec<Vec<String>> {
-    let largest = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.force.0).max(peak.moment.0));
-    let cells = |(value, time): (f64, f64)| {
+    let largest = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.force.value).max(peak.moment.value));
+    let cells = |At { value, t }: At| {
         let is_rounding = value <= ROUNDING * largest;
-        if is_rounding { ["0".to_owned(), String::new()] } else { [value, time].map(number) }
+        if is_rounding { ["0".to_owned(), String::new()] } else { [value, t].map(number) }
     };
     let rows = peaks.iter().map(|peak| {
         let numbers = [peak.force, peak.moment].map(cells).concat();
@@ -109,22 +77,25 @@ fn curves(text: &mut String, run: &Run) {
     let columns = |suffix: &'static str| {
         run.channels.iter().enumerate().filter(move |(_, channel)| channel.name.ends_with(suffix))
     };
-    let rows: Vec<Vec<String>> = columns(".drive")
-        .chain(columns(".q"))
-        .take(CURVES)
-        .map(|(at, channel)| {
-            let values: Vec<f64> = run.rows.iter().map(|row| row[at]).collect();
-            let (low, high) = range(&values);
+    let shown = columns(".drive").chain(columns(".q")).take(CURVES);
+    let rows: Vec<Vec<String>> = shown
+        .filter_map(|(at, channel)| {
+            let Extremes { low, high, envelope } = run.extremes.get(at)?;
+            let (low, high) = (low.value, high.value);
             // An end that is rounding next to the other is the zero that it means.
             let zeroed = |end: f64| if end.abs() <= ROUNDING * (high - low) { 0.0 } else { end };
-            vec![
-                format!("{} [{}]", channel.name, channel.unit),
-                sparkline(&values, WIDTH),
-                format!("{} to {}", number(zeroed(low)), number(zeroed(high))),
-            ]
+            let name = format!("{} [{}]", channel.name, channel.unit);
+            let range = format!("{} to {}", number(zeroed(low)), number(zeroed(high)));
+            // The lower side of an envelope goes under the upper one, without name and range.
+            let lines = sparklines(envelope).into_iter().enumerate();
+            Some(lines.map(move |(line, curve)| match line {
+                0 => vec![name.clone(), curve, range.clone()],
+                _ => vec![String::new(), curve, String::new()],
+            }))
         })
+        .flatten()
         .collect();
-    if !rows.is_empty() && !run.rows.is_empty() {
+    if !rows.is_empty() {
         let _ = write!(text, "\n{}", table(&["", "", ""], &rows));
     }
 }

@@ -13,7 +13,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Let it fall from the horizontal for two seconds and look at its bearing.
     let settings = Settings { span: Span::Time(2.0), ..Settings::default() };
     let run = simulate(&bar, swing::description(), &bar.parameters(), &settings, Watch::NONE)?;
-    let peak = run.column("R1.Fz")?.into_iter().fold(0.0, f64::max);
+    let peak = run.range("R1.Fz")?.high.value;
     println!("largest vertical force at R1: {peak:.2} N");
 
     // Or call the equations: parameters, time, coordinates, speeds in; accelerations out.

@@ -60,7 +60,7 @@ impl Guard {
         let arms = in_metres.flat_map(|(row, _)| row.iter().zip(&*description.speeds));
         let arms = arms.filter(|(_, speed)| turns(&speed.unit)).map(|(arm, _)| arm.abs());
         let span = end - begin;
-        Self {
+        let mut guard = Self {
             end,
             span,
             arm: arms.fold(0.0, f64::max),
@@ -69,7 +69,10 @@ impl Guard {
             energy: 0.0,
             next_balance: begin + span / BALANCES,
             window: (0, begin),
-        }
+        };
+        guard.note_speeds(motion, state);
+        guard.note_driver(motion, begin);
+        guard
     }
 
     /// Notes how large an energy was met [J].
@@ -129,6 +132,11 @@ impl Guard {
                 self.fastest_turning = speed.abs();
             }
         }
+    }
+
+    /// Largest speed of anything that turns so far [rad/s], the driver at the begin included.
+    pub(super) fn fastest_turning(&self) -> f64 {
+        self.fastest_turning
     }
 
     fn note_driver(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64) {

@@ -4,6 +4,7 @@
 
 mod contacts;
 mod events;
+mod extremes;
 mod guard;
 mod ideal;
 mod implicit;
@@ -16,6 +17,7 @@ mod steps;
 mod turns;
 mod warning;
 
+pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};
 pub use ideal::IdealJoint;
 pub use motion::{BRANCH_PART, JUMP_FLOOR};
 pub use run::{Run, Statistics};
@@ -56,6 +58,7 @@ pub fn simulate(
     motion.learn_sizes(0.0, &start);
     let mut state = motion.join(&start);
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
+    sampler.collect_extremes();
     let stopped = steps::run(&mut motion, &mut sampler, &mut state, settings.integrator, watch);
     Ok(sampler.finish(&motion, warning::step_limits(settings.integrator), stopped.err()))
 }

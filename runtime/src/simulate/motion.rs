@@ -19,7 +19,7 @@ pub const JUMP_FLOOR: f64 = 1e-6;
 /// step are put onto the constraints before they are evaluated. A stage is off the constraints by its own
 /// truncation error, which the nearly lost direction multiplies by the inverse of its singular value, twice;
 /// on the constraints the accelerations stay smooth right through a singular position.
-const PROJECTED_STAGES: f64 = 0.05;
+pub(super) const PROJECTED_STAGES: f64 = 0.05;
 
 /// Energies smaller than this [J] are noise to the step control.
 const ENERGY_FLOOR: f64 = 1e-9;

@@ -1,5 +1,6 @@
 //! What a run gives back: samples with the names of their columns, its cost and quality, turns of contacts.
 
+use super::extremes::{Extremes, Peak};
 use super::warning::RunWarning;
 use crate::description::Channel;
 use crate::error::{NoColumn, RunError};
@@ -42,6 +43,11 @@ pub struct Run {
     pub times: Vec<f64>,
     /// One row per sample, one value per channel; angles that wrap are unwrapped along time.
     pub rows: Vec<Vec<f64>>,
+    /// What every channel went through, by the integrator's steps; rows have no part in it. Of methods of fixed step,
+    /// whose steps end on the rows, rows change it as they change the steps.
+    pub extremes: Vec<Extremes>,
+    /// Peak loads of every joint that has a wrench, by the integrator's steps.
+    pub peaks: Vec<Peak>,
     /// Cost and quality.
     pub statistics: Statistics,
     /// For every full turn after settling, what every joint with clearance did in it: by turn, then by joint.
@@ -60,6 +66,14 @@ impl Run {
     pub fn column(&self, name: &str) -> Result<Vec<f64>, NoColumn> {
         let at = self.index(name)?;
         Ok(self.rows.iter().map(|row| row[at]).collect())
+    }
+
+    /// Smallest and largest value of a column between the first row and the last, by the integrator's steps.
+    ///
+    /// # Errors
+    /// As [`Self::column`].
+    pub fn range(&self, name: &str) -> Result<&Extremes, NoColumn> {
+        self.index(name).map(|at| &self.extremes[at])
     }
 
     /// Values of three columns that end in `x`, `y`, `z` after a stem, as `R1.F` or `A.`, at all samples.

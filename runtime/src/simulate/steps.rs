@@ -74,6 +74,10 @@ fn run_dopri5(
         outcome?;
         events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
         sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
+        for t in sampler.between(motion, method.before(), method.t()) {
+            method.interpolate(t, &mut between);
+            sampler.look(motion, t, &between)?;
+        }
         while let Some(t) = sampler.due_before(method.t()) {
             method.interpolate(t, &mut between);
             sampler.sample(motion, t, &mut between)?;
