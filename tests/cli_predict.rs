@@ -72,6 +72,9 @@ fn a_worn_unit_counts_from_now_and_in_the_time_asked_for() {
     assert!((number(&life["quantiles"]["p50"]) - 2.46597232).abs() < 1e-8);
     assert!((number(&life["interval95"]["lower"]) - 1.91631198).abs() < 1e-8);
     assert!((number(&life["interval95"]["upper"]) - 3.06025256).abs() < 1e-8);
+    // A file of an older program does not hold its increments.
+    assert_eq!(life["interval95"]["kind"], "plug-in");
+    assert!(life["warnings"][0].as_str().expect("a text").contains("as known"), "{}", life["warnings"]);
     let hours = linkwear(&[&common[..], &["--rate", "0.001"]].concat()).json();
     assert!((number(&hours["quantiles"]["p50"]) - 2465.97232).abs() < 1e-5);
     let drawn = linkwear(&[&common[..], &["--draws", "500", "--seed", "3"]].concat());
@@ -204,6 +207,15 @@ fn a_fit_goes_over_into_its_prediction() {
         close(&life["bands"]["quantiles"][key]["lower"], band.lower);
         close(&life["bands"]["quantiles"][key]["upper"], band.upper);
     }
+    // The interval of lives is that of the data, wider than that of the fitted law.
+    let ends = [0.025, 0.975].map(|p| closed.quantile(p).expect("a quantile"));
+    assert_eq!(life["interval95"]["kind"], "predictive");
+    assert!(number(&life["interval95"]["lower"]) < 0.97 * ends[0], "{}", life["interval95"]);
+    assert!(number(&life["interval95"]["upper"]) > 1.03 * ends[1], "{}", life["interval95"]);
+    let text = std::fs::read_to_string(&fit).expect("the fit").replacen("\"to\":", "\"till\":", 1);
+    let torn =
+        refusal(&["predict", &folder.write("torn.json", &text), "--threshold", "50", "--format", "json"]);
+    assert!(torn.0.contains("`increments`") && torn.1.is_some(), "{torn:?}");
     close(&life["mean"], closed.moments().expect("finite").mean);
     // At the median the mean wear of the closed form stands at the threshold, but for the skew of the law.
     let median = number(&life["quantiles"]["p50"]);

@@ -5,6 +5,9 @@ use std::fmt;
 
 use thiserror::Error;
 
+/// How far from a whole number of steps of the gauge increments may be, for the digits that print leaves out.
+const OFF_STEP: f64 = 1e-2;
+
 /// One reading of one unit (specimen).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
@@ -51,7 +54,7 @@ pub struct Observations {
 pub enum Gauge {
     /// Readings are exact: every increment must be positive.
     Exact,
-    /// Readings come in steps of this size: a zero increment says that wear grew by less.
+    /// Readings are the nearest multiples of this step, but for a shift of all readings of a unit.
     Resolution(f64),
     /// Readings carry random errors: any increment may be seen.
     Noisy,
@@ -146,6 +149,20 @@ pub enum DataError {
     /// Increments that are zero or negative.
     #[error("{} increment(s) of wear are not positive: {}", .0.len(), listed(.0))]
     NotIncreasing(Vec<NotIncreasing>),
+    /// Readings of a unit that do not differ by a multiple of the gauge's step.
+    #[error(
+        "row {row}: unit {unit} grew by {wear} since its reading before, no multiple of the resolution {step}"
+    )]
+    NotMultiple {
+        /// Name of the unit.
+        unit: String,
+        /// Row of the later reading.
+        row: usize,
+        /// Wear between both.
+        wear: f64,
+        /// The gauge's step.
+        step: f64,
+    },
     /// A covariate never changes, so its effect cannot be seen.
     #[error("covariate {index} is the same in all rows ({value})")]
     ConstantCovariate {
@@ -169,6 +186,7 @@ impl DataError {
             | Self::Unsorted { row, .. }
             | Self::Duplicate { row, .. }
             | Self::OneReading { row, .. }
+            | Self::NotMultiple { row, .. }
             | Self::TooFew { row, .. } => Some(*row),
             Self::Constant { first, .. } => Some(*first),
             Self::NotIncreasing(rows) => rows.first().map(|increment| increment.row),
@@ -187,6 +205,9 @@ impl DataError {
             Self::Constant { .. } => "nothing can be learnt from it: wear has to grow",
             Self::NotIncreasing(_) => {
                 "wear cannot shrink: correct the rows or leave them out; if all are zero, state the gauge's resolution"
+            }
+            Self::NotMultiple { .. } => {
+                "state the step that the readings were rounded to, in their unit; leave the resolution out if they were not"
             }
             Self::ConstantCovariate { .. } => "leave the covariate out",
         }
@@ -218,7 +239,20 @@ impl Observations {
             return Err(DataError::Constant { first, last });
         }
         own.check_growth(readings, gauge)?;
+        if let Gauge::Resolution(step) = gauge {
+            own.check_steps(step)?;
+        }
         Ok(own)
+    }
+
+    fn check_steps(&self, step: f64) -> Result<(), DataError> {
+        let off = |increment: &&Increment| {
+            let steps = increment.wear / step;
+            (steps - libm::round(steps)).abs() > OFF_STEP
+        };
+        let Some(increment) = self.increments.iter().find(off) else { return Ok(()) };
+        let (unit, wear) = (self.units[increment.unit].clone(), increment.wear);
+        Err(DataError::NotMultiple { unit, row: increment.row, wear, step })
     }
 
     fn check_growth(&self, readings: &[Reading], gauge: Gauge) -> Result<(), DataError> {
@@ -358,8 +392,10 @@ mod tests {
             text.contains("row 3 (unit a: 1 after 1)") && text.contains("row 6 (unit b: 2.5 after 3)"),
             "{text}"
         );
-        let DataError::NotIncreasing(bad) = refused(&rows, Gauge::Resolution(0.1)) else { panic!() };
+        let DataError::NotIncreasing(bad) = refused(&rows, Gauge::Resolution(0.5)) else { panic!() };
         assert_eq!(bad.len(), 1);
         assert!(Observations::new(&readings(&rows), false, Gauge::Noisy).is_ok());
+        let off = refused(&[("a", 1.0, 1.0), ("a", 2.0, 1.6)], Gauge::Resolution(0.5));
+        assert!(off.row() == Some(3) && off.to_string().contains("no multiple"), "{off}");
     }
 }

@@ -7,8 +7,11 @@ use thiserror::Error;
 
 use crate::data::Observations;
 use crate::fit::Fit;
-use crate::life::{Estimate, LifeError};
+use crate::life::{Estimate, LifeError, Sample};
 use crate::process::{PROCESSES, Process, named};
+
+/// How far parameters may be from the maximum of the increments beside them: digits lost in print, no other fit.
+const SAME_MAXIMUM: f64 = 1e-3;
 
 /// How far printed standard errors may be from the root of the variance beside them.
 const SAME: f64 = 0.01;
@@ -40,8 +43,20 @@ pub struct FitFile {
     pub exposure_unit: String,
     /// Whether it was fitted over Lambda (true) or over an exposure as it is; none: the file does not say.
     pub over_lambda: Option<bool>,
+    /// Increments it was made from: exposure before, exposure after, wear; empty in files that do not hold them.
+    pub increments: Vec<[f64; 3]>,
+    /// Step of the gauge they were read with, if they are taken as rounded.
+    pub resolution: Option<f64>,
     /// The text it was read from.
     text: String,
+}
+
+/// Increments as the file has them.
+#[derive(Serialize, Deserialize)]
+struct Columns {
+    from: Vec<f64>,
+    to: Vec<f64>,
+    wear: Vec<f64>,
 }
 
 /// A covariate of a fit.
@@ -88,6 +103,8 @@ impl FitFile {
             wear_unit: wear.to_owned(),
             exposure_unit: exposure.to_owned(),
             over_lambda: Some(over_lambda),
+            increments: observations.increments.iter().map(|one| [one.from, one.to, one.wear]).collect(),
+            resolution: fit.model.resolution,
             text: String::new(),
         }
     }
@@ -108,6 +125,7 @@ impl FitFile {
         for (name, value) in self.process.parameters().into_iter().zip(self.parameters) {
             file.insert(name.into(), json!(value));
         }
+        let column = |at: usize| self.increments.iter().map(|one| one[at]).collect();
         let more = json!({
             "exponent": self.exponent,
             "covariates": self.covariates,
@@ -118,6 +136,8 @@ impl FitFile {
             "wear_unit": self.wear_unit,
             "exposure_unit": self.exposure_unit,
             "over_lambda": self.over_lambda,
+            "resolution": self.resolution,
+            "increments": Columns { from: column(0), to: column(1), wear: column(2) },
         });
         file.extend(more.as_object().cloned().unwrap_or_default());
         Value::Object(file)
@@ -151,6 +171,8 @@ impl FitFile {
             wear_unit: text_of("wear_unit"),
             exposure_unit: text_of("exposure_unit"),
             over_lambda: value.get("over_lambda").and_then(Value::as_bool),
+            increments: reader.increments()?,
+            resolution: reader.given("resolution").map(|_| reader.positive("resolution")).transpose()?,
             text: text.to_owned(),
         })
     }
@@ -181,6 +203,7 @@ impl FitFile {
         let factors = scales.map(|scale| libm::exp(scale * ln_factor));
         let parameters = [self.parameters[0] * factors[0], self.parameters[1] * factors[1]];
         let estimate = Estimate::new(self.process, parameters, self.exponent).map_err(wrong)?;
+        let estimate = estimate.with_sample(self.sample()?);
         if self.covariance.is_empty() {
             return Ok(estimate);
         }
@@ -199,6 +222,26 @@ impl FitFile {
         };
         let covariance: Vec<Vec<f64>> = (0..kept).map(|i| (0..kept).map(|j| entry(i, j)).collect()).collect();
         estimate.with_covariance(&covariance).map_err(wrong)
+    }
+
+    fn sample(&self) -> Result<Sample, FitFileError> {
+        if self.increments.is_empty() {
+            return Ok(Sample::Unknown);
+        }
+        if self.resolution.is_some() || !self.covariates.is_empty() {
+            return Ok(Sample::Indirect);
+        }
+        if self.exponent.is_none() {
+            let exposures: Vec<f64> = self.increments.iter().map(|[from, to, _]| to - from).collect();
+            let wears: Vec<f64> = self.increments.iter().map(|[.., wear]| *wear).collect();
+            let maximum = self.process.maximum(&exposures, &wears);
+            let same = |(log, own): (&f64, &f64)| (libm::exp(*log) / own - 1.0).abs() < SAME_MAXIMUM;
+            if !maximum.is_some_and(|logs| logs.iter().zip(&self.parameters).all(same)) {
+                let message = "`increments` are not those that the parameters were estimated from";
+                return Err(self.fault("increments", message, WRITE_ONE));
+            }
+        }
+        Ok(Sample::Increments(self.increments.clone()))
     }
 
     /// Values in the order of the fit's covariates.
@@ -282,6 +325,27 @@ impl Reader<'_> {
             let message = format!("`covariates` is no list of names and coefficients: {error}");
             self.wrong("covariates", &message)
         })
+    }
+
+    fn increments(&self) -> Result<Vec<[f64; 3]>, FitFileError> {
+        let Some(given) = self.given("increments") else { return Ok(Vec::new()) };
+        let wrong = |what: &str| self.wrong("increments", &format!("`increments` {what}"));
+        let columns: Columns = serde_json::from_value(given.clone())
+            .map_err(|error| wrong(&format!("are no columns `from`, `to`, `wear`: {error}")))?;
+        let Columns { from, to, wear } = columns;
+        if from.len() != to.len() || from.len() != wear.len() {
+            return Err(wrong("have columns of different lengths"));
+        }
+        let rows: Vec<[f64; 3]> =
+            from.into_iter().zip(to).zip(wear).map(|((from, to), wear)| [from, to, wear]).collect();
+        let rises =
+            |[from, to, wear]: &[f64; 3]| *from >= 0.0 && from < to && to.is_finite() && wear.is_finite();
+        match rows.iter().position(|row| !rises(row)) {
+            Some(at) => {
+                Err(wrong(&format!("have no rising, finite exposure or no finite wear in row {}", at + 1)))
+            }
+            None => Ok(rows),
+        }
     }
 
     /// A matrix of logarithms, or of other parameters, would be taken for this one: standard errors tell.

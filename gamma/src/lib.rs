@@ -23,4 +23,4 @@ pub mod series;
 pub mod special;
 
 pub use fit_file::{Covariate, FitFile, FitFileError};
-pub use prediction::Prediction;
+pub use prediction::{IntervalKind, Prediction};

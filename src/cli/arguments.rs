@@ -292,7 +292,7 @@ pub struct FitArguments {
     /// Begin each unit at (0, 0).
     #[arg(long)]
     pub from_zero: bool,
-    /// Step of the gauge: an increment of zero then means "less than this".
+    /// Step of the gauge: readings are the nearest multiples of it; a first reading at exposure 0 is exact.
     #[arg(long, value_name = "R", value_parser = positive)]
     pub resolution: Option<f64>,
     /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.

@@ -97,7 +97,11 @@ fn to_text(answer: &Prediction) -> String {
     }
     text.push_str(&table(&["", "time", "lower 95 %", "upper 95 %"], &rows));
     let (lower, upper) = answer.interval;
-    let _ = writeln!(text, "\n95 % of lives end between {lower:.6} and {upper:.6}");
+    let _ = writeln!(
+        text,
+        "\n95 % of lives end between {lower:.6} and {upper:.6} ({})",
+        answer.interval_kind.words()
+    );
     if let (Some((moments, _)), Some(whole)) = (&answer.moments, &answer.whole) {
         let _ = writeln!(
             text,

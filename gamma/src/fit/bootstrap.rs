@@ -4,6 +4,9 @@
 //! P-values of goodness of fit come from here and not from tables: the parameters were estimated from the same data,
 //! and the tables of Kolmogorov would then call bad fits good.
 
+use rand::RngExt;
+use rand::distr::Open01;
+
 use super::estimate::{Fit, estimate_increments};
 use super::goodness::goodness;
 use super::interval::Interval;
@@ -48,18 +51,29 @@ pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: usize, seed
     drawn
 }
 
-/// One data set of the estimated process.
+/// One data set of the estimated process; with a gauge's step, of its readings.
 pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> Vec<Increment> {
     let mut stream = Stream::new(seed, replicate, 0);
     let process = fit.model.process;
+    // True wear of the unit at hand, beside its first reading.
+    let (mut level, mut before): (f64, Option<&Increment>) = (0.0, None);
     let drawn = like.iter().enumerate().map(|(at, increment)| {
         let drawn = process.draw(fit.logs(), fit.lambda(increment), stream.at(at as u64));
-        // A gauge says 0 below its step; a wear too small for a double is as small as a double gets.
         let wear = match fit.model.resolution {
-            Some(step) if drawn < step => 0.0,
-            _ if process.is_increasing() => drawn.max(f64::MIN_POSITIVE),
-            _ => drawn,
+            Some(step) => {
+                if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
+                    let free = step * (stream.sample::<f64, _>(Open01) - 0.5);
+                    level = if increment.from > 0.0 { free } else { 0.0 };
+                }
+                let last = libm::round(level / step);
+                level += drawn;
+                step * (libm::round(level / step) - last)
+            }
+            // A wear too small for a double is as small as a double gets.
+            None if process.is_increasing() => drawn.max(f64::MIN_POSITIVE),
+            None => drawn,
         };
+        before = Some(increment);
         Increment { wear, ..increment.clone() }
     });
     drawn.collect()

@@ -24,6 +24,6 @@ pub enum FitError {
     #[error("the gauge's resolution must be a positive number")]
     BadResolution,
     /// A gauge's step for a process that has no use for it.
-    #[error("only the Gamma process takes readings that do not change as less than a step of the gauge")]
+    #[error("only the Gamma process takes readings as rounded to a step of the gauge")]
     NoResolution,
 }

@@ -45,10 +45,9 @@ pub(super) fn estimate_increments(
         if step.is_nan() || step <= 0.0 {
             return Err(FitError::BadResolution);
         }
-        model.process.below_step([0.0; 2], step).ok_or(FitError::NoResolution)?;
+        model.process.mean_excess([0.0; 2], step).ok_or(FitError::NoResolution)?;
     }
-    let censored = model.resolution.is_some() && increments.iter().any(|increment| increment.wear == 0.0);
-    let (phi, point) = if model.parameters() == 2 && !censored {
+    let (phi, point) = if model.parameters() == 2 && model.resolution.is_none() {
         let lambdas: Vec<f64> = increments.iter().map(|increment| increment.to - increment.from).collect();
         let wears: Vec<f64> = increments.iter().map(|increment| increment.wear).collect();
         let phi = model.process.maximum(&lambdas, &wears).ok_or(FitError::NoScatter)?.to_vec();

@@ -1,10 +1,8 @@
 //! Goodness of fit. In: a fit and its data. Out: distances of the probability integral transform from uniform,
 //! pairs for a quantile plot, an asymptotic p-value. Exact p-values need the bootstrap.
 
-use rand::RngExt;
-use rand::distr::Open01;
-
 use super::estimate::Fit;
+use super::rounded::{Laws, transforms};
 use crate::data::Increment;
 use crate::random::Stream;
 
@@ -50,23 +48,20 @@ impl Goodness {
     }
 }
 
-/// Transforms each increment by its own law. An increment below the gauge's step is spread evenly over what it may
-/// be, with the seed's numbers.
+/// Transforms each increment by its own law; of rounded readings each by its law given those before, spread evenly over its
+/// step with the seed's numbers.
 pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     let (process, logs) = (fit.model.process, fit.logs());
     let mut stream = Stream::new(seed, u64::MAX, 0);
-    let mut seen: Vec<(f64, f64, f64)> = increments
-        .iter()
-        .map(|increment| {
-            let lambda = fit.lambda(increment);
-            let cumulative = |wear: f64| process.cumulative(logs, lambda, wear);
-            let u = match fit.model.resolution {
-                Some(step) if increment.wear == 0.0 => stream.sample::<f64, _>(Open01) * cumulative(step),
-                _ => cumulative(increment.wear),
-            };
-            (u, lambda, increment.wear)
-        })
-        .collect();
+    let transforms = match fit.model.resolution {
+        Some(step) => {
+            let logs = |one: &Increment| fit.model.logs(&fit.phi, one);
+            transforms(Laws { process, logs: &logs }, increments, step, &mut stream)
+        }
+        None => increments.iter().map(|one| process.cumulative(logs, fit.lambda(one), one.wear)).collect(),
+    };
+    let mut seen: Vec<(f64, f64, f64)> =
+        transforms.into_iter().zip(increments).map(|(u, one)| (u, fit.lambda(one), one.wear)).collect();
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     let transforms: Vec<f64> = seen.iter().map(|(u, ..)| *u).collect();
     let n = transforms.len() as f64;

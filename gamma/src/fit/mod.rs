@@ -11,6 +11,7 @@ mod goodness;
 mod interval;
 mod maximise;
 mod model;
+mod rounded;
 
 pub use bootstrap::{Bootstrap, bootstrap};
 pub use error::FitError;

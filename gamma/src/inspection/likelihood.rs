@@ -4,28 +4,29 @@
 use super::prior::Prior;
 use crate::process::Slice;
 
-/// Increments of one joint in wear and the exposures they happened between.
+/// Increments and what was known before.
 #[derive(Debug)]
 pub struct Likelihood<'a> {
-    /// Exposures at the readings, before any exponent.
-    exposures: &'a [f64],
-    wear: &'a [f64],
+    /// Exposures, before any exponent, that wear grew between, and by how much.
+    increments: &'a [[f64; 3]],
     prior: &'a Prior,
 }
 
 impl<'a> Likelihood<'a> {
-    pub fn new(exposures: &'a [f64], wear: &'a [f64], prior: &'a Prior) -> Self {
-        Self { exposures, wear, prior }
+    pub fn new(increments: &'a [[f64; 3]], prior: &'a Prior) -> Self {
+        Self { increments, prior }
     }
 
     /// All that does not change with the second parameter.
     pub fn slice(&self, ln_first: f64, ln_exponent: f64) -> Slice {
         let exponent = libm::exp(ln_exponent);
         let exposure = |e: f64| if ln_exponent == 0.0 { e } else { libm::pow(e, exponent) };
-        let pairs = self.exposures.windows(2).zip(self.wear.windows(2));
         let increments: Vec<(f64, f64)> =
-            pairs.map(|(e, w)| (exposure(e[1]) - exposure(e[0]), w[1] - w[0])).collect();
-        let slice = self.prior.process().slice(ln_first, &increments);
+            self.increments.iter().map(|[from, to, wear]| (exposure(*to) - exposure(*from), *wear)).collect();
+        let mut slice = self.prior.process().slice(ln_first, &increments);
+        if let Prior::Matching { process, .. } = self.prior {
+            slice.constant += process.ln_matching_weight(ln_first, &increments);
+        }
         // An exponent far out leaves no exposure between two readings: no probability there.
         let possible = increments.iter().all(|(exposure, _)| *exposure > 0.0 && exposure.is_finite());
         if possible && slice.constant.is_finite() && slice.peak().is_finite() {

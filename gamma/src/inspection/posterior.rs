@@ -8,7 +8,7 @@
 
 use super::credible::Mixture;
 use super::error::InspectionError;
-use super::history::History;
+use super::history::{History, Reading};
 use super::likelihood::Likelihood;
 use super::prior::Prior;
 use crate::error::LifeError;
@@ -59,10 +59,25 @@ impl Posterior {
     pub fn update(history: &History, prior: &Prior, state: &OperatingState) -> Result<Self, InspectionError> {
         let last = history.last();
         let now = state.clone().worn(last.wear, state.rate() * last.time)?;
-        let exposures: Vec<f64> =
-            history.readings().iter().map(|reading| state.rate() * reading.time).collect();
-        let wear: Vec<f64> = history.readings().iter().map(|reading| reading.wear).collect();
-        let (increments, process) = (wear.len() - 1, prior.process());
+        let between = |pair: &[Reading]| {
+            let [from, to] = [pair[0].time, pair[1].time].map(|time| state.rate() * time);
+            [from, to, pair[1].wear - pair[0].wear]
+        };
+        let increments: Vec<[f64; 3]> = history.readings().windows(2).map(between).collect();
+        Self::of_increments(&increments, prior, &now)
+    }
+
+    /// After increments of any joints of one population, each exposure before (without an exponent), exposure after, wear;
+    /// about a joint of the same population that is in state `now`.
+    ///
+    /// # Errors
+    /// [`InspectionError`].
+    pub fn of_increments(
+        increments: &[[f64; 3]],
+        prior: &Prior,
+        now: &OperatingState,
+    ) -> Result<Self, InspectionError> {
+        let (count, process) = (increments.len(), prior.process());
         let (start, size, flat) = match prior {
             Prior::Fit(fit) if !fit.is_uncertain() => {
                 let node = Node { logs: fit.logs().to_vec(), weight: 1.0, life: now.life(fit)? };
@@ -75,25 +90,25 @@ impl Posterior {
                 }
                 (fit.logs().to_vec(), size, None)
             }
-            Prior::Flat { power_law, .. } => {
+            Prior::Flat { power_law, .. } | Prior::Matching { power_law, .. } => {
                 let needed = if *power_law { 4 } else { 3 };
-                if increments + 1 < needed {
+                if count + 1 < needed {
                     let why = "with a flat prior, one more than parameters";
-                    return Err(InspectionError::TooFew { readings: increments + 1, needed, why });
+                    return Err(InspectionError::TooFew { readings: count + 1, needed, why });
                 }
-                let steps =
-                    |values: &[f64]| values.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
-                let Some([first, second]) = process.maximum(&steps(&exposures), &steps(&wear)) else {
-                    return Err(InspectionError::Proportional { readings: wear.len() });
+                let exposures: Vec<f64> = increments.iter().map(|[from, to, _]| to - from).collect();
+                let wear: Vec<f64> = increments.iter().map(|[.., wear]| *wear).collect();
+                let Some([first, second]) = process.maximum(&exposures, &wear) else {
+                    return Err(InspectionError::Proportional { readings: count + 1 });
                 };
-                (vec![first, second, 0.0], if *power_law { 3 } else { 2 }, Some(increments))
+                (vec![first, second, 0.0], if *power_law { 3 } else { 2 }, Some(count))
             }
         };
-        let lines = Lines { likelihood: Likelihood::new(&exposures, &wear, prior), start };
+        let lines = Lines { likelihood: Likelihood::new(increments, prior), start };
         let Some(points) = lines.points(size) else {
-            return Err(InspectionError::Proportional { readings: wear.len() });
+            return Err(InspectionError::Proportional { readings: count + 1 });
         };
-        Ok(Self { process, nodes: weighed(points, process, &now)?, flat })
+        Ok(Self { process, nodes: weighed(points, process, now)?, flat })
     }
 
     /// Nodes of the quadrature.

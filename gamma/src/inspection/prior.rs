@@ -14,6 +14,14 @@ pub enum Prior {
         /// Whether exposure counts by an unknown power; else as it is.
         power_law: bool,
     },
+    /// Nothing, as [`Prior::Flat`], but weighed by [`Process::ln_matching_weight`] so that intervals of lives cover as often in
+    /// repeated sampling as they say.
+    Matching {
+        /// The process.
+        process: &'static dyn Process,
+        /// Whether exposure counts by an unknown power; else as it is.
+        power_law: bool,
+    },
     /// An estimate from other units of the same population: normal in the logarithms of its parameters. Without
     /// covariance the parameters are known, and readings say only where wear is.
     Fit(Estimate),
@@ -23,7 +31,7 @@ impl Prior {
     /// The process of the joint.
     pub fn process(&self) -> &'static dyn Process {
         match self {
-            Self::Flat { process, .. } => *process,
+            Self::Flat { process, .. } | Self::Matching { process, .. } => *process,
             Self::Fit(fit) => fit.process(),
         }
     }
@@ -31,7 +39,9 @@ impl Prior {
     /// ln of the density in the logarithms of parameters and exponent, not normalised.
     pub(super) fn ln_density(&self, logs: &[f64]) -> f64 {
         match self {
-            Self::Flat { process, .. } => process.flat_prior_power() * logs[0],
+            Self::Flat { process, .. } | Self::Matching { process, .. } => {
+                process.flat_prior_power() * logs[0]
+            }
             Self::Fit(fit) => {
                 let off: Vec<f64> = fit.logs().iter().zip(logs).map(|(mean, log)| log - mean).collect();
                 fit.factor().distance(&off).map_or(f64::NEG_INFINITY, |square| -0.5 * square)

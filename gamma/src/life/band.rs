@@ -60,6 +60,58 @@ pub struct Bands<'a> {
     drawn: Vec<FirstPassage>,
 }
 
+/// Laws of life at drawn parameters.
+fn drawn_lives(
+    estimate: &Estimate,
+    state: &OperatingState,
+    count: usize,
+    seed: u64,
+) -> Result<Vec<FirstPassage>, LifeError> {
+    // One stream for each draw, the joint 0: more draws leave the first ones as they are.
+    let at = |at: usize| {
+        let logs = estimate.drawn_logs(&mut Stream::new(seed, at as u64, 0));
+        state.life_at(estimate.process(), &logs)
+    };
+    (0..count).map(at).collect()
+}
+
+/// The law of a life when the logarithms of the parameters are normal, by drawn parameters of equal weight.
+#[derive(Debug)]
+pub struct NormalMixture {
+    lives: Vec<FirstPassage>,
+    typical: f64,
+}
+
+impl NormalMixture {
+    /// Of `count` draws by a seed of its own.
+    ///
+    /// # Errors
+    /// [`LifeError`] if drawn parameters leave the range of numbers.
+    pub fn new(estimate: &Estimate, state: &OperatingState, count: usize) -> Result<Self, LifeError> {
+        const SEED: u64 = 0;
+        let typical = state.life(estimate)?.typical();
+        Ok(Self { lives: drawn_lives(estimate, state, count, SEED)?, typical })
+    }
+
+    fn mean(&self, of: impl Fn(&FirstPassage) -> f64) -> f64 {
+        self.lives.iter().map(of).sum::<f64>() / self.lives.len() as f64
+    }
+}
+
+impl Lifetime for NormalMixture {
+    fn reliability(&self, t: f64) -> f64 {
+        self.mean(|life| life.reliability(t))
+    }
+
+    fn failed(&self, t: f64) -> f64 {
+        self.mean(|life| life.failed(t))
+    }
+
+    fn typical(&self) -> f64 {
+        self.typical
+    }
+}
+
 /// The scale on which a value is unbounded.
 #[derive(Clone, Copy)]
 enum Scale {
@@ -98,15 +150,7 @@ impl<'a> Bands<'a> {
         let life = state.life(estimate)?;
         let drawn = match method {
             Method::Delta => Vec::new(),
-            Method::Draws { count, seed } => {
-                // One stream for each draw, the joint 0: more draws leave the first ones as they are.
-                let mut lives = Vec::with_capacity(count);
-                for at in 0..count {
-                    let logs = estimate.drawn_logs(&mut Stream::new(seed, at as u64, 0));
-                    lives.push(state.life_at(estimate.process(), &logs)?);
-                }
-                lives
-            }
+            Method::Draws { count, seed } => drawn_lives(estimate, state, count, seed)?,
         };
         Ok(Self { estimate, state, life, z, level, drawn })
     }

@@ -8,6 +8,19 @@ use crate::matrix::Factor;
 use crate::process::Process;
 use crate::random::{StandardNormal, Stream};
 
+/// What is known of the data an estimate was made from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Sample {
+    /// Nothing.
+    #[default]
+    Unknown,
+    /// Increments: exposure before (without an exponent), exposure after, wear.
+    Increments(Vec<[f64; 3]>),
+    /// There were data, but their law is not that of the process alone (covariates, a gauge's step): the covariance has to
+    /// stand for them.
+    Indirect,
+}
+
 /// The parameters of a process and perhaps the exponent of exposure, with the covariance of their logarithms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
@@ -16,6 +29,7 @@ pub struct Estimate {
     logs: Vec<f64>,
     /// Of the covariance of `logs`; empty if the parameters are taken as known.
     factor: Factor,
+    sample: Sample,
 }
 
 impl Estimate {
@@ -36,7 +50,7 @@ impl Estimate {
         if let Some(exponent) = exponent {
             logs.push(libm::log(positive("the exponent", exponent)?));
         }
-        Ok(Self { process, logs, factor: Factor::default() })
+        Ok(Self { process, logs, factor: Factor::default(), sample: Sample::Unknown })
     }
 
     /// With the covariance of the parameters themselves, as a fit prints it. It is taken over to the logarithms to first
@@ -67,6 +81,17 @@ impl Estimate {
         self.factor =
             Factor::covariance(covariance, size).map_err(|reason| LifeError::Covariance { reason, size })?;
         Ok(self)
+    }
+
+    /// With the data it was made from.
+    #[must_use]
+    pub fn with_sample(self, sample: Sample) -> Self {
+        Self { sample, ..self }
+    }
+
+    /// The data it was made from.
+    pub fn sample(&self) -> &Sample {
+        &self.sample
     }
 
     /// The process.

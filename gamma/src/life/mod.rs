@@ -16,10 +16,10 @@ mod state;
 mod statistics;
 
 pub use crate::error::LifeError;
-pub use band::{Band, Bands, Method};
+pub use band::{Band, Bands, Method, NormalMixture};
 pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
-pub use estimate::Estimate;
+pub use estimate::{Estimate, Sample};
 pub use first_passage::FirstPassage;
 pub use law::Law;
 pub(crate) use lifetime::mixed_hazard;

@@ -33,9 +33,9 @@ pub trait Process: Debug + Sync {
     /// ln density of an increment over exposure 1, with derivatives by `logs`.
     fn density(&self, logs: [f64; 2], wear: f64) -> Term;
 
-    /// ln of the probability that an increment over exposure 1 is below a gauge's step, with derivatives; None where a
-    /// reading that does not change says something else.
-    fn below_step(&self, _logs: [f64; 2], _step: f64) -> Option<Term> {
+    /// Means of what an increment over exposure 1 is below and above `wear`: the integrals of its distribution function up to there
+    /// and of its complement from there on; None where readings rounded to a gauge's step cannot be taken as such.
+    fn mean_excess(&self, _logs: [f64; 2], _wear: f64) -> Option<[f64; 2]> {
         None
     }
 
@@ -50,6 +50,12 @@ pub trait Process: Debug + Sync {
     /// Power of the first parameter that a prior without information is proportional to, in its logarithm and that of
     /// the second: the posterior of few readings is proper.
     fn flat_prior_power(&self) -> f64 {
+        0.0
+    }
+
+    /// ln of what a flat prior is weighed by, at the logarithm of the first parameter, so that intervals predicted from
+    /// increments (exposure, wear) match those of repeated sampling.
+    fn ln_matching_weight(&self, _ln_first: f64, _increments: &[(f64, f64)]) -> f64 {
         0.0
     }
 

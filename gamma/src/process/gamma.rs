@@ -6,12 +6,18 @@ use rand::RngExt;
 use super::definition::{Process, Slice, Term, scatters};
 use crate::random::{LnGamma, Stream};
 use crate::special::{
-    digamma, gamma_p, gamma_q, gamma_quantile, guarded, ln_gamma, ln_gamma_p_of_ln, ln_gamma_p_slope,
-    tetragamma, trigamma,
+    digamma, gamma_p, gamma_q, gamma_quantile, guarded, ln_gamma, ln_gamma_p_slope, tetragamma, trigamma,
 };
 
 /// Steps of Newton's method; 5 to 15 are usual.
 const MOST_STEPS: usize = 200;
+
+/// Power of the weight of the matching prior. 1/2 would be the reference prior of the shape; of so few increments as four of
+/// shape 0.3 its intervals hold 93 % of lives, with 2 they hold 94 to 96 %. Large shapes need no weight and get none: there flat
+/// is exact.
+const MATCHING: f64 = 2.0;
+/// Shape from which on the weight of the matching prior is its limit to 1e-6 of itself, and its difference loses digits.
+const MATCHED: f64 = 1e6;
 
 /// Parameters: alpha, the shape per unit of exposure, and beta, the rate [1 / unit of wear].
 #[derive(Clone, Copy, Debug)]
@@ -52,20 +58,14 @@ impl Process for Gamma {
         }
     }
 
-    /// The derivative of P in its shape has no closed form: central differences of order 4. With ln P good to 1e-15
-    /// they are good to 1e-12 and 1e-8, ample for Newton's method and for standard errors.
-    fn below_step(&self, [eta, ln_beta]: [f64; 2], step: f64) -> Option<Term> {
-        const H: f64 = 1e-3;
-        let ln_x = ln_beta + libm::log(step);
-        let at = |step: f64| ln_gamma_p_of_ln(libm::exp(eta + step), ln_x);
-        let (value, a) = (at(0.0), libm::exp(eta));
-        let (up, down, up_2, down_2) = (at(H), at(-H), at(2.0 * H), at(-2.0 * H));
-        let slope = (8.0 * (up - down) - (up_2 - down_2)) / (12.0 * H);
-        let bend = (16.0 * (up + down) - 30.0 * value - (up_2 + down_2)) / (12.0 * H * H);
-        let x = libm::exp(ln_x);
-        let rate = libm::exp(a * ln_x - x - ln_gamma(a) - value);
-        let mixed = rate * (a * (ln_x - digamma(a)) - slope);
-        Some(Term { value, gradient: [slope, rate], hessian: [bend, mixed, rate * (a - x - rate)] })
+    fn mean_excess(&self, logs: [f64; 2], wear: f64) -> Option<[f64; 2]> {
+        let [shape, beta] = logs.map(libm::exp);
+        let (mean, x) = (shape / beta, beta * wear);
+        if wear <= 0.0 {
+            return Some([0.0, mean - wear]);
+        }
+        let lower = wear * gamma_p(shape, x) - mean * gamma_p(shape + 1.0, x);
+        Some([lower, mean * gamma_q(shape + 1.0, x) - wear * gamma_q(shape, x)])
     }
 
     fn slice(&self, ln_alpha: f64, increments: &[(f64, f64)]) -> Slice {
@@ -108,6 +108,15 @@ impl Process for Gamma {
             }
         }
         Some([0, 1].map(|r: usize| inverse[r][0] * contracted[0] + inverse[r][1] * contracted[1]))
+    }
+
+    fn ln_matching_weight(&self, ln_alpha: f64, increments: &[(f64, f64)]) -> f64 {
+        let alpha = libm::exp(ln_alpha);
+        let of_shape = |(exposure, _): &(f64, f64)| {
+            let shape = alpha * exposure;
+            if shape < MATCHED { shape * shape * trigamma(shape) - shape } else { 0.5 }
+        };
+        MATCHING * libm::log(increments.iter().map(of_shape).sum::<f64>() / increments.len() as f64)
     }
 
     /// S(t) falls as t^-(increments - 1).
