@@ -133,7 +133,9 @@ mod tests {
     #[test]
     fn numbers_read_back_to_the_same_bits() {
         let values = vec![0.1, -0.0, 1.0 / 3.0, 5e-324, -1.797_693_134_862_315_7e308, 1e-5, 123_456_789.25];
-        let run = Run { times: vec![0.5], rows: vec![values.clone()], ..Run::default() };
+        let channel = |_: &f64| Channel { name: "x".into(), unit: "1".into(), wraps: false };
+        let channels = values.iter().map(channel).collect();
+        let run = Run { channels, times: vec![0.5], rows: vec![values.clone()], ..Run::default() };
         let mut text = Vec::new();
         write_csv(&mut text, &run.table()).expect("a vector takes every byte");
         let text = String::from_utf8(text).expect("numbers are ASCII");
