@@ -58,6 +58,17 @@ pub fn claim_folder(path: &Path) -> Result<(), WriteError> {
     }
 }
 
+/// Puts the names in a folder on the disk, where the system can.
+///
+/// # Errors
+/// If the disk fails.
+pub fn sync_folder(path: &Path) -> Result<(), WriteError> {
+    if cfg!(unix) {
+        File::open(path).and_then(|folder| folder.sync_all()).map_err(WriteError::of(path))?;
+    }
+    Ok(())
+}
+
 /// Writes a file that is there whole or not at all: `fill` writes beside it, then it is renamed.
 ///
 /// # Errors

@@ -2,10 +2,12 @@
 //! Never knows what is done with it.
 
 use std::path::{Path, PathBuf};
-use std::{fs, io};
+use std::{fmt, fs, io};
 
+use hmac_sha256::Hash;
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile};
 use linkwear_runtime::{Description, System};
+use serde_json::{Map, Value, json};
 use thiserror::Error;
 
 use crate::backend::{Backend, BackendError, Equations};
@@ -40,6 +42,8 @@ pub struct Mechanism {
     pub parameters: Vec<f64>,
     /// Remarks on the file, with their places.
     pub warnings: Diagnostics,
+    /// What its equations are from: hashes of the file and of its tapes, where it was compiled from one.
+    origin: [String; 2],
     equations: Equations,
 }
 
@@ -60,19 +64,36 @@ impl Mechanism {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
         let equations = Equations::choose(&compiled, options, backend)?;
         let warnings = located_warnings(&compiled);
-        Ok(Self { warnings, ..Self::new(compiled.description().clone(), equations) })
+        let origin = [source.sha256(), sha256(&compiled.tapes)];
+        Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 
     /// A shipped mechanism by its name; none if there is no such.
     pub fn shipped(name: &str) -> Option<Self> {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name)?;
-        Some(Self::new((shipped.description)().clone(), Equations::compiled(shipped.system)))
+        let mechanism = Self::new((shipped.description)().clone(), Equations::compiled(shipped.system));
+        Some(Self { origin: [shipped.source_sha256.to_owned(), String::new()], ..mechanism })
     }
 
     /// A mechanism that a program compiled in, every parameter at its default.
     pub fn new(description: Description, equations: Equations) -> Self {
         let parameters = description.parameters.iter().map(|parameter| parameter.default).collect();
-        Self { description, parameters, warnings: Diagnostics::default(), equations }
+        let origin = [const { String::new() }; 2];
+        Self { description, parameters, warnings: Diagnostics::default(), origin, equations }
+    }
+
+    /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
+    pub(crate) fn identity(&self) -> Map<String, Value> {
+        let [file, tapes] = &self.origin;
+        let parameters = self.description.parameters.iter().zip(&self.parameters);
+        let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
+        let mut entries = Map::new();
+        entries.insert("the version of linkwear".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+        entries.insert("the hash of the file".to_owned(), json!(file));
+        entries.extend(parameters);
+        entries.insert("the hash of the equations".to_owned(), json!(tapes));
+        entries.insert("the hash of the laws and names".to_owned(), json!(sha256(&self.description)));
+        entries
     }
 
     /// Its equations, for one thread.
@@ -84,6 +105,20 @@ impl Mechanism {
     pub fn backend(&self) -> &'static str {
         self.equations.name()
     }
+}
+
+/// SHA-256 of all that a value says of itself.
+fn sha256(value: &impl fmt::Debug) -> String {
+    struct Sink(Hash);
+    impl fmt::Write for Sink {
+        fn write_str(&mut self, text: &str) -> fmt::Result {
+            self.0.update(text.as_bytes());
+            Ok(())
+        }
+    }
+    let mut sink = Sink(Hash::new());
+    let _ = fmt::write(&mut sink, format_args!("{value:?}"));
+    sink.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The text of a mechanism's file.

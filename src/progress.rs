@@ -1,24 +1,46 @@
-//! How far a long run is: a bar on a terminal, plain lines elsewhere, always on stderr; and Ctrl-C.
+//! How far a long run is: a bar on a terminal, plain lines elsewhere, always on stderr; and Ctrl-C with its
+//! like, SIGTERM and SIGHUP.
 
 use std::io::{IsTerminal, stderr};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use linkwear_runtime::Watch;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 
-static STOP: AtomicBool = AtomicBool::new(false);
+static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| {
+    let stop = Arc::new(AtomicBool::new(false));
+    let hang_up = (!ignores_hang_up()).then_some(HANG_UP).flatten();
+    for signal in [SIGINT, SIGTERM].into_iter().chain(hang_up) {
+        // In this order: the second one of them ends the process. A system that refuses ends it by the first.
+        let _ = flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop))
+            .and_then(|_| flag::register(signal, Arc::clone(&stop)));
+    }
+    stop
+});
 
-/// Does long work under a watch that shows a bar and stops it at Ctrl-C; a second Ctrl-C ends the process.
+/// The terminal has gone.
+#[cfg(unix)]
+const HANG_UP: Option<i32> = Some(signal_hook::consts::SIGHUP);
+#[cfg(not(unix))]
+const HANG_UP: Option<i32> = None;
+
+/// Whether the run was started to outlive its terminal (`nohup`): the first bit of the ignored signals.
+fn ignores_hang_up() -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let bits = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    bits.is_some_and(|bits| bits & 1 == 1)
+}
+
+/// Does long work under a watch that shows a bar and stops it at Ctrl-C, SIGTERM or SIGHUP; a second one of them ends
+/// the process.
 pub fn watched<T>(work: impl FnOnce(Watch<'_>) -> T) -> T {
-    // It fails only if a handler is set already: then that one serves.
-    let _ = ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(1);
-        }
-    });
+    LazyLock::force(&STOP);
     let progress = Mutex::new(Progress::new());
     let result = work(Watch::new(&|part| {
         progress.lock().unwrap_or_else(PoisonError::into_inner).set(part);
@@ -28,12 +50,12 @@ pub fn watched<T>(work: impl FnOnce(Watch<'_>) -> T) -> T {
     result
 }
 
-/// What a [`Watch`] without a bar calls: goes on until Ctrl-C.
+/// What a [`Watch`] without a bar calls: goes on until Ctrl-C or its like.
 pub fn go_on(_: f64) -> ControlFlow<()> {
     if stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
-/// Whether Ctrl-C was pressed.
+/// Whether Ctrl-C was pressed, or the system asked to end.
 pub fn stop_requested() -> bool {
     STOP.load(Ordering::Relaxed)
 }

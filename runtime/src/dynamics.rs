@@ -112,6 +112,19 @@ impl<'a> Dynamics<'a> {
         }
     }
 
+    /// As [`Evaluator::visit_memory`], of all that it stands on too.
+    pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.evaluator.visit_memory(visit);
+        self.solver.visit_memory(visit);
+        let numbers = self.largest_pivots.iter_mut().chain(&mut self.reference);
+        numbers.chain([&mut self.nearness]).for_each(&mut *visit);
+        // No number of JSON says that there is none: a flag before the time.
+        let (mut flag, mut time) = self.reference_time.map_or((0.0, 0.0), |time| (1.0, time));
+        visit(&mut flag);
+        visit(&mut time);
+        self.reference_time = (flag != 0.0).then_some(time);
+    }
+
     fn regularity(&mut self) -> f64 {
         let pivots = self.evaluator.last_forward().pivots;
         let mut smallest = 1.0;

@@ -80,6 +80,11 @@ impl<'a> DynamicsSource<'a> {
         self.wearing.iter().filter_map(of).collect()
     }
 
+    /// Goes on after measurements of another source, which doubted this: it is not told again.
+    pub fn known(&mut self, warnings: &[RunWarning]) {
+        self.warnings = warnings.to_vec();
+    }
+
     /// What was doubtful in the runs so far, the first of each kind.
     pub fn warnings(&self) -> &[RunWarning] {
         &self.warnings

@@ -229,6 +229,11 @@ impl<'a> Evaluator<'a> {
         &self.row_scales
     }
 
+    /// Passes all numbers that an answer can depend on besides its question, to be read or written.
+    pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.row_lengths.iter_mut().chain(&mut self.row_scales).for_each(visit);
+    }
+
     fn note_row_lengths(&mut self) {
         let n = self.sizes.speeds.max(1);
         let first = self.sizes.all_rows + self.sizes.rows;

@@ -62,6 +62,11 @@ pub struct SingularSolver {
 }
 
 impl SingularSolver {
+    /// As [`Evaluator::visit_memory`].
+    pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.lengths.iter_mut().for_each(visit);
+    }
+
     /// Storage for the evaluator's mechanism.
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let sizes = evaluator.sizes();

@@ -59,6 +59,7 @@ fn a_trajectory_between_two_turns_comes_back() {
         q: vec![1e-300, -0.0],
         v: vec![0.1],
         joints: vec![worn, ClearanceState::unworn()],
+        memory: vec![1.0 / 3.0, 0.0],
     };
     let text = serde_json::to_string(&state).unwrap();
     assert_eq!(serde_json::from_str::<TurnState>(&text).unwrap(), state);

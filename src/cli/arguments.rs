@@ -206,9 +206,13 @@ pub struct LifeArguments {
     /// Revolutions to average; a motion that chatters needs 20 or more.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub average: u32,
-    /// Folder for life.json, cycles.csv and lives.csv; must be new or empty.
+    /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Go on with the run that was interrupted in --out, to the same bits as if it had not been; with more
+    /// --trajectories, extend it.
+    #[arg(long, requires = "out")]
+    pub resume: bool,
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T")]
     pub threads: Option<NonZero<usize>>,

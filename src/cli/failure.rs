@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use linkwear::files::{WriteError, print};
+use linkwear::life::JournalError;
 use linkwear::mechanism::LoadError;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
 use linkwear_gamma::FitFileError;
@@ -97,6 +98,29 @@ impl Failure {
     /// A life could not be lived to its end.
     pub fn life(file: &Path, message: impl Display, help: impl Display, cycles: Option<Answer>) -> Self {
         Self { cycles: cycles.map(Box::new), ..Self::new("C0010", Some(file), message, help) }
+    }
+
+    /// A run that was interrupted cannot be gone on with.
+    pub fn journal(error: JournalError) -> Self {
+        let (file, help) = match &error {
+            JournalError::Write(WriteError::Exists(folder)) => {
+                let help = "choose another folder, or go on with the run that is there by --resume";
+                return Self::new("C0004", Some(folder), &error, help);
+            }
+            JournalError::Write(WriteError::System { file, .. }) => {
+                let help =
+                    "what was finished before is kept; make room or choose another folder, then --resume";
+                return Self::new("C0003", Some(file), &error, help);
+            }
+            JournalError::InUse(file) => (file, "wait for its end, or choose another --out"),
+            JournalError::Damaged { file, .. } => {
+                (file, "nothing was changed; take the file from a copy, or begin again with another --out")
+            }
+            JournalError::OtherRun { file, .. } => {
+                (file, "give the file and the options of that run, or another --out")
+            }
+        };
+        Self::new("C0013", Some(file), &error, help)
     }
 
     /// A file with data or results is wrong; at a line, counted from 1, if the fault has a place.

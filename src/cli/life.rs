@@ -7,8 +7,7 @@ mod output;
 
 use std::path::Path;
 
-use linkwear::files::claim_folder;
-use linkwear::life::{Cause, LifeError, LifeStudy, Trajectories};
+use linkwear::life::{Cause, Journal, LifeError, LifeStudy, Trajectories};
 use linkwear::progress::watched;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 
@@ -21,7 +20,8 @@ use super::input::load_mechanism;
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let folder = arguments.out.as_deref();
-    folder.map(claim_folder).transpose()?;
+    let open = if arguments.resume { Journal::resume } else { Journal::create };
+    let journal = folder.map(open).transpose().map_err(Failure::journal)?;
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
@@ -42,7 +42,10 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
         shared_factor: arguments.shared_factor,
         ..LifeStudy::new(&mechanism)
     };
-    let lived = watched(|watch| study.run_watched(watch));
+    let lived = watched(|watch| match &journal {
+        Some(journal) => study.run_kept(journal, watch),
+        None => study.run_watched(watch),
+    });
     let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
     life.warnings.extend(warnings);
     let answer = output::answer(&study, &life);
@@ -50,9 +53,15 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     Ok(answer)
 }
 
-/// What to do about an error; the cycles completed before go into the folder, else on stdout with the error.
-fn failed(file: &Path, LifeError { cause, joints, cycles }: LifeError, folder: Option<&Path>) -> Failure {
-    let help = match &cause {
+/// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
+/// the error.
+fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
+    let LifeError { cause, joints, cycles, lives } = error;
+    let cause = *cause;
+    if let Cause::Journal(error) = cause {
+        return Failure::journal(error);
+    }
+    let mut help = match &cause {
         Cause::NoRandomLives => {
             let message = "--shared-factor spreads random lives, and none are asked for";
             let help = "add --trajectories 16; with full coupling every life costs a run of the dynamics";
@@ -67,7 +76,7 @@ fn failed(file: &Path, LifeError { cause, joints, cycles }: LifeError, folder: O
              --fit and --shared-factor out"
         ),
         _ if cycles.is_empty() => String::new(),
-        _ => match folder.map(|folder| folder::write_cycles(folder, &joints, &cycles)).transpose() {
+        _ => match folder.map(|folder| folder::write_parts(folder, &joints, (&cycles, &lives))).transpose() {
             Err(error) => return error.into(),
             Ok(Some(path)) => {
                 format!("{} cycles were completed before; they are in `{}`", cycles.len(), path.display())
@@ -75,6 +84,13 @@ fn failed(file: &Path, LifeError { cause, joints, cycles }: LifeError, folder: O
             Ok(None) => format!("{} cycles were completed before", cycles.len()),
         },
     };
+    if matches!(cause, Cause::Interrupted { .. }) {
+        help.push_str(if help.is_empty() { "" } else { "; " });
+        help.push_str(match folder {
+            Some(_) => "the same command with --resume goes on from there",
+            None => "with --out DIR it could go on by --resume",
+        });
+    }
     let is_kept = folder.is_some() || cycles.is_empty();
     Failure::life(file, &cause, help, (!is_kept).then(|| output::cycles(&joints, &cycles)))
 }

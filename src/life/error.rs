@@ -4,20 +4,24 @@ use std::error::Error as StdError;
 
 use linkwear_gamma::life::LifeError as LawError;
 use linkwear_runtime::RunError;
-use linkwear_runtime::life::{CycleRecord, SettingsError};
+use linkwear_runtime::life::{CycleRecord, FailureEvent, SettingsError};
 use thiserror::Error;
 
-/// A life that was not lived to its end, with the cycles of the mean path that were completed.
+use super::journal::JournalError;
+
+/// A life that was not lived to its end, with the cycles of the mean path and the random lives that were completed.
 #[derive(Debug, Error)]
 #[error("{cause}")]
 pub struct LifeError {
     /// Why.
     #[source]
-    pub cause: Cause,
+    pub cause: Box<Cause>,
     /// Names of the wearing joints, in the order of the cycles' entries.
     pub joints: Vec<String>,
     /// Completed cycles.
     pub cycles: Vec<CycleRecord>,
+    /// Random lives that were finished, by their numbers.
+    pub lives: Vec<(u64, FailureEvent)>,
 }
 
 /// Why a life was not lived to its end.
@@ -58,6 +62,9 @@ pub enum Cause {
     /// A number of a wearing joint is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// Its journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
     /// The mechanism cannot be run.
     #[error(transparent)]
     Run(RunError),
@@ -100,7 +107,7 @@ fn within(trajectory: Option<u64>, lives: Option<(usize, u64)>) -> String {
 impl From<Cause> for LifeError {
     /// Before the first cycle.
     fn from(cause: Cause) -> Self {
-        Self { cause, joints: Vec::new(), cycles: Vec::new() }
+        Self { cause: Box::new(cause), joints: Vec::new(), cycles: Vec::new(), lives: Vec::new() }
     }
 }
 

@@ -1,18 +1,22 @@
 //! The life of a mechanism whose joints wear: one mean path, random lives by their Gamma processes, statistics with
-//! errors. In: a [`Mechanism`](crate::mechanism::Mechanism). Out: [`LifeResult`]. Never touches files or terminals.
+//! errors. In: a [`Mechanism`](crate::mechanism::Mechanism). Out: [`LifeResult`]. Never touches terminals, and no file but its
+//! [`Journal`].
 //!
 //! [`LifeStudy::new`] has the defaults of `linkwear life`; change its fields to ask for something else, then
 //! [`LifeStudy::run`].
 
 mod error;
 mod fit;
+mod journal;
 mod process;
 mod result;
 mod run;
+mod source;
 mod study;
 
 pub use error::{Cause, LifeError};
 pub use fit::{JointFit, UnfitForLife};
+pub use journal::{Journal, JournalError};
 pub use process::JointProcess;
 pub use result::LifeResult;
 pub use study::{Coupling, LifeStudy, Trajectories};

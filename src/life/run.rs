@@ -4,6 +4,7 @@
 use std::convert::Infallible;
 use std::error::Error as StdError;
 use std::num::NonZero;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::available_parallelism;
 
@@ -15,14 +16,19 @@ use linkwear_runtime::life::{
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
 use super::error::{Cause, LifeError};
+use super::journal::{Batch, Journal, KnownLives};
 use super::process::Process;
 use super::result::LifeResult;
+use super::source::KeptSource;
 use super::study::{Coupling, LifeStudy};
 
 /// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
 /// numbers, so few are enough; with the dynamics at every step each is dear.
 const SHIFTED_BY_TABLE: u64 = 200;
 const SHIFTED_BY_DYNAMICS: u64 = 4;
+
+/// Ends of lives by their numbers.
+type Numbered = Vec<(u64, FailureEvent)>;
 
 /// Runs with a source of wear that was made for it.
 type Body<'b> = &'b mut dyn FnMut(&mut dyn WearSource<State = Option<TurnState>, Error = RunError>);
@@ -42,20 +48,46 @@ impl LifeStudy<'_> {
     /// # Errors
     /// As [`Self::run`], and [`Cause::Interrupted`].
     pub fn run_watched(&self, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+        self.run_with(None, watch)
+    }
+
+    /// As [`Self::run_watched`], going on from what a journal has, with the same bits as a run that was never
+    /// interrupted. The journal keeps every measurement and every random life as soon as it is finished. More
+    /// random lives than those of the run before go on from it; everything else that decides numbers must be the same.
+    ///
+    /// # Errors
+    /// As [`Self::run_watched`], and [`Cause::Journal`].
+    pub fn run_kept(&self, journal: &Journal, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+        let result = self.run_with(Some(journal), watch);
+        match (journal.failure(), result) {
+            (Some(error), Err(stopped)) => Err(LifeError { cause: Box::new(error.into()), ..stopped }),
+            (Some(error), Ok(_)) => Err(Cause::from(error).into()),
+            (None, result) => result,
+        }
+    }
+
+    fn run_with(&self, journal: Option<&Journal>, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+        let may_go_on = |flow: ControlFlow<()>| {
+            if journal.is_some_and(Journal::has_failed) { ControlFlow::Break(()) } else { flow }
+        };
         let last = AtomicU64::new(0.0_f64.to_bits());
         let tell = |part: f64| {
             last.store(part.to_bits(), Ordering::Relaxed);
-            watch.report(part)
+            may_go_on(watch.report(part))
         };
         // Within a revolution and along a table nothing is told, and the watch may stop all the same.
-        let ask = |_: f64| watch.report(f64::from_bits(last.load(Ordering::Relaxed)));
+        let ask = |_: f64| may_go_on(watch.report(f64::from_bits(last.load(Ordering::Relaxed))));
         let (watch, silent) = (Watch::new(&tell), Watch::new(&ask));
         if !self.mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
             return Err(Cause::NoWear.into());
         }
         let system = self.mechanism.system();
-        let mut source = self.source(&*system, silent).map_err(Cause::from)?;
-        let plan = Plan::new(self, &source, (watch, silent))?;
+        let source = self.source(&*system, silent).map_err(Cause::from)?;
+        let plan = Plan::new(self, &source, journal, (watch, silent))?;
+        if let Some(journal) = journal {
+            journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
+        }
+        let mut source = KeptSource::new(source, journal);
         let mut result = match plan.coupling {
             Coupling::Table => plan.by_table(&mut source),
             Coupling::Full => plan.by_dynamics(&mut source),
@@ -81,6 +113,7 @@ struct Plan<'s> {
     settings: LifeSettings,
     coupling: Coupling,
     process: Option<Process>,
+    journal: Option<&'s Journal>,
     /// Random lives; none for the mean path alone.
     trajectories: Option<u64>,
     threads: NonZero<usize>,
@@ -93,6 +126,7 @@ impl<'s> Plan<'s> {
     fn new(
         study: &'s LifeStudy<'s>,
         source: &DynamicsSource<'_>,
+        journal: Option<&'s Journal>,
         (watch, silent): (Watch<'s>, Watch<'s>),
     ) -> Result<Self, Cause> {
         let mut settings = LifeSettings::new(source.joints()?);
@@ -112,12 +146,12 @@ impl<'s> Plan<'s> {
             return Err(Cause::NoRandomLives);
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
-        Ok(Self { study, settings, coupling, process, trajectories, threads, watch, silent })
+        Ok(Self { study, settings, coupling, process, journal, trajectories, threads, watch, silent })
     }
 
-    fn by_table(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
+    fn by_table(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
-        let mut table = measured.map_err(|error| self.error(cause(error, None), &[]))?;
+        let mut table = measured.map_err(|error| self.error(self.cause(error, None), &[]))?;
         let mut result = self.mean_path(&mut table, self.silent)?;
         self.draw(&mut result, &|body| {
             body(&mut table.clone());
@@ -128,7 +162,7 @@ impl<'s> Plan<'s> {
         Ok(result)
     }
 
-    fn by_dynamics(&self, source: &mut DynamicsSource<'_>) -> Result<LifeResult, LifeError> {
+    fn by_dynamics(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         let mut result = self.mean_path(source, self.watch)?;
         self.draw(&mut result, &|body: Body<'_>| {
             let system = self.study.mechanism.system();
@@ -154,7 +188,7 @@ impl<'s> Plan<'s> {
             Ok(LifeOutcome::CycleLimit) => {
                 Err(Cause::CycleLimit { trajectory: None, cycles: self.settings.most_cycles })
             }
-            Err(error) => Err(cause(error, None)),
+            Err(error) => Err(self.cause(error, None)),
         };
         let end = end.map_err(|cause| self.error(cause, &state.cycles))?;
         let name = |joint: usize| &self.settings.joints[joint].joint;
@@ -185,60 +219,73 @@ impl<'s> Plan<'s> {
         scale: Scale<'_, S, E>,
     ) -> Result<(), LifeError> {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
-        let failed = |cause| self.error(cause, &result.cycles);
-        let lives = self.draw_by(scale, &process.draw(), count, self.watch).map_err(failed)?;
+        let failed =
+            |(cause, lives): (Cause, Numbered)| LifeError { lives, ..self.error(cause, &result.cycles) };
+        let lives = self.draw_by(scale, &process.draw(), (0, count), self.watch).map_err(failed)?;
         let few = match self.coupling {
             Coupling::Table => SHIFTED_BY_TABLE,
             Coupling::Full => SHIFTED_BY_DYNAMICS,
         };
+        let mut batch = 0;
         let by_fits = process.uncertainty(&mut |shifted| {
-            let lives = self.draw_by(scale, shifted, count.min(few), self.silent)?;
-            Ok(lives.iter().map(|end| end.cycles).sum::<f64>() / lives.len() as f64)
+            batch += 1;
+            let lives = self.draw_by(scale, shifted, (batch, count.min(few)), self.silent)?;
+            Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
         });
-        let by_fits = by_fits.map_err(failed)?;
+        let by_fits = by_fits.map_err(|(cause, _)| failed((cause, lives.clone())))?;
         // One life has no statistics: the budget stays that of the mean path.
         if lives.len() > 1 {
             result.parameter_error = by_fits;
         }
-        result.lives = lives;
+        result.lives = lives.into_iter().map(|(_, end)| end).collect();
         Ok(())
     }
 
-    /// Lives by these draws.
+    /// Lives by these draws; with an error those that were finished.
     fn draw_by<S: Clone + Default, E: StdError + Send + Sync + 'static>(
         &self,
         scale: Scale<'_, S, E>,
         draw: &GammaDraw,
-        count: u64,
+        (batch, count): (Batch, u64),
         watch: Watch<'_>,
-    ) -> Result<Vec<FailureEvent>, Cause> {
+    ) -> Result<Numbered, (Cause, Numbered)> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
         let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
-        let Lives { failures, ended } = run.run(scale, watch);
+        let none = KnownLives::new();
+        let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
+        let keep = |number, end| {
+            if let Some(journal) = self.journal {
+                journal.keep_life(batch, number, end);
+            }
+        };
+        let Lives { failures, ended } = run.go_on(known, &keep, scale, watch);
         let lives = Some((failures.len(), count));
-        match ended {
-            Ended::Complete => Ok(failures.into_iter().map(|(_, end)| end).collect()),
-            Ended::Cancelled => Err(Cause::Interrupted { trajectory: None, lives }),
-            Ended::Stopped { trajectory, stop: Stop::Fine { .. } } if self.silent.report(0.0).is_break() => {
-                Err(Cause::Interrupted { trajectory: Some(trajectory), lives })
-            }
-            Ended::Stopped { trajectory, stop } => Err(cause(stop, Some(trajectory))),
+        let cause = match ended {
+            Ended::Complete => return Ok(failures),
+            Ended::Cancelled => Cause::Interrupted { trajectory: None, lives },
+            Ended::Stopped { trajectory, stop } => match self.cause(stop, Some(trajectory)) {
+                Cause::Interrupted { trajectory, .. } => Cause::Interrupted { trajectory, lives },
+                cause => cause,
+            },
             Ended::Survived { trajectory } => {
-                Err(Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles })
+                Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles }
             }
-        }
+        };
+        Err((cause, failures))
     }
 
     fn error(&self, cause: Cause, cycles: &[CycleRecord]) -> LifeError {
         let joints = self.settings.joints.iter().map(|joint| joint.joint.clone()).collect();
-        LifeError { cause, joints, cycles: cycles.to_vec() }
+        LifeError { cause: Box::new(cause), joints, cycles: cycles.to_vec(), lives: Vec::new() }
     }
-}
 
-fn cause<E: StdError + Send + Sync + 'static>(error: Stop<E>, trajectory: Option<u64>) -> Cause {
-    if matches!(error, Stop::Interrupted) {
-        return Cause::Interrupted { trajectory, lives: None };
+    /// Whatever a fine scale says that was asked to stop, it was stopped.
+    fn cause<E: StdError + Send + Sync + 'static>(&self, error: Stop<E>, trajectory: Option<u64>) -> Cause {
+        let is_stopped = matches!(error, Stop::Fine { .. }) && self.silent.report(0.0).is_break();
+        if is_stopped || matches!(error, Stop::Interrupted) {
+            return Cause::Interrupted { trajectory, lives: None };
+        }
+        Cause::Wear { trajectory, error: Box::new(error) }
     }
-    Cause::Wear { trajectory, error: Box::new(error) }
 }

@@ -3,6 +3,7 @@
 use std::num::NonZero;
 
 use linkwear_runtime::RevolutionSettings;
+use serde_json::{Map, Value, json};
 
 use super::fit::JointFit;
 use crate::mechanism::Mechanism;
@@ -80,5 +81,27 @@ impl<'m> LifeStudy<'m> {
             fits: Vec::new(),
             shared_factor: None,
         }
+    }
+
+    /// All that decides the numbers of a life but the number of random lives, in words that a difference is told by.
+    pub(super) fn identity(&self, coupling: Coupling) -> Map<String, Value> {
+        let mut entries = self.mechanism.identity();
+        let RevolutionSettings { integrator, settle, average } = &self.revolutions;
+        let own = [
+            ("the integrator", json!(format!("{integrator:?}"))),
+            ("the number of revolutions to settle", json!(settle)),
+            ("the number of revolutions to average", json!(average)),
+            ("the coupling", json!(format!("{coupling:?}").to_lowercase())),
+            ("feedback", json!(self.feedback)),
+            ("the seed", json!(self.seed)),
+            ("the shared factor", json!(self.shared_factor)),
+        ];
+        entries.extend(own.map(|(name, value)| (name.to_owned(), value)));
+        for fit in &self.fits {
+            let together = self.fits.iter().position(|one| one.from == fit.from);
+            let value = json!(format!("{:?}, of place {together:?}", fit.estimate));
+            entries.insert(format!("the fit of {}", fit.joint), value);
+        }
+        entries
     }
 }

@@ -1,6 +1,7 @@
 //! Many trajectories of one mechanism. In: settings, a way to make fine scales, a draw. Out: lives in the order of
 //! their trajectories, the same bits for any number of threads. Never knows how a revolution is computed.
 
+use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -66,11 +67,29 @@ impl MonteCarlo<'_> {
     /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `watch` hears which part of
     /// the lives is done, from whichever thread, and may end the run.
     pub fn run<S: Clone + Default, E: Send>(&self, scale: Scale<'_, S, E>, watch: Watch<'_>) -> Lives<E> {
+        self.go_on(&BTreeMap::new(), &|_, _| (), scale, watch)
+    }
+
+    /// As [`Self::run`], after some lives are known already. `keep` hears of every further one as soon as it is
+    /// finished, from whichever thread.
+    pub fn go_on<S: Clone + Default, E: Send>(
+        &self,
+        known: &BTreeMap<u64, FailureEvent>,
+        keep: &(dyn Fn(u64, FailureEvent) + Sync),
+        scale: Scale<'_, S, E>,
+        watch: Watch<'_>,
+    ) -> Lives<E> {
+        let known = known.range(self.trajectories.clone()).map(|(number, end)| (*number, Ok(*end)));
+        let known: Vec<(u64, Result<E>)> = known.collect();
+        let is_known: Vec<u64> = known.iter().map(|(number, _)| *number).collect();
         let next = AtomicU64::new(self.trajectories.start);
-        let done = AtomicU64::new(0);
+        let done = AtomicU64::new(known.len() as u64);
         let halt = AtomicBool::new(false);
-        let results: Mutex<Vec<(u64, Result<E>)>> = Mutex::new(Vec::new());
-        let keep = |trajectory, result: Result<E>| {
+        let results = Mutex::new(known);
+        let ended = |trajectory, result: Result<E>| {
+            if let Ok(end) = &result {
+                keep(trajectory, *end);
+            }
             halt.fetch_or(result.is_err(), Ordering::Relaxed);
             done.fetch_add(1, Ordering::Relaxed);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, result));
@@ -88,13 +107,15 @@ impl MonteCarlo<'_> {
                     if trajectory >= self.trajectories.end {
                         break;
                     }
-                    keep(trajectory, self.live(&mut fine, trajectory, Watch::new(&go_on)));
+                    if is_known.binary_search(&trajectory).is_err() {
+                        ended(trajectory, self.live(&mut fine, trajectory, Watch::new(&go_on)));
+                    }
                 }
             });
             if let Err(error) = made {
                 let trajectory = self.trajectories.start;
                 let stop = LifeError::Fine { cycle: 1, error };
-                keep(trajectory, Err(Ended::Stopped { trajectory, stop }));
+                ended(trajectory, Err(Ended::Stopped { trajectory, stop }));
             }
         };
         std::thread::scope(|scope| {

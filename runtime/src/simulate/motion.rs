@@ -95,6 +95,12 @@ impl<'a> ConstrainedMotion<'a> {
         }
     }
 
+    /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.
+    pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.dynamics.visit_memory(visit);
+        visit(&mut self.energy_scale);
+    }
+
     /// The flat state of a start without any work done.
     pub(super) fn join(&self, state: &State) -> Vec<f64> {
         [&state.q[..], &state.v, &vec![0.0; 2 + TOTALS * self.contacts]].concat()

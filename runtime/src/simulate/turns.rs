@@ -31,6 +31,10 @@ pub struct TurnState {
     pub v: Vec<f64>,
     /// What contacts remember and how far joints are worn.
     pub joints: Vec<ClearanceState>,
+    /// What solvers remember: longest rows, largest pivots, the last regular accelerations. Without it (empty) the
+    /// motion goes on, but not with the same bits.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub memory: Vec<f64>,
 }
 
 /// What one measured turn gave.
@@ -77,8 +81,11 @@ impl<'a> TurnRunner<'a> {
     }
 
     /// Everything that has to be kept to go on from here.
-    pub fn state(&self) -> TurnState {
+    pub fn state(&mut self) -> TurnState {
+        let mut memory = Vec::new();
+        self.motion.visit_memory(&mut |number| memory.push(*number));
         TurnState {
+            memory,
             t: self.t,
             q: self.state.q.clone(),
             v: self.state.v.clone(),
@@ -100,6 +107,8 @@ impl<'a> TurnRunner<'a> {
         same("joints with clearance", sizes.contacts, kept.joints.len())?;
         let joints = self.motion.dynamics.evaluator.clearances_mut().states_mut();
         joints.clone_from_slice(&kept.joints);
+        let mut memory = kept.memory.iter();
+        self.motion.visit_memory(&mut |number| *number = memory.next().copied().unwrap_or(*number));
         (self.t, self.state) = (kept.t, State { q: kept.q.clone(), v: kept.v.clone() });
         self.motion.learn_sizes(self.t, &self.state);
         Ok(())

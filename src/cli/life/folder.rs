@@ -6,27 +6,37 @@ use std::path::{Path, PathBuf};
 use linkwear::files::{WriteError, write_whole};
 use linkwear::life::LifeResult;
 use linkwear::table::write_table;
-use linkwear_runtime::life::{CycleJoint, CycleRecord};
+use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 use linkwear_runtime::{Cells, Table};
 use serde_json::Value;
 
 /// Everything.
 pub fn write(folder: &Path, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
-    let (names, lives) = (life.names(), &life.lives);
-    write_cycles(folder, &names, &life.cycles)?;
-    if !lives.is_empty() {
-        let table = Table { exponents: false, ..Table::new(lives.len()) }
-            .column("trajectory", "", Cells::counts(|row| row as u64))
-            .column("life", "cycles", Cells::numbers(|row| lives[row].cycles))
-            .column("whole cycles", "", Cells::counts(|row| lives[row].whole_cycles))
-            .column("failed joint", "", Cells::names(|row| &names[lives[row].joint]));
-        write_table(&folder.join("lives.csv"), &table)?;
-    }
+    let lives: Vec<_> = (0..).zip(life.lives.iter().copied()).collect();
+    write_parts(folder, &life.names(), (&life.cycles, &lives))?;
     write_whole(&folder.join("life.json"), |file| writeln!(file, "{answer:#}"))
 }
 
+/// The cycles of the mean path, and the random lives by their numbers. Returns the file of the cycles.
+pub fn write_parts(
+    folder: &Path,
+    names: &[String],
+    (cycles, lives): (&[CycleRecord], &[(u64, FailureEvent)]),
+) -> Result<PathBuf, WriteError> {
+    let path = write_cycles(folder, names, cycles)?;
+    if !lives.is_empty() {
+        let table = Table { exponents: false, ..Table::new(lives.len()) }
+            .column("trajectory", "", Cells::counts(|row| lives[row].0))
+            .column("life", "cycles", Cells::numbers(|row| lives[row].1.cycles))
+            .column("whole cycles", "", Cells::counts(|row| lives[row].1.whole_cycles))
+            .column("failed joint", "", Cells::names(|row| &names[lives[row].1.joint]));
+        write_table(&folder.join("lives.csv"), &table)?;
+    }
+    Ok(path)
+}
+
 /// The cycles of the mean path.
-pub fn write_cycles(folder: &Path, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, WriteError> {
+fn write_cycles(folder: &Path, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, WriteError> {
     let mut table = Table { exponents: false, ..Table::new(cycles.len()) }
         .column("cycle", "", Cells::counts(|row| cycles[row].cycle))
         .column("used", "1", Cells::numbers(|row| cycles[row].used));
