@@ -11,6 +11,7 @@ pub mod diagnostic;
 pub mod expr;
 pub mod flexible;
 pub mod id;
+pub mod limits;
 pub mod model;
 pub mod preflight;
 pub mod render;

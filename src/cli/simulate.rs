@@ -22,6 +22,8 @@ use super::table::{duration, plural, table};
 const DEFAULT_STEP: f64 = 1e-4;
 /// Tolerance of the adaptive method unless one is given.
 const DEFAULT_TOLERANCE: f64 = 1e-9;
+/// Numbers that the rows of a run may have in all, since they stand in memory until they are written: 1.2 GB.
+const MOST_NUMBERS: usize = 150_000_000;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 
@@ -31,6 +33,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     refuse_same(file, out)?;
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let description = &mechanism.description;
+    refuse_too_many(arguments.samples as usize, description)?;
     let span = span(arguments, description)?;
     let settings = Settings::new(integrator, span, arguments.samples as usize);
 
@@ -52,6 +55,18 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
         text: to_text(out, &mechanism, &run, &settings, wall_seconds),
         json: to_json(out, &mechanism, &run, wall_seconds),
     })
+}
+
+fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Failure> {
+    let most = MOST_NUMBERS / description.channels.len().max(1);
+    if samples <= most {
+        return Ok(());
+    }
+    let message = format!("--samples: {samples} rows of {} columns", description.channels.len());
+    Err(Failure::usage(
+        message,
+        format!("at most {most} rows stand in memory: take fewer, or split the span"),
+    ))
 }
 
 fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {

@@ -4,8 +4,9 @@
 mod compiled;
 
 use crate::backend::interp::Interpreted;
-use crate::derive::{self, Purpose};
+use crate::derive::{self, Derived, Purpose};
 use crate::diagnostic::Diagnostics;
+use crate::limits::{self, Limit};
 use crate::model::{self, Closure, Mechanism, Overrides, Topology};
 use crate::preflight::{self, Case, Findings, OwnUnits};
 use crate::source::SourceFile;
@@ -30,9 +31,13 @@ pub struct Options {
 /// # Errors
 /// All that is wrong with the file, in one go.
 pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
+    within(source, [(limits::FILE_BYTES, source.text.len())])?;
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
     let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
+    let counts = [mechanism.points.len(), mechanism.joints.len(), mechanism.forces.len()];
+    within(source, [(limits::BODIES, mechanism.bodies.len())])?;
+    within(source, counts.map(|count| (limits::ELEMENTS, count)))?;
     let closure_in_file = mechanism.closure;
     mechanism.closure = options.closure.unwrap_or(closure_in_file);
     if options.rigid {
@@ -41,7 +46,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
     let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;
     warnings.extend(remarks);
-    let derived = derive::derive(&mechanism, &topology, Some(&keep), Purpose::Everything);
+    let derived = derived(source, &mechanism, &topology, Some(&keep), Purpose::Everything)?;
     let tapes = tape::lower(&derived.equations);
     let mut compiled = Compiled {
         source: source.clone(),
@@ -82,7 +87,7 @@ fn examine<T>(
     ask: impl Fn(&Case<'_>) -> T,
 ) -> T {
     let released = preflight::released(mechanism);
-    let derived = derive::derive(&released, topology, None, Purpose::Analysis);
+    let derived = derived(source, &released, topology, None, Purpose::Analysis)?;
     let tapes = tape::lower(&derived.equations);
     let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
     let case = Case {
@@ -95,4 +100,24 @@ fn examine<T>(
         units: OwnUnits::new(mechanism, &derived.description),
     };
     ask(&case)
+}
+
+/// Derives, unless the equations become too large.
+fn derived(
+    source: &SourceFile,
+    mechanism: &Mechanism,
+    topology: &Topology,
+    keep: Option<&[bool]>,
+    purpose: Purpose,
+) -> Result<Derived, Diagnostics> {
+    let derived = derive::derive(mechanism, topology, keep, purpose);
+    within(source, [(limits::SPEEDS, derived.sizes.all_speeds)])?;
+    within(source, [(limits::EXPRESSIONS, derived.equations.graph.wanted())])?;
+    Ok(derived)
+}
+
+/// Refuses counts beyond their limits.
+fn within<const N: usize>(source: &SourceFile, counts: [(Limit, usize); N]) -> Result<(), Diagnostics> {
+    let broken: Vec<_> = counts.iter().filter_map(|(limit, count)| limit.broken_by(*count)).collect();
+    if broken.is_empty() { Ok(()) } else { Err(Diagnostics::from_list(broken).located(source)) }
 }

@@ -57,6 +57,8 @@ codes! {
     BadRepeat = "E0110",
     /// No bodies.
     EmptyMechanism = "E0111",
+    /// More of something than can be compiled.
+    TooLarge = "E0112",
 
     /// A name with other characters than letters, digits and `_`, or not starting with a letter.
     BadName = "E0201",

@@ -9,6 +9,11 @@ use super::render;
 use crate::diagnostic::Diagnostic;
 use crate::source::SourceFile;
 
+/// Faults that are shown as text: more than anybody reads.
+const SHOWN: usize = 100;
+/// Faults that are given as data.
+const LISTED: usize = 1_000;
+
 /// All that is wrong with a file, in the order of the file once located.
 #[derive(Clone, Debug, Default)]
 #[must_use]
@@ -72,7 +77,7 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The same as data, for `--format json`. A fault without a place is put at line 1, column 1.
+    /// The first [`LISTED`] as data, for `--format json`. A fault without a place is put at line 1, column 1.
     pub fn entries(&self) -> Vec<Entry> {
         let entry = |diagnostic: &Diagnostic| {
             let start = diagnostic.span().map_or(0, |span| span.start);
@@ -86,14 +91,19 @@ impl Diagnostics {
                 help: diagnostic.help.join("; "),
             }
         };
-        self.list.iter().map(entry).collect()
+        self.list.iter().take(LISTED).map(entry).collect()
     }
 }
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let texts = self.list.iter().map(|diagnostic| render::plain(diagnostic, self.source.as_ref()));
-        formatter.write_str(&texts.collect::<Vec<_>>().join("\n\n"))
+        let shown = self.list.iter().take(SHOWN);
+        let texts = shown.map(|diagnostic| render::plain(diagnostic, self.source.as_ref()));
+        formatter.write_str(&texts.collect::<Vec<_>>().join("\n\n"))?;
+        match self.list.len().saturating_sub(SHOWN) {
+            0 => Ok(()),
+            more => write!(formatter, "\n\n... and {more} more: {} faults in all", self.list.len()),
+        }
     }
 }
 

@@ -11,6 +11,8 @@ mod vector;
 
 use std::collections::HashMap;
 
+use crate::limits::EXPRESSIONS;
+
 pub use crate::id::{ExprId, SymbolId};
 pub use expression::Expr;
 pub use scope::Scope;
@@ -82,6 +84,8 @@ pub struct Graph {
     /// Index of the section of every node.
     section_of: Vec<usize>,
     current_section: usize,
+    /// Nodes that came after the limit.
+    left_out: usize,
 }
 
 impl Graph {
@@ -140,6 +144,11 @@ impl Graph {
         self.known.get(&Node::Unary(Unary::Neg, id)).copied()
     }
 
+    /// Number of nodes asked for. Beyond [`EXPRESSIONS`] the graph is cut off and means nothing.
+    pub fn wanted(&self) -> usize {
+        self.nodes.len() + self.left_out
+    }
+
     fn begin_section(&mut self, title: String) {
         self.current_section = self.sections.iter().position(|known| *known == title).unwrap_or_else(|| {
             self.sections.push(title);
@@ -166,6 +175,11 @@ impl Graph {
     fn intern(&mut self, node: Node) -> ExprId {
         if let Some(id) = self.known.get(&node) {
             return *id;
+        }
+        // What comes after the limit is thrown away: any node stands for it, so that the derivation ends soon.
+        if self.nodes.len() >= EXPRESSIONS.most && !matches!(node, Node::Symbol(_)) {
+            self.left_out += 1;
+            return ExprId::new(0);
         }
         let id = ExprId::new(self.nodes.len());
         self.nodes.push(node);

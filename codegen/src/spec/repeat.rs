@@ -9,6 +9,7 @@ use super::syntax::{Form, Operator, parse_expression};
 use super::texts::Texts as _;
 use super::written::{Name, Quantity, Table};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::limits;
 use crate::source::Span;
 
 /// More cells than this are a slip of the pen, and would only fill the memory.
@@ -20,6 +21,18 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
     let mut problems = Vec::new();
     for (name, group) in std::mem::take(&mut whole.repeat).0 {
         let Some(count) = count(&name, &group.value, count_of, &mut problems) else { continue };
+        let copies = [
+            (limits::BODIES, group.value.bodies.0.len()),
+            (limits::ELEMENTS, group.value.points.0.len()),
+            (limits::ELEMENTS, group.value.joints.0.len()),
+            (limits::ELEMENTS, group.value.forces.0.len()),
+        ];
+        let times = usize::try_from(count).unwrap_or(usize::MAX);
+        let broken = copies.iter().find_map(|(limit, own)| limit.broken_by(times.saturating_mul(*own)));
+        if let Some(fault) = broken {
+            problems.push(fault.at(name.span, format!("{count} cells of this group")));
+            continue;
+        }
         let index = group.value.index.clone().map_or("i".to_owned(), |index| index.value);
         let first = group.value.first.as_ref().map_or(1, |first| first.value);
         let mut made = Made { group: &name.value, by_name: HashMap::new(), problems: &mut problems };

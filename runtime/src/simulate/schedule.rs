@@ -73,9 +73,11 @@ fn end_of(evaluator: &mut Evaluator<'_>, from: f64, span: Span) -> Result<f64, R
     }
 }
 
-/// Longest search for the end of a turn [s], and how many strides it may take.
+/// Longest search for the end of a turn [s], and how many strides it may take: in all, or for each turn, of which
+/// one at even speed takes fifty.
 const LONGEST_SEARCH: f64 = 1e9;
-const MOST_STRIDES: usize = 2_000_000;
+const MOST_STRIDES: f64 = 2e6;
+const STRIDES_PER_TURN: f64 = 120.0;
 
 /// First time after `from` at which the driver has made `turns` turns, in either direction.
 fn end_of_turns(evaluator: &mut Evaluator<'_>, from: f64, turns: f64, limit: f64) -> Result<f64, RunError> {
@@ -90,7 +92,7 @@ fn end_of_turns(evaluator: &mut Evaluator<'_>, from: f64, turns: f64, limit: f64
     if turns == 0.0 {
         return Ok(from);
     }
-    for _ in 0..MOST_STRIDES {
+    for _ in 0..MOST_STRIDES.max(STRIDES_PER_TURN * turns) as u64 {
         let (angle, speed, acceleration) = law(t);
         if !angle.is_finite() {
             return Err(RunError::NonFinite { t, what: "position of the turning driver".to_owned() });

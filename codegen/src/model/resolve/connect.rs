@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::resolver::Resolver;
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Diagnostic};
 use crate::id::BodyId;
 use crate::model::{Carrier, Joint};
 use crate::source::Span;
@@ -12,7 +12,9 @@ use crate::spec::File;
 impl Resolver<'_> {
     pub(super) fn check_connected(&mut self, file: &File, joints: &[Joint]) {
         let bodies = &file.bodies.0;
-        if bodies.is_empty() {
+        // Cells that could not be made may be all the bodies there are.
+        let no_cells = |fault: &Diagnostic| matches!(fault.code, Code::BadRepeat | Code::TooLarge);
+        if bodies.is_empty() && !self.diagnostics.iter().any(no_cells) {
             let message = "the mechanism has no bodies";
             self.missing(self.whole_file(), Span::default(), Code::EmptyMechanism, message).help(
                 r#"add a table [bodies], for example `crank = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3" }`"#,

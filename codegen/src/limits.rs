@@ -1,0 +1,56 @@
+//! How large a mechanism may be, in counts, so that any file ends or is refused within a minute and 2 GiB.
+//! Out: [`Limit`]s and the sentences of those that were broken. Never knows time or memory.
+
+use crate::diagnostic::{Code, Diagnostic};
+
+/// A count that may not be passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// What is counted, in the plural.
+    pub what: &'static str,
+    /// The largest count that is allowed.
+    pub most: usize,
+    /// What to do about it.
+    pub help: &'static str,
+}
+
+/// Text of a mechanism file: a thousand times the shipped ones.
+pub const FILE_BYTES: Limit =
+    Limit { what: "bytes", most: 4 << 20, help: "describe copies of a group once, in a [repeat] table" };
+
+/// Bodies after `[repeat]` groups have made their copies. Preflight factors matrices of speeds by rows, which takes
+/// a minute at six hundred.
+pub const BODIES: Limit =
+    Limit { what: "bodies", most: 400, help: "split the mechanism, or repeat a group less often" };
+
+/// Generalised speeds, those of modes included; see [`BODIES`].
+pub const SPEEDS: Limit =
+    Limit { what: "generalised speeds", most: 600, help: "split the mechanism, or keep fewer modes" };
+
+/// Points, joints and forces each.
+pub const ELEMENTS: Limit = Limit {
+    what: "points, joints or forces",
+    most: 4_000,
+    help: "split the mechanism, or repeat a group less often",
+};
+
+/// Nodes of the symbolic graph, of which each takes up to 2 kB while its code is written.
+pub const EXPRESSIONS: Limit = Limit {
+    what: "symbolic expressions",
+    most: 1_000_000,
+    help: "long open chains grow with the square of their length: split the mechanism, or keep fewer modes",
+};
+
+impl Limit {
+    /// The fault, if `count` is beyond the limit.
+    pub fn broken_by(&self, count: usize) -> Option<Diagnostic> {
+        (count > self.most).then(|| {
+            let Self { what, most, help } = self;
+            Diagnostic::new(
+                Code::TooLarge,
+                format!("this mechanism takes {count} {what} or more; {most} are possible"),
+            )
+            .help(*help)
+        })
+    }
+}

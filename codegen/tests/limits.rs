@@ -1,0 +1,55 @@
+//! Files that are too large are refused with the limit they break, before they fill the memory.
+
+use std::fmt::Write as _;
+
+use linkwear_codegen::{Options, SourceFile, compile};
+
+/// An open chain of rods on ball joints.
+fn chain(links: usize) -> SourceFile {
+    let mut text = String::from("spec = 1\nname = \"chain\"\n[points]\n");
+    for i in 0..=links {
+        let _ = writeln!(text, "P{i} = [\"{i}*0.1*(1 m)\", \"0 m\", \"{i}*0.02*(1 m)\"]");
+    }
+    text += "[bodies]\n";
+    for i in 1..=links {
+        let before = i - 1;
+        let _ = writeln!(
+            text,
+            "b{i} = {{ rod = [\"P{before}\", \"P{i}\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}"
+        );
+    }
+    text += "[joints]\n";
+    for i in 1..=links {
+        let (before, parent) = (i - 1, if i == 1 { "ground".to_owned() } else { format!("b{}", i - 1) });
+        let _ = writeln!(text, "J{i} = {{ spherical = [\"{parent}\", \"b{i}\"], at = \"P{before}\" }}");
+    }
+    SourceFile { name: "chain.toml".into(), text }
+}
+
+fn refusal(source: &SourceFile) -> String {
+    compile(source, &Options::default()).map(|_| ()).expect_err("too large").to_string()
+}
+
+#[test]
+fn a_chain_whose_equations_would_fill_the_memory_is_refused() {
+    let message = refusal(&chain(80));
+    assert!(message.contains("E0112") && message.contains("symbolic expressions"), "{message}");
+}
+
+#[test]
+fn more_bodies_than_the_limit_are_refused() {
+    let message = refusal(&chain(401));
+    assert!(message.contains("401 bodies"), "{message}");
+}
+
+#[test]
+fn of_many_faults_the_first_hundred_are_shown_and_their_number_said() {
+    let mut source = chain(20);
+    for i in 0..300 {
+        let _ = write!(source.text, "\n[forces.f{i}]\nnothing = 1\n");
+    }
+    let message = refusal(&source);
+    let shown = message.matches("error[").count() + message.matches("warning[").count();
+    assert_eq!(shown, 100, "{message}");
+    assert!(message.contains("faults in all"), "{message}");
+}
