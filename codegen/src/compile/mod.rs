@@ -84,8 +84,8 @@ fn examine<T>(
     source: &SourceFile,
     mechanism: &Mechanism,
     topology: &Topology,
-    ask: impl Fn(&Case<'_>) -> T,
-) -> T {
+    ask: impl Fn(&Case<'_>) -> Result<T, Diagnostics>,
+) -> Result<T, Diagnostics> {
     let released = preflight::released(mechanism);
     let derived = derived(source, &released, topology, None, Purpose::Analysis)?;
     let tapes = tape::lower(&derived.equations);
