@@ -93,7 +93,9 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     for name in known {
         let distance = strsim::osa_distance(&folded, &name.to_lowercase());
         // A third of the letters may be wrong: more is a guess, not help.
-        let close = distance * 3 <= wrong.chars().count().max(name.chars().count()).max(3);
+        let longest = wrong.chars().count().max(name.chars().count());
+        // Of a name of one letter nothing is left when that is wrong.
+        let close = distance * 3 <= longest.max(3) && distance < longest;
         if close && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, name));
         }
@@ -109,6 +111,7 @@ mod tests {
     fn nearest_name_forgives_a_slip_but_not_another_word() {
         assert_eq!(nearest("crnak", ["coupler", "crank"]), Some("crank"));
         assert_eq!(nearest("rocker", ["coupler", "crank"]), None);
-        assert_eq!(nearest("x", ["y", "xx"]), Some("y"));
+        assert_eq!(nearest("x", ["y", "xx"]), Some("xx"));
+        assert_eq!(nearest("b", ["O", "B"]), Some("B"));
     }
 }

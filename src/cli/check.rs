@@ -61,6 +61,7 @@ fn parameter_entry(parameter: &Parameter) -> Value {
     json!({
         "name": parameter.name, "value": parameter.value, "unit": unit(parameter.dimension),
         "tunable": parameter.tunable, "assumed": parameter.assumed,
+        "written": parameter.written.as_ref().map(|(number, unit)| format!("{number} {unit}").trim_end().to_owned()),
     })
 }
 
@@ -223,7 +224,11 @@ fn parameter_row(parameter: &Parameter) -> Vec<String> {
         .into_iter()
         .filter_map(|(holds, mark)| holds.then_some(mark))
         .collect();
-    vec![parameter.name.clone(), number(parameter.value), unit(parameter.dimension), marks.join(", ")]
+    let (value, unit) = match &parameter.written {
+        Some((value, unit)) if !unit.is_empty() => (*value, unit.clone()),
+        _ => (parameter.value, unit(parameter.dimension)),
+    };
+    vec![parameter.name.clone(), number(value), unit, marks.join(", ")]
 }
 
 /// SI unit of a dimension in base units: `kg m^-3`.

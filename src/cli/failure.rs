@@ -66,7 +66,13 @@ impl Failure {
     pub fn read(file: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |error| {
             let message = format!("cannot read `{}`: {error}", file.display());
-            Self::new("C0002", Some(file), message, "check the path; shipped mechanisms are in `mechanisms/`")
+            let is_mechanism = file.extension().is_none_or(|extension| extension == "toml");
+            let help = if is_mechanism {
+                "check the path; shipped mechanisms are in `mechanisms/`"
+            } else {
+                "check the path"
+            };
+            Self::new("C0002", Some(file), message, help)
         }
     }
 

@@ -65,6 +65,9 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
     let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
     compiled.warnings.extend(near);
+    let allowed = std::mem::take(&mut compiled.mechanism.allowed);
+    compiled.warnings.retain(|warning| !allowed.contains(&warning.code));
+    compiled.mechanism.allowed = allowed;
     Ok(compiled)
 }
 
@@ -89,6 +92,10 @@ fn examine<T>(
     let released = preflight::released(mechanism);
     let derived = derived(source, &released, topology, None, Purpose::Analysis)?;
     let tapes = tape::lower(&derived.equations);
+    if !tapes.iter().all(tape::Tape::is_finite) {
+        let beyond = preflight::beyond_numbers(mechanism);
+        return Err(Diagnostics::from_list(vec![beyond]).located(source));
+    }
     let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
     let case = Case {
         source,

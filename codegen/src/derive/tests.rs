@@ -82,6 +82,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
         joints: vec![r1, s2, r4, s3],
         forces: Vec::new(),
         closure,
+        allowed: Vec::new(),
         starts: vec![start],
         attached: Vec::new(),
     };
@@ -225,6 +226,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         joints,
         forces: Vec::new(),
         closure: Closure::Joint,
+        allowed: Vec::new(),
         starts: Vec::new(),
         attached: Vec::new(),
     };

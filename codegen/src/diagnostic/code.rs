@@ -175,6 +175,18 @@ codes! {
     ContactNearMode = "W0109",
     /// A linkage that moves only thanks to its clearances.
     MovesByClearance = "W0110",
+    /// A rate in Hz or rpm that becomes an angle without 2 pi.
+    TurnsAsAngle = "W0111",
+    /// A body far longer, shorter or thicker than the others.
+    SizesApart = "W0112",
+    /// A density, modulus, hardness or wear coefficient that no material has.
+    OddMaterial = "W0113",
+    /// A clearance or wear threshold that is large beside its journal.
+    OddBearing = "W0114",
+    /// A freedom of a driven mechanism that nothing drives, springs, brakes or starts.
+    LooseBody = "W0115",
+    /// A crank that is driven round and round but cannot turn once.
+    NoFullTurn = "W0116",
     /// A point that nothing says which body carries: it rests.
     UnplacedPoint = "W0120",
 }

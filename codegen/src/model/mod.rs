@@ -6,6 +6,7 @@
 
 use linkwear_runtime::ContactInfo;
 
+use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::Span;
 use crate::spec::Dimension;
@@ -53,6 +54,8 @@ pub struct Mechanism {
     pub forces: Vec<Force>,
     /// How loops are closed.
     pub closure: Closure,
+    /// Warnings that the file does not want.
+    pub allowed: Vec<Code>,
     /// Start values by joint coordinate.
     pub starts: Vec<Start>,
     /// Files that were read besides the mechanism's own: modal data.
@@ -68,6 +71,8 @@ pub struct Parameter {
     pub value: f64,
     /// Dimension, hence SI unit.
     pub dimension: Dimension,
+    /// Number and unit as the user wrote them; nothing for a formula.
+    pub written: Option<(f64, String)>,
     /// Stays a run-time field of the generated struct.
     pub tunable: bool,
     /// Not from the cited source but ours.

@@ -234,6 +234,19 @@ pub fn rigid_part(mechanism: &Mechanism, joints: &[JointId]) -> Diagnostic {
         .at_each(joints.iter().map(|joint| mechanism.joint(*joint).span), "cannot move")
 }
 
+/// Constants of the equations that overflow, shown where the number that is farthest from 1 in size is written.
+pub fn beyond_numbers(mechanism: &Mechanism) -> Diagnostic {
+    let values = mechanism.parameter_values();
+    let parameters = mechanism.parameters.iter().map(|parameter| (parameter.value, parameter.span));
+    let positions = mechanism.points.iter().flat_map(|point| point.position_for(point.carrier));
+    let positions = positions.map(|own| (own.value(&values).unwrap_or(0.0), own.span));
+    let far = |value: f64| if value == 0.0 { 0.0 } else { value.abs().log10().abs() };
+    let extreme = parameters.chain(positions).max_by(|a, b| far(a.0).total_cmp(&far(b.0)));
+    Diagnostic::new(Code::NotFinite, "the constants of the equations are beyond what numbers can hold")
+        .at_each(extreme.map(|(_, span)| span), "the most extreme number")
+        .help("check exponents and units: mass, size and inertia are products of these numbers")
+}
+
 /// A motion without inertia.
 pub fn massless(mechanism: &Mechanism, joint: JointId, body: &str) -> Diagnostic {
     let joint = mechanism.joint(joint);

@@ -10,12 +10,14 @@ mod failures;
 mod idle;
 mod immobile;
 mod own_units;
+mod plausible;
 mod prescribed;
 mod rank;
 mod reactions;
 mod resonance;
 mod samples;
 mod start;
+mod turn;
 mod without_play;
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -24,6 +26,7 @@ use crate::model::Mechanism;
 pub use analysis::{Analysis, Redundant};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
+pub use failures::beyond_numbers;
 pub use own_units::OwnUnits;
 pub use prescribed::check_prescribed;
 pub use start::check_start;
@@ -96,6 +99,8 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     warnings.extend(resonance::near_resonance(mechanism));
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
+    warnings.extend(plausible::remarks(mechanism, &analysis));
+    warnings.extend(turn::short_turn(case, &positions));
     Ok(Findings { analysis, keep, warnings })
 }
 

@@ -51,7 +51,7 @@ pub(super) fn frequencies(flexible: &Flexible) -> impl Iterator<Item = (String, 
 }
 
 /// Frequency of a drive that turns at constant speed [1/s].
-fn turns_per_second(mechanism: &Mechanism, law: &crate::model::Formula) -> Option<f64> {
+pub(super) fn turns_per_second(mechanism: &Mechanism, law: &crate::model::Formula) -> Option<f64> {
     let parameters = mechanism.parameter_values();
     let at = |time: f64| law.value_at_time(&parameters, time);
     // Three unequal steps: a law that is straight over all of them is a straight line.

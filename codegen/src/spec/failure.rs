@@ -14,18 +14,37 @@ pub(super) struct Failure {
     message: String,
     help: Option<String>,
     span: Option<Span>,
+    /// The text that stands where a list is needed; empty if it is no text.
+    in_place_of_list: Option<String>,
     /// It is among the diagnostics already.
     pub reported: bool,
 }
 
 impl Failure {
     fn of(code: Code, message: String) -> Self {
-        Self { code, message, help: None, span: None, reported: false }
+        Self { code, message, help: None, span: None, in_place_of_list: None, reported: false }
     }
 
     /// For the callers of a value whose fault is among the diagnostics.
     pub(super) fn already_reported() -> Self {
         Self { reported: true, ..Self::of(Code::WrongType, String::new()) }
+    }
+
+    /// Says which list belongs under `key`.
+    pub(super) fn under(mut self, key: &str) -> Self {
+        let Some(text) = self.in_place_of_list.take() else { return self };
+        let list = match (key, text.as_str()) {
+            ("gravity", _) => r#"["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]"#,
+            ("rod" | "tube" | "box", _) => r#"["A", "B"]"#,
+            ("axes", _) => "[[1, 0, 0], [0, 1, 0]]",
+            (_, "x") => "[1, 0, 0]",
+            (_, "y") => "[0, 1, 0]",
+            (_, "z") => "[0, 0, 1]",
+            _ if key.contains("axis") || key == "normal" => "[0, 0, 1]",
+            _ => return self,
+        };
+        self.help = Some(format!("write it in brackets: `{key} = {list}`"));
+        self
     }
 
     pub(super) fn or_at(mut self, span: Span) -> Self {
@@ -56,6 +75,7 @@ impl Error for Failure {
         Self::of(Code::WrongType, message.to_string())
     }
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        let text = if let Unexpected::Str(text) = found { text } else { "" }.to_owned();
         let found = match found {
             Unexpected::Seq => "a list".to_owned(),
             Unexpected::Map => "a table".to_owned(),
@@ -73,7 +93,9 @@ impl Error for Failure {
             other if other.starts_with("struct ") => "a table",
             other => other,
         };
-        Self::of(Code::WrongType, format!("found {found} where {expected} is needed"))
+        let mut failure = Self::of(Code::WrongType, format!("found {found} where {expected} is needed"));
+        failure.in_place_of_list = (expected == "a list").then_some(text);
+        failure
     }
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
         let allowed = expected.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");

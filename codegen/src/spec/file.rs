@@ -52,6 +52,16 @@ pub struct File {
     pub wear: Table<WearSpec>,
     /// Groups of points, bodies and joints made several times.
     pub repeat: Table<RepeatSpec>,
+    /// What `check` and every run leave unsaid.
+    pub check: CheckSpec,
+}
+
+tables! {
+    /// Warnings that are known and meant.
+    pub struct CheckSpec {
+        /// Codes of warnings that are not to be given, for instance "W0112".
+        pub allow: Option<At<Vec<Name>>>,
+    }
 }
 
 tables! {

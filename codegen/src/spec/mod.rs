@@ -17,6 +17,7 @@ mod schema;
 mod start;
 mod syntax;
 mod texts;
+mod turning;
 mod unit;
 mod written;
 
@@ -24,12 +25,13 @@ pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
 pub use dimension::Dimension;
-pub use file::{ClearanceSpec, Closure, File, Parameter, ParameterTable, RepeatSpec, WearSpec};
+pub use file::{CheckSpec, ClearanceSpec, Closure, File, Parameter, ParameterTable, RepeatSpec, WearSpec};
 pub use force::{Bodies, ByAxis, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, Written};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};
 pub use point::PointSpec;
 pub use repeat::{expand, group_spans};
 pub use start::{StartSpec, StartTable};
-pub use syntax::{Expression, Form, Operator, SyntaxError, parse_expression};
+pub use syntax::{Expression, Form, Operator, SyntaxError, as_written, parse_expression};
+pub use turning::Turning;
 pub use written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

@@ -60,12 +60,22 @@ fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnos
             continue;
         }
         seen.push(line);
-        let help = "quantities and formulas stand in quotes: `L1 = \"120 mm\"`; names of points in lists too";
-        list.push(
-            Diagnostic::new(Code::NotToml, format!("this is not TOML: {}", error.message()))
-                .at(span, "")
-                .help(help),
-        );
+        let twice = error.message().contains("duplicate key");
+        let name = source.text.get(span.start..span.end).filter(|name| twice && !name.is_empty());
+        let (message, help) = match name {
+            Some(name) => {
+                let name = name.rsplit('.').next().unwrap_or(name).trim_matches(['"', '\'', '[', ']']);
+                (
+                    format!("the key `{name}` stands twice in one table"),
+                    "keep one of the two, or give the other a name of its own",
+                )
+            }
+            None => (
+                format!("this is not TOML: {}", error.message()),
+                "quantities and formulas stand in quotes: `L1 = \"120 mm\"`; names of points in lists too",
+            ),
+        };
+        list.push(Diagnostic::new(Code::NotToml, message).at(span, "").help(help));
     }
     list
 }

@@ -238,6 +238,7 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
             if failure.reported {
                 return failure;
             }
+            let failure = failure.under(key);
             let mut notes = self.notes.borrow_mut();
             notes.diagnostics.push(failure.diagnostic(span));
             notes.skipped.push(span);

@@ -16,6 +16,19 @@ pub use expression::{Expression, Form, Operator, SyntaxError};
 /// Longest formula [bytes]: far above any real one.
 const LONGEST: usize = 2000;
 
+/// The number and the unit of a text that is one quantity, as written: 120 and `mm`. None of a formula.
+pub fn as_written(text: &str) -> Option<(f64, &str)> {
+    parse_expression(text, &|_| false).ok()?.quantity()?;
+    let text = text.trim();
+    let (sign, digits) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest.trim_start()));
+    let tokens = lex::tokens(digits).ok()?;
+    let first = tokens.first()?;
+    match first.kind {
+        lex::Kind::Number(number) => Some((sign * number, digits[first.range.end..].trim())),
+        _ => None,
+    }
+}
+
 /// Reads a formula. `is_name` says whether a word is a name of the file; it decides `2 N*m`.
 ///
 /// # Errors
@@ -62,6 +75,19 @@ mod tests {
         ] {
             assert_eq!(quantity(text), (value, dimension), "{text}");
         }
+    }
+
+    #[test]
+    fn a_quantity_is_shown_as_written_and_a_formula_is_not() {
+        assert_eq!(as_written("-9.81 m/s^2"), Some((-9.81, "m/s^2")));
+        assert_eq!(as_written("120mm"), Some((120.0, "mm")));
+        assert_eq!(as_written("0.3"), Some((0.3, "")));
+        assert_eq!(as_written("2*L1"), None);
+    }
+
+    #[test]
+    fn a_decimal_comma_is_called_by_its_name() {
+        assert_eq!(read("160,05 mm").unwrap_err().help.as_deref(), Some("write `160.05`"));
     }
 
     #[test]

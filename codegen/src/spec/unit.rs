@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 
 use super::Dimension;
+use super::turning::Turning;
 
 /// A unit: how much of the SI unit it is, and its dimension.
 ///
@@ -17,6 +18,8 @@ pub(super) struct Unit {
     pub divisor: f64,
     /// Dimension.
     pub dimension: Dimension,
+    /// Turns and angles in it.
+    pub turning: Turning,
 }
 
 /// Symbols that take the prefixes below.
@@ -58,7 +61,12 @@ const PREFIXES: &[(&str, i32)] = &[
 
 impl Unit {
     /// No unit.
-    pub const ONE: Self = Self { factor: 1.0, divisor: 1.0, dimension: Dimension::NONE };
+    pub const ONE: Self = Self {
+        factor: 1.0,
+        divisor: 1.0,
+        dimension: Dimension::NONE,
+        turning: Turning { turns: 0, angles: 0 },
+    };
 
     /// Product; `None` if an exponent overflows.
     pub fn times(self, other: Self) -> Option<Self> {
@@ -66,6 +74,7 @@ impl Unit {
             factor: self.factor * other.factor,
             divisor: self.divisor * other.divisor,
             dimension: self.dimension.times(other.dimension)?,
+            turning: self.turning.times(other.turning),
         })
     }
 
@@ -75,7 +84,8 @@ impl Unit {
             if exponent < 0 { (self.divisor, self.factor) } else { (self.factor, self.divisor) };
         let size = i32::try_from(exponent.unsigned_abs()).ok()?;
         let dimension = self.dimension.to_power(exponent)?;
-        Some(Self { factor: factor.powi(size), divisor: divisor.powi(size), dimension })
+        let turning = self.turning.to_power(exponent);
+        Some(Self { factor: factor.powi(size), divisor: divisor.powi(size), dimension, turning })
     }
 
     /// `number` of this unit in SI.
@@ -88,7 +98,12 @@ impl Unit {
 pub(super) fn unit(symbol: &str) -> Option<Unit> {
     let find = |list: &[(&str, f64, f64, Dimension)], symbol: &str| {
         let (_, factor, divisor, dimension) = list.iter().find(|(known, ..)| *known == symbol)?;
-        Some(Unit { factor: *factor, divisor: *divisor, dimension: *dimension })
+        let turning = match symbol {
+            "Hz" | "rpm" => Turning::TURNS,
+            "rad" | "deg" => Turning::ANGLE,
+            _ => Turning::default(),
+        };
+        Some(Unit { factor: *factor, divisor: *divisor, dimension: *dimension, turning })
     };
     if symbol == "kg" {
         return Some(Unit { dimension: Dimension::MASS, ..Unit::ONE });

@@ -112,6 +112,13 @@ impl Tape {
         self.input_names.len()
     }
 
+    /// Whether every constant is a finite number.
+    pub fn is_finite(&self) -> bool {
+        let direct = self.direct.iter().map(|(_, operand)| *operand);
+        let mut all = direct.chain(self.statements.iter().flat_map(Statement::reads));
+        all.all(|operand| !matches!(operand, Operand::Constant(number) if !number.is_finite()))
+    }
+
     /// Length of the flat output.
     pub fn output_len(&self) -> usize {
         self.outputs.iter().map(|block| block.entries.len()).sum()

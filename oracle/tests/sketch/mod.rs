@@ -47,6 +47,7 @@ impl Sketch {
             joints: Vec::new(),
             forces: Vec::new(),
             closure: Closure::Joint,
+            allowed: Vec::new(),
             starts: Vec::new(),
             attached: Vec::new(),
         })

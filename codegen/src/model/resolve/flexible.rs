@@ -43,6 +43,10 @@ impl Resolver<'_> {
         joints: &[Joint],
         forces: &[Force],
     ) {
+        // Without points nothing says where a body lies, or what holds it; that is reported where they are named.
+        if self.points.is_empty() {
+            return;
+        }
         for (index, (name, body)) in file.bodies.0.iter().enumerate() {
             let Some(spec) = &body.value.flexible else { continue };
             let carrier = Carrier::Body(BodyId::new(index));

@@ -72,8 +72,12 @@ impl Resolver<'_> {
         let laws = self.by_coordinate(spec.drive.as_ref(), model, &what);
         laws.into_iter()
             .map(|(coordinate, law)| {
-                let dimension = model.coordinates()[coordinate].dimension();
-                Drive { coordinate, law: self.formula(law, Some(dimension), Allowed::TIME, &what) }
+                let is = model.coordinates()[coordinate];
+                let formula = self.formula(law, Some(is.dimension()), Allowed::TIME, &what);
+                if is == Coordinate::Angle {
+                    self.warn_turns_as_angle(law, &what);
+                }
+                Drive { coordinate, law: formula }
             })
             .collect()
     }

@@ -7,6 +7,9 @@ use crate::id::{JointId, PointId};
 use crate::model::Carrier;
 use crate::spec::Name;
 
+/// Names that a message lists at most.
+const LISTED: usize = 12;
+
 impl Resolver<'_> {
     /// What `pick` finds in the thing with this name; a name that nothing has, or something of another kind, is reported.
     fn named<T>(
@@ -30,10 +33,14 @@ impl Resolver<'_> {
         }
         let message = format!("{used_by} names the {wanted} `{}`, which does not exist", name.value);
         let ground = (wanted == "body").then_some("ground");
-        let known = self.names.known(|thing| pick(thing).is_some()).chain(ground);
-        let fault = Diagnostic::new(Code::UnknownName, message)
+        let known = || self.names.known(|thing| pick(thing).is_some()).chain(ground);
+        let mut fault = Diagnostic::new(Code::UnknownName, message)
             .at(name.span, format!("unknown {wanted}"))
-            .did_you_mean(&name.value, known);
+            .did_you_mean(&name.value, known());
+        let listed: Vec<_> = known().take(LISTED).map(|name| format!("`{name}`")).collect();
+        if fault.help.is_empty() && !listed.is_empty() {
+            fault = fault.help(format!("there are: {}", listed.join(", ")));
+        }
         self.report(fault);
         None
     }

@@ -4,6 +4,7 @@
 //! A thing that is wrong is reported and replaced by something harmless (`NaN`, a dummy axis), so that
 //! the rest of the file is still checked; with any error the mechanism is thrown away.
 
+mod advice;
 mod beam;
 mod bodies;
 mod clearance;
@@ -24,6 +25,7 @@ mod resolver;
 mod section;
 mod starts;
 mod term;
+mod turns;
 
 pub use overrides::{OverrideError, Overrides};
 
@@ -33,7 +35,7 @@ use self::resolver::Resolver;
 use super::{Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::source::Span;
-use crate::spec::{Dimension, File, Spec};
+use crate::spec::{CheckSpec, Dimension, File, Spec};
 
 /// Finds out what a file means.
 ///
@@ -48,6 +50,7 @@ pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Dia
         parameters: Vec::new(),
         values: Vec::new(),
         written_out: Vec::new(),
+        turning: Vec::new(),
         used: Vec::new(),
         points: Vec::new(),
         joint_models: Vec::new(),
@@ -98,6 +101,7 @@ impl Resolver<'_> {
             joints,
             forces,
             closure: file.closure.unwrap_or_default(),
+            allowed: self.allowed(&file.check),
             starts,
             attached: std::mem::take(&mut self.attached),
         }
@@ -114,6 +118,23 @@ impl Resolver<'_> {
             }
         }
         String::new()
+    }
+
+    /// Codes that `[check]` switches off; an error cannot be.
+    fn allowed(&mut self, check: &CheckSpec) -> Vec<Code> {
+        let mut allowed = Vec::new();
+        for name in check.allow.as_ref().map_or(&[][..], |list| &list.value) {
+            let warnings = || Code::ALL.iter().filter(|code| code.severity() == Severity::Warning);
+            if let Some(code) = warnings().find(|code| code.as_str() == name.value) {
+                allowed.push(*code);
+                continue;
+            }
+            let message = format!("`{}` is not the code of a warning", name.value);
+            self.refuse(Code::BadChoice, name.span, message)
+                .did_you_mean(&name.value, warnings().map(|code| code.as_str()))
+                .help("warnings have codes such as W0112; errors cannot be switched off");
+        }
+        allowed
     }
 
     fn gravity(&mut self, file: &File) -> [Formula; 3] {

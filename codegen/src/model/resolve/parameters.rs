@@ -7,9 +7,9 @@ use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::ParameterId;
 use crate::model;
-use crate::source::Span;
 use crate::spec::{
-    At, Dimension, Expression, Form, Literal, Name, Parameter, Quantity, Table, parse_expression,
+    At, Dimension, Expression, Form, Literal, Name, Parameter, Quantity, Table, Turning, as_written,
+    parse_expression,
 };
 
 /// Largest formula that a parameter may be written out to. Parameters made of each other could double in size
@@ -22,13 +22,15 @@ impl Resolver<'_> {
         self.values = vec![f64::NAN; table.0.len()];
         self.written_out = vec![None; table.0.len()];
         self.used = vec![false; table.0.len()];
+        self.turning = vec![Turning::default(); table.0.len()];
         self.parameters = table
             .0
             .iter()
             .map(|(name, parameter)| {
                 let (tunable, assumed) = parameter.value.marks();
                 let (name, span) = (name.value.clone(), name.span);
-                model::Parameter { name, value: f64::NAN, dimension: Dimension::NONE, tunable, assumed, span }
+                let (value, dimension) = (f64::NAN, Dimension::NONE);
+                model::Parameter { name, value, dimension, written: None, tunable, assumed, span }
             })
             .collect();
         self.check_overrides(table, overrides);
@@ -70,9 +72,11 @@ impl Resolver<'_> {
             return;
         };
         let mut formula = self.formula(quantity, None, Allowed::PARAMETERS, &format!("`{}`", name.value));
+        self.turning[position] = self.turns_of(quantity).of;
+        self.parameters[position].written = written(quantity);
         let given = overrides.0.iter().rev().find(|(given, _)| *given == name.value);
         if let Some((_, text)) = given {
-            formula = self.overridden(name, text, quantity.span, formula.dimension);
+            formula = self.overridden(name, text, position, formula);
         }
         let value = formula.value(&self.values).unwrap_or(f64::NAN);
         let follows = self.is_tunable(&formula);
@@ -91,8 +95,15 @@ impl Resolver<'_> {
     }
 
     /// The value of `--set name=text`: a quantity of the dimension that the parameter has in the file.
-    fn overridden(&mut self, name: &Name, text: &str, span: Span, dimension: Dimension) -> model::Formula {
+    fn overridden(
+        &mut self,
+        name: &Name,
+        text: &str,
+        position: usize,
+        in_file: model::Formula,
+    ) -> model::Formula {
         let what = format!("`--set {}={text}`", name.value);
+        let (span, dimension) = (in_file.span, in_file.dimension);
         let quantity = Quantity { span, value: Literal::Text(text.to_owned()) };
         let expression = parse_expression(text, &|word| self.names.is_name(word)).ok();
         let mut names = Vec::new();
@@ -103,6 +114,26 @@ impl Resolver<'_> {
                 .help("on the command line give a quantity, for example speed=\"2 Hz\"");
             return model::Formula::number(f64::NAN, dimension);
         }
+        let unit = self.parameters[position].written.as_ref().map(|(_, unit)| unit.clone());
+        let unit = unit.filter(|unit| !unit.is_empty()).unwrap_or_else(|| dimension.si_unit());
+        let (own, given) = (self.turning[position], self.turns_of(&quantity).of);
+        if own.is_turns_beside(given) || given.is_turns_beside(own) {
+            let kind = |is: Turning| if is.turns > 0 { "turns" } else { "radians" };
+            let message = format!("{what} counts {}, but `{}` counts {}", kind(given), name.value, kind(own));
+            self.refuse(Code::UnitMismatch, span, message)
+                .help(format!("a turn is 2*pi rad; the file gives `{}` in {unit}", name.value));
+            return model::Formula::number(f64::NAN, dimension);
+        }
+        if let (Some((number, "")), true) = (as_written(text), dimension != Dimension::NONE && text != "0") {
+            let message = format!("{what} needs a unit: it is {}", dimension.description());
+            self.refuse(Code::MissingUnit, span, message).help(format!(
+                "write `--set {}=\"{number} {unit}\"`, in the unit of the file, or another that says what is meant",
+                name.value
+            ));
+            return model::Formula::number(f64::NAN, dimension);
+        }
+        self.turning[position] = if given == Turning::default() { own } else { given };
+        self.parameters[position].written = written(&quantity);
         self.formula(&quantity, Some(dimension), Allowed::CONSTANTS, &what)
     }
 
@@ -172,6 +203,14 @@ impl Resolver<'_> {
             _ => format!("the parameters {} are defined by each other", names.join(", ")),
         };
         self.refuse(Code::ParameterCycle, table.0[cycle[0]].0.span, message).help("give one of them a value");
+    }
+}
+
+/// Number and unit, if they are all that is written.
+fn written(quantity: &Quantity) -> Option<(f64, String)> {
+    match &quantity.value {
+        Literal::Number(number) => Some((*number, String::new())),
+        Literal::Text(text) => as_written(text).map(|(number, unit)| (number, unit.to_owned())),
     }
 }
 

@@ -3,11 +3,16 @@
 
 use std::ops::Range;
 
+use super::advice;
 use super::resolver::{Reported, Resolver};
 use crate::diagnostic::Code;
 use crate::model::{Formula, Term};
 use crate::source::Span;
 use crate::spec::{Dimension, Expression, Form, Literal, Quantity, SyntaxError, Triple, parse_expression};
+
+/// Largest size of a quantity in SI. Equations multiply up to six of them (a density, two radii and three lengths are
+/// an inertia), and a double ends at 1e308. Nothing that is built comes near.
+const LARGEST: f64 = 1e50;
 
 /// What may occur in a formula, by the place where it stands.
 #[derive(Clone, Copy, Debug)]
@@ -86,6 +91,7 @@ impl Resolver<'_> {
         if !self.check_finite(&term, &origin) {
             return wrong;
         }
+        self.warn_turns_inside(quantity, what);
         Formula { term, dimension, span: quantity.span }
     }
 
@@ -144,16 +150,19 @@ impl Resolver<'_> {
         let span = origin.quantity.span;
         if let Some(number) = bare.filter(|_| expected != Dimension::NONE) {
             let message = format!("{} needs a unit: it is {}", origin.what, expected.description());
-            let (unit, example) = (expected.si_unit(), expected.example());
-            self.refuse(Code::MissingUnit, span, message).help(format!(
-                "write \"{number} {unit}\", or any other unit of it, for example \"{example}\""
-            ));
+            let help = advice::missing_unit(origin.what, number, expected);
+            self.refuse(Code::MissingUnit, span, message).help(help);
             return;
         }
+        let help = match &origin.quantity.value {
+            Literal::Text(text) => {
+                advice::mismatch(origin.what, text, (found, self.turns_of(origin.quantity).of), expected)
+            }
+            Literal::Number(_) => advice::like(origin.what, expected),
+        };
         let (found, needed) = (found.description(), expected.description());
         let message = format!("{} is {found}, but {needed} is needed", origin.what);
-        self.refuse(Code::UnitMismatch, span, message)
-            .help(format!("write something like \"{}\"", expected.example()));
+        self.refuse(Code::UnitMismatch, span, message).help(help);
     }
 
     /// Where a range of the text is in the file. Texts with escapes or made by `[repeat]` have one place as a whole.
@@ -191,7 +200,12 @@ impl Resolver<'_> {
         });
         let at_start = if finite { term.value_at(&self.values, Some(0.0)) } else { None };
         if finite && at_start.is_none_or(f64::is_finite) {
-            return true;
+            let Some(value) = at_start.filter(|value| value.abs() > LARGEST) else { return true };
+            let message =
+                format!("{} is {value:e} in SI: products of such numbers are infinite", origin.what);
+            self.refuse(Code::NotFinite, origin.quantity.span, message)
+                .help("check the exponent and the unit: nothing that is built is as large");
+            return false;
         }
         let when = if finite && term.value_at(&self.values, None).is_none() { " at t = 0" } else { "" };
         let message = format!("{} is infinite or not a number{when}", origin.what);

@@ -7,7 +7,7 @@ use super::names::Names;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
 use crate::source::{SourceFile, Span};
-use crate::spec::{Dimension, Name};
+use crate::spec::{Dimension, Name, Turning};
 
 /// What the steps of the resolver share.
 pub(super) struct Resolver<'a> {
@@ -20,6 +20,8 @@ pub(super) struct Resolver<'a> {
     pub(super) values: Vec<f64>,
     /// Parameters that are not tunable but follow from tunable ones are written out where they are used.
     pub(super) written_out: Vec<Option<Term>>,
+    /// Turns and angles of the parameters.
+    pub(super) turning: Vec<Turning>,
     pub(super) used: Vec<bool>,
     pub(super) points: Vec<Point>,
     pub(super) joint_models: Vec<JointModel>,

@@ -186,7 +186,7 @@ impl Resolver<'_> {
     fn warn_frequency(&mut self, quantity: &Quantity, is: Coordinate, what: &str) {
         let Literal::Text(text) = &quantity.value else { return };
         let text = text.trim();
-        if is == Coordinate::Angle && (text.ends_with("rpm") || text.ends_with("Hz")) {
+        if is == Coordinate::Angle && self.turns_of(quantity).of.turns > 0 {
             let message =
                 format!("{what}: \"{text}\" is a frequency, and is read as that many radians per second");
             self.refuse(Code::FrequencyAsSpeed, quantity.span, message)

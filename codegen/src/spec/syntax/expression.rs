@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::spec::dimension::Dimension;
+use crate::spec::turning::Turning;
 
 /// An operator between two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +24,8 @@ pub enum Form {
         value: f64,
         /// Its dimension.
         dimension: Dimension,
+        /// Turns and angles in its unit.
+        turning: Turning,
         /// No unit is written.
         bare: bool,
     },

@@ -16,6 +16,10 @@ pub(super) fn parse(
     let mut parser = Parser { tokens, next: 0, length, depth: 0, is_name, shadowed: Vec::new() };
     let mut whole = parser.sum()?;
     if let Some(token) = parser.peek() {
+        if let Some(number) = parser.decimal_comma() {
+            let message = "a comma is no decimal point here";
+            return Err(fault(message, token.range.clone()).advise(format!("write `{number}`")));
+        }
         let message = match &token.kind {
             Kind::Word(_) | Kind::Number(_) => "an operator is missing here",
             Kind::Mark(_) => "this does not belong here",
@@ -62,6 +66,21 @@ impl<'a> Parser<'a> {
         let found = self.mark_at(0) == Some(mark);
         self.next += usize::from(found);
         found
+    }
+
+    /// The number that was meant, if the next token is the comma of `160,5`.
+    fn decimal_comma(&self) -> Option<String> {
+        let number = |at: Option<usize>| match self.tokens.get(at?)?.kind {
+            Kind::Number(value) => Some(value),
+            _ => None,
+        };
+        let (whole, part) = (number(self.next.checked_sub(1))?, number(Some(self.next + 1))?);
+        let is_comma = self.mark_at(0) == Some(',') && whole.fract() == 0.0 && part.fract() == 0.0;
+        is_comma.then(|| {
+            // The digits behind the comma as written: `1,05` is not 1.5.
+            let digits = self.tokens[self.next + 1].range.len();
+            format!("{whole}.{part:0digits$}")
+        })
     }
 
     /// Where the next token is, or the end of the text.
@@ -216,7 +235,12 @@ impl<'a> Parser<'a> {
         if !value.is_finite() {
             return Err(fault("this is not a number that a computer can hold", range.start..end));
         }
-        let form = Form::Number { value, dimension: unit.dimension, bare: self.next == first };
+        let form = Form::Number {
+            value,
+            dimension: unit.dimension,
+            turning: unit.turning,
+            bare: self.next == first,
+        };
         Ok(expression(form, range.start..end))
     }
 }

@@ -118,7 +118,17 @@ impl Parser<'_> {
             return fault(format!("an operator is missing before `{word}`"), range)
                 .advise(format!("write `*{word}` for a product"));
         }
+        // Hardness numbers are no units, but everybody writes them so.
+        let number = match self.tokens.get(self.next.wrapping_sub(1)).map(|token| &token.kind) {
+            Some(Kind::Number(number)) => *number,
+            _ => 120.0,
+        };
         let help = match suggestion(word) {
+            _ if matches!(word, "HB" | "HBW" | "HV") => format!(
+                "a hardness is a pressure here, 9.81 MPa times the number: `{number} {word}` is \"{:.3} GPa\"",
+                9.81e-3 * number
+            ),
+            _ if word == "HRC" => "a hardness is a pressure here: 60 HRC is about \"6.9 GPa\"".to_owned(),
             Some(symbol) => format!("did you mean `{symbol}`?"),
             None => "units are m, g, s, N, J, W, Pa, Hz, rad with prefixes, and kg, t, min, h, deg, rpm, %"
                 .to_owned(),
