@@ -48,9 +48,13 @@ pub fn linkwear(arguments: &[&str]) -> Answer {
     Answer::of(command(arguments).output().expect("the program runs"))
 }
 
-/// Runs in the package's folder and does not wait.
+/// Runs in the package's folder and does not wait. Signals that the caller ignores, as in the background of a script,
+/// have their meaning for the program.
 pub fn start(arguments: &[&str]) -> Child {
-    command(arguments).spawn().expect("the program runs")
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_linkwear")]).args(arguments);
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("`env` of the GNU core utilities runs the program")
 }
 
 /// A folder of its own for one test, removed at its end.

@@ -77,7 +77,7 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The first [`LISTED`] as data, for `--format json`. A fault without a place is put at line 1, column 1.
+    /// The first thousand as data, for `--format json`. A fault without a place is put at line 1, column 1.
     pub fn entries(&self) -> Vec<Entry> {
         let entry = |diagnostic: &Diagnostic| {
             let start = diagnostic.span().map_or(0, |span| span.start);

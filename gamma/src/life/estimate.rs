@@ -84,7 +84,6 @@ impl Estimate {
     }
 
     /// With the data it was made from.
-    #[must_use]
     pub fn with_sample(self, sample: Sample) -> Self {
         Self { sample, ..self }
     }

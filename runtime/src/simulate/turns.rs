@@ -174,12 +174,12 @@ impl<'a> TurnRunner<'a> {
     /// the turn.
     pub fn measure(&mut self, watch: Watch<'_>) -> Result<TurnMeasures, RunError> {
         let schedule = Schedule::turn(&mut self.motion.dynamics.evaluator, self.t)?;
-        let kept = self.motion.dynamics.evaluator.clearances().states().to_vec();
+        let kept = self.state();
         let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
         let mut state = self.motion.join(&self.state);
         let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
         if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, watch) {
-            self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept);
+            self.restore(&kept)?;
             return Err(error);
         }
         let (q, v, _) = self.motion.split(&state);
