@@ -65,9 +65,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
     let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
     compiled.warnings.extend(near);
-    let allowed = std::mem::take(&mut compiled.mechanism.allowed);
+    let allowed = &compiled.mechanism.allowed;
     compiled.warnings.retain(|warning| !allowed.contains(&warning.code));
-    compiled.mechanism.allowed = allowed;
     Ok(compiled)
 }
 

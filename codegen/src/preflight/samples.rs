@@ -88,7 +88,7 @@ pub struct Walker<'a> {
 
 impl Walker<'_> {
     /// Residuals of all rows, their Jacobian and the mass matrix, in own units.
-    fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>, DMatrix<f64>) {
+    pub fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>, DMatrix<f64>) {
         let sizes = self.system.sizes();
         let (n, m) = (sizes.all_speeds, sizes.all_rows);
         let zeros = vec![0.0; n];
@@ -219,7 +219,7 @@ pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// Shortest solution of a rank-deficient system.
-fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+pub fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
     if matrix.is_empty() {
         return Some(DVector::zeros(matrix.ncols()));
     }

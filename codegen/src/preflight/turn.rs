@@ -1,15 +1,14 @@
 //! Whether a driven crank can turn once round: its loops are closed position by position, without forces or time.
 //! In: closed positions of the released mechanism. Out: warnings with the angle where it ends.
 
-use linkwear_runtime::{Entry, Layout};
 use nalgebra::{DMatrix, DVector};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Coordinate, Formula, Mechanism};
+use crate::model::Coordinate;
 
 use super::case::Case;
 use super::resonance::turns_per_second;
-use super::samples::{ClosedPositions, RANK_TOLERANCE, evaluate};
+use super::samples::{ClosedPositions, Walker, least_norm};
 
 /// Speeds of the largest mechanism that is turned: above, each of some hundred decompositions takes a second.
 const LARGEST: usize = 60;
@@ -19,7 +18,7 @@ const LONGEST: f64 = std::f64::consts::PI / 36.0;
 const SHORTEST: f64 = LONGEST / 20.0;
 /// Steps over a position where the loops fold, in which Newton does not converge [rad].
 const LEAPS: [f64; 3] = [SHORTEST * 3.0, SHORTEST * 10.0, LONGEST];
-/// Loops are closed below this, lengths as shares of the mechanism's size.
+/// Loops are closed below this, in own units.
 const CLOSED: f64 = 1e-9;
 /// Newton either closes a loop within these from 5 degrees away, or it is open.
 const ITERATIONS: usize = 25;
@@ -73,47 +72,17 @@ fn play<'a>(case: &'a Case<'_>) -> impl Iterator<Item = (usize, usize)> + 'a {
 
 /// The loops of a mechanism, its crank and its clearances held.
 struct Loops<'a> {
-    case: &'a Case<'a>,
-    parameters: Vec<f64>,
-    layout: Layout,
+    walker: Walker<'a>,
     crank: usize,
     free: Vec<usize>,
-    /// What a row and a speed are multiplied by, so that lengths count as shares of the mechanism's size.
-    rows: Vec<f64>,
-    speeds: Vec<f64>,
 }
 
 impl<'a> Loops<'a> {
-    fn new(case: &'a Case<'a>, crank: usize) -> Self {
-        let size = size(case.mechanism);
+    fn new(case: &'a Case<'_>, crank: usize) -> Self {
+        let walker = case.walker();
         let held: Vec<usize> = play(case).map(|(speed, _)| speed).chain([crank]).collect();
-        let free = case.linkage.joint_speeds().into_iter().filter(|speed| !held.contains(speed)).collect();
-        let rows = case.description.rows.iter();
-        let speeds = case.description.speeds.iter();
-        Self {
-            case,
-            parameters: case.parameters(),
-            layout: Layout::new(&case.description.motions),
-            crank,
-            free,
-            rows: rows.map(|row| if row.angular { 1.0 } else { 1.0 / size }).collect(),
-            speeds: speeds.map(|speed| if speed.unit == "m/s" { size } else { 1.0 }).collect(),
-        }
-    }
-
-    /// Residuals and their Jacobian, without dimension.
-    fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let sizes = self.case.system.sizes();
-        let (n, m) = (sizes.all_speeds, sizes.all_rows);
-        let input = [self.parameters.as_slice(), &[0.0], q, &vec![0.0; n]].concat();
-        let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
-        evaluate(self.case.system, Entry::EquationsOfMotion, &input, &mut output);
-        let first = n * (n + 1) / 2 + n;
-        let residual = DVector::from_fn(m, |row, _| output[first + row] * self.rows[row]);
-        let jacobian = DMatrix::from_fn(m, n, |row, speed| {
-            output[first + m + row * n + speed] * self.rows[row] * self.speeds[speed]
-        });
-        (residual, jacobian)
+        let free = walker.joint_speeds.iter().copied().filter(|speed| !held.contains(speed)).collect();
+        Self { walker, crank, free }
     }
 
     /// The shortest motion of the free speeds that takes the residual away.
@@ -124,21 +93,20 @@ impl<'a> Loops<'a> {
         residual: &DVector<f64>,
         crank: f64,
     ) -> Option<()> {
-        let free = jacobian.select_columns(&self.free);
-        let svd = free.svd(true, true);
-        let step = svd.solve(residual, RANK_TOLERANCE * svd.singular_values.amax()).ok()?;
-        let mut all = vec![0.0; self.speeds.len()];
+        let step = least_norm(&jacobian.select_columns(&self.free), residual)?;
+        let units = &self.walker.units.speeds;
+        let mut all = vec![0.0; units.len()];
         all[self.crank] = crank;
         for (speed, amount) in self.free.iter().zip(step.iter()) {
-            all[*speed] = -amount * self.speeds[*speed];
+            all[*speed] = -amount * units[*speed];
         }
-        self.layout.advance(q, &all);
+        self.walker.layout.advance(q, &all);
         Some(())
     }
 
     fn close(&self, mut q: Vec<f64>) -> Option<Vec<f64>> {
         for _ in 0..ITERATIONS {
-            let (residual, jacobian) = self.equations(&q);
+            let (residual, jacobian, _) = self.walker.equations(&q);
             if residual.amax() < CLOSED {
                 return Some(q);
             }
@@ -150,7 +118,7 @@ impl<'a> Loops<'a> {
     /// Closed again after the crank has moved on.
     fn step(&self, from: &[f64], crank: f64) -> Option<Vec<f64>> {
         let mut q = from.to_vec();
-        let (_, jacobian) = self.equations(&q);
+        let (_, jacobian, _) = self.walker.equations(&q);
         let moved = jacobian.column(self.crank) * crank;
         self.correct(&mut q, &jacobian, &moved, crank)?;
         self.close(q)
@@ -172,17 +140,4 @@ impl<'a> Loops<'a> {
         }
         None
     }
-}
-
-/// Largest distance of a point from the first [m].
-fn size(mechanism: &Mechanism) -> f64 {
-    let values = mechanism.parameter_values();
-    let positions = mechanism.points.iter().map(|point| point.position_for(point.carrier));
-    let places: Vec<[f64; 3]> = positions
-        .map(|position: &[Formula; 3]| std::array::from_fn(|k| position[k].value(&values).unwrap_or(0.0)))
-        .collect();
-    let first = places.first().copied().unwrap_or_default();
-    let apart = |place: &[f64; 3]| (0..3).map(|k| (place[k] - first[k]).powi(2)).sum::<f64>().sqrt();
-    let size = places.iter().map(apart).fold(0.0, f64::max);
-    if size > 0.0 { size } else { 1.0 }
 }
