@@ -231,6 +231,8 @@ impl Prediction {
         self.budget = self.moments.map(|(_, band)| ErrorBudget {
             monte_carlo,
             table: Contribution::None("exposure is a formula"),
+            settling: None,
+            averaging: None,
             parameters: parameters.unwrap_or_else(|| ErrorBudget::parameters(band)),
         });
     }

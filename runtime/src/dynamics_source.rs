@@ -4,7 +4,7 @@
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
-use crate::life::{JointLife, JointWear, SettingsError, WearSource};
+use crate::life::{JointLife, JointWear, SettingsError, WearOf, WearSource};
 use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnRunner, TurnState};
 use crate::system::System;
 use crate::watch::Watch;
@@ -28,6 +28,36 @@ impl Default for RevolutionSettings {
     }
 }
 
+/// How steady the turns were that a revolution was measured by, of one joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Steadiness {
+    /// What the revolution adds to W [m].
+    pub wear: f64,
+    /// By how much of it the revolution differs from the last turn that settled; nothing if none did.
+    pub drift: Option<f64>,
+    /// Standard error of the mean over the turns measured, as a part of it: by their scatter, or for a single one by its
+    /// difference from the turn before, which has the scatter of two. Nothing if there is one turn in all.
+    pub scatter: Option<f64>,
+}
+
+impl Steadiness {
+    /// From W per turn [m] of the last turn that settled, and of those measured.
+    fn of(before: Option<f64>, turns: &[f64]) -> Self {
+        let count = turns.len() as f64;
+        let wear = turns.iter().sum::<f64>() / count;
+        // What does not wear at all is steady.
+        let part = |of: f64| if of == 0.0 { 0.0 } else { of / wear };
+        let drift = before.map(|before| part(wear - before));
+        let squares: f64 = turns.iter().map(|turn| (turn - wear) * (turn - wear)).sum();
+        let scatter = match turns.len() {
+            1 => drift.map(|drift| drift.abs() * core::f64::consts::FRAC_1_SQRT_2),
+            _ => Some(part(libm::sqrt(squares / (count * (count - 1.0))))),
+        };
+        Self { wear, drift, scatter }
+    }
+}
+
 /// Revolutions of one mechanism.
 #[must_use]
 pub struct DynamicsSource<'a> {
@@ -39,6 +69,7 @@ pub struct DynamicsSource<'a> {
     settings: RevolutionSettings,
     watch: Watch<'a>,
     warnings: Vec<RunWarning>,
+    steadiness: Vec<Steadiness>,
 }
 
 impl<'a> DynamicsSource<'a> {
@@ -58,7 +89,18 @@ impl<'a> DynamicsSource<'a> {
         let wearing = (0..clearances.len()).filter(|at| description.contacts[*at].wear.is_some());
         let wearing = wearing.map(|at| (at, clearances[at])).collect();
         let start = runner.state();
-        Ok(Self { runner, description, start, wearing, settings, watch: Watch::NONE, warnings: Vec::new() })
+        let (warnings, steadiness) = (Vec::new(), Vec::new());
+        Ok(Self { runner, description, start, wearing, settings, watch: Watch::NONE, warnings, steadiness })
+    }
+
+    /// How long a revolution lasts [s]; nothing where the first three last differently.
+    pub fn seconds_per_revolution(&mut self) -> Option<f64> {
+        self.runner.seconds_per_turn()
+    }
+
+    /// How steady the turns of the last measurement were, per wearing joint.
+    pub fn steadiness(&self) -> &[Steadiness] {
+        &self.steadiness
     }
 
     /// Hears of the finished part of every measurement; when it breaks, the measurement ends with
@@ -90,16 +132,23 @@ impl<'a> DynamicsSource<'a> {
         &self.warnings
     }
 
-    /// Settles, then measures turn by turn.
-    fn turns(&mut self) -> Result<Vec<TurnMeasures>, RunError> {
+    /// Settles, then measures turn by turn; the last that settled comes first, if there is one.
+    fn turns(&mut self) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
         let (settle, average) = (f64::from(self.settings.settle), self.settings.average.max(1));
         let total = settle + f64::from(average);
-        self.runner.settle(self.settings.settle, self.watch.piece(0.0, settle / total))?;
+        let settled = self.runner.settle(self.settings.settle, self.watch.piece(0.0, settle / total))?;
         let turn = |index: u32| {
             let done = settle + f64::from(index);
             self.runner.measure(self.watch.piece(done / total, (done + 1.0) / total))
         };
-        (0..average).map(turn).collect()
+        let turns = (0..average).map(turn).collect::<Result<_, _>>()?;
+        Ok((settled, turns))
+    }
+
+    /// W per turn [m] of a wearing joint.
+    fn wear(&self, at: usize, turn: &TurnMeasures) -> f64 {
+        let wear = self.description.contacts[at].wear.as_ref();
+        wear.map_or(0.0, |wear| WearOf::described(wear).of(&turn.joints[at]))
     }
 
     fn note(&mut self, turns: &[TurnMeasures]) {
@@ -127,12 +176,38 @@ impl WearSource for DynamicsSource<'_> {
         for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
             self.runner.set_worn(*at, joint.clearance - unworn, joint.profile.clone())?;
         }
-        let turns = self.turns()?;
+        let (settled, turns) = self.turns()?;
         *state = Some(self.runner.state());
         self.note(&turns);
+        let steady = |(at, _): &(usize, f64)| {
+            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
+            Steadiness::of(settled.as_ref().map(|turn| self.wear(*at, turn)), &wears)
+        };
+        self.steadiness = self.wearing.iter().map(steady).collect();
         let of = |(at, _): &(usize, f64)| {
             ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
         };
         Ok(self.wearing.iter().map(of).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_that_differ_say_how_far_their_mean_may_be_off() {
+        // 2, 3 and 4: mean 3, standard deviation 1.
+        let three = Steadiness::of(Some(2.7), &[2.0, 3.0, 4.0]);
+        assert_eq!(three.wear, 3.0);
+        assert!((three.drift.expect("a turn before") - 0.1).abs() < 1e-15);
+        assert!((three.scatter.expect("three turns") - 1.0 / 3.0_f64.sqrt() / 3.0).abs() < 1e-15);
+        let one = Steadiness::of(Some(2.0), &[4.0]);
+        assert_eq!(one.drift, Some(0.5));
+        assert!((one.scatter.expect("two turns") - 0.5 / 2.0_f64.sqrt()).abs() < 1e-15);
+        let alone = Steadiness::of(None, &[4.0]);
+        assert_eq!((alone.drift, alone.scatter), (None, None));
+        let still = Steadiness { wear: 0.0, drift: Some(0.0), scatter: Some(0.0) };
+        assert_eq!(Steadiness::of(Some(0.0), &[0.0, 0.0]), still);
     }
 }

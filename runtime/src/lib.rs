@@ -76,7 +76,7 @@ pub use {
         Tables, Text, VariableInfo, WearInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
-    dynamics_source::{DynamicsSource, RevolutionSettings},
+    dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
     error::{AssemblyError, NoColumn, RunError, SetupError},
     evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
     layout::{Group, Layout},

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use hmac_sha256::Hash;
 use linkwear_runtime::life::FailureEvent;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{RunWarning, TurnState};
+use linkwear_runtime::{RunWarning, Steadiness, TurnState};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
@@ -74,6 +74,8 @@ pub(super) struct Measurement {
     /// Wear of the joints it was asked for [m].
     pub wear: Vec<f64>,
     pub measured: Vec<ContactMeasure>,
+    /// How steady the turns were, joint by joint.
+    pub steadiness: Vec<Steadiness>,
     pub state: Option<TurnState>,
     /// All that was doubtful until then.
     pub warnings: Vec<RunWarning>,

@@ -12,6 +12,7 @@ mod process;
 mod result;
 mod run;
 mod source;
+mod steady;
 mod study;
 
 pub use error::{Cause, LifeError};
@@ -19,4 +20,5 @@ pub use fit::{JointFit, UnfitForLife};
 pub use journal::{Journal, JournalError};
 pub use process::JointProcess;
 pub use result::LifeResult;
+pub use steady::TurnErrors;
 pub use study::{Coupling, LifeStudy, Trajectories};

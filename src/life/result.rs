@@ -5,6 +5,7 @@ use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics};
 use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
 
 use super::process::JointProcess;
+use super::steady::TurnErrors;
 use super::study::Coupling;
 
 /// A life to the failure threshold, in cycles.
@@ -32,6 +33,10 @@ pub struct LifeResult {
     pub warnings: Vec<String>,
     /// Standard error of the mean life by the covariances of fits, if there are any [cycles].
     pub parameter_error: Option<f64>,
+    /// What turns that are not steady do to the life of the joint that ends the mean path.
+    pub turn_errors: TurnErrors,
+    /// How long a revolution lasts [s], if all last equally long.
+    pub seconds_per_revolution: Option<f64>,
 }
 
 impl LifeResult {
@@ -80,10 +85,18 @@ impl LifeResult {
         Some(report.left_out.iter().chain(others).copied().fold(0.0, f64::max))
     }
 
+    /// How long a cycle lasts at the speed of the drive [s]; nothing where revolutions last differently, or a cycle
+    /// stands for different numbers of them at different joints.
+    pub fn seconds_per_cycle(&self) -> Option<f64> {
+        let revolutions = self.failed_joint().revolutions_per_cycle;
+        let is_one = self.joints.iter().all(|joint| joint.revolutions_per_cycle == revolutions);
+        self.seconds_per_revolution.filter(|_| is_one).map(|seconds| revolutions * seconds)
+    }
+
     /// How far off the mean life may be: that of the random lives, or of the mean path where there are none [cycles].
     pub fn budget(&self) -> ErrorBudget {
         let (mean, monte_carlo) = match self.statistics() {
-            Some(lives) => (lives.mean().value, ErrorBudget::monte_carlo(lives.mean())),
+            Some(lives) => (lives.mean().value, Contribution::Random(lives.mean_half_width())),
             None => (self.end.cycles, Contribution::None("one life, every increment its mean")),
         };
         let table = match self.table_error() {
@@ -91,6 +104,12 @@ impl LifeResult {
             Some(error) => Contribution::Bound(error * mean),
             None => Contribution::Bound(self.step_error),
         };
+        let turns = |error: Option<f64>, of: fn(f64) -> Contribution| {
+            let unknown = Contribution::Unknown("one turn for each measurement, and none to settle");
+            Some(error.map_or(unknown, of))
+        };
+        let settling = turns(self.turn_errors.settling.map(|part| part * mean), Contribution::Bound);
+        let averaging = turns(self.turn_errors.averaging.map(|part| part * mean), ErrorBudget::random);
         let is_fitted = |joints: &[JointProcess]| joints.iter().any(|joint| joint.from.is_some());
         let parameters = match (self.parameter_error, &self.process) {
             (Some(error), _) => ErrorBudget::random(error),
@@ -100,6 +119,6 @@ impl LifeResult {
             }
             (None, None) => Contribution::None("no Gamma process: wear is what physics says"),
         };
-        ErrorBudget { monte_carlo, table, parameters }
+        ErrorBudget { monte_carlo, table, settling, averaging, parameters }
     }
 }

@@ -20,6 +20,7 @@ use super::journal::{Batch, Journal, KnownLives};
 use super::process::Process;
 use super::result::LifeResult;
 use super::source::KeptSource;
+use super::steady::TurnErrors;
 use super::study::{Coupling, LifeStudy};
 
 /// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
@@ -82,7 +83,8 @@ impl LifeStudy<'_> {
             return Err(Cause::NoWear.into());
         }
         let system = self.mechanism.system();
-        let source = self.source(&*system, silent).map_err(Cause::from)?;
+        let mut source = self.source(&*system, silent).map_err(Cause::from)?;
+        let seconds = source.seconds_per_revolution();
         let plan = Plan::new(self, &source, journal, (watch, silent))?;
         if let Some(journal) = journal {
             journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
@@ -92,6 +94,8 @@ impl LifeStudy<'_> {
             Coupling::Table => plan.by_table(&mut source),
             Coupling::Full => plan.by_dynamics(&mut source),
         }?;
+        result.turn_errors = source.turn_errors(result.end.joint);
+        result.seconds_per_revolution = seconds;
         result.warnings.splice(0..0, source.warnings().iter().map(ToString::to_string));
         Ok(result)
     }
@@ -209,6 +213,8 @@ impl<'s> Plan<'s> {
             measurements: state.measurements,
             warnings,
             parameter_error: self.process.as_ref().and_then(by_fit),
+            turn_errors: TurnErrors { settling: None, averaging: None },
+            seconds_per_revolution: None,
         })
     }
 

@@ -3,26 +3,36 @@
 
 use linkwear_runtime::life::{JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, RunError, RunWarning, TurnState};
+use linkwear_runtime::{DynamicsSource, RunError, RunWarning, Steadiness, TurnState};
 
 use super::journal::{Journal, Measurement};
+use super::steady::{Steady, TurnErrors};
 
 /// Revolutions of a system, kept.
 pub(super) struct KeptSource<'a> {
     source: DynamicsSource<'a>,
     journal: Option<&'a Journal>,
-    /// Measurements until now.
-    count: usize,
+    /// Wear [m] and steadiness of the joints at each measurement until now.
+    seen: Vec<(Vec<f64>, Vec<Steadiness>)>,
 }
 
 impl<'a> KeptSource<'a> {
     pub fn new(source: DynamicsSource<'a>, journal: Option<&'a Journal>) -> Self {
-        Self { source, journal, count: 0 }
+        Self { source, journal, seen: Vec::new() }
     }
 
     /// What was doubtful until now.
     pub fn warnings(&self) -> &[RunWarning] {
         self.source.warnings()
+    }
+
+    /// How far off the life of a joint may be because turns were not steady.
+    pub fn turn_errors(&self, joint: usize) -> TurnErrors {
+        let one = |(wear, steadiness): &(Vec<f64>, Vec<Steadiness>)| Steady {
+            worn: wear[joint],
+            turns: steadiness[joint],
+        };
+        TurnErrors::of(self.seen.iter().map(one).collect())
     }
 }
 
@@ -35,22 +45,25 @@ impl WearSource for KeptSource<'_> {
         joints: &[JointWear],
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, RunError> {
-        let Some(journal) = self.journal else { return self.source.measure(joints, state) };
         let wear: Vec<f64> = joints.iter().map(|joint| joint.wear).collect();
-        let index = self.count;
-        self.count += 1;
-        if let Some(known) = journal.measurement(index, &wear) {
+        if let Some(known) = self.journal.and_then(|journal| journal.measurement(self.seen.len(), &wear)) {
             self.source.known(&known.warnings);
             state.clone_from(&known.state);
+            self.seen.push((wear, known.steadiness.clone()));
             return Ok(known.measured.clone());
         }
         let measured = self.source.measure(joints, state)?;
-        journal.keep_measurement(Measurement {
-            wear,
-            measured: measured.clone(),
-            state: state.clone(),
-            warnings: self.source.warnings().to_vec(),
-        });
+        let steadiness = self.source.steadiness().to_vec();
+        self.seen.push((wear.clone(), steadiness.clone()));
+        if let Some(journal) = self.journal {
+            journal.keep_measurement(Measurement {
+                wear,
+                measured: measured.clone(),
+                steadiness,
+                state: state.clone(),
+                warnings: self.source.warnings().to_vec(),
+            });
+        }
         Ok(measured)
     }
 }

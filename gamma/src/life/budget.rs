@@ -20,14 +20,17 @@ pub enum Contribution {
     Bound(f64),
     /// Does not arise: exact formula, no table, known parameters. Says which.
     None(&'static str),
+    /// Nothing tells how large it is. Says why.
+    Unknown(&'static str),
 }
 
 impl Contribution {
-    /// Half-width, 0 if the source does not arise.
+    /// Half-width: 0 if the source does not arise, NaN if nothing tells.
     pub fn half_width(self) -> f64 {
         match self {
             Self::Random(half) | Self::Bound(half) => half,
             Self::None(_) => 0.0,
+            Self::Unknown(_) => f64::NAN,
         }
     }
 }
@@ -41,6 +44,10 @@ pub struct ErrorBudget {
     pub monte_carlo: Contribution,
     /// From the table of wear per revolution, or of a quadrature.
     pub table: Contribution,
+    /// From revolutions that had not settled when they were measured; nothing where none are measured.
+    pub settling: Option<Contribution>,
+    /// From the finite number of revolutions whose mean was taken; nothing where none are measured.
+    pub averaging: Option<Contribution>,
     /// From the uncertainty of estimated parameters.
     pub parameters: Contribution,
 }
@@ -62,35 +69,50 @@ impl ErrorBudget {
     }
 
     /// The parts with their names.
-    pub fn parts(&self) -> [(&'static str, Contribution); 3] {
-        [("monte_carlo", self.monte_carlo), ("table", self.table), ("parameters", self.parameters)]
+    pub fn parts(&self) -> impl Iterator<Item = (&'static str, Contribution)> {
+        let parts = [
+            ("monte_carlo", Some(self.monte_carlo)),
+            ("table", Some(self.table)),
+            ("settling", self.settling),
+            ("averaging", self.averaging),
+            ("parameters", Some(self.parameters)),
+        ];
+        parts.into_iter().filter_map(|(name, part)| Some((name, part?)))
     }
 
-    /// The contributions with their kinds and reasons, and the total.
+    /// The contributions with their kinds and reasons, and the total, if all are known.
     pub fn to_json(&self) -> Value {
         let entry = |part: Contribution| match part {
             Contribution::Random(half) => json!({ "half_width": half, "kind": "random" }),
             Contribution::Bound(half) => json!({ "half_width": half, "kind": "bound" }),
             Contribution::None(reason) => json!({ "half_width": 0.0, "kind": "none", "reason": reason }),
+            Contribution::Unknown(reason) => {
+                json!({ "half_width": null, "kind": "unknown", "reason": reason })
+            }
         };
-        let parts = self.parts().into_iter().map(|(name, part)| (name.to_owned(), entry(part)));
-        parts.chain([("total".to_owned(), json!(self.total()))]).collect()
+        let parts = self.parts().map(|(name, part)| (name.to_owned(), entry(part)));
+        parts.chain([("total".to_owned(), self.total_json())]).collect()
     }
 
-    /// The half-widths alone, as `life` has them, and the total.
+    /// The half-widths alone, as `life` has them, and the total, if all are known.
     pub fn half_widths_json(&self) -> Value {
-        let parts = self.parts().into_iter().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
-        json!({ "half_widths_95": parts.collect::<Map<_, _>>(), "total": self.total() })
+        let parts = self.parts().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
+        json!({ "half_widths_95": parts.collect::<Map<_, _>>(), "total": self.total_json() })
     }
 
-    /// Half-width of all together.
+    fn total_json(&self) -> Value {
+        let is_known = self.parts().all(|(_, part)| !matches!(part, Contribution::Unknown(_)));
+        if is_known { json!(self.total()) } else { Value::Null }
+    }
+
+    /// Half-width of all together, but for what is unknown.
     pub fn total(&self) -> f64 {
         let (mut squares, mut bounds) = (0.0, 0.0);
         for (_, part) in self.parts() {
             match part {
                 Contribution::Random(half) => squares += half * half,
                 Contribution::Bound(half) => bounds += half,
-                Contribution::None(_) => {}
+                Contribution::None(_) | Contribution::Unknown(_) => {}
             }
         }
         libm::sqrt(squares) + bounds
@@ -99,15 +121,20 @@ impl ErrorBudget {
 
 impl fmt::Display for ErrorBudget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = ["Monte Carlo", "table", "parameters"];
-        for (name, (_, part)) in names.iter().zip(self.parts()) {
+        let mut rest = "";
+        for (name, part) in self.parts() {
+            let name = if name == "monte_carlo" { "Monte Carlo" } else { name };
             match part {
                 Contribution::Random(half) => writeln!(f, "  {name:<12}+- {half:.3e}")?,
                 Contribution::Bound(half) => writeln!(f, "  {name:<12}+- {half:.3e} (bound)")?,
                 Contribution::None(reason) => writeln!(f, "  {name:<12}none: {reason}")?,
+                Contribution::Unknown(reason) => {
+                    rest = ", and what is unknown";
+                    writeln!(f, "  {name:<12}unknown: {reason}")?;
+                }
             }
         }
-        write!(f, "  {:<12}+- {:.3e}", "total", self.total())
+        write!(f, "  {:<12}+- {:.3e}{rest}", "total", self.total())
     }
 }
 
@@ -115,26 +142,41 @@ impl fmt::Display for ErrorBudget {
 mod tests {
     use super::*;
 
+    const NONE: Contribution = Contribution::None("closed form");
+    const EXACT: ErrorBudget =
+        ErrorBudget { monte_carlo: NONE, table: NONE, settling: None, averaging: None, parameters: NONE };
+
     #[test]
     fn random_parts_add_as_squares_and_bounds_as_they_are() {
         let budget = ErrorBudget {
-            monte_carlo: Contribution::Random(3.0),
-            table: Contribution::Bound(0.5),
+            monte_carlo: Contribution::Random(2.0),
+            table: Contribution::Bound(0.25),
+            settling: Some(Contribution::Bound(0.25)),
+            averaging: Some(Contribution::Random(5.0_f64.sqrt())),
             parameters: Contribution::Random(4.0),
         };
-        assert_eq!(budget.total(), 5.5);
+        assert!((budget.total() - 5.5).abs() < 1e-15);
         let text = budget.to_string();
         assert!(
-            text.contains("table       +- 5.000e-1 (bound)") && text.contains("total       +- 5.500e0"),
+            text.contains("table       +- 2.500e-1 (bound)") && text.contains("total       +- 5.500e0"),
             "{text}"
         );
     }
 
     #[test]
     fn a_source_that_does_not_arise_says_why() {
-        let none = Contribution::None("closed form");
-        let budget = ErrorBudget { monte_carlo: none, table: none, parameters: Contribution::Random(1.0) };
+        let budget = ErrorBudget { parameters: Contribution::Random(1.0), ..EXACT };
         assert!(budget.to_string().contains("Monte Carlo none: closed form"), "{budget}");
         assert_eq!(budget.total(), 1.0);
+    }
+
+    #[test]
+    fn what_nobody_knows_is_not_zero() {
+        let budget = ErrorBudget { settling: Some(Contribution::Unknown("no turn before")), ..EXACT };
+        let text = budget.to_string();
+        assert!(text.contains("settling    unknown: no turn before"), "{text}");
+        assert!(text.ends_with("total       +- 0.000e0, and what is unknown"), "{text}");
+        let json = budget.half_widths_json();
+        assert_eq!((&json["half_widths_95"]["settling"], &json["total"]), (&Value::Null, &Value::Null));
     }
 }

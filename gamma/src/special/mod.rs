@@ -11,6 +11,7 @@ mod polygamma;
 mod quantile;
 mod root;
 mod shape_slope;
+mod student;
 
 pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q};
 pub use inverse_gaussian::inverse_gaussian;
@@ -20,6 +21,7 @@ pub use polygamma::{digamma, tetragamma, trigamma};
 pub use quantile::{gamma_quantile, ln_gamma_quantile};
 pub(crate) use root::{guarded, rising_root};
 pub use shape_slope::ln_gamma_p_slope;
+pub use student::student_bound;
 
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,8 @@ use thiserror::Error;
 
 use super::worn::WearState;
 use crate::contact::{OutOfRange, checked, positive};
-use crate::description::ContactInfo;
-use crate::wear::{Limits, Measure, Profile, ScalarFeedback};
+use crate::description::{ContactInfo, WearInfo};
+use crate::wear::{ContactMeasure, Limits, Measure, Profile, ScalarFeedback};
 
 /// What counts as the wear W of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +15,26 @@ pub enum WearOf {
     Depth,
     /// The mean or maximum of the depth by bearing angle.
     Profile(Measure),
+}
+
+impl WearOf {
+    /// As a description has it: the mean or maximum of the profile if it says so or the profile feeds back (then the mean),
+    /// else the depth by the model of the area.
+    pub fn described(wear: &WearInfo) -> Self {
+        match wear.measure {
+            Some(measure) => Self::Profile(measure),
+            None if wear.profile => Self::Profile(Measure::Mean),
+            None => Self::Depth,
+        }
+    }
+
+    /// What a revolution adds to the W of an unworn joint [m].
+    pub fn of(self, measured: &ContactMeasure) -> f64 {
+        match (self, &measured.deposit) {
+            (Self::Profile(measure), Some(profile)) => measure.of(profile.depths()),
+            _ => measured.depth,
+        }
+    }
 }
 
 /// What wear does to the geometry.
@@ -194,9 +214,7 @@ impl LifeSettings {
 }
 
 impl JointLife {
-    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear. W is the
-    /// mean or maximum of the profile if the description says so or the profile feeds back (then the mean), else the
-    /// depth by the model of the area.
+    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear.
     ///
     /// # Errors
     /// If a number of the joint is out of range.
@@ -215,11 +233,7 @@ impl JointLife {
             clearance,
             threshold: wear.threshold,
             revolutions_per_cycle: wear.revolutions_per_cycle,
-            wear: match wear.measure {
-                Some(measure) => WearOf::Profile(measure),
-                None if wear.profile => WearOf::Profile(Measure::Mean),
-                None => WearOf::Depth,
-            },
+            wear: WearOf::described(&wear),
             feedback,
             bins: wear.keeps_profile().then_some(wear.bins),
             limits: Limits { hardness: wear.hardness, pressure_speed: wear.pressure_speed },
@@ -299,7 +313,6 @@ impl JointLife {
 mod tests {
     use super::*;
     use crate::contact::{Restitution, Stiffness};
-    use crate::description::WearInfo;
     use crate::wear::Area;
 
     fn contact(wear: Option<WearInfo>) -> ContactInfo {

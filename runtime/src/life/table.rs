@@ -13,7 +13,7 @@ use core::convert::Infallible;
 use super::error::LifeError;
 use super::interpolate::{Curve, find};
 use super::path::measure;
-use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf};
+use super::settings::{Feedback, JointLife, LifeSettings, SettingsError};
 use super::source::{JointWear, WearSource};
 use crate::contact::OutOfRange;
 use crate::watch::Watch;
@@ -199,11 +199,7 @@ fn difference(joint: &JointLife, truth: &ContactMeasure, table: &ContactMeasure)
 
 /// W that one cycle adds to an unworn joint [m].
 fn gain(joint: &JointLife, wear: &ContactMeasure) -> f64 {
-    let per_revolution = match (joint.wear, &wear.deposit) {
-        (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
-        _ => wear.depth,
-    };
-    joint.revolutions_per_cycle * per_revolution
+    joint.revolutions_per_cycle * joint.wear.of(wear)
 }
 
 /// Measures along the deterministic life.

@@ -19,6 +19,9 @@ use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::{ContactMeasure, Profile};
 
+/// Turns that differ by no more of themselves last equally long: their ends are found to rounding.
+const EVEN: f64 = 1e-9;
+
 /// All that has to be kept to go on with a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -155,16 +158,28 @@ impl<'a> TurnRunner<'a> {
         Ok(())
     }
 
-    /// Runs turns without measuring them.
+    /// How long a turn lasts [s], if the first three last equally long.
+    pub fn seconds_per_turn(&mut self) -> Option<f64> {
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        let mut turn = |from: f64| Schedule::turn(evaluator, from).ok().map(|turn| turn.end);
+        let first = turn(0.0)?;
+        let second = turn(first)?;
+        let third = turn(second)?;
+        let is_even = |length: f64| (length - first).abs() <= EVEN * first;
+        (is_even(second - first) && is_even(third - second)).then_some(first)
+    }
+
+    /// Runs turns that are not to be counted yet; returns the last of them.
     ///
     /// # Errors
     /// As [`Self::measure`].
-    pub fn settle(&mut self, turns: u32, watch: Watch<'_>) -> Result<(), RunError> {
+    pub fn settle(&mut self, turns: u32, watch: Watch<'_>) -> Result<Option<TurnMeasures>, RunError> {
+        let part = |turn: u32| f64::from(turn) / f64::from(turns);
+        let mut last = None;
         for turn in 0..turns {
-            let part = |turn: u32| f64::from(turn) / f64::from(turns);
-            self.measure(watch.piece(part(turn), part(turn + 1)))?;
+            last = Some(self.measure(watch.piece(part(turn), part(turn + 1)))?);
         }
-        Ok(())
+        Ok(last)
     }
 
     /// Runs one turn and says what it did; `watch` hears the finished part of this turn.

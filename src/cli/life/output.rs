@@ -11,12 +11,15 @@ use serde_json::{Value, json};
 
 use super::super::answer::Answer;
 use super::super::failure::warnings;
-use super::super::table::table;
+use super::super::table::{count, table};
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
 /// Points of the reliability function.
 const POINTS: usize = 40;
+/// Seconds of an hour, and of a year of 365.25 days.
+const HOUR: f64 = 3600.0;
+const YEAR: f64 = 8766.0 * HOUR;
 
 /// The answer.
 pub fn answer(study: &LifeStudy<'_>, life: &LifeResult) -> Answer {
@@ -67,10 +70,33 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         "cycles": cycles,
         "warnings": warnings(&mechanism.warnings, "life", &life.warnings),
     });
+    if let Some(seconds) = life.seconds_per_cycle() {
+        let time =
+            |cycles: f64| json!({ "hours": cycles * seconds / HOUR, "years": cycles * seconds / YEAR });
+        answer["time"] = json!({
+            "seconds_per_cycle": seconds,
+            "mean": time(life.mean()),
+            "std": time(statistics.map_or(0.0, |lives| lives.std().value)),
+            "quantiles": { "p10": time(p10), "p50": time(p50), "p90": time(p90) },
+        });
+    }
     if let Some(lives) = statistics {
         let measured = |value: WithError| json!({ "value": value.value, "standard_error": value.error });
+        let quantiles = |of: &dyn Fn(f64) -> Option<Value>| {
+            let of = |p| of(p).unwrap_or_default();
+            json!({ "p10": of(0.1), "p50": of(0.5), "p90": of(0.9) })
+        };
+        let ends = |[lower, upper]: [Option<f64>; 2]| json!({ "lower": lower, "upper": upper });
+        let (low, high) = lives.std_interval();
         answer["standard_errors"] = json!({
             "mean": lives.mean().error, "std": lives.std().error, "cov": measured(lives.cov()),
+            "quantiles": quantiles(&|p| Some(json!(lives.quantile(p).ok()?.error))),
+        });
+        let (mean, half) = (lives.mean().value, lives.mean_half_width());
+        answer["intervals95"] = json!({
+            "mean": ends([Some(mean - half), Some(mean + half)]),
+            "std": ends([Some(low), Some(high)]),
+            "quantiles": quantiles(&|p| Some(ends(lives.quantile_interval(p).ok()?))),
         });
         answer["reliability"] = reliability(lives);
         answer["failed_first"] =
@@ -104,6 +130,15 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         number(life.end.cycles * joint.revolutions_per_cycle),
         study.mechanism.backend(),
     );
+    if let Some(seconds) = life.seconds_per_cycle() {
+        let (path, turn) = (life.end.cycles * seconds, seconds / joint.revolutions_per_cycle);
+        let (hours, years) = (hours(path), number(path / YEAR));
+        let _ = writeln!(
+            text,
+            "at {} s a revolution that is {hours} hours, {years} years without a pause",
+            number(turn)
+        );
+    }
     let joints = life.process.as_deref().unwrap_or_default();
     if joints.iter().any(|joint| joint.from.is_some()) {
         joints.iter().for_each(|joint| text.push_str(&process_line(joint)));
@@ -135,22 +170,34 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
 
 fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> String {
     let (mean, std, cov) = (lives.mean(), lives.std(), lives.cov());
-    let quantile = |p: f64| {
-        let found = lives.quantile(p);
-        found.map_or_else(|_| String::new(), |q| format!("{:.3} +- {:.3}", q.value, q.error))
+    let seconds = life.seconds_per_cycle();
+    let time = |cycles: f64| seconds.map_or_else(String::new, |seconds| hours(cycles * seconds));
+    let row = |name: &str, digits: usize, found: WithError, [low, high]: [Option<f64>; 2]| {
+        let end = |end: Option<f64>| end.map_or_else(|| "?".to_owned(), |end| format!("{end:.digits$}"));
+        let value = format!("{:.digits$} +- {:.digits$}", found.value, found.error);
+        vec![name.to_owned(), value, format!("{} to {}", end(low), end(high)), time(found.value)]
     };
-    let rows = [
-        ("mean", format!("{:.3} +- {:.3}", mean.value, mean.error)),
-        ("mean, whole cycles", format!("{:.3}", life.mean_whole_cycles())),
-        ("standard deviation", format!("{:.4} +- {:.4}", std.value, std.error)),
-        ("coefficient of variation", format!("{:.3} % +- {:.3} %", 100.0 * cov.value, 100.0 * cov.error)),
-        ("10 % fail before (B10)", quantile(0.1)),
-        ("half fail before (B50)", quantile(0.5)),
-        ("90 % fail before (B90)", quantile(0.9)),
-    ];
-    let rows = rows.map(|(name, value)| vec![name.to_owned(), value]);
+    let quantile =
+        |name: &str, p: f64| Some(row(name, 3, lives.quantile(p).ok()?, lives.quantile_interval(p).ok()?));
+    let (whole, (low, high)) = (life.mean_whole_cycles(), lives.std_interval());
+    let percent = format!("{:.3} % +- {:.3} %", 100.0 * cov.value, 100.0 * cov.error);
+    let half = lives.mean_half_width();
+    let rows: Vec<Vec<String>> = [
+        Some(row("mean", 3, mean, [-half, half].map(|by| Some(mean.value + by)))),
+        Some(vec!["mean, whole cycles".to_owned(), format!("{whole:.3}"), String::new(), time(whole)]),
+        Some(row("standard deviation", 4, std, [Some(low), Some(high)])),
+        Some(["coefficient of variation", &percent, "", ""].map(str::to_owned).to_vec()),
+        quantile("10 % fail before (B10)", 0.1),
+        quantile("half fail before (B50)", 0.5),
+        quantile("90 % fail before (B90)", 0.9),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     let head = format!("{} random lives, seed {}", lives.count(), study.seed);
-    let mut text = format!("\n{}", table(&[&head, "cycles, +- standard error"], &rows));
+    let time = if seconds.is_some() { "hours" } else { "" };
+    let head = [head.as_str(), "cycles, +- standard error", "95 %", time];
+    let mut text = format!("\n{}", table(&head, &rows));
     let _ = writeln!(text, "\nerror of the mean, half-widths at 95 % [cycles]\n{}", life.budget());
     let names = life.names();
     if names.len() > 1 {
@@ -163,6 +210,13 @@ fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> 
             writeln!(text, "\nin each life all wear runs by one factor, of coefficient of variation {cov}");
     }
     text
+}
+
+/// Whole hours, or four digits of fewer than a hundred.
+fn hours(seconds: f64) -> String {
+    let hours = seconds / HOUR;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between a hundred and 1e15")]
+    if (100.0..1e15).contains(&hours) { count(hours.round() as u64) } else { number(hours) }
 }
 
 fn process_entry(joint: &JointProcess) -> Value {

@@ -1,0 +1,78 @@
+//! `life` says how far its numbers may be off, and how long they are in hours.
+
+mod command;
+
+use command::linkwear;
+use serde_json::Value;
+
+const RSSR: &str = "mechanisms/rssr.toml";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn life(more: &[&str]) -> Value {
+    linkwear(&[&["life", RSSR, "--step", "5e-5", "--format", "json"], more].concat()).json()
+}
+
+#[test]
+fn the_budget_holds_what_turns_that_had_not_settled_do_to_the_life() {
+    let hasty = life(&["--mean", "--settle", "1"]);
+    let settled = life(&["--mean", "--settle", "8"]);
+    let part = |life: &Value, name: &str| number(&life["error_budget"]["half_widths_95"][name]);
+    let error = (number(&hasty["mean"]) - number(&settled["mean"])).abs();
+    // What is wrong is within the bound, which is no empty one: the motion settles by two thirds a turn or more.
+    let bound = part(&hasty, "settling");
+    assert!(error <= bound && bound < 10.0 * error, "{error} {bound}");
+    assert!(part(&settled, "settling") < 1e-6 && part(&settled, "averaging") < 1e-6, "{settled}");
+
+    // Nothing to compare with: not zero.
+    let blind = life(&["--mean", "--settle", "0"]);
+    let budget = &blind["error_budget"];
+    let [settling, total] = [&budget["half_widths_95"]["settling"], &budget["total"]];
+    assert_eq!((settling, total), (&Value::Null, &Value::Null));
+}
+
+#[test]
+fn a_few_lives_have_wide_intervals_and_every_life_a_time() {
+    let few = life(&["--settle", "1", "--trajectories", "5"]);
+    let interval = |name: &str| {
+        let ends = &few["intervals95"][name];
+        [number(&ends["lower"]), number(&ends["upper"])]
+    };
+    // The law's own numbers: mean 25.1, and 1/sqrt(beta W_crit) = 3.03 % of it. Five lives know s by a factor 0.6 to 2.9.
+    let ([low, high], std) = (interval("std"), number(&few["std"]));
+    assert!(low < 0.76 && high > 0.76, "{low} {high}");
+    assert!((low / std - 0.599).abs() < 1e-3 && (high / std - 2.874).abs() < 2e-3, "{low} {high} {std}");
+    let [low, high] = interval("mean");
+    // Student's law of four degrees of freedom.
+    let half = 2.776 * number(&few["standard_errors"]["mean"]);
+    assert!(low < 25.1 && high > 25.1 && (high - low - 2.0 * half).abs() < 1e-3, "{low} {high} {half}");
+    let quantiles = &few["intervals95"]["quantiles"];
+    assert_eq!((&quantiles["p10"]["lower"], &quantiles["p50"]["lower"]), (&Value::Null, &Value::Null));
+    assert!(number(&few["standard_errors"]["quantiles"]["p50"]) > 0.0);
+
+    // 4.9e6 turns a cycle at 2 Hz.
+    let time = &few["time"];
+    assert!((number(&time["seconds_per_cycle"]) - 2.45e6).abs() < 1e-3, "{time}");
+    assert!((number(&time["mean"]["hours"]) - number(&few["mean"]) * 2.45e6 / 3600.0).abs() < 1e-6, "{time}");
+    assert!(
+        (number(&time["quantiles"]["p50"]["years"]) * 8766.0 * 3600.0 / 2.45e6
+            - number(&few["quantiles"]["p50"]))
+        .abs()
+            < 1e-9
+    );
+}
+
+#[test]
+fn a_drive_of_uneven_turns_has_a_life_without_hours() {
+    let folder = command::Folder::new("life-uneven");
+    let text = std::fs::read_to_string(RSSR).expect("the case study");
+    let uneven = text.replace("drive = \"2*pi*speed*t\"", "drive = \"2*pi*speed*t + 0.2*sin(3*speed*t)\"");
+    assert_ne!(uneven, text);
+    let file = folder.write("uneven.toml", &uneven);
+    let arguments = ["life", &file, "--rigid", "--step", "5e-5", "--settle", "0", "--mean", "--no-feedback"];
+    let json = linkwear(&[&arguments[..], &["--format", "json"]].concat()).json();
+    assert_eq!(json["time"], Value::Null);
+    assert!(number(&json["mean"]) > 0.0);
+}

@@ -1,0 +1,199 @@
+//! The README and the pages of docs show what the program prints, and nothing else.
+//!
+//! A block that shows a command with its output is a `console` block: `$ linkwear ..`, then what comes out on stdout, or on
+//! stderr where the command fails. A line `...` stands for any lines. Masked is the time that a run took, `in 1.574 s`,
+//! and nothing else. The commands of a document run in one folder, in their order; those of `sh` blocks run too, unless they
+//! have a placeholder such as FILE.
+
+mod command;
+
+use std::fs;
+
+use command::Folder;
+
+/// A command and the output that a document shows; none for a command alone.
+struct Shown {
+    place: String,
+    command: String,
+    output: Option<Vec<String>>,
+}
+
+/// A fenced block: language, line of the fence from 1, lines within.
+type Block<'t> = (&'t str, usize, Vec<&'t str>);
+
+fn blocks<'t>(text: &'t str, document: &str) -> Vec<Block<'t>> {
+    let (mut blocks, mut open) = (Vec::new(), None::<Block>);
+    for (at, line) in text.lines().enumerate() {
+        match (&mut open, line.trim_start().strip_prefix("```")) {
+            (None, Some(language)) => open = Some((language, at + 1, Vec::new())),
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (Some((.., lines)), None) => lines.push(line),
+            (None, None) => {}
+        }
+    }
+    assert!(open.is_none(), "{document}: a fence is not closed");
+    blocks
+}
+
+fn shown(document: &str) -> Vec<Shown> {
+    let text = fs::read_to_string(document).expect("a document");
+    let mut all = Vec::new();
+    for (language, line, lines) in blocks(&text, document) {
+        let place = format!("{document}:{line}");
+        match language {
+            "console" => {
+                assert!(
+                    lines[0].starts_with("$ linkwear "),
+                    "{place}: a console block begins with its command"
+                );
+                for line in lines {
+                    match (line.strip_prefix("$ "), all.last_mut()) {
+                        (Some(command), _) => all.push(Shown {
+                            place: place.clone(),
+                            command: command.to_owned(),
+                            output: Some(Vec::new()),
+                        }),
+                        (None, Some(Shown { output: Some(output), .. })) => output.push(line.to_owned()),
+                        (None, _) => panic!("{place}: `{line}` belongs to no command"),
+                    }
+                }
+            }
+            "sh" => all.extend(lines.into_iter().filter(|line| is_whole(line)).map(|line| Shown {
+                place: place.clone(),
+                command: line.to_owned(),
+                output: None,
+            })),
+            _ => {}
+        }
+    }
+    all
+}
+
+/// A command of ours without a placeholder, which would be in capitals.
+fn is_whole(line: &str) -> bool {
+    let is_placeholder = |word: &str| {
+        let stem = word.split('.').next().unwrap_or(word);
+        stem.len() > 1 && stem.chars().all(|letter| letter.is_ascii_uppercase())
+    };
+    line.starts_with("linkwear ") && !line.contains('>') && !line.split(' ').any(is_placeholder)
+}
+
+/// Words of a command line, double quotes holding words together.
+fn words(command: &str) -> Vec<String> {
+    let (mut words, mut is_quoted) = (vec![String::new()], false);
+    for letter in command.chars() {
+        match letter {
+            '"' => is_quoted = !is_quoted,
+            ' ' if !is_quoted => words.push(String::new()),
+            _ => words.last_mut().expect("one at least").push(letter),
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+/// The line with the time that a run took as `in _ s`.
+fn masked(line: &str) -> String {
+    let Some((before, rest)) = line.split_once(" in ") else { return line.trim_end().to_owned() };
+    let time = rest.split_once(' ').filter(|(number, _)| number.parse::<f64>().is_ok());
+    let unit = time.and_then(|(_, rest)| rest.strip_prefix("ms").or_else(|| rest.strip_prefix('s')));
+    match unit.filter(|rest| rest.is_empty() || rest.starts_with(',')) {
+        Some(rest) => format!("{before} in _ s{rest}"),
+        None => line.trim_end().to_owned(),
+    }
+}
+
+/// Whether an excerpt is one of these lines; otherwise the first of its lines that is not there.
+fn found(excerpt: &[String], lines: &[String]) -> Result<(), String> {
+    let mut parts = excerpt.split(|line| line == "...").peekable();
+    let (mut at, mut is_anywhere) = (0, false);
+    while let Some(part) = parts.next() {
+        let fits = |at: usize| lines[at..].starts_with(part);
+        let last = if is_anywhere { lines.len().saturating_sub(part.len()) } else { at };
+        // The last part of an excerpt without dots behind it stands at the end.
+        let places = if parts.peek().is_none() && is_anywhere { last.max(at)..=last } else { at..=last };
+        let Some(place) = places.into_iter().find(|at| fits(*at)) else {
+            let first = part.iter().find(|line| !lines[at..].contains(line)).or(part.first());
+            return Err(first.cloned().unwrap_or_default());
+        };
+        (at, is_anywhere) = (place + part.len(), true);
+    }
+    if at == lines.len() { Ok(()) } else { Err(format!("(nothing, where there is) {}", lines[at])) }
+}
+
+/// Runs what a document shows; returns how many outputs were compared.
+fn compare(document: &str) -> usize {
+    let folder = Folder::new(&format!("printed-{}", document.replace(['/', '.'], "-")));
+    for part in ["mechanisms", "examples"] {
+        let target = fs::canonicalize(part).expect("a folder of the repository");
+        std::os::unix::fs::symlink(target, folder.path(part)).expect("a link");
+    }
+    let mut compared = 0;
+    for Shown { place, command, output } in shown(document) {
+        let words = words(&command);
+        let arguments: Vec<&str> = words[1..].iter().map(String::as_str).collect();
+        let answer = folder.linkwear(&arguments);
+        let Some(expected) = output else {
+            assert_eq!(answer.code, 0, "{place}: `{command}` fails:\n{}", answer.err);
+            continue;
+        };
+        let printed = if answer.code == 0 { &answer.out } else { &answer.err };
+        assert!(answer.code != 0 || !answer.err.contains("warning"), "{place}: hides {}", answer.err);
+        let [expected, lines]: [Vec<String>; 2] = [
+            expected.iter().map(|line| masked(line)).collect(),
+            printed.trim_end().lines().map(masked).collect(),
+        ];
+        if let Err(line) = found(&expected, &lines) {
+            panic!("{place}: `{command}` does not print\n{line}\nbut\n{printed}");
+        }
+        compared += 1;
+    }
+    compared
+}
+
+#[test]
+fn the_readme_shows_what_the_program_prints() {
+    assert!(compare("README.md") >= 4);
+}
+
+#[test]
+fn the_pages_of_docs_show_what_the_program_prints() {
+    for entry in fs::read_dir("docs").expect("docs") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            compare(path.to_str().expect("UTF-8"));
+        }
+    }
+}
+
+/// Else an output could hide in a block of plain text, which nothing compares.
+#[test]
+fn output_of_commands_stands_in_console_blocks() {
+    let pages = fs::read_dir("docs").expect("docs").map(|entry| entry.expect("an entry").path());
+    for path in pages.chain(["README.md".into()]).filter(|path| path.extension().is_some_and(|e| e == "md")) {
+        let document = path.to_str().expect("UTF-8");
+        let text = fs::read_to_string(&path).expect("a document");
+        let lines: Vec<&str> = text.lines().collect();
+        for (language, line, _) in blocks(&text, document) {
+            let before = lines[..line - 1].iter().rev().skip_while(|line| line.is_empty());
+            let mut paragraph = before.take_while(|line| !line.is_empty());
+            let is_output =
+                ["", "text"].contains(&language) && paragraph.any(|line| line.contains("`linkwear "));
+            assert!(!is_output, "{document}:{line}: output of a command belongs into a console block");
+        }
+    }
+}
+
+#[test]
+fn an_excerpt_leaves_lines_out_only_where_it_says_so() {
+    let lines = |text: &str| -> Vec<String> { text.split(' ').map(str::to_owned).collect() };
+    let printed = lines("a b c d e");
+    for excerpt in ["a b c d e", "... e", "a ...", "a ... c ... e", "... b c ..."] {
+        assert_eq!(found(&lines(excerpt), &printed), Ok(()), "{excerpt}");
+    }
+    for excerpt in ["a b c d", "b ...", "... d", "a ... x ...", "... c b ...", "a c ..."] {
+        assert!(found(&lines(excerpt), &printed).is_err(), "{excerpt}");
+    }
+    assert_eq!(masked("5 turns (2.500 s) in 1.574 s, compiled"), "5 turns (2.500 s) in _ s, compiled");
+    assert_eq!(masked("wear in 3 steps"), "wear in 3 steps");
+}
