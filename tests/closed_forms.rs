@@ -3,8 +3,8 @@
 mod support;
 
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::Span;
-use support::{Recorded, compile_source, largest_difference, run};
+use linkwear_runtime::{Integrator, RunError, Settings, Span, Watch, simulate};
+use support::{Recorded, compile_source, largest_difference, run, run_with};
 
 /// The issue's bound: positions, speeds and accelerations relative to the size of each column.
 const CLOSED_FORM: f64 = 1e-9;
@@ -222,4 +222,61 @@ fn slider_crank_left_to_itself_keeps_its_energy() {
     let text = slider_crank("", "[initial]\nJ1 = { q = \"40 deg\", v = \"2 rad/s\" }");
     let compiled = compile_source(&source(&text), &[], None);
     assert_energy(&run(&compiled, Span::Time(10.0), Span::Time(0.0), 101, 1e-10));
+}
+
+/// A spindle that goes to and fro on top of a steady turn, up to 11 turns per second; its nut, and two joints more that are
+/// cut. All of them turn as the spindle does.
+const SCREW_JACK: &str = r#"
+spec = 1
+name = "screw_jack"
+[points]
+O = ["0 m", "0 m", "0 m"]
+N = ["0 m", "0 m", "0.2 m"]
+[bodies]
+spindle = { mass = "3 kg", centre = "O", inertia = ["0.1 kg*m^2", "0.1 kg*m^2", "0.002 kg*m^2"] }
+nut = { mass = "2 kg", centre = "N", inertia = ["0.01 kg*m^2", "0.01 kg*m^2", "0.01 kg*m^2"] }
+[joints]
+R = { revolute = ["ground", "spindle"], at = "O", axis = [0, 0, 1], drive = "40 rad/s*t + 30 rad*sin(t*1 rad/s)" }
+G = { prismatic = ["ground", "nut"], at = "N", axis = [0, 0, 1] }
+H = { screw = ["nut", "spindle"], at = "N", axis = [0, 0, 1], lead = "5 mm", cut = true }
+S = { revolute = ["ground", "spindle"], at = "N", axis = [0, 0, 1], cut = true }
+C = { cylindrical = ["ground", "spindle"], at = "N", axis = [0, 0, 1], cut = true }
+"#;
+
+#[test]
+fn turns_of_cut_joints_do_not_depend_on_the_rows() {
+    let compiled = compile_source(&source(SCREW_JACK), &[], None);
+    // Steps of half a turn and more; those of the adaptive method grow to seven turns.
+    let methods = [
+        Integrator::Dopri5 { tolerance: 1e-6, max_step: None },
+        Integrator::Rk4 { step: 0.1 },
+        Integrator::GeneralizedAlpha { step: 0.1, rho: 0.9 },
+    ];
+    for integrator in methods {
+        for samples in [2, 11, 201] {
+            let run = run_with(&compiled, &Settings::new(integrator, Span::Time(10.0), samples));
+            let expected: Vec<f64> = run.run.times.iter().map(|t| 40.0 * t + 30.0 * t.sin()).collect();
+            for name in ["H.q", "S.q", "C.q1"] {
+                let error = largest_difference(&run.column(name), &expected);
+                // A wrong number of turns is off by 6; loops are closed to 1e-14 m, which is 1e-11 rad of the thread.
+                assert!(error < 1e-9, "{name} with {samples} rows by {integrator:?}: {error:e}");
+                let most = run.run.range(name).expect("a column").high.value;
+                assert!((most - expected[samples - 1]).abs() < 1e-9, "{name}: {most}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_too_long_to_count_turns_stops_the_run() {
+    let compiled = compile_source(&source(SCREW_JACK), &[], None);
+    let settings = Settings::new(Integrator::Rk4 { step: 0.5 }, Span::Time(10.0), 21);
+    let (system, parameters) = (compiled.interpreter(), compiled.parameters());
+    let run =
+        simulate(&system, compiled.description(), &parameters, &settings, Watch::NONE).expect("it starts");
+    assert!(
+        matches!(&run.stopped, Some(RunError::TurnsUnclear { angle, .. }) if angle == "H.q"),
+        "{:?}",
+        run.stopped
+    );
 }

@@ -63,7 +63,7 @@ pub struct Channel {
     pub name: Text,
     /// SI unit as printed in brackets, e.g. `N m`.
     pub unit: Text,
-    /// True for an angle recomputed with atan2: it jumps by 2 pi and recorders unwrap it.
+    /// True for an angle recomputed with atan2: it jumps by 2 pi and recorders unwrap it, by its rate in the next column.
     pub wraps: bool,
 }
 

@@ -292,6 +292,19 @@ pub enum RunError {
         /// Joint with clearance that is pressed in deepest, if there is one.
         joint: Option<String>,
     },
+    /// An angle that is known only up to whole turns changes too fast to be followed.
+    #[error(
+        "at t = {t} s the step of {step:.3e} s is too long to tell how often `{angle}` turned in it; shorten the step, or \
+         take a method of adaptive steps"
+    )]
+    TurnsUnclear {
+        /// Time at the end of the step.
+        t: f64,
+        /// Time that cannot be bridged [s].
+        step: f64,
+        /// Column of the angle.
+        angle: String,
+    },
     /// The caller asked to stop.
     #[error("stopped on request at t = {t} s; the samples up to then are kept")]
     Interrupted {

@@ -64,6 +64,9 @@ impl<'a> Evaluator<'a> {
         same("kept rows", sizes.rows, kept.len())?;
         same("described drivers", sizes.drivers, description.drivers.len())?;
         same("described channels", sizes.channels, description.channels.len())?;
+        // The rate of an angle that wraps is the next column.
+        let rates = description.channels.iter().rposition(|channel| channel.wraps).map_or(0, |last| last + 2);
+        same("channels with the rates of angles", rates.max(sizes.channels), sizes.channels)?;
         same("described joints with clearance", sizes.contacts, description.contacts.len())?;
         if let Some(at) = parameters.iter().position(|value| !value.is_finite()) {
             let name = description.parameters[at].name.to_string();

@@ -47,6 +47,7 @@ pub(super) fn run_generalized_alpha(
             evaluator.closure(t, method.q(), method.v());
             let open = evaluator.loop_error();
             sampler.note_loop_error(motion, t, open)?;
+            sampler.follow_angles(motion, t, state, None)?;
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampled.copy_from_slice(state);

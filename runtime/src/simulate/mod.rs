@@ -2,6 +2,7 @@
 //! In: a system, its description, parameters, [`Settings`]. Out: a [`Run`].
 //! Never knows files or terminals; a [`Watch`] hears of progress and may stop the run.
 
+mod angles;
 mod contacts;
 mod events;
 mod extremes;

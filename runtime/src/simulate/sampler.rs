@@ -4,6 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use super::angles::Angles;
 use super::contacts::Follower;
 use super::extremes::Collector;
 use super::guard::Guard;
@@ -22,6 +23,11 @@ use crate::watch::Watch;
 const LOOKS_PER_TURN: f64 = 240.0;
 /// Looks within one step, at most.
 const MOST_LOOKS: f64 = 1000.0;
+/// Halvings of a step to follow an angle: a step of a thousand turns that begin and end at rest takes twelve.
+const MOST_HALVINGS: usize = 30;
+
+/// Writes the state at a time within the last step.
+type Between<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 /// Recorder of one run.
 pub(super) struct Sampler {
@@ -29,10 +35,10 @@ pub(super) struct Sampler {
     pub(super) statistics: Statistics,
     times: Vec<f64>,
     rows: Vec<Vec<f64>>,
-    /// Last value of every channel, unwrapped.
-    last: Option<Vec<f64>>,
     columns: Channels,
+    /// Columns at the state observed last.
     values: Vec<f64>,
+    angles: Angles,
     start_energy: f64,
     kinetic: f64,
     work: (f64, f64),
@@ -64,8 +70,9 @@ impl Sampler {
             statistics: Statistics::default(),
             times: Vec::with_capacity(schedule.samples),
             rows: Vec::with_capacity(schedule.samples),
-            last: None,
             values: vec![0.0; columns.channels.len()],
+            // Without rows nobody asks for turns.
+            angles: Angles::new(if schedule.samples > 0 { &columns.channels } else { &[] }),
             columns,
             start_energy: kinetic + potential + elastic,
             kinetic,
@@ -150,10 +157,11 @@ impl Sampler {
         state: &[f64],
     ) -> Result<(), RunError> {
         let begin = self.schedule.begin;
+        self.follow_angles(motion, begin, state, None)?;
         if self.is_due(begin) {
             self.sample(motion, begin, &mut state.to_vec())?;
         } else {
-            self.observe(motion, begin, state, None)?;
+            self.observe(motion, begin, state)?;
         }
         self.look(motion, begin, state)
     }
@@ -168,10 +176,13 @@ impl Sampler {
         motion.put_on(t, state)?;
         self.note_loop_error(motion, t, motion.projector.loop_error())?;
         self.note_energy(motion, t, state);
-        let mut row = vec![0.0; self.values.len()];
-        self.observe(motion, t, state, Some(&mut row))?;
+        self.observe(motion, t, state)?;
+        if let Some(i) = self.values.iter().position(|x| !x.is_finite()) {
+            return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
+        }
+        self.angles.unwrap(t, &mut self.values);
         self.times.push(t);
-        self.rows.push(row);
+        self.rows.push(self.values.clone());
         Ok(())
     }
 
@@ -196,11 +207,49 @@ impl Sampler {
         }
         motion.energy_scale = motion.energy_scale.max(kinetic);
         self.guard.check_step(motion, t, state, &self.statistics)?;
-        // Between samples an angle may turn more than once: follow it at every step.
-        if self.columns.channels.iter().any(|channel| channel.wraps) && !self.is_due(t) {
-            self.observe(motion, t, state, None)?;
-        }
         self.look(motion, t, state)
+    }
+
+    /// Follows angles over a step that ends in `state`, before anything within it is sampled; `between`: writes
+    /// the state at a time within the step, if the method can.
+    ///
+    /// # Errors
+    /// [`RunError::TurnsUnclear`], or what the mechanism reports.
+    pub(super) fn follow_angles(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+        between: Option<Between<'_>>,
+    ) -> Result<(), RunError> {
+        if self.angles.is_empty() {
+            return Ok(());
+        }
+        self.angles.begin_step();
+        let mut inner = Vec::new();
+        let mut pending = vec![t];
+        while let Some(&next) = pending.last() {
+            match between {
+                Some(interpolate) if next < t => {
+                    inner.resize(state.len(), 0.0);
+                    interpolate(next, &mut inner);
+                    self.observe_aside(motion, next, &inner)?;
+                }
+                _ => self.observe_aside(motion, next, state)?,
+            }
+            let Err(angle) = self.angles.note(next, &self.values) else {
+                pending.pop();
+                continue;
+            };
+            let from = self.angles.known_until().unwrap_or(next);
+            let middle = 0.5 * (from + next);
+            if between.is_none() || pending.len() > MOST_HALVINGS {
+                let angle = self.columns.channels[angle].name.to_string();
+                return Err(RunError::TurnsUnclear { t, step: next - from, angle });
+            }
+            pending.push(middle);
+        }
+        Ok(())
     }
 
     /// Collects the extremes of all columns along the way.
@@ -235,13 +284,24 @@ impl Sampler {
         if self.extremes.is_none() {
             return Ok(());
         }
-        // Looking changes nothing of the run, nor what is told about its cost.
-        let aside = motion.dynamics.aside();
-        let seen = self.observe(motion, t, state, None);
-        motion.dynamics.resume(aside);
-        if let (Some(extremes), Some(values)) = (&mut self.extremes, &self.last) {
-            extremes.note(t, values);
+        self.observe_aside(motion, t, state)?;
+        self.angles.unwrap(t, &mut self.values);
+        if let Some(extremes) = &mut self.extremes {
+            extremes.note(t, &self.values);
         }
+        Ok(())
+    }
+
+    /// Observes without changing anything of the run, nor what is told about its cost.
+    fn observe_aside(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError> {
+        let aside = motion.dynamics.aside();
+        let seen = self.observe(motion, t, state);
+        motion.dynamics.resume(aside);
         seen
     }
 
@@ -253,14 +313,8 @@ impl Sampler {
         }
     }
 
-    /// Evaluates the channels and unwraps the angles among them.
-    fn observe(
-        &mut self,
-        motion: &mut ConstrainedMotion<'_>,
-        t: f64,
-        state: &[f64],
-        row: Option<&mut [f64]>,
-    ) -> Result<(), RunError> {
+    /// Evaluates the channels; angles that wrap are as atan2 has them.
+    fn observe(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) -> Result<(), RunError> {
         let (q, v, _) = motion.split(state);
         motion.dynamics.accelerate(t, q, v)?;
         let generated = motion.dynamics.evaluator.observe(t, q, v);
@@ -268,20 +322,6 @@ impl Sampler {
         self.values[..count].copy_from_slice(generated);
         let contacts = motion.dynamics.evaluator.clearances().contacts();
         self.columns.write(contacts, &mut self.values[count..]);
-        let values = &self.values;
-        if row.is_some()
-            && let Some(i) = values.iter().position(|x| !x.is_finite())
-        {
-            return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
-        }
-        let last = self.last.get_or_insert_with(|| values.to_vec());
-        for ((last, value), channel) in last.iter_mut().zip(values).zip(&self.columns.channels) {
-            let turns = if channel.wraps { ((*last - value) / (2.0 * PI)).round() } else { 0.0 };
-            *last = value + 2.0 * PI * turns;
-        }
-        if let Some(row) = row {
-            row.copy_from_slice(last);
-        }
         Ok(())
     }
 

@@ -47,6 +47,7 @@ fn run_rk4(
             method.step(motion, t, state, next - t)?;
             t = next;
             sampler.note_loop_error(motion, t, motion.projector.loop_error())?;
+            sampler.follow_angles(motion, t, state, None)?;
             sampler.step_done(motion, t, state)?;
             if sampler.is_due(t) {
                 sampler.sample(motion, t, state)?;
@@ -74,6 +75,7 @@ fn run_dopri5(
         outcome?;
         events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
         sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
+        sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
         for t in sampler.between(motion, method.before(), method.t()) {
             method.interpolate(t, &mut between);
             sampler.look(motion, t, &between)?;
