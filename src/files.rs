@@ -1,10 +1,11 @@
 //! Files and stdout: nothing half-written, no result mixed with another, no panic when the reader of a pipe has gone.
 
 use std::fmt::Display;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::NamedTempFile;
 use thiserror::Error;
 
 /// A file or folder could not be written.
@@ -37,7 +38,7 @@ impl WriteError {
 pub fn print(text: &impl Display) -> Result<(), WriteError> {
     let mut out = BufWriter::new(io::stdout().lock());
     match writeln!(out, "{text:#}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(WriteError::of(Path::new("stdout"))(error))
         }
         _ => Ok(()),
@@ -51,7 +52,7 @@ pub fn print(text: &impl Display) -> Result<(), WriteError> {
 pub fn claim_folder(path: &Path) -> Result<(), WriteError> {
     match fs::read_dir(path) {
         Ok(mut entries) => entries.next().map_or(Ok(()), |_| Err(WriteError::Exists(path.to_path_buf()))),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
             fs::create_dir_all(path).map_err(WriteError::of(path))
         }
         Err(error) => Err(WriteError::of(path)(error)),
@@ -63,37 +64,182 @@ pub fn claim_folder(path: &Path) -> Result<(), WriteError> {
 /// # Errors
 /// If the disk fails.
 pub fn sync_folder(path: &Path) -> Result<(), WriteError> {
-    if cfg!(unix) {
-        File::open(path).and_then(|folder| folder.sync_all()).map_err(WriteError::of(path))?;
-    }
-    Ok(())
+    sync(path).map_err(WriteError::of(path))
 }
 
-/// Writes a file that is there whole or not at all: `fill` writes beside it, then it is renamed.
+fn sync(folder: &Path) -> io::Result<()> {
+    if cfg!(not(unix)) {
+        return Ok(());
+    }
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        // A file system that keeps no folders on a disk.
+        Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::Unsupported) => Ok(()),
+        done => done,
+    }
+}
+
+/// Writes a file that is there whole or not at all: `fill` writes beside it, then it is renamed. A file that was there
+/// hands its permissions on; of a symbolic link the file that it names is replaced. Stdout by a name, a terminal,
+/// another character device or a pipe is written to as it is.
 ///
 /// # Errors
-/// Those of `fill` and of the system. The old file is left as it was.
+/// Those of `fill` and of the system; [`check_target`]. The old file is left as it was.
 pub fn write_whole(
     path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    let beside = beside(path);
-    let write = || {
-        let mut out = BufWriter::new(File::create(&beside)?);
-        fill(&mut out)?;
-        out.into_inner()?.sync_all()?;
-        fs::rename(&beside, path)
+    let write = || match Target::of(path)? {
+        Target::Stdout => write_through(&stdout()?, fill),
+        Target::Stream => write_through(&OpenOptions::new().write(true).open(path)?, fill),
+        Target::Regular(path, old) => {
+            // Until the file has its name, a signal that ends the program waits.
+            #[cfg(feature = "cli")]
+            let _held = crate::progress::Held::new();
+            let beside = beside(&path)?;
+            let mut out = BufWriter::new(beside.as_file());
+            fill(&mut out)?;
+            out.flush()?;
+            drop(out);
+            if let Some(old) = old {
+                hand_on(&old, beside.as_file())?;
+            }
+            beside.as_file().sync_all()?;
+            beside.persist(&path)?;
+            sync(folder_of(&path))
+        }
     };
-    write().map_err(|error| {
-        let _ = fs::remove_file(&beside);
-        WriteError::of(path)(error)
-    })
+    write().map_err(WriteError::of(path))
 }
 
-/// A name in the same folder, so that the rename stays on one file system; of this process alone.
-fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
+/// A reader that has seen enough and gone is no failure.
+fn write_through(
+    stream: &File,
+    fill: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::new(stream);
+    match fill(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        done => done,
+    }
+}
+
+/// Whether [`write_whole`] can write here, before the work that is to fill the file. True for a stream.
+///
+/// # Errors
+/// If there is a folder, a block device, a socket, or a symbolic link to nothing; a file that may not be written; no
+/// folder to write it in.
+pub fn check_target(path: &Path) -> Result<bool, WriteError> {
+    let check = || match Target::of(path)? {
+        Target::Stdout | Target::Stream => Ok(true),
+        Target::Regular(path, _) => fs::metadata(folder_of(&path)).map(|_| false),
+    };
+    check().map_err(WriteError::of(path))
+}
+
+/// What is at a path, links followed.
+enum Target {
+    /// What stdout writes to, as `/dev/stdout` is.
+    Stdout,
+    /// What bytes can only be handed to.
+    Stream,
+    /// A file, which may be there already.
+    Regular(PathBuf, Option<Metadata>),
+}
+
+impl Target {
+    fn of(path: &Path) -> io::Result<Self> {
+        let found = match fs::metadata(path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return match fs::symlink_metadata(path) {
+                    Ok(_) => Err(io::Error::other("it is a symbolic link to nothing")),
+                    Err(_) => Ok(Self::Regular(path.to_path_buf(), None)),
+                };
+            }
+            found => found?,
+        };
+        if found.is_dir() {
+            return Err(io::Error::other("it is a folder"));
+        }
+        if is_stdout(&found) {
+            return Ok(Self::Stdout);
+        }
+        if is_stream(&found) {
+            return Ok(Self::Stream);
+        }
+        if !found.is_file() {
+            return Err(io::Error::other("it is neither a file nor a stream"));
+        }
+        // Renaming would replace even a file that may not be written.
+        OpenOptions::new().write(true).open(path)?;
+        Ok(Self::Regular(path.canonicalize()?, Some(found)))
+    }
+}
+
+/// The folder that a file lies in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A file of an unpredictable name in the same folder, so that the rename stays on one file system; it goes with the
+/// value.
+fn beside(path: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".linkwear-").suffix(".tmp");
+    // What the umask leaves, as for any new file; temporary files are private otherwise.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder_of(path))
+}
+
+/// Permissions, and owner as far as the system allows.
+fn hand_on(old: &Metadata, new: &File) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, fchown};
+        let made = new.metadata()?;
+        if (made.uid(), made.gid()) != (old.uid(), old.gid()) {
+            // Only root may give files away.
+            let _ = fchown(new, Some(old.uid()), Some(old.gid()));
+        }
+    }
+    new.set_permissions(old.permissions())
+}
+
+/// Whether it is what stdout writes to, as `/dev/stdout` is.
+#[cfg(unix)]
+fn is_stdout(found: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let own = stdout().and_then(|own| own.metadata());
+    own.is_ok_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino()))
+}
+
+#[cfg(unix)]
+fn stdout() -> io::Result<File> {
+    use std::os::fd::AsFd;
+    Ok(io::stdout().as_fd().try_clone_to_owned()?.into())
+}
+
+/// Whether bytes can only be handed to it: a character device, a pipe.
+#[cfg(unix)]
+fn is_stream(found: &Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    let kind = found.file_type();
+    kind.is_char_device() || kind.is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_stdout(_: &Metadata) -> bool {
+    false
+}
+
+#[cfg(not(unix))]
+fn stdout() -> io::Result<File> {
+    Err(ErrorKind::Unsupported.into())
+}
+
+#[cfg(not(unix))]
+fn is_stream(_: &Metadata) -> bool {
+    false
 }
 
 #[cfg(test)]
@@ -102,9 +248,8 @@ mod tests {
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_nothing_else() {
-        let folder = std::env::temp_dir().join(format!("linkwear-file-{}", std::process::id()));
-        fs::create_dir_all(&folder).expect("temporary folder");
-        let path = folder.join("rows.csv");
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let path = folder.path().join("rows.csv");
         fs::write(&path, "old").expect("old file");
         let result = write_whole(&path, |out| {
             out.write_all(b"half")?;
@@ -115,6 +260,5 @@ mod tests {
         assert_eq!(fs::read_dir(&folder).expect("folder").count(), 1);
         write_whole(&path, |out| out.write_all(b"new")).expect("a file");
         assert_eq!(fs::read_to_string(&path).expect("new file"), "new");
-        fs::remove_dir_all(&folder).expect("folder");
     }
 }

@@ -6,6 +6,15 @@
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
 pub mod backend;
 pub mod files;
 pub mod life;

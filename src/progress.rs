@@ -12,12 +12,16 @@ use linkwear_runtime::Watch;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
+/// Whether nobody would look at [`STOP`]: then a signal ends the process.
+static UNHEARD: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+
 static STOP: LazyLock<Arc<AtomicBool>> = LazyLock::new(|| {
     let stop = Arc::new(AtomicBool::new(false));
     let hang_up = (!ignores_hang_up()).then_some(HANG_UP).flatten();
     for signal in [SIGINT, SIGTERM].into_iter().chain(hang_up) {
         // In this order: the second one of them ends the process. A system that refuses ends it by the first.
-        let _ = flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop))
+        let _ = flag::register_conditional_default(signal, Arc::clone(&UNHEARD))
+            .and_then(|_| flag::register_conditional_shutdown(signal, 1, Arc::clone(&stop)))
             .and_then(|_| flag::register(signal, Arc::clone(&stop)));
     }
     stop
@@ -41,6 +45,7 @@ fn ignores_hang_up() -> bool {
 /// the process.
 pub fn watched<T>(work: impl FnOnce(Watch<'_>) -> T) -> T {
     LazyLock::force(&STOP);
+    UNHEARD.store(false, Ordering::Relaxed);
     let progress = Mutex::new(Progress::new());
     let result = work(Watch::new(&|part| {
         progress.lock().unwrap_or_else(PoisonError::into_inner).set(part);
@@ -58,6 +63,28 @@ pub fn go_on(_: f64) -> ControlFlow<()> {
 /// Whether Ctrl-C was pressed, or the system asked to end.
 pub fn stop_requested() -> bool {
     STOP.load(Ordering::Relaxed)
+}
+
+/// While it lives, the first signal that would end the process does not.
+pub(crate) struct Held {
+    /// Whether signals end it again afterwards; else they are for who asks [`stop_requested`].
+    ends: bool,
+}
+
+impl Held {
+    pub fn new() -> Self {
+        let is_first = LazyLock::get(&STOP).is_none();
+        LazyLock::force(&STOP);
+        Self { ends: UNHEARD.swap(false, Ordering::Relaxed) || is_first }
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        if self.ends {
+            UNHEARD.store(true, Ordering::Relaxed);
+        }
+    }
 }
 
 /// Work shorter than this shows nothing.

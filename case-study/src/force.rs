@@ -92,6 +92,7 @@ pub(super) fn forces(settle: u32, workers: &Workers<'_>) -> Result<Forces, Study
         };
         Ok::<_, StudyError>((curve(&run, &forces, *thinned, &measure), forces))
     })?;
+    #[expect(clippy::unreachable, reason = "`each` gives a result for every item")]
     let Ok([(matched, matched_forces), (rigid, _), (flexible, flexible_forces), (ideal, _)]) =
         <[_; 4]>::try_from(turns)
     else {

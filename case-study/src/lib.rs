@@ -2,6 +2,15 @@
 //! uses nothing but what every user has. In: [`Options`]. Out: [`Study`], plain data; figures, Markdown and HTML
 //! from it. Never touches files or terminals, and nothing else in linkwear knows this crate.
 
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
 mod areas;
 mod around;
 mod configuration;

@@ -1,6 +1,15 @@
 //! The program of the case study: its figures and tables, recomputed, in a folder.
 //! Exit code 0: done, 1: the study or the writing failed, 2: wrong usage.
 
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
 use std::fs;
 use std::io::{self, Write as _};
 use std::num::NonZeroU16;

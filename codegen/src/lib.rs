@@ -3,6 +3,15 @@
 //! Data flows one way: toml -> [`spec`] -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
 //! [`backend`]s; [`mod@compile`] calls the stages in order. A build script needs only [`Builder`].
 
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
 pub mod backend;
 pub mod builder;
 pub mod compile;

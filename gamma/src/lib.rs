@@ -2,6 +2,14 @@
 //! life. In: increments of wear and of exposure Lambda, in the units the caller counts in. Out: estimates, draws,
 //! laws of life. Never knows mechanisms, dynamics, files or terminals.
 
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
 #![warn(missing_docs)]
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 

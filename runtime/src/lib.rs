@@ -7,6 +7,15 @@
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
 //! [`Run::table`] and [`write_csv`] record a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
 //! accelerations, [`Projector`] keeps loops closed, [`integrate`] holds the methods.
+
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod contact;

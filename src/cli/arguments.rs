@@ -11,7 +11,7 @@ use linkwear_codegen::Closure;
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::value::{assignment, covariate, one_of, positive};
+use super::value::{assignment, covariate, one_of, output, positive};
 
 const BACKENDS: [(&str, Backend); 3] =
     [("auto", Backend::Auto), ("compiled", Backend::Compiled), ("interpreter", Backend::Interpreter)];
@@ -133,7 +133,7 @@ pub struct GenerateArguments {
     #[command(flatten)]
     pub input: Input,
     /// File to write; without it the source goes to stdout.
-    #[arg(short, long, value_name = "OUT.rs")]
+    #[arg(short, long, value_name = "OUT.rs", value_parser = output())]
     pub out: Option<PathBuf>,
     /// Write nothing; fail if OUT.rs is not what would be written.
     #[arg(long, requires = "out")]
@@ -149,7 +149,7 @@ pub struct SimulateArguments {
     /// Rows of the output, evenly spaced over the run, both ends included.
     #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
     pub samples: u32,
-    #[arg(long, value_name = "FILE", help = rows_help())]
+    #[arg(long, value_name = "FILE", value_parser = output(), help = rows_help())]
     pub out: Option<PathBuf>,
     /// Method [default: dopri5, or rk4 if --step is given].
     #[arg(long, value_enum)]
@@ -207,7 +207,7 @@ pub struct LifeArguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub average: u32,
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = output())]
     pub out: Option<PathBuf>,
     /// Go on with the run that was interrupted in --out, to the same bits as if it had not been; with more
     /// --trajectories, extend it.
@@ -315,7 +315,7 @@ pub struct FitArguments {
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
     /// Write the fit (JSON) for `predict`.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = output())]
     pub out: Option<PathBuf>,
 }
 

@@ -173,7 +173,7 @@ impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
         let (code, file, help) = match &error {
             WriteError::System { file, .. } => {
-                ("C0003", file, "nothing was left there; choose a folder that exists and can be written")
+                ("C0003", file, "nothing was changed; give a file in a folder that exists and can be written")
             }
             WriteError::Exists(file) => ("C0004", file, "choose another name"),
         };

@@ -16,10 +16,10 @@ use self::read::{Group, groups};
 use super::answer::Answer;
 use super::arguments::FitArguments;
 use super::failure::Failure;
-use super::input::refuse_same;
+use super::input::check_output;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
-    refuse_same(&arguments.file, arguments.out.as_deref())?;
+    check_output(&arguments.file, arguments.out.as_deref())?;
     let groups = groups(arguments)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.

@@ -14,12 +14,12 @@ use super::answer::Answer;
 use super::arguments::GenerateArguments;
 use super::equations::operations;
 use super::failure::Failure;
-use super::input::{load, refuse_same};
+use super::input::{check_output, load};
 use super::table::{count, duration, plural, table};
 
 pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let out = arguments.out.as_deref();
-    refuse_same(&arguments.input.file, out)?;
+    check_output(&arguments.input.file, out.filter(|_| !arguments.check))?;
     let start = Instant::now();
     let (compiled, warnings) = load(&arguments.input)?;
     let source = compiled.rust_source();

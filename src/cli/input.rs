@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use linkwear::backend::Backend;
-use linkwear::files::WriteError;
+use linkwear::files::{WriteError, check_target};
 use linkwear::mechanism::{Mechanism, located_warnings, read_source};
 use linkwear_codegen::{Compiled, Diagnostics, Options, compile};
 use linkwear_gamma::FitFile;
@@ -38,12 +38,12 @@ fn print_warnings(warnings: &Diagnostics) {
     }
 }
 
-/// Refuses to write over the input.
-pub fn refuse_same(input: &Path, output: Option<&Path>) -> Result<(), Failure> {
-    let Some(output) = output else { return Ok(()) };
+/// Refuses, before the work, what cannot be written and to write over the input. True if the output is a stream.
+pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure> {
+    let Some(output) = output else { return Ok(false) };
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
-        _ => Ok(()),
+        _ => Ok(check_target(output)?),
     }
 }
 

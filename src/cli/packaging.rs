@@ -31,6 +31,7 @@ fn answer(text: &[u8]) -> Answer {
 /// The answer is JSON whatever the format.
 pub fn schema() -> Answer {
     let text = include_str!("../../docs/linkwear.schema.json");
+    #[expect(clippy::expect_used, reason = "a test compares the file with what the types give")]
     let json = serde_json::from_str(text).expect("the schema of this program is JSON");
     Answer { text: text.to_owned(), json }
 }

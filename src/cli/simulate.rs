@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::answer::Answer;
 use super::arguments::{IntegratorName, SimulateArguments};
 use super::failure::{Failure, warnings};
-use super::input::{load_mechanism, refuse_same};
+use super::input::{check_output, load_mechanism};
 use super::summary;
 use super::table::{duration, plural, table};
 
@@ -30,7 +30,7 @@ const DEFAULT_RHO: f64 = 0.8;
 pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let integrator = integrator(arguments)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
-    refuse_same(file, out)?;
+    let is_stream = check_output(file, out)?;
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let description = &mechanism.description;
     refuse_too_many(arguments.samples as usize, description)?;
@@ -45,8 +45,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
 
     let run = result.map_err(|error| Failure::run(file, &error, None))?;
     if let Some(error) = &run.stopped {
-        // The file they were meant for is left as it was.
-        let partial = out.filter(|_| !run.rows.is_empty()).map(partial_name);
+        // A file that they were meant for is left as it was.
+        let name = |out: &Path| if is_stream { out.to_path_buf() } else { partial_name(out) };
+        let partial = out.filter(|_| !run.rows.is_empty()).map(name);
         partial.as_deref().map_or(Ok(()), |partial| write_table(partial, &run.table()))?;
         return Err(Failure::run(file, error, partial));
     }

@@ -1,6 +1,8 @@
 //! Values of options that are more than a number or a name. In: the text. Out: the value, or what to write instead.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::path::PathBuf;
+
+use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 
 /// One of some names, each with what it means.
 pub fn one_of<T: Clone + Send + Sync + 'static>(
@@ -8,9 +10,18 @@ pub fn one_of<T: Clone + Send + Sync + 'static>(
 ) -> impl TypedValueParser<Value = T> {
     let choices: Vec<_> = choices.into_iter().collect();
     let names = PossibleValuesParser::new(choices.iter().map(|(name, _)| *name));
-    names.map(move |given| {
+    names.try_map(move |given| {
         let chosen = choices.iter().find(|(name, _)| *name == given);
-        chosen.expect("clap lets pass what is in the list").1.clone()
+        chosen.map(|(_, meant)| meant.clone()).ok_or("not in the list")
+    })
+}
+
+/// A path to write to; `-`, which other programs take for stdout, is none.
+pub fn output() -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().try_map(|name| {
+        let cure =
+            "stdout has the answer: give a file (`./-` for one of this name) or a stream such as /dev/stdout";
+        if name == "-" { Err(cure) } else { Ok(PathBuf::from(name)) }
     })
 }
 

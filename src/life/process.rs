@@ -91,6 +91,7 @@ impl Process {
     fn draw_of(&self, rates: &[GammaRates]) -> GammaDraw {
         let draw = GammaDraw::new(self.seed, rates);
         match self.shared {
+            #[expect(clippy::expect_used, reason = "`shared` has checked its coefficient of variation")]
             Some(factor) => draw.sharing(factor).expect("checked at the beginning"),
             None => draw,
         }

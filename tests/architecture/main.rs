@@ -161,6 +161,36 @@ fn must_use_stands_on_types() {
     }
 }
 
+/// Exceptions are an `expect` with its reason, at the smallest scope. `clippy.toml` frees tests inside modules; other
+/// tests, examples and build scripts are crates of their own. The oracle is a test.
+#[test]
+fn libraries_and_programs_deny_what_panics() {
+    let lints = ["unwrap_used", "expect_used", "panic", "todo", "unimplemented", "unreachable"];
+    for folder in
+        ["codegen", "gamma", "runtime", ".", "case-study"].map(|folder| Path::new(folder).join("src"))
+    {
+        for root in
+            ["lib.rs", "main.rs"].map(|root| folder.join(root)).into_iter().filter(|root| root.exists())
+        {
+            let code = code(&root);
+            let denied = code.split("#![deny(").nth(1).and_then(|rest| rest.split(")]").next());
+            let denied: BTreeSet<&str> = denied.unwrap_or_default().split(',').map(str::trim).collect();
+            for lint in lints {
+                assert!(denied.contains(&*format!("clippy::{lint}")), "{}: {lint}", root.display());
+            }
+        }
+        for file in rust_files(&folder) {
+            for lint in lints {
+                assert!(
+                    !code(&file).contains(&format!("allow(clippy::{lint}")),
+                    "{}: {lint}",
+                    file.display()
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn a_format_of_tables_is_its_file_and_its_entry_in_the_list() {
     let files = ["src", "runtime/src"].into_iter().flat_map(|root| rust_files(Path::new(root)));

@@ -25,6 +25,7 @@ pub struct ContactWrench<'g> {
 }
 
 /// The link that a coordinate of a tree joint moves.
+#[expect(clippy::expect_used, reason = "asked of joints in the tree only, which have all their coordinates")]
 fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
     let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
     &linkage.links[link]

@@ -271,8 +271,7 @@ pub fn accelerations<'g>(
             Some(parent) => (twists[parent], list[parent]),
             None => (Twist::none(g), still),
         };
-        let (alpha, origin) = if let Some(node) = &poses.nodes[at] {
-            let shape = link.node.as_ref().expect("it has shapes");
+        let (alpha, origin) = if let (Some(node), Some(shape)) = (&poses.nodes[at], &link.node) {
             let moved = node.acceleration(shape, speed, rate);
             let velocity = node.velocity(speed);
             if link.freedom == Freedom::Node {

@@ -46,8 +46,7 @@ pub fn solve<'g>(
         system.eliminate(i, &mut left, &mut right);
     }
     g.begin_section("elimination of loop rows");
-    while !left.is_empty() {
-        let next = system.least_fill(&left);
+    while let Some(next) = system.least_fill(&left) {
         system.eliminate(next, &mut left, &mut right);
     }
     g.begin_section("back substitution");
@@ -95,9 +94,9 @@ impl<'g> Elimination<'g> {
     }
 
     /// The row with the fewest neighbours among those left; the first among equals.
-    fn least_fill(&self, left: &[usize]) -> usize {
+    fn least_fill(&self, left: &[usize]) -> Option<usize> {
         let degree = |k: usize| left.iter().filter(|i| **i != k && !self.matrix[**i][k].is_zero()).count();
-        left.iter().copied().min_by_key(|k| degree(*k)).expect("there are rows left")
+        left.iter().copied().min_by_key(|k| degree(*k))
     }
 }
 

@@ -62,6 +62,7 @@ impl<'g> Expr<'g> {
             }
             // Its rule is 0/0 at zero. No formula of a file makes this node, and the derivation builds the Jacobian
             // of the logarithm from `log_coefficient` instead.
+            #[expect(clippy::unreachable, reason = "only the derivation makes this node, and never asks")]
             Binary::AngleOverSine => unreachable!("nothing differentiates the angle of a relative rotation"),
         }
     }

@@ -151,8 +151,12 @@ impl ModalData {
     /// Data that [`ModalData::check`] refuses.
     pub fn to_toml(&self) -> Result<String, DataError> {
         self.check()?;
-        let text = toml::to_string(&File::from_data(self));
-        Ok(text.expect("checked data are finite numbers, strings and lists, which TOML has"))
+        #[expect(
+            clippy::expect_used,
+            reason = "TOML has all that checked data are: finite numbers, texts, lists"
+        )]
+        let text = toml::to_string(&File::from_data(self)).expect("checked data can be written");
+        Ok(text)
     }
 }
 

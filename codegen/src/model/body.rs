@@ -63,6 +63,7 @@ impl Flexible {
     ///
     /// # Panics
     /// If the point is not in `nodes`; the resolver lists every point that the body is used at.
+    #[expect(clippy::expect_used, reason = "documented: the resolver lists every point in use")]
     pub fn node_at(&self, point: PointId) -> &Node {
         let found = self.nodes.iter().find(|(known, _)| *known == point);
         let (_, node) = found.expect("the resolver gives every point of a flexible body a node");

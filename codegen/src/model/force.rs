@@ -31,6 +31,7 @@ impl Force {
     ///
     /// # Panics
     /// If no kind has this name.
+    #[expect(clippy::expect_used, reason = "documented: names are written in code, never read from files")]
     pub fn new(kind: &str, bodies: [Carrier; 2], at: [PointId; 2], formulas: Vec<Formula>) -> Self {
         Self {
             name: kind.to_owned(),
@@ -54,7 +55,7 @@ impl Force {
     /// # Panics
     /// If there are fewer formulas.
     pub fn triples<const N: usize>(&self) -> [&[Formula; 3]; N] {
-        std::array::from_fn(|at| self.formulas[3 * at..].first_chunk().expect("three by axis"))
+        std::array::from_fn(|at| &self.formulas.as_chunks().0[at])
     }
 
     /// Whether the formulas are over the state; else they are over parameters.

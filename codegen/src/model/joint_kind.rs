@@ -147,6 +147,7 @@ impl JointModel {
     ///
     /// # Panics
     /// If no kind has this name.
+    #[expect(clippy::expect_used, reason = "documented: names are written in code, never read from files")]
     pub fn new(name: &str, axes: &[Axis]) -> Self {
         let kind = JointKind::named(name).expect("the name of a kind of joint");
         Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false }

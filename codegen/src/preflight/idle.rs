@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::model::{Carrier, Joint, Mechanism};
 
 use super::case::Case;
-use super::samples::{ClosedPositions, null_space};
+use super::samples::{ClosedPositions, null_space, right_singular_vectors};
 
 /// Motions smaller than this share of the largest count as rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;
@@ -156,12 +156,9 @@ impl Effect {
         if count == 0 {
             return Vec::new();
         }
-        // Padding with zero rows makes the decomposition return all right singular vectors.
-        let chosen =
-            DMatrix::from_fn(rows.len().max(count), count, |i, j| rows.get(i).map_or(0.0, |row| row[j]));
-        let svd = chosen.svd(false, true);
-        let v_t = svd.v_t.expect("right singular vectors were asked for");
-        let still = (0..count).filter(|i| svd.singular_values[*i] <= REST);
+        let chosen = DMatrix::from_fn(rows.len(), count, |i, j| rows[i][j]);
+        let (values, v_t) = right_singular_vectors(chosen);
+        let still = (0..count).filter(|i| values[*i] <= REST);
         let speeds = |i: usize| {
             let mut v = DVector::zeros(self.freedoms[0].len());
             self.freedoms.iter().enumerate().for_each(|(j, freedom)| v += freedom * v_t[(i, j)]);

@@ -62,10 +62,10 @@ impl Rows {
             // Rows within a tenth of the best count as equal: the first in the file's order wins.
             let gains: Vec<f64> = (0..m).map(|row| if keep[row] { 0.0 } else { gain(row) }).collect();
             let best = gains.iter().copied().fold(0.0, f64::max);
-            if best <= RANK_TOLERANCE {
-                return keep;
-            }
-            let next = gains.iter().position(|gain| *gain > 0.9 * best).expect("the best is among them");
+            let next = match gains.iter().position(|gain| *gain > 0.9 * best) {
+                Some(next) if best > RANK_TOLERANCE => next,
+                _ => return keep,
+            };
             keep[next] = true;
             for rest in &mut rests {
                 let direction: RowDVector<f64> = rest.row(next).normalize();

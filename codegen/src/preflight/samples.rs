@@ -208,14 +208,21 @@ pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     if n == 0 {
         return DMatrix::zeros(0, 0);
     }
-    // Padding with zero rows makes the decomposition return all right singular vectors.
-    let padded = matrix.clone().resize_vertically(matrix.nrows().max(n), 0.0);
-    let svd = padded.svd(false, true);
-    let largest = svd.singular_values.amax();
-    let v_t = svd.v_t.expect("right singular vectors were asked for");
+    let (values, v_t) = right_singular_vectors(matrix.clone());
+    let largest = values.amax();
     let rows: Vec<usize> =
-        (0..n).filter(|i| svd.singular_values[*i] <= RANK_TOLERANCE * largest || largest == 0.0).collect();
+        (0..n).filter(|i| values[*i] <= RANK_TOLERANCE * largest || largest == 0.0).collect();
     DMatrix::from_fn(n, rows.len(), |i, j| v_t[(rows[j], i)])
+}
+
+/// As many singular values as there are columns, and all right singular vectors as rows.
+pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    // Zero rows below make the decomposition return all of them.
+    let height = matrix.nrows().max(matrix.ncols());
+    let svd = matrix.resize_vertically(height, 0.0).svd(false, true);
+    #[expect(clippy::expect_used, reason = "the second argument of `svd` asks for them")]
+    let v_t = svd.v_t.expect("right singular vectors");
+    (svd.singular_values, v_t)
 }
 
 /// Shortest solution of a rank-deficient system.

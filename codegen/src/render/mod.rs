@@ -173,6 +173,7 @@ impl<'a> Writer<'a> {
             self.line(text, &self.formula().name(&self.names[id]), &right);
         }
         for block in self.chosen {
+            #[expect(clippy::expect_used, reason = "the costs are those of the same outputs")]
             let cost = costs
                 .iter()
                 .find(|info| info.function == self.function.name && info.name == block.name)

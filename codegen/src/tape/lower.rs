@@ -77,6 +77,7 @@ struct Lowerer<'a> {
 impl<'a> Lowerer<'a> {
     fn new(graph: &'a Graph, function: &Function, uses: &'a [u32]) -> Self {
         let inputs = || function.inputs.iter().flat_map(|block| block.entries.iter().copied());
+        #[expect(clippy::expect_used, reason = "the derivation makes the inputs of functions of symbols")]
         let name = |id| graph.symbol_name(graph.as_symbol(id).expect("inputs are symbols")).to_owned();
         let tape = Tape {
             name: function.name.clone(),
@@ -97,9 +98,7 @@ impl<'a> Lowerer<'a> {
     fn node(&mut self, id: ExprId) {
         let operand = match self.graph.node(id) {
             Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
-            Node::Symbol(_) => Operand::Input(
-                *self.inputs.get(&id).expect("a function reads only symbols that are among its inputs"),
-            ),
+            Node::Symbol(_) => Operand::Input(self.inputs[&id]),
             Node::Unary(Unary::Sin, angle) => self.sine_or_cosine(id, angle, 0),
             Node::Unary(Unary::Cos, angle) => self.sine_or_cosine(id, angle, 1),
             Node::Unary(Unary::Neg, inner) => self.negated(id, inner),
@@ -134,20 +133,15 @@ impl<'a> Lowerer<'a> {
 
     fn negated(&mut self, id: ExprId, inner: ExprId) -> Operand {
         if self.made_by_negative(inner) {
-            let op = match self.graph.node(inner) {
-                Node::Binary(Binary::Sub, a, b) => {
-                    Op::Binary(Binary::Sub, self.operands[&b], self.operands[&a])
-                }
-                Node::Binary(operation, a, b) => {
-                    let flip = |operand: Operand| match operand {
-                        Operand::Constant(number) => Operand::Constant(-number),
-                        other => other,
-                    };
-                    Op::Binary(operation, flip(self.operands[&a]), flip(self.operands[&b]))
-                }
-                _ => unreachable!("only differences and products absorb a sign"),
+            let flip = |operand: Operand| match operand {
+                Operand::Constant(number) => Operand::Constant(-number),
+                other => other,
             };
-            return self.push(id, op);
+            if let Node::Binary(operation, a, b) = self.graph.node(inner) {
+                let (a, b) = (self.operands[&a], self.operands[&b]);
+                let (a, b) = if operation == Binary::Sub { (b, a) } else { (flip(a), flip(b)) };
+                return self.push(id, Op::Binary(operation, a, b));
+            }
         }
         match self.operands[&inner] {
             Operand::Constant(number) => Operand::Constant(-number),

@@ -59,7 +59,7 @@ pub fn groups(arguments: &FitArguments) -> Result<Vec<Group>, Failure> {
 fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Failure> {
     let exposures = arguments.exposure.as_ref().map(|name| table.numbers(name)).transpose()?;
     let Some(lambda) = &arguments.lambda else {
-        return Ok(exposures.expect("clap asks for one of the two"));
+        return exposures.ok_or_else(|| Failure::usage("no clock", "give --exposure or --lambda"));
     };
     if table.has(lambda) {
         return table.numbers(lambda);

@@ -1,7 +1,7 @@
 //! One entry point as a documented function over flat slices, in parts where it is long.
 //! In: a tape and its split. Out: tokens.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -93,25 +93,20 @@ fn documentation(tape: &Tape, split: &Split) -> Vec<String> {
 /// Statements of one part.
 fn part_body(tape: &Tape, part: &Part) -> TokenStream {
     let mut names = Names::default();
-    let mut inputs: Vec<Option<Ident>> = vec![None; tape.input_len()];
+    let mut inputs: BTreeMap<u32, Ident> = BTreeMap::new();
     let mut values: HashMap<u32, TokenStream> = HashMap::new();
     let mut tokens = TokenStream::new();
     let statements = &tape.statements[part.statements.clone()];
     for statement in statements {
         for operand in statement.reads() {
             if let Operand::Input(index) = operand {
-                let entry = &mut inputs[index as usize];
-                if entry.is_none() {
-                    *entry = Some(names.unique(&tape.input_names[index as usize]));
-                }
+                inputs.entry(index).or_insert_with(|| names.unique(&tape.input_names[index as usize]));
             }
         }
     }
-    for (index, name) in inputs.iter().enumerate() {
-        if let Some(name) = name {
-            let index = Literal::usize_unsuffixed(index);
-            tokens.extend(quote!(let #name = x[#index];));
-        }
+    for (index, name) in &inputs {
+        let index = Literal::u32_unsuffixed(*index);
+        tokens.extend(quote!(let #name = x[#index];));
     }
     // Read where they are used: a `let` each would count against what compilers can take in one function.
     for (value, slot) in &part.loads {
@@ -137,7 +132,7 @@ fn part_body(tape: &Tape, part: &Part) -> TokenStream {
 
 fn statement_tokens(
     statement: &Statement,
-    inputs: &[Option<Ident>],
+    inputs: &BTreeMap<u32, Ident>,
     values: &mut HashMap<u32, TokenStream>,
     names: &mut Names,
 ) -> TokenStream {
@@ -187,19 +182,19 @@ fn direct_operand(operand: Operand) -> TokenStream {
             let index = Literal::usize_unsuffixed(index as usize);
             quote!(x[#index])
         }
-        other => operand_tokens(other, &[], &HashMap::new()),
+        other => operand_tokens(other, &BTreeMap::new(), &HashMap::new()),
     }
 }
 
 fn operand_tokens(
     operand: Operand,
-    inputs: &[Option<Ident>],
+    inputs: &BTreeMap<u32, Ident>,
     values: &HashMap<u32, TokenStream>,
 ) -> TokenStream {
     match operand {
         Operand::Constant(number) => constant(number),
         Operand::Input(index) => {
-            let name = inputs[index as usize].as_ref().expect("inputs in use are named");
+            let name = &inputs[&index];
             quote!(#name)
         }
         Operand::Value(value) => values[&value].clone(),
@@ -215,10 +210,12 @@ fn constant(number: f64) -> TokenStream {
         let name = if number > 0.0 { quote!(INFINITY) } else { quote!(NEG_INFINITY) };
         return quote!(T::constant(f64::#name));
     }
+    #[expect(clippy::expect_used, reason = "`Debug` of a finite number is a literal of Rust")]
     let literal: Literal = format!("{:?}", number.abs()).parse().expect("Debug of f64 is a literal");
     if number.is_sign_negative() { quote!(T::constant(-#literal)) } else { quote!(T::constant(#literal)) }
 }
 
+#[expect(clippy::unreachable, reason = "lowering turns sines and cosines into pairs")]
 fn unary(operation: Unary, a: &TokenStream) -> TokenStream {
     match operation {
         Unary::Neg => quote!(-#a),

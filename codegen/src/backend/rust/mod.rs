@@ -49,7 +49,7 @@ pub fn emit(input: &EmitInput<'_>) -> String {
 }
 
 fn format_items(tokens: TokenStream) -> String {
-    // The emitter builds its own tokens: if they do not parse, that is a defect here, not in a user's file.
+    #[expect(clippy::expect_used, reason = "the emitter's own tokens: a defect here, not in a user's file")]
     let file = syn::parse2(tokens).expect("emitted tokens are valid Rust");
     prettyplease::unparse(&file)
 }
@@ -91,6 +91,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
     let defaults = parameters.map(|parameter| Literal::f64_unsuffixed(parameter.default));
     let count = Literal::usize_unsuffixed(fields.len());
     // As `Debug` writes a struct of numbers, so does Rust.
+    #[expect(clippy::expect_used, reason = "a name and whole numbers")]
     let sizes: TokenStream = format!("{sizes:?}").parse().expect("a literal");
     let description = describe::description(input.description, runtime);
     let arms = Entry::ALL.iter().map(|entry| {

@@ -21,7 +21,8 @@ const EQUATIONS: &[(&str, Equations)] =
 impl<'g> Element<'g> for Force {
     fn add_to(&self, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>) {
         let own = EQUATIONS.iter().find(|(kind, _)| *kind == self.kind.name);
-        let (_, equations) = own.expect("a test looks for the equations of every kind");
+        #[expect(clippy::expect_used, reason = "a test looks for the equations of every kind")]
+        let (_, equations) = own.expect("every kind has equations");
         equations(self, loads, g, state);
     }
 }

@@ -201,6 +201,7 @@ impl<'a, 'g> Channels<'a, 'g> {
                 Some(at) => self.tree_wrench(id, at, transmitted[at]),
                 None => {
                     let position = instant.cuts.iter().position(|cut| cut.cut.joint == id);
+                    #[expect(clippy::expect_used, reason = "the spanning tree takes every joint or cuts it")]
                     let position = position.expect("a joint is in the tree or a cut");
                     self.cut_wrench(&instant.cuts[position], at_cuts[position])
                 }

@@ -1,6 +1,7 @@
 //! Force elements: bodies, points and numbers, by the rows of [`FORCE_KINDS`].
 
 use super::inertia;
+use super::lookup::enumerated;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
@@ -21,8 +22,7 @@ impl Resolver<'_> {
                 (None, _) => {
                     let message = format!("nothing says what force `{}` is", name.value);
                     let examples = listed(FORCE_KINDS.iter().map(|kind| kind.example));
-                    let (last, first) = examples.split_last().expect("there are kinds");
-                    let help = format!("write {} or {last}", first.join(", "));
+                    let help = format!("write {}", enumerated(&examples, " or "));
                     self.missing(force.span, name.span, Code::NoKind, message).help(help);
                 }
                 _ => {

@@ -1,6 +1,7 @@
 //! What kind a joint is, and its axes.
 
 use super::inertia;
+use super::lookup::enumerated;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
@@ -234,6 +235,5 @@ impl Resolver<'_> {
 /// The keys of all kinds, as a list in a sentence.
 fn all_kinds() -> String {
     let names: Vec<&str> = JOINT_KINDS.iter().map(|kind| kind.name).collect();
-    let (last, first) = names.split_last().expect("there are kinds of joints");
-    format!("{} and {last}", first.join(", "))
+    enumerated(&names, " and ")
 }

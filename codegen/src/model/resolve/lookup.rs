@@ -66,3 +66,20 @@ impl Resolver<'_> {
         self.named(name, "joint", used_by, |thing| if let Thing::Joint(id) = thing { Some(id) } else { None })
     }
 }
+
+/// As a list in a sentence: "a, b or c".
+pub(super) fn enumerated(texts: &[impl AsRef<str>], last: &str) -> String {
+    let mut sentence = String::new();
+    for (at, text) in texts.iter().enumerate() {
+        let between = if at == 0 {
+            ""
+        } else if at + 1 < texts.len() {
+            ", "
+        } else {
+            last
+        };
+        sentence.push_str(between);
+        sentence.push_str(text.as_ref());
+    }
+    sentence
+}

@@ -1,0 +1,190 @@
+//! Where results are written: files whole and with their permissions, streams straight, nothing else.
+#![cfg(unix)]
+
+mod command;
+
+use std::fs::{self, File, Permissions};
+use std::io::Read as _;
+use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
+use std::process::{Command, Stdio};
+
+use command::{Folder, linkwear};
+
+const PENDULUM: &str = "mechanisms/pendulum.toml";
+
+/// Everything that writes one file, without the file.
+const WRITERS: [&[&str]; 3] = [
+    &["simulate", PENDULUM, "--samples", "5", "--time", "0.1", "--out"],
+    &["generate", PENDULUM, "--out"],
+    &[
+        "fit",
+        "examples/data/sliding_wear_100g.csv",
+        "--unit",
+        "unit",
+        "--wear",
+        "wear_um",
+        "--exposure",
+        "cycles",
+        "--from-zero",
+        "--out",
+    ],
+];
+
+fn with<'a>(writer: &[&'a str], out: &'a str) -> Vec<&'a str> {
+    [writer, &[out][..]].concat()
+}
+
+fn mode(path: &str) -> u32 {
+    fs::metadata(path).expect("a file").permissions().mode() & 0o7777
+}
+
+/// Runs a line of the shell with the program as `$0`.
+fn shell(line: &str) -> std::process::Output {
+    let mut command = Command::new("sh");
+    command.args(["-c", line, env!("CARGO_BIN_EXE_linkwear")]).stdin(Stdio::null());
+    command.output().expect("a shell")
+}
+
+#[test]
+fn a_replaced_file_keeps_its_permissions_and_a_new_one_has_those_of_the_umask() {
+    let folder = Folder::new("mode");
+    for (at, writer) in WRITERS.iter().enumerate() {
+        let (old, new) = (folder.write(&format!("old{at}"), "#before#"), folder.path(&format!("new{at}")));
+        fs::set_permissions(&old, Permissions::from_mode(0o640)).expect("a mode");
+        assert_eq!(linkwear(&with(writer, &old)).code, 0);
+        assert_eq!((mode(&old), folder.read(&format!("old{at}")).contains("#before#")), (0o640, false));
+        assert_eq!(linkwear(&with(writer, &new)).code, 0);
+        let plain = folder.write("plain", "");
+        assert_eq!(mode(&new), mode(&plain), "{writer:?}");
+    }
+    assert_eq!(folder.names(), ["new0", "new1", "new2", "old0", "old1", "old2", "plain"]);
+}
+
+#[test]
+fn a_symbolic_link_stays_and_the_file_that_it_names_is_replaced() {
+    let folder = Folder::new("link");
+    fs::create_dir(folder.path("far")).expect("a folder");
+    let target = folder.write("far/rows", "#before#");
+    let link = folder.path("link");
+    symlink("far/rows", &link).expect("a link");
+    for writer in WRITERS {
+        fs::write(&target, "#before#").expect("a file");
+        assert_eq!(linkwear(&with(writer, &link)).code, 0);
+        assert!(fs::symlink_metadata(&link).expect("a link").is_symlink());
+        assert!(!folder.read("far/rows").contains("#before#"));
+        assert_eq!(fs::read_dir(folder.path("far")).expect("a folder").count(), 1);
+    }
+}
+
+#[test]
+fn what_is_no_file_and_no_stream_is_refused_before_the_work() {
+    let folder = Folder::new("refused");
+    fs::create_dir(folder.path("folder")).expect("a folder");
+    symlink("nothing", folder.path("dangling")).expect("a link");
+    symlink("folder", folder.path("to_folder")).expect("a link");
+    let _socket = std::os::unix::net::UnixListener::bind(folder.path("socket")).expect("a socket");
+    let before = folder.names();
+    let missing = folder.path("no/folder/rows.csv");
+    for writer in WRITERS {
+        for (name, reason) in [
+            ("folder", "it is a folder"),
+            ("to_folder", "it is a folder"),
+            ("dangling", "it is a symbolic link to nothing"),
+            ("socket", "it is neither a file nor a stream"),
+        ] {
+            let path = folder.path(name);
+            let answer = linkwear(&with(writer, &path));
+            assert_eq!((answer.code, answer.out.as_str()), (1, ""), "{name}");
+            assert!(answer.err.contains("C0003") && answer.err.contains(reason), "{}", answer.err);
+        }
+        let answer = linkwear(&with(writer, &missing));
+        assert!(answer.code == 1 && answer.err.contains("C0003"), "{}", answer.err);
+        let answer = linkwear(&with(writer, "-"));
+        assert!(answer.code == 2 && answer.err.contains("/dev/stdout"), "{}", answer.err);
+    }
+    let answer = linkwear(&["life", "mechanisms/rssr.toml", "--out", "-"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert_eq!(folder.names(), before);
+    let dangling = folder.path("new.toml");
+    symlink("nothing", &dangling).expect("a link");
+    assert_eq!(folder.linkwear(&["new", "new"]).code, 1);
+    assert!(fs::symlink_metadata(&dangling).expect("a link").is_symlink());
+}
+
+#[test]
+fn devices_are_written_to_and_stay_devices() {
+    for writer in WRITERS {
+        assert_eq!(linkwear(&with(writer, "/dev/null")).code, 0);
+        assert!(fs::metadata("/dev/null").expect("a device").file_type().is_char_device());
+        let full = linkwear(&with(writer, "/dev/full"));
+        assert!(full.code == 1 && full.err.contains("C0003"), "{}", full.err);
+        assert!(fs::metadata("/dev/full").expect("a device").file_type().is_char_device());
+    }
+    // An incomplete run leaves no file beside a device either.
+    let stuck =
+        ["simulate", "mechanisms/four_bar.toml", "--step", "0.05", "--turns", "3", "--out", "/dev/null"];
+    let _ = linkwear(&stuck);
+    assert!(!fs::exists("/dev/null.partial").expect("a folder"));
+}
+
+#[test]
+fn stdout_by_name_has_the_rows_and_then_the_answer_in_a_pipe_and_in_a_file() {
+    let folder = Folder::new("stdout");
+    let line = format!("\"$0\" simulate {PENDULUM} --samples 5 --time 0.1 --out /dev/stdout");
+    let piped = String::from_utf8(shell(&format!("{line} | cat")).stdout).expect("UTF-8");
+    let kept = folder.path("kept.txt");
+    assert!(shell(&format!("{line} > {kept}")).status.success());
+    for text in [piped, folder.read("kept.txt")] {
+        let rows: Vec<&str> = text.lines().take(6).collect();
+        assert!(rows[0].starts_with("t [s],") && rows[5].starts_with("0.1,"), "{text}");
+        assert!(text.contains("/dev/stdout"), "{text}");
+    }
+    assert_eq!(folder.names(), ["kept.txt"]);
+    assert!(shell(&format!("{line} | head -1")).status.success());
+}
+
+#[test]
+fn a_pipe_by_name_hands_the_rows_to_its_reader() {
+    let folder = Folder::new("fifo");
+    let pipe = folder.path("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
+    for writer in WRITERS {
+        let path = pipe.clone();
+        let reader = std::thread::spawn(move || {
+            let mut text = String::new();
+            File::open(path).and_then(|mut pipe| pipe.read_to_string(&mut text)).expect("a pipe");
+            text
+        });
+        assert_eq!(linkwear(&with(writer, &pipe)).code, 0);
+        assert!(reader.join().expect("a reader").len() > 100);
+        assert!(fs::metadata(&pipe).expect("a pipe").file_type().is_fifo());
+    }
+    assert_eq!(folder.names(), ["pipe"]);
+}
+
+#[test]
+fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
+    let folder = Folder::new("signal");
+    let out = folder.write("rows.csv", "#before#");
+    let mut child = command::start(&[
+        "simulate",
+        PENDULUM,
+        "--time",
+        "0.001",
+        "--step",
+        "1e-5",
+        "--samples",
+        "400000",
+        "--out",
+        &out,
+    ]);
+    // Its temporary file tells that the writing has begun.
+    while folder.names().len() == 1 && child.try_wait().expect("a child").is_none() {
+        std::thread::yield_now();
+    }
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
+    let _ = child.wait_with_output();
+    assert_eq!(folder.names(), ["rows.csv"]);
+    assert!(folder.read("rows.csv").lines().count() == 400_001);
+}
