@@ -20,6 +20,7 @@ mod simulate;
 mod summary;
 mod table;
 mod value;
+mod wear_measure;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

@@ -76,3 +76,51 @@ fn a_drive_of_uneven_turns_has_a_life_without_hours() {
     assert_eq!(json["time"], Value::Null);
     assert!(number(&json["mean"]) > 0.0);
 }
+
+#[test]
+fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_would() {
+    let folder = command::Folder::new("life-cost");
+    let text = std::fs::read_to_string(RSSR).expect("the case study");
+    // Two cycles and a half, and a worn profile that is fed back.
+    let worn = text.replace("[wear.R1]", "[wear.R1]\nprofile = true\nmeasure = \"maximum\"");
+    let worn = folder.write("worn.toml", &worn);
+    let hurry = ["--rigid", "--set", "W_crit=4 um", "--step", "5e-5", "--settle", "0", "--mean"];
+    let full = linkwear(&[&["life", RSSR, "--coupling", "full"], &hurry[..]].concat());
+    assert_eq!(full.code, 0, "{}", full.err);
+    // The first revolution begins at rest and wears less than a settled one, 1.66 um a cycle.
+    for said in [
+        "full coupling",
+        "would have 3 cycles: 30 to 30 measurements",
+        "--coupling table takes 17 measurements",
+    ] {
+        assert!(full.err.contains(said), "{said}: {}", full.err);
+    }
+    let profile = linkwear(&[&["life", &worn], &hurry[..]].concat());
+    assert!(profile.err.contains("has no table. Without `profile = true`"), "{}", profile.err);
+    let table = linkwear(&[&["life", RSSR], &hurry[..]].concat());
+    assert!(!table.err.contains("coupling"), "{}", table.err);
+}
+
+#[test]
+fn check_and_life_say_what_wear_is_and_when_to_take_another_measure() {
+    let folder = command::Folder::new("life-measure");
+    let text = std::fs::read_to_string(RSSR).expect("the case study");
+    let kinds = [
+        ("depth", "", false, "one place as large as the contact"),
+        ("maximum", "measure = \"maximum\"", true, "deepest place"),
+        ("mean", "measure = \"mean\"", true, "on average"),
+        ("mean", "profile = true", true, "on average"),
+    ];
+    for (name, line, conserves, assumes) in kinds {
+        let file = folder.write("measure.toml", &text.replace("[wear.R1]", &format!("[wear.R1]\n{line}")));
+        let check = linkwear(&["check", &file]);
+        assert!(check.out.contains("Wear W of R1 is ") && check.out.contains(assumes), "{}", check.out);
+        let entry = linkwear(&["check", &file, "--format", "json"]).json()["wear_measures"][0].clone();
+        assert_eq!((&entry["joint"], &entry["measure"]), (&"R1".into(), &name.into()));
+        assert_eq!(entry["conserves_volume"], conserves);
+    }
+    let short = ["--rigid", "--set", "W_crit=4 um", "--step", "5e-5", "--settle", "0", "--mean"];
+    let life = linkwear(&[&["life", RSSR], &short[..]].concat());
+    assert!(life.out.contains("one place as large as the contact"), "{}", life.out);
+    assert!(!linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out.contains("Wear W"));
+}

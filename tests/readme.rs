@@ -31,6 +31,36 @@ fn example_crates_stand_in_the_readme_word_for_word() {
     assert_shown("A life from Rust", "life", &[cargo, main]);
 }
 
+/// `-2.36 ± 0.66 %` without its scatter, and `5.68 ± 0.18` without it.
+fn rounded(cell: &str) -> String {
+    cell.split(" ± ").next().unwrap_or(cell).trim_end_matches(" %").to_owned()
+}
+
+#[test]
+fn the_table_of_baselines_is_that_of_the_case_study() {
+    let study = fs::read_to_string("docs/case-study/case-study.md").expect("the case study");
+    let readme = readme();
+    let rows: Vec<Vec<&str>> = readme
+        .lines()
+        .map(|line| line.trim_matches('|').split(" | ").map(str::trim).collect())
+        .filter(|cells: &Vec<&str>| cells.len() == 4 && cells[0].ends_with("cycles"))
+        .collect();
+    assert!(rows.len() >= 5, "{rows:?}");
+    for cells in rows {
+        let what: Vec<&str> = cells[0].split(", ").collect();
+        let wear = what[0].replace("depth by the Hertz area", "depth");
+        let title = format!("W is the {wear}, gamma = {};", what[1]);
+        let table = study.split(&title).nth(1).expect("a table of the case study");
+        let table = table.split("\n\n").nth(1).expect("its rows");
+        let fitted = format!("| {} | ", what[2]);
+        let models = table.lines().filter(|line| line.starts_with(&fitted)).map(|line| {
+            let found: Vec<&str> = line.split(" | ").collect();
+            format!("{} % ({} %)", rounded(found[5]), rounded(found[4]))
+        });
+        assert_eq!(models.collect::<Vec<_>>(), cells[1..], "{}", cells[0]);
+    }
+}
+
 #[test]
 fn there_is_one_command_to_run_and_one_to_test() {
     let readme = readme();

@@ -122,6 +122,13 @@ impl<'a> DynamicsSource<'a> {
         self.wearing.iter().filter_map(of).collect()
     }
 
+    /// The wearing joints as they are at the start.
+    pub fn unworn(&self) -> Vec<JointWear> {
+        let joint =
+            |(_, clearance): &(usize, f64)| JointWear { clearance: *clearance, wear: 0.0, profile: None };
+        self.wearing.iter().map(joint).collect()
+    }
+
     /// Goes on after measurements of another source, which doubted this: it is not told again.
     pub fn known(&mut self, warnings: &[RunWarning]) {
         self.warnings = warnings.to_vec();

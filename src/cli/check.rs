@@ -14,6 +14,7 @@ use super::arguments::Input;
 use super::failure::Failure;
 use super::input::load;
 use super::table::{plural, short_table, table};
+use super::wear_measure;
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
@@ -43,6 +44,7 @@ fn to_json(compiled: &Compiled, warnings: &[Value]) -> Value {
         "modal_coordinates": analysis.modes,
         "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
         "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
+        "wear_measures": wear_measure::entries(compiled.description()),
         "warnings": warnings,
     })
 }
@@ -109,6 +111,7 @@ fn text(compiled: &Compiled) -> String {
         let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
         let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
     }
+    text.push_str(&wear_measure::text(compiled.description()));
     if !mechanism.parameters.is_empty() {
         let rows: Vec<_> = mechanism.parameters.iter().map(parameter_row).collect();
         let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));

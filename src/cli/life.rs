@@ -42,6 +42,11 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
         shared_factor: arguments.shared_factor,
         ..LifeStudy::new(&mechanism)
     };
+    let cost =
+        watched(|watch| study.cost(watch)).map_err(|error| failed(&arguments.input.file, error, folder))?;
+    if let Some(cost) = cost {
+        eprintln!("{}", output::cost(&cost));
+    }
     let lived = watched(|watch| match &journal {
         Some(journal) => study.run_kept(journal, watch),
         None => study.run_watched(watch),

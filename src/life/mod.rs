@@ -5,6 +5,7 @@
 //! [`LifeStudy::new`] has the defaults of `linkwear life`; change its fields to ask for something else, then
 //! [`LifeStudy::run`].
 
+mod cost;
 mod error;
 mod fit;
 mod journal;
@@ -15,6 +16,7 @@ mod source;
 mod steady;
 mod study;
 
+pub use cost::Cost;
 pub use error::{Cause, LifeError};
 pub use fit::{JointFit, UnfitForLife};
 pub use journal::{Journal, JournalError};

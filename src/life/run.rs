@@ -112,22 +112,22 @@ impl LifeStudy<'_> {
 }
 
 /// What to live, and how.
-struct Plan<'s> {
+pub(super) struct Plan<'s> {
     study: &'s LifeStudy<'s>,
-    settings: LifeSettings,
-    coupling: Coupling,
+    pub settings: LifeSettings,
+    pub coupling: Coupling,
     process: Option<Process>,
     journal: Option<&'s Journal>,
     /// Random lives; none for the mean path alone.
-    trajectories: Option<u64>,
-    threads: NonZero<usize>,
+    pub trajectories: Option<u64>,
+    pub threads: NonZero<usize>,
     watch: Watch<'s>,
     /// Tells nothing new, only asks whether to stop.
     silent: Watch<'s>,
 }
 
 impl<'s> Plan<'s> {
-    fn new(
+    pub fn new(
         study: &'s LifeStudy<'s>,
         source: &DynamicsSource<'_>,
         journal: Option<&'s Journal>,

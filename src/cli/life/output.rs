@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use linkwear::life::{Coupling, JointProcess, LifeResult, LifeStudy};
+use linkwear::life::{Cost, Coupling, JointProcess, LifeResult, LifeStudy};
 use linkwear::number::number;
 use linkwear_gamma::life::{LifeStatistics, WithError};
 use linkwear_runtime::Column;
@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::super::answer::Answer;
 use super::super::failure::warnings;
 use super::super::table::{count, table};
+use super::super::wear_measure;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
@@ -34,6 +35,47 @@ pub fn answer(study: &LifeStudy<'_>, life: &LifeResult) -> Answer {
 pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
     let json = cycles.iter().map(|cycle| cycle_entry(names, cycle)).collect();
     Answer { text: cycles_table(names, cycles), json }
+}
+
+/// What a life with the dynamics at every wear step will cost, and what a table would.
+pub fn cost(cost: &Cost) -> String {
+    let Cost { seconds_per_revolution, revolutions, cycles, mean_path: [least, most], lives, table } = cost;
+    let time = |measurements: f64| about(cost.seconds(measurements));
+    let mut text = format!(
+        "full coupling runs the dynamics at every wear step: {} a measurement ({revolutions} revolutions of {}). If all wore as \
+         the first does, the mean path would have {cycles:.0} cycles: {least:.0} to {most:.0} measurements, {} to {}",
+        time(1.0),
+        about(*seconds_per_revolution),
+        time(*least),
+        time(*most),
+    );
+    if *lives > 0.0 {
+        let _ = write!(text, "; the random lives {lives:.0} for each thread, {}", time(*lives));
+    }
+    let _ = match table {
+        Some(table) => write!(
+            text,
+            ".\n--coupling table takes {table:.0} measurements, {}, for any number of lives: wear per revolution is looked up by \
+             the wear of the joint, with its error in the budget.",
+            time(*table)
+        ),
+        None => write!(
+            text,
+            ".\nA worn profile that is fed back has no table. Without `profile = true` in [wear], but with measure = \"maximum\" \
+             or \"mean\", wear opens the clearance all round and a table of 17 measurements, {}, does: the shape of the worn \
+             bearing then changes no force.",
+            time(17.0)
+        ),
+    };
+    text
+}
+
+/// A time in the unit that people would say it in.
+fn about(seconds: f64) -> String {
+    let units =
+        [(YEAR, "years"), (24.0 * HOUR, "days"), (HOUR, "h"), (60.0, "min"), (1.0, "s"), (1e-3, "ms")];
+    let (size, unit) = units.into_iter().find(|(size, _)| seconds >= *size).unwrap_or((1e-3, "ms"));
+    format!("{:.1} {unit}", seconds / size)
 }
 
 fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeStatistics>) -> Value {
@@ -68,6 +110,7 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         "table_error": life.table_error(),
         "measurements": life.measurements,
         "cycles": cycles,
+        "wear_measures": wear_measure::entries(&mechanism.description),
         "warnings": warnings(&mechanism.warnings, "life", &life.warnings),
     });
     if let Some(seconds) = life.seconds_per_cycle() {
@@ -139,6 +182,7 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
             number(turn)
         );
     }
+    text.push_str(&wear_measure::text(&study.mechanism.description));
     let joints = life.process.as_deref().unwrap_or_default();
     if joints.iter().any(|joint| joint.from.is_some()) {
         joints.iter().for_each(|joint| text.push_str(&process_line(joint)));

@@ -1,0 +1,83 @@
+//! What a life with the dynamics at every wear step will cost, before it begins. In: a study. Out: one revolution, run and
+//! timed, and what follows from it. Never lives anything.
+
+use std::time::Instant;
+
+use linkwear_runtime::life::{DEFAULT_POINTS, Feedback, LifeSettings, WearSource};
+use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
+
+use super::error::{Cause, LifeError};
+use super::run::Plan;
+use super::study::{Coupling, LifeStudy};
+
+/// Measurements per cycle of a mean path: fewest where steps grow to their longest, most where wear is noisy or steps stay within
+/// a cycle (the case study: 4.6).
+const PER_CYCLE: [f64; 2] = [0.2, 5.0];
+/// Measurements per cycle of a random life: each begins anew, with one step or more of three stages.
+const PER_DRAWN_CYCLE: f64 = 4.0;
+/// Shortest mean path: its first steps are short.
+const FEWEST: f64 = 30.0;
+
+/// What full coupling costs by one revolution from the start, as far as the rest of the life is like it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Time that a revolution took [s].
+    pub seconds_per_revolution: f64,
+    /// Revolutions of a measurement.
+    pub revolutions: u32,
+    /// Cycles until the first joint fails, if every revolution wears as the first.
+    pub cycles: f64,
+    /// Measurements of the mean path, from and to.
+    pub mean_path: [f64; 2],
+    /// Measurements of the random lives that one thread makes.
+    pub lives: f64,
+    /// Measurements of a table instead; nothing where a profile is fed back, which no table holds.
+    pub table: Option<f64>,
+}
+
+impl Cost {
+    /// Time of so many measurements [s].
+    pub fn seconds(&self, measurements: f64) -> f64 {
+        measurements * f64::from(self.revolutions) * self.seconds_per_revolution
+    }
+}
+
+impl LifeStudy<'_> {
+    /// The cost of this life; nothing with a table, which costs seconds.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn cost(&self, watch: Watch<'_>) -> Result<Option<Cost>, LifeError> {
+        let system = self.mechanism.system();
+        let once = RevolutionSettings { settle: 0, average: 1, ..self.revolutions };
+        let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
+        let source = DynamicsSource::new(&*system, description, parameters, once).map_err(Cause::from)?;
+        let mut source = source.watched_by(watch);
+        let plan = Plan::new(self, &source, None, (watch, watch))?;
+        if plan.coupling == Coupling::Table {
+            return Ok(None);
+        }
+        let LifeSettings { joints, .. } = &plan.settings;
+        let unworn = source.unworn();
+        let start = Instant::now();
+        let measured = source.measure(&unworn, &mut None).map_err(Cause::from)?;
+        let seconds_per_revolution = start.elapsed().as_secs_f64();
+        let life = joints.iter().zip(&measured).map(|(joint, measured)| {
+            joint.threshold / (joint.revolutions_per_cycle * joint.wear.of(measured))
+        });
+        let cycles = life.fold(f64::INFINITY, f64::min);
+        let [least, most] = PER_CYCLE.map(|per_cycle| (per_cycle * cycles).max(FEWEST));
+        let lives = plan.trajectories.unwrap_or(0) as f64 / plan.threads.get() as f64;
+        let has_table = joints.iter().all(|joint| joint.feedback != Feedback::Profile);
+        // With several joints every point needs a predictor.
+        let table = DEFAULT_POINTS as f64 * if joints.len() > 1 { 2.0 } else { 1.0 };
+        Ok(Some(Cost {
+            seconds_per_revolution,
+            revolutions: self.revolutions.settle + self.revolutions.average.max(1),
+            cycles,
+            mean_path: [least, most],
+            lives: lives * PER_DRAWN_CYCLE * cycles,
+            table: has_table.then_some(table),
+        }))
+    }
+}
