@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use linkwear_runtime::Watch;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -92,6 +92,17 @@ const QUIET: Duration = Duration::from_millis(500);
 /// Plain lines are no closer than this.
 const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
+/// A plain line after so long: two digits at least, so that a slow run can be told from one that stands still.
+fn line(fraction: f64, elapsed: Duration) -> String {
+    let percent = fraction * 100.0;
+    let small = if percent > 0.0 { percent.clamp(1e-6, 1.0) } else { 1.0 };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and 7")]
+    let digits = (1.0 - small.log10().floor()) as usize;
+    let rest = Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 / fraction - 1.0));
+    let rest = rest.map_or_else(|_| String::new(), |rest| format!(", about {} left", HumanDuration(rest)));
+    format!("{percent:.digits$} %{rest}")
+}
+
 /// Progress of one run.
 struct Progress {
     bar: Option<ProgressBar>,
@@ -122,7 +133,7 @@ impl Progress {
             bar.set_position(thousandths);
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
-            eprintln!("{:.1} %", fraction * 100.0);
+            eprintln!("{}", line(fraction, self.start.elapsed()));
         }
     }
 
@@ -131,5 +142,18 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_says_how_far_and_how_long_still() {
+        let after = Duration::from_secs(10);
+        assert_eq!(line(0.25, after), "25.0 %, about 30 seconds left");
+        assert_eq!(line(0.000_123, after), "0.012 %, about 23 hours left");
+        assert_eq!(line(0.0, after), "0.0 %");
     }
 }

@@ -5,102 +5,25 @@
 //! put into the same state by the output columns, and must see the same accelerations, drive forces, joint
 //! wrenches (where unique) and energies.
 
+mod agreement;
 mod support;
 
+use agreement::compare;
 use linkwear_codegen::compile::Compiled;
-use linkwear_codegen::id::JointId;
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
 use linkwear_oracle::Kind;
 use linkwear_oracle::Oracle;
 use linkwear_oracle::random::Recipe;
-use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
+use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
+
 use support::{compile_source, shipped};
 
 /// Largest share of a quantity's scale by which the two may differ. Both are exact up to rounding; loops are
-/// closed to about 1e-13, and near singular positions that is amplified by up to 1 / `CONDITION` twice.
+/// closed to about 1e-13, and near singular positions that is amplified by up to 500, twice.
 const AGREEMENT: f64 = 1e-8;
-/// States nearer to a singular position (smallest singular value of the oracle's rows) are not compared.
-const CONDITION: f64 = 2e-3;
 /// Samples of a run, both ends included.
 const SAMPLES: usize = 5;
-
-/// Pairs of numbers that should be equal, with the scale on which to judge them.
-#[derive(Default)]
-struct Ledger {
-    entries: Vec<(String, f64, f64, f64)>,
-}
-
-impl Ledger {
-    fn add(&mut self, name: String, ours: f64, theirs: f64, scale: f64) {
-        self.entries.push((name, ours, theirs, scale));
-    }
-
-    fn worst(&self) -> Option<(String, f64)> {
-        let error = |(name, a, b, scale): &(String, f64, f64, f64)| {
-            let error = (a - b).abs() / (1.0 + scale);
-            (
-                format!("{name}: {a} against the oracle's {b}"),
-                if error.is_nan() { f64::INFINITY } else { error },
-            )
-        };
-        self.entries.iter().map(error).max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-}
-
-fn compare_sample(oracle: &Oracle, t: f64, column: &dyn Fn(&str) -> Option<f64>, ledger: &mut Ledger) {
-    let states = oracle.states_from(column).expect("columns reach every body");
-    ledger.add(format!("t = {t}: open loops"), 0.0, oracle.constraint_residual(t, &states), 0.0);
-    ledger.add(format!("t = {t}: open speeds"), 0.0, oracle.velocity_residual(t, &states), 0.0);
-    let solution = oracle.accelerations(t, &states);
-    if solution.smallest_kept < CONDITION {
-        return;
-    }
-    let scale = solution.alpha.iter().chain(&solution.acceleration).fold(0.0, |s: f64, a| s.max(a.amax()));
-    let force = solution.wrenches.iter().fold(0.0, |s: f64, w| s.max(w.force.amax()).max(w.moment.amax()));
-    let mut drives = solution.drives.iter();
-    for (index, joint) in oracle.mechanism.joints.iter().enumerate() {
-        let name = &joint.name;
-        let accelerations = oracle.joint_accelerations(JointId::new(index), &states, &solution);
-        let several = accelerations.len() > 1;
-        let suffix = |k: usize| if several { (k + 1).to_string() } else { String::new() };
-        for (k, theirs) in accelerations.iter().enumerate() {
-            let label = format!("{name}.a{}", suffix(k));
-            ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), *theirs, scale);
-        }
-        for drive in &joint.drives {
-            let label = format!("{name}.drive{}", suffix(drive.coordinate));
-            let theirs = *drives.next().expect("one force per drive");
-            ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), theirs, force);
-        }
-        let wrench = &solution.wrenches[index];
-        let theirs: Vec<f64> = wrench.force.iter().chain(&wrench.moment).copied().collect();
-        for (k, part) in ["Fx", "Fy", "Fz", "Mx", "My", "Mz"].into_iter().enumerate() {
-            if wrench.unique[k] {
-                let label = format!("{name}.{part}");
-                ledger.add(format!("t = {t}: {label}"), column(&label).unwrap_or(f64::NAN), theirs[k], force);
-            }
-        }
-    }
-    let kinetic = oracle.kinetic_energy(&states);
-    ledger.add(format!("t = {t}: T"), column("energy.kinetic").unwrap_or(f64::NAN), kinetic, kinetic);
-}
-
-/// Compares every sample of a run; potential energies up to their constant.
-fn compare(oracle: &Oracle, run: &Run) -> Ledger {
-    let mut ledger = Ledger::default();
-    let mut offset = None;
-    for (t, row) in run.times.iter().zip(&run.rows) {
-        let column = |name: &str| run.index(name).ok().map(|index| row[index]);
-        compare_sample(oracle, *t, &column, &mut ledger);
-        let states = oracle.states_from(&column).expect("columns reach every body");
-        let (ours, theirs) =
-            (column("energy.potential").unwrap_or(f64::NAN), oracle.potential_energy(*t, &states));
-        let offset = *offset.get_or_insert(ours - theirs);
-        ledger.add(format!("t = {t}: V"), ours - offset, theirs, theirs.abs() + ours.abs());
-    }
-    ledger
-}
 
 /// Runs for some time, or until a driver meets a dead point, and compares what was recorded.
 fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) {
@@ -112,7 +35,9 @@ fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) {
     let run = simulate(&system, description, &compiled.parameters(), &settings, Watch::NONE)
         .unwrap_or_else(|error| panic!("{}: {error}\n{}", source.name, source.text));
     let oracle = Oracle::with_defaults(&compiled.mechanism).expect("the oracle reads what we read");
-    let (name, error) = compare(&oracle, &run).worst().expect("at least the start");
+    let rows = run.times.iter().copied().zip(run.rows.iter().map(Vec::as_slice));
+    let ledger = compare(&oracle, rows, &|name| run.index(name).ok());
+    let (name, error) = ledger.worst().expect("at least the start");
     assert!(error < AGREEMENT, "{} {closure:?}: {name} ({error:.1e})\n{}", source.name, source.text);
 }
 

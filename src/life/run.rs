@@ -71,21 +71,25 @@ impl LifeStudy<'_> {
         let may_go_on = |flow: ControlFlow<()>| {
             if journal.is_some_and(Journal::has_failed) { ControlFlow::Break(()) } else { flow }
         };
-        let last = AtomicU64::new(0.0_f64.to_bits());
+        let [last, next] = [0.0_f64, FIRST].map(|part| AtomicU64::new(part.to_bits()));
         let tell = |part: f64| {
-            last.store(part.to_bits(), Ordering::Relaxed);
+            let before = f64::from_bits(last.swap(part.to_bits(), Ordering::Relaxed));
+            next.store((2.0 * part - before).clamp(part, 1.0).to_bits(), Ordering::Relaxed);
             may_go_on(watch.report(part))
         };
-        // Within a revolution and along a table nothing is told, and the watch may stop all the same.
-        let ask = |_: f64| may_go_on(watch.report(f64::from_bits(last.load(Ordering::Relaxed))));
-        let (watch, silent) = (Watch::new(&tell), Watch::new(&ask));
+        // Within a revolution a part of what the next report will probably add.
+        let ask = |part: f64| {
+            let [last, next] = [&last, &next].map(|part| f64::from_bits(part.load(Ordering::Relaxed)));
+            may_go_on(watch.report(last + part * (next - last)))
+        };
+        let (watch, between) = (Watch::new(&tell), Watch::new(&ask));
         if !self.mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
             return Err(Cause::NoWear.into());
         }
         let system = self.mechanism.system();
-        let mut source = self.source(&*system, silent).map_err(Cause::from)?;
+        let mut source = self.source(&*system, between).map_err(Cause::from)?;
         let seconds = source.seconds_per_revolution();
-        let plan = Plan::new(self, &source, journal, (watch, silent))?;
+        let plan = Plan::new(self, &source, journal, (watch, between))?;
         if let Some(journal) = journal {
             journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
         }
@@ -104,12 +108,15 @@ impl LifeStudy<'_> {
     fn source<'s>(
         &'s self,
         system: &'s dyn System<f64>,
-        silent: Watch<'s>,
+        between: Watch<'s>,
     ) -> Result<DynamicsSource<'s>, RunError> {
         let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
-        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.watched_by(silent))
+        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.watched_by(between))
     }
 }
+
+/// What the first report is taken to tell: that of a table. A life by the dynamics is asked after more work than that.
+const FIRST: f64 = 1.0 / DEFAULT_POINTS as f64;
 
 /// What to live, and how.
 pub(super) struct Plan<'s> {
@@ -122,8 +129,8 @@ pub(super) struct Plan<'s> {
     pub trajectories: Option<u64>,
     pub threads: NonZero<usize>,
     watch: Watch<'s>,
-    /// Tells nothing new, only asks whether to stop.
-    silent: Watch<'s>,
+    /// For work between two reports.
+    between: Watch<'s>,
 }
 
 impl<'s> Plan<'s> {
@@ -131,7 +138,7 @@ impl<'s> Plan<'s> {
         study: &'s LifeStudy<'s>,
         source: &DynamicsSource<'_>,
         journal: Option<&'s Journal>,
-        (watch, silent): (Watch<'s>, Watch<'s>),
+        (watch, between): (Watch<'s>, Watch<'s>),
     ) -> Result<Self, Cause> {
         let mut settings = LifeSettings::new(source.joints()?);
         if !study.feedback {
@@ -150,13 +157,13 @@ impl<'s> Plan<'s> {
             return Err(Cause::NoRandomLives);
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
-        Ok(Self { study, settings, coupling, process, journal, trajectories, threads, watch, silent })
+        Ok(Self { study, settings, coupling, process, journal, trajectories, threads, watch, between })
     }
 
     fn by_table(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
         let mut table = measured.map_err(|error| self.error(self.cause(error, None), &[]))?;
-        let mut result = self.mean_path(&mut table, self.silent)?;
+        let mut result = self.mean_path(&mut table, self.between)?;
         self.draw(&mut result, &|body| {
             body(&mut table.clone());
             Ok::<(), Infallible>(())
@@ -170,7 +177,7 @@ impl<'s> Plan<'s> {
         let mut result = self.mean_path(source, self.watch)?;
         self.draw(&mut result, &|body: Body<'_>| {
             let system = self.study.mechanism.system();
-            body(&mut self.study.source(&*system, self.silent)?);
+            body(&mut self.study.source(&*system, self.between)?);
             Ok(())
         })?;
         Ok(result)
@@ -235,7 +242,7 @@ impl<'s> Plan<'s> {
         let mut batch = 0;
         let by_fits = process.uncertainty(&mut |shifted| {
             batch += 1;
-            let lives = self.draw_by(scale, shifted, (batch, count.min(few)), self.silent)?;
+            let lives = self.draw_by(scale, shifted, (batch, count.min(few)), self.between)?;
             Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
         });
         let by_fits = by_fits.map_err(|(cause, _)| failed((cause, lives.clone())))?;
@@ -288,7 +295,7 @@ impl<'s> Plan<'s> {
 
     /// Whatever a fine scale says that was asked to stop, it was stopped.
     fn cause<E: StdError + Send + Sync + 'static>(&self, error: Stop<E>, trajectory: Option<u64>) -> Cause {
-        let is_stopped = matches!(error, Stop::Fine { .. }) && self.silent.report(0.0).is_break();
+        let is_stopped = matches!(error, Stop::Fine { .. }) && self.between.report(0.0).is_break();
         if is_stopped || matches!(error, Stop::Interrupted) {
             return Cause::Interrupted { trajectory, lives: None };
         }
