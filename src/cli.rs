@@ -5,7 +5,6 @@
 mod answer;
 mod arguments;
 mod check;
-mod csv_table;
 mod equations;
 mod failure;
 mod fit;

@@ -16,6 +16,8 @@
 )]
 
 pub mod backend;
+#[cfg(feature = "cli")]
+pub mod csv_table;
 pub mod files;
 pub mod life;
 pub mod mechanism;

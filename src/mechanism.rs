@@ -2,10 +2,11 @@
 //! Never knows what is done with it.
 
 use std::path::{Path, PathBuf};
-use std::{fmt, fs, io};
+use std::{fmt, io};
 
 use hmac_sha256::Hash;
-use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile};
+use linkwear_codegen::input::read_text;
+use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_runtime::{Description, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
@@ -127,7 +128,7 @@ fn sha256(value: &impl fmt::Debug) -> String {
 /// [`LoadError::Read`].
 pub fn read_source(file: &Path) -> Result<SourceFile, LoadError> {
     let name = file.display().to_string();
-    let text = fs::read_to_string(file);
+    let text = read_text(file, limits::FILE_BYTES);
     text.map(|text| SourceFile { name, text })
         .map_err(|error| LoadError::Read { file: file.to_path_buf(), error })
 }

@@ -45,7 +45,10 @@ impl<'w> Workers<'w> {
         };
         thread::scope(|scope| {
             for _ in 1..self.threads.clamp(1, items.len().max(1)) {
-                scope.spawn(share);
+                // Without a further thread those that there are do its work.
+                if thread::Builder::new().spawn_scoped(scope, share).is_err() {
+                    break;
+                }
             }
             share();
         });

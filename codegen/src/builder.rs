@@ -8,7 +8,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::{Closure, Diagnostics, Options, SourceFile, compile};
+use crate::input::{Reach, read_text};
+use crate::{Closure, Diagnostics, Options, SourceFile, compile, limits};
 
 /// Environment variable with a folder that gets a copy of everything generated, for reading.
 pub const EMIT_DIR_VARIABLE: &str = "LINKWEAR_EMIT_DIR";
@@ -112,6 +113,12 @@ impl Builder {
         self
     }
 
+    /// Lets a mechanism name files of data outside its folder.
+    pub fn allow_outside_data(mut self) -> Self {
+        self.options.reach = Reach::Anywhere;
+        self
+    }
+
     /// Path by which generated code finds the runtime, e.g. `crate::vendored::linkwear_runtime`.
     pub fn runtime_path(mut self, path: impl Into<String>) -> Self {
         self.runtime_path = Some(path.into());
@@ -177,7 +184,7 @@ impl Builder {
 
     /// Name and source of one mechanism.
     fn generate(&self, path: &Path, written: &mut Written) -> Result<(String, String), BuildError> {
-        let text = fs::read_to_string(path)
+        let text = read_text(path, limits::FILE_BYTES)
             .map_err(|reason| BuildError::Read { path: path.to_path_buf(), reason })?;
         written.read.push(path.to_path_buf());
         let source = SourceFile { name: shown_name(path), text };

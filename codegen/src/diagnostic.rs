@@ -3,10 +3,12 @@
 
 use crate::source::Span;
 
+mod brief;
 mod code;
 mod collector;
 mod render;
 
+pub use brief::{bounded, brief, cut};
 pub use code::{Code, Severity};
 pub use collector::{Diagnostics, Entry};
 

@@ -20,6 +20,7 @@ pub mod diagnostic;
 pub mod expr;
 pub mod flexible;
 pub mod id;
+pub mod input;
 pub mod limits;
 pub mod model;
 pub mod preflight;

@@ -1,4 +1,5 @@
-//! How large a mechanism may be, in counts, so that any file ends or is refused within a minute and 2 GiB.
+//! How large a mechanism, its data and a run may be, in counts, so that any file ends or is refused within a minute
+//! and 2 GiB.
 //! Out: [`Limit`]s and the sentences of those that were broken. Never knows time or memory.
 
 use crate::diagnostic::{Code, Diagnostic};
@@ -17,6 +18,10 @@ pub struct Limit {
 /// Text of a mechanism file: a thousand times the shipped ones.
 pub const FILE_BYTES: Limit =
     Limit { what: "bytes", most: 4 << 20, help: "describe copies of a group once, in a [repeat] table" };
+
+/// Text of a file of data, which takes up to thirty times as much memory while it is read.
+pub const DATA_BYTES: Limit =
+    Limit { what: "bytes", most: 32 << 20, help: "give fewer modes, nodes or readings" };
 
 /// Bodies after `[repeat]` groups have made their copies. Preflight factors matrices of speeds by rows, which takes
 /// a minute at six hundred.
@@ -40,6 +45,16 @@ pub const EXPRESSIONS: Limit = Limit {
     most: 1_000_000,
     help: "long open chains grow with the square of their length: split the mechanism, or keep fewer modes",
 };
+
+/// Threads of one run; what it answers does not depend on them.
+pub const THREADS: Limit = Limit { what: "threads", most: 1_024, help: "give as many as there are cores" };
+
+/// Numbers that the rows of a run have in all: they stand in memory until they are written, 1.2 GB.
+pub const ROW_NUMBERS: Limit =
+    Limit { what: "numbers in rows", most: 150_000_000, help: "take fewer rows, or split the span" };
+
+/// Copies that one `[repeat]` group makes: more are a slip of the pen.
+pub const CELLS: Limit = Limit { what: "cells", most: 10_000, help: "split the mechanism" };
 
 impl Limit {
     /// The fault, if `count` is beyond the limit.

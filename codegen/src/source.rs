@@ -26,11 +26,6 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Path of a file named in this one: beside it, unless absolute.
-    pub fn beside(&self, file: &str) -> std::path::PathBuf {
-        std::path::Path::new(&self.name).parent().map_or_else(|| file.into(), |folder| folder.join(file))
-    }
-
     /// SHA-256 of the text, in hexadecimal.
     pub fn sha256(&self) -> String {
         hmac_sha256::Hash::hash(self.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()

@@ -1,6 +1,7 @@
 //! Whatever a user writes, the front end answers with a mechanism or with diagnostics that can be printed.
 
 use linkwear_codegen::diagnostic::Diagnostics;
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::source::SourceFile;
@@ -42,7 +43,7 @@ const PIECES: &[&str] = &[
 
 /// Everything before equations.
 fn front_end(source: &SourceFile) -> Result<(), Diagnostics> {
-    let (mechanism, _) = resolve(&spec::parse(source)?, &Overrides::default())?;
+    let (mechanism, _) = resolve(&spec::parse(source)?, &Overrides::default(), Reach::Below)?;
     spanning_tree(&mechanism).map(drop).map_err(|errors| errors.located(source))
 }
 

@@ -1,5 +1,6 @@
 //! The shipped mechanisms: they resolve without warnings, and loops are cut where a person would cut them.
 
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{Carrier, Mechanism, Overrides, Topology, resolve};
 use linkwear_codegen::source::SourceFile;
@@ -17,7 +18,8 @@ fn read(name: &str) -> (Mechanism, Topology) {
 fn read_with(name: &str, overrides: &Overrides) -> (Mechanism, Topology) {
     let source = source(name);
     let spec = spec::parse(&source).unwrap_or_else(|errors| panic!("{errors}"));
-    let (mechanism, warnings) = resolve(&spec, overrides).unwrap_or_else(|errors| panic!("{errors}"));
+    let (mechanism, warnings) =
+        resolve(&spec, overrides, Reach::Below).unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!(warnings, [], "{name}");
     assert_eq!(mechanism.name, name);
     let topology = spanning_tree(&mechanism).unwrap_or_else(|errors| panic!("{}", errors.located(&source)));
@@ -108,7 +110,7 @@ fn front_end_takes_under_five_milliseconds() {
         .map(|_| {
             let start = std::time::Instant::now();
             let spec = spec::parse(&source).unwrap();
-            let (mechanism, _) = resolve(&spec, &Overrides::default()).unwrap();
+            let (mechanism, _) = resolve(&spec, &Overrides::default(), Reach::Below).unwrap();
             spanning_tree(&mechanism).unwrap();
             start.elapsed()
         })

@@ -2,6 +2,7 @@
 
 use linkwear_codegen::diagnostic::{Code, Diagnostics};
 use linkwear_codegen::id::{BodyId, JointId, PointId};
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{
     Amount, Axis, Carrier, Closure, Force, Function, Inertia, Joint, JointModel, Mechanism, Overrides,
@@ -13,7 +14,7 @@ use linkwear_codegen::spec;
 fn try_read(text: &str) -> Result<Mechanism, Diagnostics> {
     let text = format!("spec = 1\nname = \"test\"\ngravity = [0, 0, 0]\n{text}");
     let source = SourceFile { name: "test.toml".into(), text };
-    Ok(resolve(&spec::parse(&source)?, &Overrides::default())?.0)
+    Ok(resolve(&spec::parse(&source)?, &Overrides::default(), Reach::Below)?.0)
 }
 
 fn read(text: &str) -> Mechanism {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use linkwear_codegen::compile::{Options, compile};
 use linkwear_codegen::diagnostic::{Code, Diagnostics};
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::source::SourceFile;
@@ -32,7 +33,7 @@ fn diagnostics_of(case: &str) -> Diagnostics {
     let source = SourceFile { name: format!("{case}.toml"), text };
     let front_end = || {
         let spec = spec::parse(&source)?;
-        let (mechanism, warnings) = resolve(&spec, &overrides)?;
+        let (mechanism, warnings) = resolve(&spec, &overrides, Reach::Below)?;
         spanning_tree(&mechanism)?;
         // Files about assembly and rank are well-formed; those about warnings need not be assembled.
         if case.starts_with("E06")

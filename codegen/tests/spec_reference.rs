@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::topology::spanning_tree;
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::source::SourceFile;
@@ -22,7 +23,7 @@ fn every_file_in_the_reference_resolves_without_warnings() {
         let source = SourceFile { name: "spec-reference.md".into(), text: file.into() };
         let spec = spec::parse(&source).unwrap_or_else(|errors| panic!("{errors}"));
         let (mechanism, warnings) =
-            resolve(&spec, &Overrides::default()).unwrap_or_else(|errors| panic!("{errors}"));
+            resolve(&spec, &Overrides::default(), Reach::Below).unwrap_or_else(|errors| panic!("{errors}"));
         assert_eq!(warnings, []);
         assert!(spanning_tree(&mechanism).is_ok());
     }

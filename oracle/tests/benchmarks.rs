@@ -1,6 +1,7 @@
 //! The shipped benchmark mechanisms, read from their files, against published numbers (tests/reference).
 
 use linkwear_codegen::id::{JointId, PointId};
+use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::source::SourceFile;
 use linkwear_codegen::spec::parse;
@@ -10,8 +11,8 @@ use nalgebra::Vector3;
 fn read(name: &str, text: String) -> Oracle {
     let source = SourceFile { name: name.to_owned(), text };
     let spec = parse(&source).unwrap_or_else(|errors| panic!("{name}: {errors:#?}"));
-    let (mechanism, _) =
-        resolve(&spec, &Overrides::default()).unwrap_or_else(|errors| panic!("{name}: {errors:#?}"));
+    let (mechanism, _) = resolve(&spec, &Overrides::default(), Reach::Below)
+        .unwrap_or_else(|errors| panic!("{name}: {errors:#?}"));
     Oracle::with_defaults(&mechanism).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 

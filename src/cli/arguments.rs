@@ -11,7 +11,7 @@ use linkwear_codegen::Closure;
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::value::{assignment, covariate, one_of, output, positive};
+use super::value::{assignment, covariate, one_of, output, positive, threads};
 
 const BACKENDS: [(&str, Backend); 3] =
     [("auto", Backend::Auto), ("compiled", Backend::Compiled), ("interpreter", Backend::Interpreter)];
@@ -114,6 +114,9 @@ pub struct Input {
     /// How loops are closed: only the rows a cut joint takes away, or six rows of a logarithm.
     #[arg(long, value_parser = one_of(CLOSURES))]
     pub closure: Option<Closure>,
+    /// Let the mechanism name files of data outside its folder.
+    #[arg(long)]
+    pub allow_outside_data: bool,
 }
 
 #[derive(Debug, Args)]
@@ -214,7 +217,7 @@ pub struct LifeArguments {
     #[arg(long, requires = "out")]
     pub resume: bool,
     /// Threads that share the random lives [default: one per core].
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
     /// What runs the equations.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
+use linkwear::csv_table::CsvError;
 use linkwear::files::{WriteError, print};
 use linkwear::life::JournalError;
 use linkwear::mechanism::LoadError;
@@ -178,6 +179,15 @@ impl From<WriteError> for Failure {
             WriteError::Exists(file) => ("C0004", file, "choose another name"),
         };
         Self::new(code, Some(file), &error, help)
+    }
+}
+
+impl From<CsvError> for Failure {
+    fn from(error: CsvError) -> Self {
+        match error {
+            CsvError::Read { file, error } => Self::read(&file)(error),
+            CsvError::Data { file, line, message, help } => Self::data(&file, line, message, help),
+        }
     }
 }
 

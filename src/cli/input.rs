@@ -1,12 +1,12 @@
 //! Input: arguments to a compiled mechanism, its warnings to stderr; fits.
 
-use std::fs;
 use std::path::Path;
 
 use linkwear::backend::Backend;
 use linkwear::files::{WriteError, check_target};
 use linkwear::mechanism::{Mechanism, located_warnings, read_source};
-use linkwear_codegen::{Compiled, Diagnostics, Options, compile};
+use linkwear_codegen::input::{Reach, read_text};
+use linkwear_codegen::{Compiled, Diagnostics, Options, compile, limits};
 use linkwear_gamma::FitFile;
 use serde_json::Value;
 
@@ -29,7 +29,8 @@ pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Me
 }
 
 fn options(input: &Input, rigid: bool) -> Options {
-    Options { closure: input.closure, overrides: input.overrides.clone(), rigid }
+    let reach = if input.allow_outside_data { Reach::Anywhere } else { Reach::Below };
+    Options { closure: input.closure, overrides: input.overrides.clone(), rigid, reach }
 }
 
 fn print_warnings(warnings: &Diagnostics) {
@@ -49,5 +50,6 @@ pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure
 
 /// Reads the result of a fit back.
 pub fn read_fit(file: &Path) -> Result<FitFile, Failure> {
-    FitFile::parse(&fs::read_to_string(file).map_err(Failure::read(file))?).map_err(Failure::fit(file))
+    FitFile::parse(&read_text(file, limits::DATA_BYTES).map_err(Failure::read(file))?)
+        .map_err(Failure::fit(file))
 }

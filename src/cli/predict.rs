@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use linkwear::csv_table::CsvTable;
 use linkwear::number::number;
 use linkwear_gamma::Prediction;
 use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Reading};
@@ -9,7 +10,6 @@ use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState};
 
 use super::answer::Answer;
 use super::arguments::PredictArguments;
-use super::csv_table::CsvTable;
 use super::failure::Failure;
 use super::input::read_fit;
 use super::table::table;

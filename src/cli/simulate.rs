@@ -7,6 +7,7 @@ use linkwear::mechanism::Mechanism;
 use linkwear::number::number;
 use linkwear::progress::watched;
 use linkwear::table::write_table;
+use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
 use serde_json::{Value, json};
@@ -22,8 +23,6 @@ use super::table::{duration, plural, table};
 const DEFAULT_STEP: f64 = 1e-4;
 /// Tolerance of the adaptive method unless one is given.
 const DEFAULT_TOLERANCE: f64 = 1e-9;
-/// Numbers that the rows of a run may have in all, since they stand in memory until they are written: 1.2 GB.
-const MOST_NUMBERS: usize = 150_000_000;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 
@@ -59,15 +58,12 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
 }
 
 fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Failure> {
-    let most = MOST_NUMBERS / description.channels.len().max(1);
+    let most = ROW_NUMBERS.most / description.channels.len().max(1);
     if samples <= most {
         return Ok(());
     }
     let message = format!("--samples: {samples} rows of {} columns", description.channels.len());
-    Err(Failure::usage(
-        message,
-        format!("at most {most} rows stand in memory: take fewer, or split the span"),
-    ))
+    Err(Failure::usage(message, format!("at most {most} rows stand in memory: {}", ROW_NUMBERS.help)))
 }
 
 fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {

@@ -1,8 +1,10 @@
 //! Values of options that are more than a number or a name. In: the text. Out: the value, or what to write instead.
 
+use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
+use linkwear_codegen::limits::THREADS;
 
 /// One of some names, each with what it means.
 pub fn one_of<T: Clone + Send + Sync + 'static>(
@@ -23,6 +25,13 @@ pub fn output() -> impl TypedValueParser<Value = PathBuf> {
             "stdout has the answer: give a file (`./-` for one of this name) or a stream such as /dev/stdout";
         if name == "-" { Err(cure) } else { Ok(PathBuf::from(name)) }
     })
+}
+
+/// A number of threads.
+pub fn threads(text: &str) -> Result<NonZero<usize>, String> {
+    let most = THREADS.most;
+    let count = text.parse().ok().filter(|count: &NonZero<usize>| count.get() <= most);
+    count.ok_or_else(|| format!("a whole number from 1 to {most} is needed: {}", THREADS.help))
 }
 
 /// `name=value`, both non-empty.

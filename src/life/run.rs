@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::available_parallelism;
 
+use linkwear_codegen::limits;
 use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
 use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, FailureEvent, Feedback, IncrementModel, LifeError as Stop, LifeOutcome,
@@ -157,6 +158,7 @@ impl<'s> Plan<'s> {
             return Err(Cause::NoRandomLives);
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
+        let threads = threads.min(NonZero::new(limits::THREADS.most).unwrap_or(threads));
         Ok(Self { study, settings, coupling, process, journal, trajectories, threads, watch, between })
     }
 

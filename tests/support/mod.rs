@@ -23,7 +23,8 @@ pub fn compiled(name: &str, overrides: &[(&str, &str)], closure: Option<Closure>
 /// Compiles a source, showing its diagnostics if it fails.
 pub fn compile_source(source: &SourceFile, overrides: &[(&str, &str)], closure: Option<Closure>) -> Compiled {
     let overrides = overrides.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
-    compile(source, &Options { closure, overrides, rigid: false }).unwrap_or_else(|error| panic!("{error}"))
+    compile(source, &Options { closure, overrides, ..Options::default() })
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Adaptive integration of a compiled mechanism by the interpreter.

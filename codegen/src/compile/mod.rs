@@ -6,6 +6,7 @@ mod compiled;
 use crate::backend::interp::Interpreted;
 use crate::derive::{self, Derived, Purpose};
 use crate::diagnostic::{Code, Diagnostics};
+use crate::input::Reach;
 use crate::limits::{self, Limit};
 use crate::model::{self, Closure, Mechanism, Overrides, Topology};
 use crate::preflight::{self, Case, Findings, OwnUnits};
@@ -24,6 +25,8 @@ pub struct Options {
     pub overrides: Vec<(String, String)>,
     /// Takes flexible bodies as rigid.
     pub rigid: bool,
+    /// Where the files of data may lie that the file names.
+    pub reach: Reach,
 }
 
 /// Compiles a file.
@@ -34,7 +37,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     within(source, [(limits::FILE_BYTES, source.text.len())])?;
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
-    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides)?;
+    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides, options.reach)?;
     let counts = [mechanism.points.len(), mechanism.joints.len(), mechanism.forces.len()];
     within(source, [(limits::BODIES, mechanism.bodies.len())])?;
     within(source, counts.map(|count| (limits::ELEMENTS, count)))?;

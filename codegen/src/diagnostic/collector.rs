@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::brief::bounded;
 use super::code::Severity;
 use super::render;
 use crate::diagnostic::Diagnostic;
@@ -35,7 +36,7 @@ pub struct Entry {
     pub column: usize,
     /// What is wrong.
     pub message: String,
-    /// What to do about it.
+    /// What to do about it, or what is said at the place.
     pub help: String,
 }
 
@@ -81,14 +82,16 @@ impl Diagnostics {
     pub fn entries(&self) -> Vec<Entry> {
         let entry = |diagnostic: &Diagnostic| {
             let start = diagnostic.span().map_or(0, |span| span.start);
+            let label = diagnostic.labels.first().map_or("", |label| &label.text);
+            let help = if diagnostic.help.is_empty() { label.to_owned() } else { diagnostic.help.join("; ") };
             let (line, column) = self.source.as_ref().map_or((1, 1), |source| source.line_column(start));
             Entry {
                 code: diagnostic.code.as_str(),
                 file: self.source.as_ref().map_or(String::new(), |source| source.name.clone()),
                 line,
                 column,
-                message: diagnostic.message.clone(),
-                help: diagnostic.help.join("; "),
+                message: bounded(&diagnostic.message),
+                help: bounded(&help),
             }
         };
         self.list.iter().take(LISTED).map(entry).collect()

@@ -3,6 +3,7 @@
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
 
+use super::brief::bounded;
 use super::{Diagnostic, Severity};
 use crate::source::SourceFile;
 
@@ -11,8 +12,10 @@ pub(super) fn plain(diagnostic: &Diagnostic, source: Option<&SourceFile>) -> Str
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
+    let (message, helps) = (bounded(&diagnostic.message), diagnostic.help.iter().map(|help| bounded(help)));
+    let helps: Vec<String> = helps.collect();
     let mut group: Group<'_> = level
-        .primary_title(diagnostic.message.as_str())
+        .primary_title(message.as_str())
         .id(diagnostic.code.as_str())
         .elements(Vec::<Element<'_>>::new());
     if let Some(source) = source {
@@ -29,7 +32,7 @@ pub(super) fn plain(diagnostic: &Diagnostic, source: Option<&SourceFile>) -> Str
             group = group.element(annotate_snippets::Origin::path(source.name.as_str()));
         }
     }
-    for help in &diagnostic.help {
+    for help in &helps {
         group = group.element(Level::HELP.message(help.as_str()));
     }
     Renderer::plain().render(&[group])

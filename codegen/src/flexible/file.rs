@@ -21,9 +21,16 @@ const UNITS: &str = "SI";
 /// Why a text is no modal data.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum FileError {
-    /// No TOML, an unknown or missing key, or a value of the wrong kind; says where.
-    #[error(transparent)]
-    Syntax(#[from] toml::de::Error),
+    /// No TOML, an unknown or missing key, or a value of the wrong kind.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// Line, from 1.
+        line: usize,
+        /// Column in characters, from 1.
+        column: usize,
+        /// What is wrong; nothing of the line but what is wrong in it.
+        message: String,
+    },
     /// The key `format`, `version` or `units` says something else.
     #[error("{key} must be {expected}, not {found}")]
     Header {
@@ -61,6 +68,15 @@ pub enum FileError {
     /// The numbers cannot belong to a body.
     #[error(transparent)]
     Data(#[from] DataError),
+}
+
+impl FileError {
+    fn syntax(text: &str, error: &toml::de::Error) -> Self {
+        let before = &text[..error.span().map_or(0, |span| text.floor_char_boundary(span.start))];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|letter| *letter != '\n').count() + 1;
+        Self::Syntax { line, column, message: error.message().to_owned() }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -129,7 +145,7 @@ impl ModalData {
     /// # Errors
     /// Text that is no such file, or numbers that cannot belong to a body.
     pub fn from_toml(text: &str) -> Result<Self, FileError> {
-        let file: File = toml::from_str(text)?;
+        let file: File = toml::from_str(text).map_err(|error| FileError::syntax(text, &error))?;
         let header = [
             ("format", file.format.clone(), FORMAT.to_owned()),
             ("version", file.version.to_string(), VERSION.to_string()),

@@ -86,14 +86,16 @@ impl Error for Failure {
             other => other.to_string(),
         };
         let expected = expected.to_string();
-        let expected = match expected.as_str() {
-            "a sequence" => "a list",
-            "a boolean" => "true or false",
-            "a string" => "a text",
-            other if other.starts_with("struct ") => "a table",
-            other => other,
+        let (expected, cure) = match expected.as_str() {
+            "a sequence" => ("a list", Some("write it in brackets, `[..]`")),
+            "a boolean" => ("true or false", Some("write `true` or `false` without quotes")),
+            "a string" => ("a text", Some("write one text in quotes")),
+            "i64" => ("a whole number", Some("write a whole number without quotes")),
+            other if other.starts_with("struct ") => ("a table", Some("write a table, `{ key = value }`")),
+            other => (other, None),
         };
         let mut failure = Self::of(Code::WrongType, format!("found {found} where {expected} is needed"));
+        failure.help = cure.map(str::to_owned);
         failure.in_place_of_list = (expected == "a list").then_some(text);
         failure
     }
@@ -101,7 +103,7 @@ impl Error for Failure {
         let allowed = expected.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
         let mut failure = Self::of(Code::BadChoice, format!("\"{variant}\" is not {allowed}"));
         failure.help = crate::diagnostic::nearest(variant, expected.iter().copied())
-            .map(|word| format!("did you mean \"{word}\"?"));
+            .map_or(Some("choose one of them".to_owned()), |word| Some(format!("did you mean \"{word}\"?")));
         failure
     }
 }

@@ -12,9 +12,6 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::limits;
 use crate::source::Span;
 
-/// More cells than this are a slip of the pen, and would only fill the memory.
-const MOST_CELLS: i64 = 10_000;
-
 /// Makes the cells of every group; `count_of` evaluates `count` and reports if it cannot.
 pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -> (File, Vec<Diagnostic>) {
     let mut whole = file.clone();
@@ -86,14 +83,15 @@ fn count(
         return None;
     };
     let count = count_of(written)?;
-    if count.fract() != 0.0 || !(1.0..=MOST_CELLS as f64).contains(&count) {
+    let most = limits::CELLS.most;
+    if count.fract() != 0.0 || !(1.0..=most as f64).contains(&count) {
         problems.push(
             Diagnostic::new(Code::BadRepeat, format!("`count` of group `{}` is {count}", name.value))
-                .at(written.span, format!("a whole number from 1 to {MOST_CELLS} is needed")),
+                .at(written.span, format!("a whole number from 1 to {most} is needed")),
         );
         return None;
     }
-    #[allow(clippy::cast_possible_truncation, reason = "a whole number up to MOST_CELLS")]
+    #[allow(clippy::cast_possible_truncation, reason = "a whole number up to limits::CELLS")]
     Some(count as i64)
 }
 

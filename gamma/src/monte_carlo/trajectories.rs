@@ -6,6 +6,7 @@ use std::num::NonZero;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::thread::Builder;
 
 use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
@@ -82,6 +83,7 @@ impl MonteCarlo<'_> {
         let known = known.range(self.trajectories.clone()).map(|(number, end)| (*number, Ok(*end)));
         let known: Vec<(u64, Result<E>)> = known.collect();
         let is_known: Vec<u64> = known.iter().map(|(number, _)| *number).collect();
+        let left = (self.trajectories.end - self.trajectories.start).saturating_sub(known.len() as u64);
         let next = AtomicU64::new(self.trajectories.start);
         let done = AtomicU64::new(known.len() as u64);
         let halt = AtomicBool::new(false);
@@ -119,8 +121,11 @@ impl MonteCarlo<'_> {
             }
         };
         std::thread::scope(|scope| {
-            for _ in 1..self.threads.get() {
-                scope.spawn(work);
+            for _ in 1..self.threads.get().min(usize::try_from(left).unwrap_or(usize::MAX)) {
+                // A system that gives no more threads gives time: the lives are the same.
+                if Builder::new().spawn_scoped(scope, work).is_err() {
+                    break;
+                }
             }
             work();
         });

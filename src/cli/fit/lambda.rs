@@ -1,14 +1,15 @@
 //! Lambda by exposure, from a file. In: the JSON of `life`, or a CSV of exposure and Lambda. Out: straight lines.
 //! Never knows readings.
 
-use std::fs;
 use std::path::Path;
 
+use linkwear::csv_table::CsvTable;
+use linkwear_codegen::input::read_text;
+use linkwear_codegen::limits;
 use linkwear_gamma::life::Clock;
 use linkwear_gamma::monte_carlo::PER_METRE;
 use serde_json::Value;
 
-use super::super::csv_table::CsvTable;
 use super::super::failure::Failure;
 
 /// Lambda by exposure, straight lines from (0, 0) on, and the largest exposure.
@@ -31,7 +32,7 @@ pub fn lambda_table(path: &Path) -> Result<(Clock, f64), Failure> {
 
 /// Lambda [um], the unit of the Gamma layer, after each cycle of the joint that failed.
 fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
-    let text = fs::read_to_string(path).map_err(Failure::read(path))?;
+    let text = read_text(path, limits::DATA_BYTES).map_err(Failure::read(path))?;
     let foreign = || {
         let help = "write it by `linkwear life FILE --format json > life.json`";
         Failure::data(path, None, format!("`{}` is no result of `life`", path.display()), help)

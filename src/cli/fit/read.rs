@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use linkwear::csv_table::CsvTable;
 use linkwear_gamma::data::Reading;
 
 use super::super::arguments::FitArguments;
-use super::super::csv_table::CsvTable;
 use super::super::failure::Failure;
 use super::lambda::lambda_table;
 
@@ -62,7 +62,7 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
         return exposures.ok_or_else(|| Failure::usage("no clock", "give --exposure or --lambda"));
     };
     if table.has(lambda) {
-        return table.numbers(lambda);
+        return Ok(table.numbers(lambda)?);
     }
     let path = Path::new(lambda);
     if !path.exists() {

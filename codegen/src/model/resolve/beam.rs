@@ -49,7 +49,7 @@ impl Resolver<'_> {
             Ok(flexible) => Some(flexible),
             Err(error) => {
                 let message = format!("the flexible body `{}` has no modes: {error}", name.value);
-                self.refuse(Code::BadModes, spec.span, message);
+                self.refuse(Code::BadModes, spec.span, message).help("change that value in `flexible`");
                 None
             }
         }
@@ -84,14 +84,14 @@ impl Resolver<'_> {
         let count = |this: &mut Self, key: &str, written: Option<&Quantity>| {
             let value = this.fixed(name, key, written, Dimension::NONE, 0.0);
             if let Some(written) = written
+                && !value.is_nan()
                 && !(value.fract() == 0.0 && (0.0..=100.0).contains(&value))
             {
                 let message = format!("{} is {value}, not a number of modes", place(key, "body", name));
-                this.refuse(Code::BadModes, written.span, message)
-                    .help("write a whole number, for instance 6");
+                this.refuse(Code::BadModes, written.span, message).help("write a whole number from 0 to 100");
                 return 0;
             }
-            // Checked above to be a small whole number.
+            // Checked above to be a small whole number, or not known, which is reported.
             value as usize
         };
         let modes = Counts {

@@ -85,7 +85,8 @@ impl Resolver<'_> {
                 "the {kind} `{}` has no length: `{}` and `{}` are one place",
                 name.value, a.value, b.value
             );
-            self.refuse(Code::ZeroLength, pair.0.span, message);
+            self.refuse(Code::ZeroLength, pair.0.span, message)
+                .help("move one of the points, or name another");
         }
         [from, to]
     }

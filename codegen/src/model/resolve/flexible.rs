@@ -1,12 +1,16 @@
 //! Flexible bodies: which points need a node, where the floating frame lies, and the constants of the body,
 //! from a beam ([`super::beam`]) or from a file of modal data.
 
+use std::path::Path;
+
 use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, brief};
 use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
+use crate::input::read_named;
+use crate::limits;
 use crate::model::{Body, Carrier, Direction, Flexible, Force, Joint, Station};
 use crate::spec::{At, Dimension, File, FlexibleSpec, Name, Quantity};
 
@@ -138,7 +142,7 @@ impl Resolver<'_> {
                 if !list.is_empty() && list.len() != modes {
                     let message =
                         format!("`{what}` of `{}` has {} values for {modes} modes", body.name, list.len());
-                    self.refuse(Code::BadStart, start.span, message);
+                    self.refuse(Code::BadStart, start.span, message).help("give one value for each mode");
                 }
             }
             for (at, own) in flexible.start.iter_mut().enumerate() {
@@ -152,19 +156,23 @@ impl Resolver<'_> {
     fn read_modal_data(&mut self, of: Bending<'_>, file: &Name) -> Option<Flexible> {
         let Bending { name, carrier, spec, .. } = of;
         self.check_beam_keys(name, &spec.value);
-        let path = self.source.beside(&file.value);
-        let text = std::fs::read_to_string(&path).map_err(|error| error.to_string());
-        let data = match text.and_then(|text| ModalData::from_toml(&text).map_err(|error| error.to_string()))
-        {
+        let found = read_named(Path::new(&self.source.name), &file.value, self.reach, limits::DATA_BYTES);
+        let data = found.map_err(|error| error.to_string()).and_then(|(path, text)| {
+            self.attached.push(path);
+            ModalData::from_toml(&text).map_err(|error| error.to_string())
+        });
+        let data = match data {
             Ok(data) => data,
             Err(reason) => {
-                let message = format!("the modal data `{}` cannot be used: {reason}", file.value);
-                self.refuse(Code::BadModalData, file.span, message)
-                    .help("docs/modal-data.md describes the file; its path is relative to this file");
+                // The reason may quote the file, which need not be meant for who reads the message.
+                let message = format!("the modal data `{}` cannot be used: {}", file.value, brief(&reason));
+                self.refuse(Code::BadModalData, file.span, message).help(
+                    "docs/modal-data.md describes the file; its path is relative to this file, and leads out of its \
+                     folder only with --allow-outside-data",
+                );
                 return None;
             }
         };
-        self.attached.push(path);
         let Some(origin) = &spec.value.origin else {
             let message = format!("nothing says where the floating frame of `{}` lies", name.value);
             self.refuse(Code::MissingKey, spec.span, message)

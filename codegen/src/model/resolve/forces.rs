@@ -93,7 +93,8 @@ impl Resolver<'_> {
             && first == second
         {
             let message = format!("the {} `{}` connects `{}` with itself", kind.name, name.value, a.value);
-            self.refuse(Code::SameBody, pair.0.span, message);
+            self.refuse(Code::SameBody, pair.0.span, message)
+                .help("name two bodies; `ground` is the fixed one");
         }
         Some(sides)
     }

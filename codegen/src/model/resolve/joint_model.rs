@@ -131,14 +131,15 @@ impl Resolver<'_> {
             // A bare zero fits every dimension.
             let formula = self.formula(item, None, Allowed::CONSTANTS, what);
             *component = self.value(&formula);
-            if *component == 0.0 || component.is_nan() {
+            if component.is_nan() || *component == 0.0 && formula.dimension == Dimension::NONE {
                 continue;
             }
             let first = *dimension.get_or_insert(formula.dimension);
             if first != formula.dimension {
                 let message =
                     format!("{what} mixes {} and {}", first.description(), formula.dimension.description());
-                self.refuse(Code::UnitMismatch, item.span, message);
+                self.refuse(Code::UnitMismatch, item.span, message)
+                    .help("give all three in one unit, or without");
                 return None;
             }
         }

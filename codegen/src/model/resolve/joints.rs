@@ -43,7 +43,8 @@ impl Resolver<'_> {
         let (a, b) = (a?, b?);
         if a == b {
             let message = format!("joint `{}` connects `{}` with itself", name.value, parent.value);
-            self.refuse(Code::SameBody, pair.0.span, message);
+            self.refuse(Code::SameBody, pair.0.span, message)
+                .help("name two bodies; `ground` is the fixed one");
         }
         Some([(a, parent), (b, child)])
     }

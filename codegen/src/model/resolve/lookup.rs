@@ -28,21 +28,33 @@ impl Resolver<'_> {
         }
         if let Some((thing, span)) = found {
             let message = format!("{used_by} needs a {wanted}, but `{}` is a {}", name.value, thing.what());
-            self.refuse(Code::WrongKindOfName, name.span, message).also(span, "declared here");
+            let known = self.listed(pick, wanted);
+            self.refuse(Code::WrongKindOfName, name.span, message).also(span, "declared here").help(known);
             return None;
         }
         let message = format!("{used_by} names the {wanted} `{}`, which does not exist", name.value);
         let ground = (wanted == "body").then_some("ground");
-        let known = || self.names.known(|thing| pick(thing).is_some()).chain(ground);
+        let known = self.names.known(|thing| pick(thing).is_some()).chain(ground);
         let mut fault = Diagnostic::new(Code::UnknownName, message)
             .at(name.span, format!("unknown {wanted}"))
-            .did_you_mean(&name.value, known());
-        let listed: Vec<_> = known().take(LISTED).map(|name| format!("`{name}`")).collect();
-        if fault.help.is_empty() && !listed.is_empty() {
-            fault = fault.help(format!("there are: {}", listed.join(", ")));
+            .did_you_mean(&name.value, known);
+        if fault.help.is_empty() {
+            fault = fault.help(self.listed(pick, wanted));
         }
         self.report(fault);
         None
+    }
+
+    /// The names that would do.
+    fn listed<T>(&self, pick: fn(Thing) -> Option<T>, wanted: &str) -> String {
+        let ground = (wanted == "body").then_some("ground");
+        let known = self.names.known(|thing| pick(thing).is_some()).chain(ground);
+        let listed: Vec<_> = known.take(LISTED).map(|name| format!("`{name}`")).collect();
+        if listed.is_empty() {
+            format!("there is no {wanted} yet")
+        } else {
+            format!("there are: {}", listed.join(", "))
+        }
     }
 
     /// The body (or ground) with this name.

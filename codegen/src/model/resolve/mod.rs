@@ -34,16 +34,22 @@ use self::quantity::Allowed;
 use self::resolver::Resolver;
 use super::{Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::input::Reach;
 use crate::source::Span;
 use crate::spec::{CheckSpec, Dimension, File, Spec};
 
-/// Finds out what a file means.
+/// Finds out what a file means; files that it names are read within reach.
 ///
 /// # Errors
 /// All errors of the file, those found while reading it included.
-pub fn resolve(spec: &Spec, overrides: &Overrides) -> Result<(Mechanism, Vec<Diagnostic>), Diagnostics> {
+pub fn resolve(
+    spec: &Spec,
+    overrides: &Overrides,
+    reach: Reach,
+) -> Result<(Mechanism, Vec<Diagnostic>), Diagnostics> {
     let mut resolver = Resolver {
         source: &spec.source,
+        reach,
         skipped: &spec.skipped,
         diagnostics: spec.problems.clone(),
         names: Names::new(&spec.lost),
@@ -159,7 +165,8 @@ impl Resolver<'_> {
         for (position, (name, _)) in file.parameters.0.iter().enumerate() {
             if self.used.get(position) == Some(&false) {
                 let message = format!("nothing uses the parameter `{}`", name.value);
-                self.refuse(Code::UnusedParameter, name.span, message);
+                self.refuse(Code::UnusedParameter, name.span, message)
+                    .help("use it in a formula, or delete it");
             }
         }
     }

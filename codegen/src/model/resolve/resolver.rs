@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use super::modal_start::ModalStart;
 use super::names::Names;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::input::Reach;
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
 use crate::source::{SourceFile, Span};
 use crate::spec::{Dimension, Name, Turning};
@@ -12,6 +13,8 @@ use crate::spec::{Dimension, Name, Turning};
 /// What the steps of the resolver share.
 pub(super) struct Resolver<'a> {
     pub(super) source: &'a SourceFile,
+    /// Where the files may lie that it names.
+    pub(super) reach: Reach,
     pub(super) skipped: &'a [Span],
     pub(super) diagnostics: Vec<Diagnostic>,
     pub(super) names: Names,
@@ -100,7 +103,7 @@ impl Resolver<'_> {
     pub(super) fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
         let entries = if found == 1 { "entry" } else { "entries" };
         let message = format!("{what} has {found} {entries}, not {needed}");
-        self.refuse(Code::WrongCount, span, message);
+        self.refuse(Code::WrongCount, span, message).label(format!("{needed} belong here"));
     }
 
     /// Value with the parameters of the file; NaN if it is not known before the motion.

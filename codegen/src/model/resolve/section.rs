@@ -3,7 +3,7 @@
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::flexible::{ConcentratedMass, Material, Outline, Properties, Section, Segment, Strain};
-use crate::model::{Amount, Inertia};
+use crate::model::{Amount, Formula, Inertia};
 use crate::spec::{At, Dimension, FlexibleSpec, Name, Quantity, SectionSpec, StepSpec, Widths};
 
 /// Two places nearer than this share of the length are one: positions written with six digits differ by less.
@@ -13,6 +13,14 @@ impl Resolver<'_> {
     pub(super) fn section(&mut self, name: &Name, spec: &FlexibleSpec, inertia: &Inertia) -> Section {
         if let Some(section) = &spec.section {
             return self.general_section(name, section);
+        }
+        let sizes = match inertia {
+            Inertia::Rod { radius, inner_radius, .. } => vec![radius.clone(), inner_radius.clone()],
+            Inertia::Box { width, .. } => width.to_vec(),
+            Inertia::Given { .. } => Vec::new(),
+        };
+        for size in &sizes {
+            self.refuse_tunable(size, &format!("the section of the flexible body `{}`", name.value));
         }
         match inertia {
             Inertia::Rod { radius, inner_radius, .. } => round(self.value(radius), self.value(inner_radius)),
@@ -55,15 +63,18 @@ impl Resolver<'_> {
         let formula = match amount {
             Amount::Density(formula) | Amount::Mass(formula) => formula,
         };
-        if self.is_tunable(formula) {
-            let message = format!("the mass of the flexible body `{}` is tunable", name.value);
-            self.refuse(Code::TunableNotAllowed, formula.span, message)
-                .help("modes are computed at generation; take the `tunable` mark away");
-        }
+        self.refuse_tunable(formula, &format!("the mass of the flexible body `{}`", name.value));
         let value = self.value(formula);
         match amount {
             Amount::Density(_) => value,
             Amount::Mass(_) => value / (section.properties(0.3).area * length),
+        }
+    }
+
+    fn refuse_tunable(&mut self, formula: &Formula, what: &str) {
+        if self.is_tunable(formula) {
+            self.refuse(Code::TunableNotAllowed, formula.span, format!("{what} is tunable"))
+                .help("modes are computed at generation; take the `tunable` mark away");
         }
     }
 

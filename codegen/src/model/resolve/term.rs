@@ -62,7 +62,8 @@ impl Resolver<'_> {
                 if of_a != of_b {
                     let verb = if operator == Operator::Add { "added to" } else { "taken from" };
                     let message = format!("{} cannot be {verb} {}", of_b.description(), of_a.description());
-                    self.refuse_in(here, Code::UnitMismatch, &message);
+                    self.refuse_in(here, Code::UnitMismatch, &message)
+                        .help("give both the same kind of unit");
                     return None;
                 }
                 let term = if operator == Operator::Add { Term::Add(a, b) } else { Term::Sub(a, b) };
@@ -170,7 +171,11 @@ impl Resolver<'_> {
             None if self.names.is_lost(thing) => return None,
             None => {
                 let known = self.names.known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_)));
-                let fault = self.unknown(thing, "unknown joint or point", here).did_you_mean(thing, known);
+                let mut fault =
+                    self.unknown(thing, "unknown joint or point", here).did_you_mean(thing, known);
+                if fault.help.is_empty() {
+                    fault = fault.help("name a joint of [joints] or a point of [points]");
+                }
                 self.report(fault);
                 return None;
             }
@@ -226,7 +231,8 @@ impl Resolver<'_> {
         if arguments.len() != needed {
             let (plural, found) = (if needed == 1 { "" } else { "s" }, arguments.len());
             let message = format!("`{name}` takes {needed} argument{plural}, not {found}");
-            self.refuse_in(here, Code::UnknownFunction, &message);
+            let form = if needed == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
+            self.refuse_in(here, Code::UnknownFunction, &message).help(format!("write `{form}`"));
             return None;
         }
         let (terms, dimensions): (Vec<Term>, Vec<Dimension>) =
@@ -243,7 +249,8 @@ impl Resolver<'_> {
                 Function::Atan2 => "needs two quantities of one dimension",
                 _ => "needs a pure number or an angle",
             };
-            self.refuse_in(here, Code::UnitMismatch, &format!("`{name}` {need}, not {found}"));
+            self.refuse_in(here, Code::UnitMismatch, &format!("`{name}` {need}, not {found}"))
+                .help("divide by a quantity of the same kind, or check the units");
             return None;
         };
         Some((Term::Call(*function, terms), dimension))

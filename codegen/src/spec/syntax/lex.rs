@@ -56,7 +56,7 @@ fn number(text: &str, range: Range<usize>) -> Result<f64, SyntaxError> {
         Ok(value) if f64::is_finite(value) => Ok(value),
         _ => {
             let message = format!("`{}` is not a number that a computer can hold", &text[range.clone()]);
-            Err(fault(message, range))
+            Err(fault(message, range).advise("the largest number is 1.8e308"))
         }
     }
 }

@@ -89,7 +89,11 @@ impl<'a> Parser<'a> {
     }
 
     fn expect(&mut self, mark: char) -> Result<(), SyntaxError> {
-        if self.take(mark) { Ok(()) } else { Err(fault(format!("`{mark}` is missing here"), self.here())) }
+        if self.take(mark) {
+            Ok(())
+        } else {
+            Err(fault(format!("`{mark}` is missing here"), self.here()).advise(format!("add the `{mark}`")))
+        }
     }
 
     /// Reads something that may hold all of the grammar again.
@@ -188,7 +192,7 @@ impl<'a> Parser<'a> {
     fn atom(&mut self) -> Result<Expression, SyntaxError> {
         let range = self.here();
         let Some(token) = self.peek() else {
-            return Err(fault("a value is missing here", range));
+            return Err(no_value(range));
         };
         self.next += 1;
         match &token.kind {
@@ -200,7 +204,7 @@ impl<'a> Parser<'a> {
                 let end = self.tokens[self.next - 1].range.end;
                 Ok(Expression { range: range.start..end, ..inner })
             }
-            Kind::Mark(_) => Err(fault("a value is missing here", range)),
+            Kind::Mark(_) => Err(no_value(range)),
         }
     }
 
@@ -248,4 +252,8 @@ impl<'a> Parser<'a> {
 fn binary(operator: Operator, left: Expression, right: Expression) -> Expression {
     let range = left.range.start..right.range.end;
     expression(Form::Binary(operator, Box::new(left), Box::new(right)), range)
+}
+
+fn no_value(range: Range<usize>) -> SyntaxError {
+    fault("a value is missing here", range).advise("write a number, a quantity such as \"40 mm\", or a name")
 }

@@ -1,13 +1,42 @@
 //! Tables of numbers in CSV files. In: a path. Out: cells by named columns, with their lines; or what is wrong, where, and
 //! what to do. Never knows what the columns mean.
 
-use std::fs;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use linkwear_codegen::diagnostic::nearest;
+use linkwear_codegen::diagnostic::{cut, nearest};
+use linkwear_codegen::input::read_text;
+use linkwear_codegen::limits;
+use thiserror::Error;
 
-use super::failure::Failure;
+/// Letters of a cell or of a list of names that are shown.
+const SHOWN: [usize; 2] = [40, 300];
+
+/// A file that is no table of what is asked for.
+#[derive(Debug, Error)]
+pub enum CsvError {
+    /// It cannot be read.
+    #[error("cannot read `{}`: {error}", .file.display())]
+    Read {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// Something is wrong in it.
+    #[error("{message}")]
+    Data {
+        /// The file.
+        file: PathBuf,
+        /// Line, from 1, if the fault has one.
+        line: Option<usize>,
+        /// The cause.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+}
 
 /// A CSV file in memory.
 pub struct CsvTable<'a> {
@@ -21,21 +50,32 @@ pub struct CsvTable<'a> {
 
 impl<'a> CsvTable<'a> {
     /// Reads the file; its first line that is neither empty nor a comment (#) is the header.
-    pub fn read(file: &'a Path) -> Result<Self, Failure> {
-        let text = fs::read_to_string(file).map_err(Failure::read(file))?;
+    ///
+    /// # Errors
+    /// [`CsvError`].
+    pub fn read(file: &'a Path) -> Result<Self, CsvError> {
+        let text = read_text(file, limits::DATA_BYTES);
+        Self::parse(file, &text.map_err(|error| CsvError::Read { file: file.to_path_buf(), error })?)
+    }
+
+    /// The same of its text.
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn parse(file: &'a Path, text: &str) -> Result<Self, CsvError> {
         // A byte order mark would hide in the first name.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut reader =
             ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
         let broken = |error: csv::Error| {
             let line = error.position().and_then(|position| usize::try_from(position.line()).ok());
             let help = "each line needs as many cells as the header";
-            Failure::data(file, line, format!("this is no CSV table: {error}"), help)
+            fault(file, line, format!("this is no CSV table: {error}"), help)
         };
         let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
         if header.is_empty() {
             let help = "write a line of column names, then one reading a line";
-            return Err(Failure::data(file, None, "the file is empty", help));
+            return Err(fault(file, None, "the file is empty".to_owned(), help));
         }
         let mut rows = Vec::new();
         for record in reader.records() {
@@ -58,9 +98,8 @@ impl<'a> CsvTable<'a> {
         self.header.iter().any(|column| column == name)
     }
 
-    fn place(&self, name: &str) -> Result<usize, Failure> {
-        let wrong =
-            |message: String, help: &str| Err(Failure::data(self.file, Some(self.head), message, help));
+    fn place(&self, name: &str) -> Result<usize, CsvError> {
+        let wrong = |message: String, help: &str| Err(fault(self.file, Some(self.head), message, help));
         let mut found = self.header.iter().enumerate().filter(|(_, column)| *column == name);
         match (found.next(), found.next()) {
             (Some((at, _)), None) => Ok(at),
@@ -68,7 +107,7 @@ impl<'a> CsvTable<'a> {
             _ => {
                 let help = match nearest(name, self.header.iter().map(String::as_str)) {
                     Some(column) => format!("did you mean `{column}`?"),
-                    None => format!("the columns are: {}", self.header.join(", ")),
+                    None => format!("the columns are: {}", cut(&self.header.join(", "), SHOWN[1])),
                 };
                 wrong(format!("there is no column `{name}`"), &help)
             }
@@ -76,12 +115,18 @@ impl<'a> CsvTable<'a> {
     }
 
     /// The finite numbers of a column, by row.
-    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, Failure> {
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, CsvError> {
         self.numbers_at(self.place(name)?)
     }
 
     /// The same by the column's place, from 0.
-    pub fn numbers_at(&self, column: usize) -> Result<Vec<f64>, Failure> {
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn numbers_at(&self, column: usize) -> Result<Vec<f64>, CsvError> {
         let number = |(line, record): &(usize, StringRecord)| {
             let cell = record.get(column).unwrap_or_default();
             let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -90,25 +135,33 @@ impl<'a> CsvTable<'a> {
         self.rows.iter().map(number).collect()
     }
 
-    fn no_number(&self, line: usize, column: usize, cell: &str) -> Failure {
+    fn no_number(&self, line: usize, column: usize, cell: &str) -> CsvError {
         let name = self.header.get(column).map_or("", String::as_str);
+        let (name, cell) = (cut(name, SHOWN[0]), &*cut(cell, SHOWN[0]));
         let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
         if !unit.is_empty() && unit.len() < cell.len() {
             let message = format!("line {line}: `{name}` is `{cell}`, a number with a unit");
             let help =
                 format!("one unit per column: convert all rows, and put it into the header, `{name}_{unit}`");
-            return Failure::data(self.file, Some(line), message, &help);
+            return fault(self.file, Some(line), message, &help);
         }
         let message = match cell {
             "" => format!("line {line}: `{name}` is empty"),
             _ => format!("line {line}: `{name}` is `{cell}`, not a finite number"),
         };
-        Failure::data(self.file, Some(line), message, "write a number, or delete the line")
+        fault(self.file, Some(line), message, "write a number, or delete the line")
     }
 
     /// The cells of a column.
-    pub fn texts(&self, name: &str) -> Result<Vec<String>, Failure> {
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn texts(&self, name: &str) -> Result<Vec<String>, CsvError> {
         let column = self.place(name)?;
         Ok(self.rows.iter().map(|(_, record)| record[column].to_owned()).collect())
     }
+}
+
+fn fault(file: &Path, line: Option<usize>, message: String, help: &str) -> CsvError {
+    CsvError::Data { file: file.to_path_buf(), line, message, help: help.to_owned() }
 }

@@ -1,0 +1,52 @@
+//! Text from files: of bounded size, and where a file names another, of that folder only.
+//! In: paths. Out: text, or what the system says. Never knows what the text means.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read as _};
+use std::path::{Path, PathBuf};
+
+use crate::limits::Limit;
+
+/// Where a file may lie that another file names.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reach {
+    /// In the folder of the file that names it, or below, symbolic links followed.
+    #[default]
+    Below,
+    /// Anywhere: for files that are trusted as their author is.
+    Anywhere,
+}
+
+/// The text at a path that a person gives: a file, or a stream up to its end.
+///
+/// # Errors
+/// Those of the system; more bytes than `most`, of which no more are read; text that is not UTF-8.
+pub fn read_text(path: &Path, most: Limit) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most.most as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > most.most {
+        let Limit { what, most, help } = most;
+        return Err(io::Error::new(
+            ErrorKind::FileTooLarge,
+            format!("it has more than {most} {what}; {help}"),
+        ));
+    }
+    String::from_utf8(bytes).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
+}
+
+/// The text of a file that the file `from` names, and its path.
+///
+/// # Errors
+/// As [`read_text`]; a file out of reach; what is no regular file, and could keep its reader waiting.
+pub fn read_named(from: &Path, name: &str, reach: Reach, most: Limit) -> io::Result<(PathBuf, String)> {
+    let folder = from.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let path = folder.join(name);
+    let real = path.canonicalize()?;
+    if reach == Reach::Below && !real.starts_with(folder.canonicalize()?) {
+        return Err(io::Error::other("it lies outside the folder of the file that names it"));
+    }
+    if !fs::metadata(&real)?.is_file() {
+        return Err(io::Error::other("it is no regular file"));
+    }
+    Ok((path, read_text(&real, most)?))
+}
