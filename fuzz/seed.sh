@@ -46,7 +46,7 @@ fit wiener --process wiener
 fit gaussian --process inverse-gaussian
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-"$linkwear" life mechanisms/four_bar_wear.toml --trajectories 20 --out "$scratch/life" > "$scratch/answer"
+"$linkwear" life mechanisms/rssr.toml --rigid --trajectories 20 --out "$scratch/life" > "$scratch/answer"
 cp "$scratch/life/life.journal" "$corpus/journal/"
 head -n 5 "$scratch/life/life.journal" > "$corpus/journal/short"
 wc -l < <(find "$corpus" -type f)

@@ -57,7 +57,8 @@ fn check_reads_well() {
     let rssr = linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out;
     insta::assert_snapshot!("check_rssr_rigid", rssr);
     let readme = std::fs::read_to_string("README.md").expect("README.md");
-    assert!(readme.contains(&format!("```text\n{rssr}```")), "README.md shows what check says of the RSSR");
+    let shown = format!("$ linkwear check mechanisms/rssr_rigid.toml\n{rssr}```");
+    assert!(readme.contains(&shown), "README.md shows what check says of the RSSR");
 }
 
 #[test]

@@ -7,6 +7,8 @@
 //! of the integral of the distribution function, however singular the density is: no mass is lost or gained.
 //! A reading at exposure 0 is exact; a later first reading may be anywhere in its cell.
 
+use std::collections::HashMap;
+
 use rand::RngExt;
 use rand::distr::Open01;
 
@@ -96,7 +98,7 @@ fn follow(laws: Laws<'_>, increments: &[Increment], step: f64, seen: &mut dyn Fn
     let mut masses: Option<Vec<f64>> = None;
     let mut before: Option<&Increment> = None;
     // Equal spans have equal chances.
-    let mut known: Vec<([u64; 2], Vec<f64>)> = Vec::new();
+    let mut known: HashMap<[u64; 3], Vec<f64>> = HashMap::new();
     for increment in increments {
         if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
             masses = (increment.from > 0.0).then(|| vec![1.0 / PARTS as f64; PARTS]);
@@ -121,12 +123,8 @@ fn follow(laws: Laws<'_>, increments: &[Increment], step: f64, seen: &mut dyn Fn
                     .collect()
             }
             Some(masses) => {
-                let key = [logs[0].to_bits() ^ logs[1].to_bits().rotate_left(17), middle.to_bits()];
-                let at = known.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
-                    known.push((key, kernel.chances()));
-                    known.len() - 1
-                });
-                let chances = &known[at].1;
+                let key = [logs[0], logs[1], middle].map(f64::to_bits);
+                let chances = known.entry(key).or_insert_with(|| kernel.chances());
                 let into = |j: usize| -> f64 {
                     masses.iter().enumerate().map(|(i, mass)| mass * chances[PARTS - 1 + j - i]).sum()
                 };

@@ -103,7 +103,7 @@ impl Resolver<'_> {
     pub(super) fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
         let entries = if found == 1 { "entry" } else { "entries" };
         let message = format!("{what} has {found} {entries}, not {needed}");
-        self.refuse(Code::WrongCount, span, message).label(format!("{needed} belong here"));
+        self.refuse(Code::WrongCount, span, message).label(format!("write {needed}"));
     }
 
     /// Value with the parameters of the file; NaN if it is not known before the motion.
