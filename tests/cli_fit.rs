@@ -1,6 +1,7 @@
 //! `fit`: Gamma processes of measured wear from the command line.
 
 mod command;
+mod truth;
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use command::{Folder, linkwear};
 use linkwear_gamma::special::ln_gamma;
 use serde_json::Value;
+use truth::reached;
 
 const HEAVY: &str = "examples/data/sliding_wear_100g.csv";
 const COLUMNS: [&str; 6] = ["--unit", "unit", "--wear", "wear_um", "--exposure", "cycles"];
@@ -47,10 +49,16 @@ fn refused(name: &str, rows: &str, more: &[&str]) -> Value {
 fn sliding_wear_has_its_exponent() {
     let found = fit(HEAVY, &["--from-zero", "--power-law", "--compare"]);
     // Roots of the likelihood equations by mpmath; the text of JSON is exact.
-    close(&found["exponent"], 0.206_019_983_598_03, 1e-10);
-    close(&found["alpha"], 27.458_294_614_152, 1e-10);
-    close(&found["beta"], 2.594_459_464_416_3, 1e-10);
-    close(&found["log_likelihood"], -51.281_265_004_615, 1e-12);
+    let roots = [
+        ("exponent", 0.206_019_983_598_03, 1e-10),
+        ("alpha", 27.458_294_614_152, 1e-10),
+        ("beta", 2.594_459_464_416_3, 1e-10),
+        ("log_likelihood", -51.281_265_004_615, 1e-12),
+    ];
+    for (key, expected, bound) in roots {
+        let error = (found[key].as_f64().expect("a number") / expected - 1.0).abs();
+        reached("sliding wear, 100 g, Gamma process", &format!("{key}, relative"), error, bound);
+    }
     close(&found["aic"], 2.0 * 3.0 + 2.0 * 51.281_265_004_615, 1e-12);
     assert_eq!(found["n"], 32);
     assert_eq!(found["covariance"].as_array().expect("a matrix").len(), 3);
@@ -240,6 +248,15 @@ fn readings_are_rounded_to_the_step_of_the_gauge() {
     let pace = found["alpha"].as_f64().expect("a number") / found["beta"].as_f64().expect("a number");
     let total: f64 = units.iter().flatten().sum();
     assert!((pace - total / 15.0).abs() < 0.05, "{pace}");
+    // With an error before rounding readings may fall, and less of their scatter is wear's.
+    let falling = folder.write("falling.csv", &text.replace("1,4,1.5\n", "1,4,1\n"));
+    let refused = linkwear(&[&["fit", &falling], &COLUMNS[..], &["--resolution", "0.5"]].concat());
+    assert!(refused.code == 1 && refused.err.contains("its error too"), "{}", refused.err);
+    let erring = fit(&falling, &["--resolution", "0.5", "--gauge", "0.2"]);
+    assert!(erring["alpha"].as_f64() > found["alpha"].as_f64(), "{} {}", erring["alpha"], found["alpha"]);
+    assert_eq!((&erring["gauge"], &found["gauge"]), (&0.2.into(), &Value::Null));
+    let alone = linkwear(&[&["fit", &file], &COLUMNS[..], &["--gauge", "0.2"]].concat());
+    assert!(alone.code == 2 && alone.err.contains("--resolution"), "{}", alone.err);
     let off =
         linkwear(&[&["fit", &file], &COLUMNS[..], &["--resolution", "0.3", "--format", "json"]].concat());
     let error = off.errors()[0].clone();

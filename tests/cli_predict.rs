@@ -326,3 +326,23 @@ fn other_processes_are_predicted_from_as_they_are_fitted() {
     let (message, line) = refusal(&["predict", &fit, "--threshold", "10", "--format", "json"]);
     assert!(message.contains("`process` is \"levy\"") && line == Some(1), "{message}");
 }
+
+#[test]
+fn an_interval_by_the_covariance_of_few_increments_is_called_too_short() {
+    let fit = |increments: usize| {
+        let column = |of: &dyn Fn(usize) -> usize| (0..increments).map(of).collect::<Vec<_>>();
+        let [from, to] = [column(&|at| at % 4), column(&|at| at % 4 + 1)];
+        serde_json::json!({
+            "alpha": 2.0, "beta": 2.0, "covariance": [[0.2, 0.2], [0.2, 0.3]], "resolution": 0.5,
+            "increments": { "from": from, "to": to, "wear": vec![1.0; increments] },
+        })
+    };
+    let folder = Folder::new("predict-few");
+    let warnings = |increments| {
+        let file = folder.write("fit.json", &fit(increments).to_string());
+        let life = linkwear(&["predict", &file, "--threshold", "20", "--format", "json"]).json();
+        assert_eq!(life["interval95"]["kind"], "normal");
+        life["warnings"].as_array().expect("a list").len()
+    };
+    assert_eq!((warnings(8), warnings(40)), (1, 0));
+}

@@ -61,6 +61,28 @@ fn the_table_of_baselines_is_that_of_the_case_study() {
     }
 }
 
+/// Who writes a row compares it too; a row that nobody writes any more would stay for ever.
+#[test]
+fn every_row_of_the_page_of_truth_is_of_a_test() {
+    let page = fs::read_to_string("docs/truth.md").expect("the page");
+    let rows = page.lines().skip_while(|line| !line.starts_with("|---")).skip(1);
+    let mut count = 0;
+    for row in rows {
+        let cells: Vec<&str> =
+            row.trim_matches('|').split(" | ").map(|cell| cell.trim().trim_matches('`')).collect();
+        let [_, figure, error, bound, file, test] = cells[..] else { panic!("{row}") };
+        let source = fs::read_to_string(file).expect("a file of tests");
+        assert!(source.contains(&format!("fn {test}()")), "{file} has no test {test}");
+        // `R1.Fn, rms over rms` may be put together, its words after the name are written.
+        let words = figure.rsplit(", ").next().expect("one at least");
+        assert!(source.contains(words) || words.contains(" at "), "{file} says nothing of {words}");
+        let [error, bound] = [error, bound].map(|cell| cell.parse::<f64>().expect("a number"));
+        assert!(error <= bound, "{row}");
+        count += 1;
+    }
+    assert!(count >= 30, "{count} rows");
+}
+
 #[test]
 fn there_is_one_command_to_run_and_one_to_test() {
     let readme = readme();

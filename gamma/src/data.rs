@@ -49,13 +49,30 @@ pub struct Observations {
     pub increments: Vec<Increment>,
 }
 
+/// How a gauge gives readings: true wear with a normal error, then rounded to the nearest multiple of a step, but for a shift that
+/// all readings of a unit share. Readings at exposure 0 are exact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rounding {
+    /// The step, in the unit of wear.
+    pub step: f64,
+    /// Standard deviation of the error before rounding; 0 for none.
+    pub error: f64,
+}
+
+impl Rounding {
+    /// Without an error before.
+    pub fn to(step: f64) -> Self {
+        Self { step, error: 0.0 }
+    }
+}
+
 /// How zero and negative increments are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gauge {
     /// Readings are exact: every increment must be positive.
     Exact,
-    /// Readings are the nearest multiples of this step, but for a shift of all readings of a unit.
-    Resolution(f64),
+    /// Readings are rounded.
+    Resolution(Rounding),
     /// Readings carry random errors: any increment may be seen.
     Noisy,
 }
@@ -204,7 +221,7 @@ impl DataError {
             Self::TooFew { .. } => "add readings or units, or estimate fewer parameters",
             Self::Constant { .. } => "nothing can be learnt from it: wear has to grow",
             Self::NotIncreasing(_) => {
-                "wear cannot shrink: correct the rows or leave them out; if all are zero, state the gauge's resolution"
+                "wear cannot shrink: correct the rows or leave them out; if all are zero, state the gauge's resolution, and if it errs, its error too"
             }
             Self::NotMultiple { .. } => {
                 "state the step that the readings were rounded to, in their unit; leave the resolution out if they were not"
@@ -239,7 +256,7 @@ impl Observations {
             return Err(DataError::Constant { first, last });
         }
         own.check_growth(readings, gauge)?;
-        if let Gauge::Resolution(step) = gauge {
+        if let Gauge::Resolution(Rounding { step, .. }) = gauge {
             own.check_steps(step)?;
         }
         Ok(own)
@@ -258,7 +275,7 @@ impl Observations {
     fn check_growth(&self, readings: &[Reading], gauge: Gauge) -> Result<(), DataError> {
         let refused = |wear: f64| match gauge {
             Gauge::Exact => wear <= 0.0,
-            Gauge::Resolution(_) => wear < 0.0,
+            Gauge::Resolution(rounding) => wear < 0.0 && rounding.error == 0.0,
             Gauge::Noisy => false,
         };
         let bad = self.increments.iter().filter(|increment| refused(increment.wear)).map(|increment| {
@@ -392,10 +409,14 @@ mod tests {
             text.contains("row 3 (unit a: 1 after 1)") && text.contains("row 6 (unit b: 2.5 after 3)"),
             "{text}"
         );
-        let DataError::NotIncreasing(bad) = refused(&rows, Gauge::Resolution(0.5)) else { panic!() };
+        let DataError::NotIncreasing(bad) = refused(&rows, Gauge::Resolution(Rounding::to(0.5))) else {
+            panic!()
+        };
         assert_eq!(bad.len(), 1);
         assert!(Observations::new(&readings(&rows), false, Gauge::Noisy).is_ok());
-        let off = refused(&[("a", 1.0, 1.0), ("a", 2.0, 1.6)], Gauge::Resolution(0.5));
+        let errs = Gauge::Resolution(Rounding { step: 0.5, error: 0.2 });
+        assert!(Observations::new(&readings(&[("a", 1.0, 1.0), ("a", 2.0, 0.5)]), false, errs).is_ok());
+        let off = refused(&[("a", 1.0, 1.0), ("a", 2.0, 1.6)], Gauge::Resolution(Rounding::to(0.5)));
         assert!(off.row() == Some(3) && off.to_string().contains("no multiple"), "{off}");
     }
 }

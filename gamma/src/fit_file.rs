@@ -47,6 +47,8 @@ pub struct FitFile {
     pub increments: Vec<[f64; 3]>,
     /// Step of the gauge they were read with, if they are taken as rounded.
     pub resolution: Option<f64>,
+    /// Standard deviation of the gauge's error before rounding, if there is one.
+    pub gauge: Option<f64>,
     /// The text it was read from.
     text: String,
 }
@@ -104,7 +106,8 @@ impl FitFile {
             exposure_unit: exposure.to_owned(),
             over_lambda: Some(over_lambda),
             increments: observations.increments.iter().map(|one| [one.from, one.to, one.wear]).collect(),
-            resolution: fit.model.resolution,
+            resolution: fit.model.resolution.map(|rounding| rounding.step),
+            gauge: fit.model.resolution.map(|rounding| rounding.error).filter(|error| *error > 0.0),
             text: String::new(),
         }
     }
@@ -137,6 +140,7 @@ impl FitFile {
             "exposure_unit": self.exposure_unit,
             "over_lambda": self.over_lambda,
             "resolution": self.resolution,
+            "gauge": self.gauge,
             "increments": Columns { from: column(0), to: column(1), wear: column(2) },
         });
         file.extend(more.as_object().cloned().unwrap_or_default());
@@ -173,6 +177,7 @@ impl FitFile {
             over_lambda: value.get("over_lambda").and_then(Value::as_bool),
             increments: reader.increments()?,
             resolution: reader.given("resolution").map(|_| reader.positive("resolution")).transpose()?,
+            gauge: reader.given("gauge").map(|_| reader.positive("gauge")).transpose()?,
             text: text.to_owned(),
         })
     }
@@ -229,7 +234,7 @@ impl FitFile {
             return Ok(Sample::Unknown);
         }
         if self.resolution.is_some() || !self.covariates.is_empty() {
-            return Ok(Sample::Indirect);
+            return Ok(Sample::Indirect { increments: self.increments.len() });
         }
         if self.exponent.is_none() {
             let exposures: Vec<f64> = self.increments.iter().map(|[from, to, _]| to - from).collect();

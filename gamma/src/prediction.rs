@@ -20,6 +20,8 @@ const WITHIN: Contribution = Contribution::None("parameters are integrated over;
 /// Increments up to which the predictive interval integrates over the parameters; of more the normal law of their logarithms
 /// is as good, and quicker.
 const INTEGRATED: usize = 400;
+/// Increments below which that law is too narrow to go without a warning.
+const FEW: usize = 40;
 /// Parameter sets drawn from that law: the ends of the interval are good to some percent of its width beyond the plug-in one.
 const NORMAL_SETS: usize = 2000;
 
@@ -103,6 +105,14 @@ impl Prediction {
                 "the interval of lives takes the parameters as known, because the fit does not hold its increments: after few of them it is too short; fit again with this version"
                     .to_owned(),
             );
+        }
+        if let (IntervalKind::Normal, Sample::Indirect { increments }) =
+            (answer.interval_kind, estimate.sample())
+            && *increments < FEW
+        {
+            answer.warnings.push(format!(
+                "the interval of lives goes by the covariance alone, which says too little after {increments} increments: with a covariate 86 % of lives end within after 8 of them and 92 % after 16, not 95 %"
+            ));
         }
         let known = Contribution::None("the fit gives no covariance");
         answer.complete(Contribution::None("closed form"), (!estimate.is_uncertain()).then_some(known));

@@ -302,6 +302,9 @@ pub struct FitArguments {
     /// Step of the gauge: readings are the nearest multiples of it; a first reading at exposure 0 is exact.
     #[arg(long, value_name = "R", value_parser = positive)]
     pub resolution: Option<f64>,
+    /// Standard deviation of the normal error that readings have before they are rounded, up to 100 R; readings may then fall.
+    #[arg(long, value_name = "S", value_parser = positive, requires = "resolution")]
+    pub gauge: Option<f64>,
     /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
     #[arg(long, value_name = "COL")]
     pub covariate: Vec<String>,

@@ -11,7 +11,7 @@ use linkwear::files::write_whole;
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
 use linkwear_gamma::fit::{LikelihoodRatio, likelihood_ratio};
 
-use self::analysis::{Analysis, model};
+use self::analysis::{Analysis, model, rounding};
 use self::read::{Group, groups};
 use super::answer::Answer;
 use super::arguments::FitArguments;
@@ -51,8 +51,8 @@ fn ratio(pooled: &Analysis, parts: &[Analysis]) -> Option<LikelihoodRatio> {
 
 /// Increments, enough of them.
 fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<Observations, Failure> {
-    let gauge = match arguments.resolution {
-        Some(step) => Gauge::Resolution(step),
+    let gauge = match rounding(arguments) {
+        Some(rounding) => Gauge::Resolution(rounding),
         None if arguments.process.is_increasing() => Gauge::Exact,
         None => Gauge::Noisy,
     };

@@ -10,9 +10,9 @@ use rand::distr::Open01;
 use super::estimate::{Fit, estimate_increments};
 use super::goodness::goodness;
 use super::interval::Interval;
-use crate::data::{Increment, Observations};
+use crate::data::{Increment, Observations, Rounding};
 use crate::order::sorted_quantile;
-use crate::random::Stream;
+use crate::random::{StandardNormal, Stream};
 
 /// Replicates of an estimate.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,19 +55,25 @@ pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: usize, seed
 pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> Vec<Increment> {
     let mut stream = Stream::new(seed, replicate, 0);
     let process = fit.model.process;
-    // True wear of the unit at hand, beside its first reading.
-    let (mut level, mut before): (f64, Option<&Increment>) = (0.0, None);
+    // True wear of the unit at hand, beside its first reading, and its reading in steps.
+    let (mut level, mut last): (f64, f64) = (0.0, 0.0);
+    let mut before: Option<&Increment> = None;
     let drawn = like.iter().enumerate().map(|(at, increment)| {
         let drawn = process.draw(fit.logs(), fit.lambda(increment), stream.at(at as u64));
         let wear = match fit.model.resolution {
-            Some(step) => {
+            Some(Rounding { step, error }) => {
+                let read = |level: f64, stream: &mut Stream| {
+                    let off = if error > 0.0 { error * stream.sample(StandardNormal) } else { 0.0 };
+                    libm::round((level + off) / step)
+                };
                 if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
                     let free = step * (stream.sample::<f64, _>(Open01) - 0.5);
                     level = if increment.from > 0.0 { free } else { 0.0 };
+                    last = if increment.from > 0.0 { read(level, &mut stream) } else { 0.0 };
                 }
-                let last = libm::round(level / step);
                 level += drawn;
-                step * (libm::round(level / step) - last)
+                let from = core::mem::replace(&mut last, read(level, &mut stream));
+                step * (last - from)
             }
             // A wear too small for a double is as small as a double gets.
             None if process.is_increasing() => drawn.max(f64::MIN_POSITIVE),

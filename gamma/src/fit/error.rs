@@ -21,8 +21,13 @@ pub enum FitError {
         parameters: usize,
     },
     /// A gauge's step that is not a positive number.
-    #[error("the gauge's resolution must be a positive number")]
+    #[error("the gauge's resolution must be a positive number, and its error a number of 0 or more")]
     BadResolution,
+    /// A step far below the error of the gauge.
+    #[error(
+        "the gauge's error is more than a hundred times its resolution; state a resolution of a tenth of the error"
+    )]
+    LargeError,
     /// A gauge's step for a process that has no use for it.
     #[error("only the Gamma process takes readings as rounded to a step of the gauge")]
     NoResolution,

@@ -4,9 +4,13 @@
 use super::error::FitError;
 use super::maximise::{maximise, start};
 use super::model::Model;
-use crate::data::{Increment, Observations};
+use crate::data::{Increment, Observations, Rounding};
 use crate::matrix::Factor;
 use crate::special::gamma_q;
+
+/// Largest error of a gauge, in its steps, whose readings are followed through a grid of wear: a step then hides in the error,
+/// and a larger one loses nothing.
+const MOST_ERROR: f64 = 100.0;
 
 /// A fitted process.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,9 +45,13 @@ pub(super) fn estimate_increments(
     if increments.len() <= model.parameters() {
         return Err(FitError::TooFew { increments: increments.len(), parameters: model.parameters() });
     }
-    if let Some(step) = model.resolution {
-        if step.is_nan() || step <= 0.0 {
+    if let Some(Rounding { step, error }) = model.resolution {
+        let is_positive = step > 0.0 && step.is_finite() && error >= 0.0 && error.is_finite();
+        if !is_positive {
             return Err(FitError::BadResolution);
+        }
+        if error > MOST_ERROR * step {
+            return Err(FitError::LargeError);
         }
         model.process.mean_excess([0.0; 2], step).ok_or(FitError::NoResolution)?;
     }

@@ -54,9 +54,9 @@ pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     let (process, logs) = (fit.model.process, fit.logs());
     let mut stream = Stream::new(seed, u64::MAX, 0);
     let transforms = match fit.model.resolution {
-        Some(step) => {
+        Some(rounding) => {
             let logs = |one: &Increment| fit.model.logs(&fit.phi, one);
-            transforms(Laws { process, logs: &logs }, increments, step, &mut stream)
+            transforms(Laws { process, logs: &logs }, increments, rounding, &mut stream)
         }
         None => increments.iter().map(|one| process.cumulative(logs, fit.lambda(one), one.wear)).collect(),
     };

@@ -11,15 +11,9 @@ const MOST_STEPS: usize = 200;
 
 /// A start for [`maximise`]: the process's parameters given Lambda, c by a coarse search, no effect of covariates.
 pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitError> {
-    // Increments below the gauge's step enter the start alone as half of it.
-    let wears: Vec<f64> = increments
-        .iter()
-        .map(
-            |increment| {
-                if increment.wear == 0.0 { model.resolution.unwrap_or(0.0) / 2.0 } else { increment.wear }
-            },
-        )
-        .collect();
+    // Increments below half the gauge's step enter the start alone as that.
+    let least = model.resolution.map_or(f64::NEG_INFINITY, |rounding| 0.5 * rounding.step);
+    let wears: Vec<f64> = increments.iter().map(|increment| increment.wear.max(least)).collect();
     let mut best: Option<(f64, Vec<f64>)> = None;
     let exponents: Vec<f64> =
         if model.power_law { (-7..=5).map(|at| libm::exp(f64::from(at) * 0.4)).collect() } else { vec![1.0] };

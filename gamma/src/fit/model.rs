@@ -6,7 +6,7 @@
 //! from those in u.
 
 use super::rounded::{Laws, ln_likelihood};
-use crate::data::Increment;
+use crate::data::{Increment, Rounding};
 use crate::process::{Gamma, Process, Term};
 
 /// What is estimated: a process, and what Lambda depends on.
@@ -18,8 +18,8 @@ pub struct Model {
     pub power_law: bool,
     /// How many covariates of the data multiply Lambda, each as value^b.
     pub covariates: usize,
-    /// Step of the gauge: readings are then the nearest multiples of it.
-    pub resolution: Option<f64>,
+    /// How the gauge rounds, if it does.
+    pub resolution: Option<Rounding>,
 }
 
 impl Default for Model {
@@ -81,9 +81,9 @@ impl Model {
 
     /// Log-likelihood alone.
     pub fn value(&self, phi: &[f64], increments: &[Increment]) -> f64 {
-        if let Some(step) = self.resolution {
+        if let Some(rounding) = self.resolution {
             let logs = |one: &Increment| self.logs(phi, one);
-            return ln_likelihood(Laws { process: self.process, logs: &logs }, increments, step);
+            return ln_likelihood(Laws { process: self.process, logs: &logs }, increments, rounding);
         }
         let one =
             |increment: &Increment| self.process.density(self.logs(phi, increment), increment.wear).value;

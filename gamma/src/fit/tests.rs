@@ -4,7 +4,7 @@ use super::bootstrap::draw;
 use super::estimate::estimate_increments;
 use super::maximise::maximise;
 use super::*;
-use crate::data::{Gauge, Observations, Reading};
+use crate::data::{Gauge, Observations, Reading, Rounding};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
 const GAAS: &str = include_str!("../../tests/data/gaas_lasers.csv");
@@ -231,7 +231,7 @@ fn data_of_the_fitted_process_pass_the_test_of_fit() {
 }
 
 /// Eight units of four readings, from exposure 0 or from 1 on.
-fn units_of_four(from: f64, alpha: f64, step: f64) -> (Fit, Observations) {
+fn units_of_four(from: f64, alpha: f64, rounding: Rounding) -> (Fit, Observations) {
     let increments = (0..32).map(|at| {
         let before = from + (at % 4) as f64;
         crate::data::Increment {
@@ -243,7 +243,7 @@ fn units_of_four(from: f64, alpha: f64, step: f64) -> (Fit, Observations) {
             row: 0,
         }
     });
-    let model = Model { resolution: Some(step), ..Model::default() };
+    let model = Model { resolution: Some(rounding), ..Model::default() };
     let phi = vec![libm::log(alpha), libm::log(alpha)];
     let truth = Fit { model, phi, covariance: vec![], log_likelihood: 0.0, increments: 32 };
     (
@@ -256,8 +256,8 @@ fn units_of_four(from: f64, alpha: f64, step: f64) -> (Fit, Observations) {
 }
 
 /// How often likelihood-ratio intervals at 95 % hold both parameters, of the data sets that have a maximum.
-fn coverage_of_rounded(from: f64, alpha: f64, step: f64, replicates: u64) -> ([f64; 2], f64) {
-    let (truth, like) = units_of_four(from, alpha, step);
+fn coverage_of_rounded(from: f64, alpha: f64, rounding: Rounding, replicates: u64) -> ([f64; 2], f64) {
+    let (truth, like) = units_of_four(from, alpha, rounding);
     let (mut held, mut fitted) = ([0.0; 2], 0.0);
     for replicate in 0..replicates {
         let increments = draw(&truth, &like.increments, 79, replicate);
@@ -279,14 +279,15 @@ fn coverage_of_rounded(from: f64, alpha: f64, step: f64, replicates: u64) -> ([f
 #[test]
 fn intervals_of_rounded_readings_hold_the_truth_however_coarse_the_gauge() {
     // Steps of half an increment and of a whole one. As a product of exact increments they held it in 7 % and 0 %.
-    for (from, alpha, step) in [(0.0, 2.0, 0.5), (1.0, 2.0, 1.0)] {
-        let (held, fitted) = coverage_of_rounded(from, alpha, step, 150);
-        assert!(fitted > 0.95, "{from} {alpha} {step}: {fitted}");
+    // The last with an error before rounding.
+    for (from, alpha, step, error) in [(0.0, 2.0, 0.5, 0.0), (1.0, 2.0, 1.0, 0.0), (0.0, 2.0, 0.5, 0.3)] {
+        let (held, fitted) = coverage_of_rounded(from, alpha, Rounding { step, error }, 150);
+        assert!(fitted > 0.95, "{from} {alpha} {step} {error}: {fitted}");
         for held in held {
             // Three standard errors of 150, and 2 % of the interval's own error of order 1/n.
             assert!(
                 (held - 0.95).abs() < 3.0 * (0.0475_f64 / 150.0).sqrt() + 0.02,
-                "{from} {alpha} {step}: {held}"
+                "{from} {alpha} {step} {error}: {held}"
             );
         }
     }
@@ -296,14 +297,19 @@ fn intervals_of_rounded_readings_hold_the_truth_however_coarse_the_gauge() {
 #[ignore = "a minute: the table of the docs"]
 fn table_of_coverages_of_rounded_readings() {
     println!(
-        "| first reading at | shape | step / mean increment | alpha | beta | with a maximum |\n|---|---|---|---|---|---|"
+        "| first reading at | shape | step / mean increment | error / mean increment | alpha | beta | with a maximum |\n|---|---|---|---|---|---|---|"
     );
     for from in [0.0, 1.0] {
         for alpha in [0.3, 2.0, 20.0] {
             for step in [0.1, 0.5, 1.0] {
-                let ([first, second], fitted) = coverage_of_rounded(from, alpha, step, 500);
-                let [first, second, fitted] = [first, second, fitted].map(|part| 100.0 * part);
-                println!("| {from} | {alpha} | {step} | {first:.1} | {second:.1} | {fitted:.1} |");
+                for error in [0.0, 0.5 * step] {
+                    let ([first, second], fitted) =
+                        coverage_of_rounded(from, alpha, Rounding { step, error }, 500);
+                    let [first, second, fitted] = [first, second, fitted].map(|part| 100.0 * part);
+                    println!(
+                        "| {from} | {alpha} | {step} | {error} | {first:.1} | {second:.1} | {fitted:.1} |"
+                    );
+                }
             }
         }
     }

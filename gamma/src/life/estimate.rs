@@ -18,7 +18,10 @@ pub enum Sample {
     Increments(Vec<[f64; 3]>),
     /// There were data, but their law is not that of the process alone (covariates, a gauge's step): the covariance has to
     /// stand for them.
-    Indirect,
+    Indirect {
+        /// How many increments.
+        increments: usize,
+    },
 }
 
 /// The parameters of a process and perhaps the exponent of exposure, with the covariance of their logarithms.

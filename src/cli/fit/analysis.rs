@@ -2,7 +2,7 @@
 //! knows how it is printed.
 
 use linkwear_gamma::FitFile;
-use linkwear_gamma::data::Observations;
+use linkwear_gamma::data::{Observations, Rounding};
 use linkwear_gamma::fit::{
     Bootstrap, Fit, FitError, Goodness, Interval, Model, bootstrap, estimate, goodness, profile_interval,
 };
@@ -28,13 +28,19 @@ pub struct Analysis {
     pub bias: Option<[f64; 2]>,
 }
 
+/// How the gauge rounds, if it does.
+pub fn rounding(arguments: &FitArguments) -> Option<Rounding> {
+    let error = arguments.gauge.unwrap_or(0.0);
+    arguments.resolution.map(|step| Rounding { step, error })
+}
+
 /// What is estimated.
 pub fn model(arguments: &FitArguments) -> Model {
     Model {
         process: arguments.process,
         power_law: arguments.power_law,
         covariates: arguments.covariate.len(),
-        resolution: arguments.resolution,
+        resolution: rounding(arguments),
     }
 }
 

@@ -97,6 +97,7 @@ fn one(arguments: &FitArguments, own: &Analysis) -> Value {
         "level": LEVEL,
         "first_order_bias": own.bias,
         "resolution": arguments.resolution,
+        "gauge": arguments.gauge,
         "goodness": {
             "kolmogorov_smirnov": own.goodness.kolmogorov_smirnov,
             "anderson_darling": own.goodness.anderson_darling,
