@@ -17,6 +17,9 @@ const TOO_LONG: f64 = 100.0;
 const TOO_SHORT: f64 = 1e4;
 /// A rod or box is too thick if its radius or width exceeds its length by more than this: a flywheel's does so ten times.
 const TOO_THICK: f64 = 20.0;
+/// A rod or box is too thin if it is longer than its radius or width by more than this: a wire of a metre has a tenth of a
+/// millimetre, and a slip of units makes ten times as much of an ordinary rod.
+const TOO_THIN: f64 = 1e4;
 /// A radius of gyration is too large if it exceeds the size of the whole mechanism by more than this.
 const TOO_FAR_OUT: f64 = 10.0;
 /// Densities [kg/m^3] from foams to just above osmium.
@@ -110,16 +113,20 @@ fn sizes(mechanism: &Mechanism) -> Vec<Diagnostic> {
     let values = mechanism.parameter_values();
     let whole = lengths.iter().copied().fold(0.0, f64::max);
     for (body, length) in mechanism.bodies.iter().zip(&lengths) {
-        let (what, size, limit) = match &body.inertia {
-            Inertia::Rod { radius, .. } => ("radius", radius.value(&values), TOO_THICK * length),
-            Inertia::Box { width, .. } => ("width", width[0].value(&values), TOO_THICK * length),
+        let (what, size, limits) = match &body.inertia {
+            Inertia::Rod { radius, .. } => {
+                ("radius", radius.value(&values), [length / TOO_THIN, TOO_THICK * length])
+            }
+            Inertia::Box { width, .. } => {
+                ("width", width[0].value(&values), [length / TOO_THIN, TOO_THICK * length])
+            }
             Inertia::Given { mass, inertia, .. } => {
                 let moment = inertia[..3].iter().filter_map(|own| own.value(&values)).fold(0.0, f64::max);
                 let gyration = mass.value(&values).map(|mass| (moment / mass).sqrt());
-                ("radius of gyration", gyration, TOO_FAR_OUT * whole)
+                ("radius of gyration", gyration, [0.0, TOO_FAR_OUT * whole])
             }
         };
-        let Some(size) = size.filter(|size| limit > 0.0 && *size > limit) else { continue };
+        let Some(size) = size.filter(|size| limits[1] > 0.0 && is_odd(*size, limits)) else { continue };
         let of = if what == "radius of gyration" { "the longest body" } else { "it" };
         let other = with_unit(if what == "radius of gyration" { whole } else { *length }, "m");
         let message =
