@@ -54,11 +54,7 @@ fn check_names_the_three_redundant_rows_of_a_planar_four_bar() {
 fn check_reads_well() {
     insta::assert_snapshot!("check_pendulum", linkwear(&["check", "mechanisms/pendulum.toml"]).out);
     insta::assert_snapshot!("check_four_bar", linkwear(&["check", "mechanisms/four_bar.toml"]).out);
-    let rssr = linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out;
-    insta::assert_snapshot!("check_rssr_rigid", rssr);
-    let readme = std::fs::read_to_string("README.md").expect("README.md");
-    let shown = format!("$ linkwear check mechanisms/rssr_rigid.toml\n{rssr}```");
-    assert!(readme.contains(&shown), "README.md shows what check says of the RSSR");
+    insta::assert_snapshot!("check_rssr_rigid", linkwear(&["check", "mechanisms/rssr_rigid.toml"]).out);
 }
 
 #[test]
@@ -131,4 +127,30 @@ fn generate_refuses_to_write_over_its_input() {
     let file = folder.write("pendulum.toml", &text);
     assert_eq!(linkwear(&["generate", &file, "-o", &file]).code, 1);
     assert_eq!(folder.read("pendulum.toml"), text);
+}
+
+#[test]
+fn check_tells_the_other_way_to_close_the_loops_and_assembly_takes_it() {
+    let assembly = |file: &str| linkwear(&["check", file, "--format", "json"]).json()["assembly"].clone();
+    let degrees = |value: &Value| value.as_f64().expect("a number").to_degrees();
+    // The triangle A-C-D above the ground and below: 55.8 deg and 97.2 deg, by the law of cosines.
+    let four_bar = assembly("mechanisms/four_bar.toml");
+    let others = four_bar["others"].as_array().expect("a list");
+    assert_eq!(others.len(), 1, "a four-bar has two ways");
+    for (way, sign) in [(&four_bar["taken"], 1.0), (&others[0], -1.0)] {
+        assert!((degrees(&way["R2.q"]) - sign * 55.8).abs() < 0.06, "{way}");
+        assert!((degrees(&way["R4.q"]) - sign * 97.2).abs() < 0.06, "{way}");
+    }
+    let text = linkwear(&["check", "mechanisms/four_bar.toml"]).out;
+    let line = text.lines().find(|line| line.trim_start().starts_with("or ")).expect("the other way");
+    let copied = line.trim_start().trim_start_matches("or ").trim().replace(", ", "\n");
+    let folder = Folder::new("other_way");
+    let file = std::fs::read_to_string("mechanisms/four_bar.toml").expect("it is there");
+    let (before, _) = file.split_once("R2 = \"56 deg\"").expect("guesses end the file");
+    folder.write("four_bar.toml", &format!("{before}{copied}\n"));
+    let other = folder.linkwear(&["check", "four_bar.toml", "--format", "json"]).json()["assembly"].clone();
+    assert_eq!(other["taken"], others[0]);
+    assert_eq!(other["others"][0], four_bar["taken"]);
+    let none = assembly("mechanisms/pendulum.toml");
+    assert_eq!(none["others"], Value::Array(Vec::new()), "no loop, no choice");
 }

@@ -237,3 +237,27 @@ fn a_person_sees_curves_and_peak_loads() {
         assert!(answer.out.contains(part), "{part} in\n{}", answer.out);
     }
 }
+
+#[test]
+fn a_dead_point_is_named_and_the_rows_before_it_are_kept() {
+    let folder = Folder::new("dead_point");
+    let shipped = std::fs::read_to_string("mechanisms/four_bar.toml").expect("it is there");
+    let file = shipped
+        .replace(", drive = \"2*pi*speed*t\"", "")
+        .replace("damping = \"0.05 N m s/rad\"", "drive = \"97 deg + 1 rad/s*t\"")
+        .replace("R4 = \"97 deg\"", "R1 = \"-1 deg\"");
+    folder.write("four_bar.toml", &file);
+    let out = folder.path("rows.csv");
+    let run =
+        ["simulate", "four_bar.toml", "--time", "2", "--samples", "201", "--out", &out, "--format", "json"];
+    let [error] = &folder.linkwear(&run).errors()[..] else { panic!("one error") };
+    let (message, help) =
+        (error["message"].as_str().expect("a text"), error["help"].as_str().expect("a text"));
+    // Crank and coupler folded are 200 mm long: cos = 0.75 at D, and the rocker stands at 180 - 41.41 deg.
+    assert!(message.contains("driver of `R4` is at its dead point, 138.59"), "{message}");
+    assert!(error["code"] == "C0008" && help.contains("rows.partial.csv"), "{error}");
+    // Every 10 ms until (138.59 - 97) deg at 1 rad/s: 0.7259 s.
+    let (_, rows) = table(&folder.read("rows.partial.csv"));
+    assert_eq!(rows.len(), 73);
+    assert_eq!(folder.linkwear(&run[..8]).code, 1);
+}

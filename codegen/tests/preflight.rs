@@ -179,8 +179,8 @@ fn a_start_beside_a_singular_position_is_taken() {
         Err(errors) => errors.list()[0].code.as_str(),
     };
     assert_eq!(
-        ["0 deg", "1 deg", "180 deg", "90 deg", "1e-3 deg"].map(code),
-        ["E0608", "taken", "E0608", "taken", "taken"]
+        ["0 deg", "1 deg", "180 deg", "90 deg", "1e-3 deg", "0.1 deg"].map(code),
+        ["E0608", "taken", "E0608", "taken", "E0608", "taken"]
     );
 }
 

@@ -199,6 +199,22 @@ pub enum RunError {
         /// Variable with the largest error.
         variable: String,
     },
+    /// A driver cannot move on: the loops let it go no further.
+    #[error(
+        "at t = {t:.9} s the driver of `{joint}` is at its dead point, {}, where the loops let it go no further: let \
+         its law turn round before, change lengths, or drive another joint",
+        if *angular { format!("{:.6} deg", position.to_degrees()) } else { format!("{position:.9} m") }
+    )]
+    DeadPoint {
+        /// Time at which it gets there.
+        t: f64,
+        /// The driven joint.
+        joint: String,
+        /// What the driver prescribes there [rad or m].
+        position: f64,
+        /// True for an angle, false for a length.
+        angular: bool,
+    },
     /// A loop can no longer be closed.
     #[error(
         "at t = {t} s joint `{joint}` cannot be closed any more ({residual_m:.3e} m, {residual_rad:.3e} rad); the \

@@ -3,8 +3,10 @@
 //! Never knows integrators.
 
 mod answers;
+mod closed;
 
 pub use answers::{Closure, Equations, Forward, LoopError, Rates};
+pub use closed::{CLOSED, CLOSED_AT_START};
 
 use crate::clearance_joint::Clearances;
 use crate::description::Description;

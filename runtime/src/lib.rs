@@ -76,7 +76,8 @@ pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 #[cfg(feature = "std")]
 pub use {
     assemble::{
-        State, assemble, assemble_static_contact, assemble_with, check_clearances, offset_columns, place,
+        State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
+        offset_columns, place,
     },
     column::Column,
     contact_frequency::contact_frequencies,
@@ -87,9 +88,9 @@ pub use {
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
     error::{AssemblyError, NoColumn, RunError, SetupError},
-    evaluate::{Closure, Equations, Evaluator, Forward, LoopError, Rates},
+    evaluate::{CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates},
     layout::{Group, Layout},
-    projection::{Correction, LOST, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
+    projection::{Correction, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::{Cells, Table, TableColumn, write_csv},
     simulate::{
         At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,

@@ -6,7 +6,7 @@
 //! as the residual can be met without them: near a singular position an error of 1e-15 m there would
 //! move the mechanism by far more, perhaps to another branch.
 
-use crate::evaluate::{Evaluator, LoopError};
+use crate::evaluate::{CLOSED, Evaluator, LoopError};
 use crate::linear::{Cholesky, Orthogonal, largest};
 
 /// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
@@ -17,10 +17,6 @@ pub const SPEED_TOLERANCE: f64 = 1e-13;
 
 /// Newton that makes no more progress below this residual [m, rad] has met rounding, not an open loop.
 const SETTLED: f64 = 1e-11;
-
-/// A loop open by more than this [m, rad] counts as lost. Rows that were dropped as redundant follow the kept
-/// ones with the conditioning of the position, so this is far above the tolerance of the kept rows.
-pub const LOST: f64 = 1e-7;
 
 /// Corrections that the normal equations may be trusted with: ratio of pivots, about 1e-4 in singular values.
 const TRUSTED_PIVOT: f64 = 1e-8;
@@ -68,6 +64,8 @@ pub struct Projector {
     orthogonal: Orthogonal,
     factored: Factored,
     error: LoopError,
+    /// Longest lever arm [m].
+    arm: f64,
     /// Factor on the tolerances.
     strictness: f64,
     /// Whether speeds in nearly lost directions stay untouched.
@@ -94,6 +92,7 @@ impl Projector {
             orthogonal: Orthogonal::new(m, n),
             factored: Factored::No,
             error: LoopError::default(),
+            arm: 1.0,
             strictness: 1.0,
             keep_lost: false,
             scales: vec![0.0; m],
@@ -105,6 +104,11 @@ impl Projector {
     /// relative to it. Micrometres of a clearance stay out of the correction of a loop of metres.
     pub fn set_sizes(&mut self, sizes: &[f64]) {
         self.sizes.copy_from_slice(sizes);
+    }
+
+    /// Sets the longest lever arm [m], which lengths are compared with; 1 m unless told otherwise.
+    pub fn set_arm(&mut self, arm: f64) {
+        self.arm = arm;
     }
 
     /// Loop error over all rows after the last projection.
@@ -119,7 +123,7 @@ impl Projector {
     /// are left as they are.
     ///
     /// # Errors
-    /// If the loops stay open by more than [`LOST`], or a residual is not a number.
+    /// If the loops stay open by more than [`CLOSED`], or a residual is not a number.
     pub fn project(
         &mut self,
         evaluator: &mut Evaluator<'_>,
@@ -178,8 +182,12 @@ impl Projector {
             note(&mut correction.position, &mut correction.worst, &self.delta);
         }
         self.error = evaluator.loop_error();
-        let open = self.error.metres.max(self.error.radians);
-        if open.is_nan() || open > LOST + tolerance { Err(NotClosed { error: self.error }) } else { Ok(()) }
+        let open = self.error.part(self.arm);
+        if open.is_nan() || open > CLOSED + tolerance / self.arm {
+            Err(NotClosed { error: self.error })
+        } else {
+            Ok(())
+        }
     }
 
     fn match_speeds(

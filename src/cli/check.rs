@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use linkwear::number::number;
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
-use linkwear_codegen::preflight::Analysis;
+use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate};
 use linkwear_codegen::spec::Dimension;
 use serde_json::{Value, json};
 
@@ -18,10 +18,14 @@ use super::wear_measure;
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
-    Ok(Answer { text: text(&compiled), json: to_json(&compiled, &warnings) })
+    let assemblies = compiled.assemblies();
+    Ok(Answer { text: text(&compiled, &assemblies), json: to_json(&compiled, &assemblies, &warnings) })
 }
 
-fn to_json(compiled: &Compiled, warnings: &[Value]) -> Value {
+fn to_json(compiled: &Compiled, assemblies: &Assemblies, warnings: &[Value]) -> Value {
+    let values = |coordinates: &Vec<Coordinate>| -> Value {
+        coordinates.iter().map(|at| (format!("{}.{}", at.joint, at.name), json!(at.value))).collect()
+    };
     let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
     let redundant = analysis.redundant.iter();
     let redundant = redundant.map(|row| json!({ "joint": row.joint, "row": row.row, "reason": row.reason }));
@@ -41,6 +45,10 @@ fn to_json(compiled: &Compiled, warnings: &[Value]) -> Value {
         "redundant": redundant.collect::<Vec<_>>(),
         "non_unique": analysis.non_unique,
         "cut_joints": cuts.collect::<Vec<_>>(),
+        "assembly": {
+            "taken": values(&assemblies.taken),
+            "others": assemblies.others.iter().map(values).collect::<Vec<_>>(),
+        },
         "modal_coordinates": analysis.modes,
         "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
         "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
@@ -67,7 +75,7 @@ fn parameter_entry(parameter: &Parameter) -> Value {
     })
 }
 
-fn text(compiled: &Compiled) -> String {
+fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {
     let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
     let mut text = format!(
         "{}: {}, {}\n\n",
@@ -101,6 +109,16 @@ fn text(compiled: &Compiled) -> String {
         let rows = non_unique_by_joint(analysis);
         let _ = write!(text, "\nReactions that are not unique\n{}", short_table(&["", ""], rows));
     }
+    if !assemblies.others.is_empty() {
+        let others = assemblies.others.iter().map(|other| ("or", other));
+        let rows = [("taken", &assemblies.taken)].into_iter().chain(others);
+        let rows = rows.map(|(word, way)| vec![word.to_owned(), guesses(way)]).collect();
+        let _ = write!(
+            text,
+            "\nThe loops close in more than one way; [assembly] chooses\n{}",
+            short_table(&["", ""], rows)
+        );
+    }
     for body in &mechanism.bodies {
         if let Some(flexible) = &body.flexible {
             let _ =
@@ -117,6 +135,22 @@ fn text(compiled: &Compiled) -> String {
         let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
     }
     text
+}
+
+/// What `[assembly]` says for a way to close the loops: `R2 = "55.8 deg", C = { q1 = "10 deg", q2 = "0.1 m" }`.
+fn guesses(way: &[Coordinate]) -> String {
+    let value = |at: &Coordinate| match at.angular {
+        true => format!("\"{:.1} deg\"", at.value.to_degrees() + 0.0),
+        false => format!("\"{} m\"", number(at.value)),
+    };
+    let joints = way.chunk_by(|a, b| a.joint == b.joint).map(|joint| match joint {
+        [only] if only.name == "q" => format!("{} = {}", only.joint, value(only)),
+        several => {
+            let pairs: Vec<_> = several.iter().map(|at| format!("{} = {}", at.name, value(at))).collect();
+            format!("{} = {{ {} }}", several[0].joint, pairs.join(", "))
+        }
+    });
+    joints.collect::<Vec<_>>().join(", ")
 }
 
 fn speeds_note(analysis: &Analysis) -> String {

@@ -8,7 +8,7 @@ use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
 use crate::diagnostic::Diagnostic;
 use crate::model::{Closure, Mechanism, Topology};
-use crate::preflight::Analysis;
+use crate::preflight::{self, Analysis, Assemblies};
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
 use crate::tape::{self, Operations, PART_LIMIT, Tape};
@@ -63,6 +63,11 @@ impl Compiled {
     /// The mechanism as a runtime system, without a compiler.
     pub fn interpreter(&self) -> Interpreted {
         Interpreted::new(&self.tapes, self.sizes, self.description.clone())
+    }
+
+    /// How else the loops could close at the start.
+    pub fn assemblies(&self) -> Assemblies {
+        preflight::assemblies(&self.description, &self.interpreter())
     }
 
     /// Operations, statements and parts of every entry point.

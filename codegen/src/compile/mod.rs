@@ -65,9 +65,9 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     };
     let system = compiled.interpreter();
     preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
-    preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
-    let near = preflight::contacts_near_modes(&compiled.mechanism, &compiled.description, &system);
-    compiled.warnings.extend(near);
+    let start = preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
+    let near = start.map(|start| preflight::contacts_near_modes(&compiled.mechanism, start));
+    compiled.warnings.extend(near.unwrap_or_default());
     let allowed = &compiled.mechanism.allowed;
     compiled.warnings.retain(|warning| !allowed.contains(&warning.code));
     Ok(compiled)
@@ -81,7 +81,8 @@ fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> R
         let warnings = examine(source, &closed, topology, check)?;
         // What moves only thanks to its clearances turns by them too, however its ideal twin would jam.
         if warnings.iter().any(|warning| warning.code == Code::MovesByClearance) {
-            findings.warnings.retain(|warning| warning.code != Code::NoFullTurn);
+            let of_ideal_turn = [Code::NoFullTurn, Code::PassesSingular];
+            findings.warnings.retain(|warning| !of_ideal_turn.contains(&warning.code));
         }
         findings.warnings.extend(warnings);
     }

@@ -187,6 +187,8 @@ codes! {
     LooseBody = "W0115",
     /// A crank that is driven round and round but cannot turn once.
     NoFullTurn = "W0116",
+    /// A crank driven round and round that passes a singular position of its loops.
+    PassesSingular = "W0117",
     /// A point that nothing says which body carries: it rests.
     UnplacedPoint = "W0120",
 }

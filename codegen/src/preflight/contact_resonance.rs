@@ -1,7 +1,7 @@
 //! Contacts that vibrate near frequencies of flexible bodies, kept or left out.
 //! In: a mechanism and its equations. Out: warnings. Never knows the laws of contact.
 
-use linkwear_runtime::{Description, Evaluator, System, assemble_static_contact, contact_frequencies};
+use linkwear_runtime::{Evaluator, State, contact_frequencies};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Mechanism};
@@ -12,20 +12,18 @@ use super::resonance::frequencies;
 /// force is 1.5 times the frequency (power 1/6 of a sphere's law).
 const NEAR: f64 = 0.2;
 
-/// Warns for every flexible body with a frequency near to that of a resting contact at the start. A mechanism that
-/// does not assemble is told about elsewhere.
+/// Warns for every flexible body with a frequency near to that of a contact that rests at the start.
 pub fn contacts_near_modes(
     mechanism: &Mechanism,
-    description: &Description,
-    system: &dyn System<f64>,
+    (mut evaluator, start): (Evaluator<'_>, State),
 ) -> Vec<Diagnostic> {
     let flexible = mechanism.bodies.iter().any(|body| body.flexible.is_some());
-    if description.contacts.is_empty() || !flexible {
+    if !flexible {
         return Vec::new();
     }
-    let frequencies = resting_frequencies(description, system).unwrap_or_default();
+    let frequencies = contact_frequencies(&mut evaluator, 0.0, &start.q, &start.v);
     let mut warnings = Vec::new();
-    for (contact, frequency) in description.contacts.iter().zip(frequencies) {
+    for (contact, frequency) in evaluator.description().contacts.iter().zip(frequencies) {
         let Some(frequency) = frequency else { continue };
         for body in &mechanism.bodies {
             let near = modes_near(body, frequency);
@@ -47,13 +45,6 @@ pub fn contacts_near_modes(
         }
     }
     warnings
-}
-
-fn resting_frequencies(description: &Description, system: &dyn System<f64>) -> Option<Vec<Option<f64>>> {
-    let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
-    let mut evaluator = Evaluator::new(system, description, &parameters).ok()?;
-    let state = assemble_static_contact(&mut evaluator, 0.0).ok()?;
-    Some(contact_frequencies(&mut evaluator, 0.0, &state.q, &state.v))
 }
 
 /// Frequencies of a body near to one, each with its names.

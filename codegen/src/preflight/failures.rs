@@ -1,13 +1,14 @@
 //! What a user is told when a mechanism cannot be assembled, cannot move, or is driven against itself.
 //! In: what the analysis found. Out: diagnostics with places and cures. Never computes.
 
-use linkwear_runtime::AssemblyError;
+use linkwear_runtime::{AssemblyError, CLOSED_AT_START, Description};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
+use super::exactness::Opening;
 use super::rank::{Lost, Rows};
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
@@ -21,13 +22,16 @@ fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
+fn rounded(gap: f64) -> String {
+    if gap < 1e-3 { format!("{gap:.1e}") } else { format!("{gap:.3}") }
+}
+
 /// How far loops stay open: only the kinds that are, rounded.
 fn gap(metres: f64, radians: f64) -> String {
     /// Next to a gap that people are told of, less is rounding.
-    const CLOSED: f64 = 1e-9;
-    let metres = Some(metres).filter(|gap| *gap > CLOSED || radians <= CLOSED);
-    let radians = Some(radians).filter(|gap| *gap > CLOSED);
-    let rounded = |gap: f64| if gap < 1e-3 { format!("{gap:.1e}") } else { format!("{gap:.3}") };
+    const SMALL: f64 = 1e-9;
+    let metres = Some(metres).filter(|gap| *gap > SMALL || radians <= SMALL);
+    let radians = Some(radians).filter(|gap| *gap > SMALL);
     let parts = [metres.map(|gap| rounded(gap) + " m"), radians.map(|gap| rounded(gap) + " rad")];
     parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }
@@ -81,6 +85,22 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
         }
         AssemblyError::Setup(error) => Diagnostic::new(Code::StartNotFinite, error.to_string()),
     }
+}
+
+/// The loops close where the mechanism is drawn, and open along its motion.
+pub fn opens_along_motion(mechanism: &Mechanism, description: &Description, opening: &Opening) -> Diagnostic {
+    let row = &description.rows[opening.row];
+    let message = format!(
+        "the loop through `{}` closes where it starts, but cannot stay closed: along its motion it opens by {} {}",
+        row.joint,
+        rounded(opening.amount),
+        if row.angular { "rad" } else { "m" }
+    );
+    let diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message).help(format!(
+        "more joints hold it than its motion needs, so that lengths and axes have to fit to {CLOSED_AT_START:e} of its \
+         size: correct them, give them more digits, or free a joint (for instance make a revolute spherical)"
+    ));
+    at_joint(diagnostic, mechanism, &row.joint, &format!("worst: {}", row.meaning))
 }
 
 fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &str) -> Diagnostic {

@@ -4,8 +4,10 @@
 //! Never knows Rust syntax.
 
 mod analysis;
+mod assemblies;
 mod case;
 mod contact_resonance;
+mod exactness;
 mod failures;
 mod idle;
 mod immobile;
@@ -24,6 +26,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Mechanism;
 
 pub use analysis::{Analysis, Redundant};
+pub use assemblies::{Assemblies, Coordinate, assemblies};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
 pub use failures::beyond_numbers;
@@ -62,6 +65,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         cuts: case.topology.cuts.iter().map(|cut| mechanism.joint(*cut).name.clone()).collect(),
         ..Analysis::default()
     };
+    let opens = |opening| vec![failures::opens_along_motion(mechanism, description, &opening)];
     let fail = |errors| Err(Diagnostics::from_list(errors).located(case.source));
     let (positions, refusal) = match case.closed_positions() {
         Ok(found) => found,
@@ -86,6 +90,17 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     }
     if errors.is_empty() {
         errors.extend(start_fault(case, &analysis, &rows, refusal.as_ref()));
+        if errors.is_empty() {
+            errors = exactness::opens(case, &positions, &keep).map_or(errors, opens);
+        }
+    } else {
+        let singular = rows.lost_at_start(&[]);
+        if let Some(opening) = exactness::nearly_moves(case, &positions, singular.is_some()) {
+            errors = opens(opening);
+        } else if let Some(lost) = singular {
+            // From there the walk may have gone where the drivers cannot.
+            errors = vec![failures::singular_start(mechanism, &analysis, &[], &lost)];
+        }
     }
     if let Some((joint, body)) = immobile::massless(case, &positions).filter(|_| errors.is_empty()) {
         errors.push(failures::massless(mechanism, joint, &body));
@@ -100,7 +115,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
-    warnings.extend(turn::short_turn(case, &positions));
+    warnings.extend(turn::turn_remark(case, &positions));
     Ok(Findings { analysis, keep, warnings })
 }
 

@@ -5,9 +5,10 @@ use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::samples::{ClosedPositions, RANK_TOLERANCE};
 
-/// A start is singular below this share of the rank's weakest direction elsewhere: at a double root assembly ends within
-/// the square root of rounding, 1e-8, and a start that is meant to be beside it is farther away than 1e-6 rad.
-const SINGULAR_START: f64 = 1e-6;
+/// A start is singular below this share of the rank's weakest direction elsewhere. At a double root assembly ends within
+/// the square root of rounding, 1e-8; up to 1e-5 rad beside it a step of usual length goes wrong by tenths of a radian
+/// while its energy is off by a part in a thousand only; and a drawing of four digits is 1e-4 away.
+const SINGULAR: f64 = 1e-4;
 
 /// Normalised rows at every position tried.
 pub struct Rows {
@@ -157,7 +158,7 @@ fn singular_start(samples: &[DMatrix<f64>]) -> bool {
         values[rank - 1]
     };
     let best = samples.iter().map(weakest).fold(0.0, f64::max);
-    weakest(&samples[0]) < SINGULAR_START * best
+    weakest(&samples[0]) < SINGULAR * best
 }
 
 /// A row for each of the speeds, that this one moves.
@@ -171,7 +172,8 @@ fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-fn rank(matrix: &DMatrix<f64>) -> usize {
+/// Rank of a matrix.
+pub fn rank(matrix: &DMatrix<f64>) -> usize {
     if matrix.is_empty() {
         return 0;
     }
@@ -193,7 +195,10 @@ mod tests {
             jacobian: sample(noise),
             mass: DMatrix::identity(2, 2),
         });
-        let rows = Rows::new(&ClosedPositions { positions: positions.to_vec() }, vec![1]);
+        let rows = Rows::new(
+            &ClosedPositions { positions: positions.to_vec(), arm: 1.0, open: Vec::new() },
+            vec![1],
+        );
         assert_eq!(rows.independent(), [true, false]);
         assert!(rows.driver_conflicts().is_empty());
     }

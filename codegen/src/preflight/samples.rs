@@ -1,7 +1,9 @@
 //! Closed positions of a mechanism without drivers, found by walking along its freedoms.
 //! In: the interpreter. Out: positions with their Jacobians. Never knows why they are wanted.
 
-use linkwear_runtime::{AssemblyError, Description, Entry, Layout, System, assemble};
+use linkwear_runtime::{
+    AssemblyError, CLOSED_AT_START, Description, Entry, Evaluator, Layout, System, assemble_with,
+};
 use nalgebra::{DMatrix, DVector};
 
 use super::own_units::OwnUnits;
@@ -13,9 +15,13 @@ const MANY_STEPS: usize = 48;
 const FEW_STEPS: usize = 6;
 /// Speeds from which a mechanism counts as large: decompositions then cost milliseconds each.
 const LARGE: usize = 24;
+/// Newton that gains less than this part of the residual in its last step has come as near as the loops let it.
+const STALLED: f64 = 0.9;
+/// Corrections of Newton; a few close a loop after a step.
+const ITERATIONS: usize = 19;
 /// Length of a step along the freedoms [rad, own units]: large enough to change the geometry, small enough that a few
 /// Newton steps close the loops again.
-const STEP: f64 = 0.25;
+pub const STEP: f64 = 0.25;
 /// Loops count as closed below this residual [rad, own units]; Newton ends near 1e-15.
 const CLOSED: f64 = 1e-11;
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
@@ -37,6 +43,10 @@ pub struct Position {
 pub struct ClosedPositions {
     /// Positions.
     pub positions: Vec<Position>,
+    /// The longest lever arm at the start [m].
+    pub arm: f64,
+    /// Residuals, in own units, where the loops stayed open by a little along the way.
+    pub open: Vec<DVector<f64>>,
 }
 
 impl ClosedPositions {
@@ -45,8 +55,11 @@ impl ClosedPositions {
     /// # Errors
     /// If Newton cannot close the loops.
     pub fn walk(walker: &Walker<'_>, description: &Description) -> Result<Self, AssemblyError> {
-        let state = assemble(walker.system, description, &walker.parameters, 0.0)?;
+        let mut evaluator = Evaluator::new(walker.system, description, &walker.parameters)?;
+        let state = assemble_with(&mut evaluator, 0.0)?;
+        let arm = evaluator.longest_arm(0.0, &state.q, &state.v);
         let mut positions = vec![walker.position(state.q)];
+        let mut open = Vec::new();
         let mut generator = 0x2545_F491_4F6C_DD1D_u64;
         let steps = if walker.system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
         let mut direction = None;
@@ -56,11 +69,22 @@ impl ClosedPositions {
                 direction = None;
             }
             let from = if step == steps / 2 { 0 } else { positions.len() - 1 };
-            let next = walker.step(&positions[from], &mut direction, &mut generator);
-            positions.extend(next);
+            match walker.step(&positions[from], &mut direction, &mut generator) {
+                Some(Ended::Closed(next)) => positions.push(next),
+                Some(Ended::Open(residual)) => open.push(residual),
+                None => {}
+            }
         }
-        Ok(Self { positions })
+        Ok(Self { positions, arm, open })
     }
+}
+
+/// Where Newton ended.
+pub enum Ended {
+    /// In a closed position.
+    Closed(Position),
+    /// As near to one as the loops let it, with these residuals in own units: no freedom takes them away.
+    Open(DVector<f64>),
 }
 
 /// Evaluates an entry with a fresh workspace; contact wrenches, the last inputs, are zero where not given.
@@ -114,12 +138,7 @@ impl Walker<'_> {
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
-    fn step(
-        &self,
-        from: &Position,
-        last: &mut Option<DVector<f64>>,
-        generator: &mut u64,
-    ) -> Option<Position> {
+    fn step(&self, from: &Position, last: &mut Option<DVector<f64>>, generator: &mut u64) -> Option<Ended> {
         let free = null_space(&from.jacobian.select_columns(&self.joint_speeds));
         if free.ncols() == 0 {
             return None;
@@ -141,12 +160,25 @@ impl Walker<'_> {
         *last = Some(scaled.clone());
         let mut q = from.q.clone();
         self.layout.advance(&mut q, &self.all_speeds(&scaled));
-        for _ in 0..20 {
+        self.close(q, RANK_TOLERANCE)
+    }
+
+    /// Newton by the joint speeds; directions below a part of the strongest one are not followed. `None` where it does not
+    /// converge.
+    pub fn close(&self, mut q: Vec<f64>, tolerance: f64) -> Option<Ended> {
+        let mut before = f64::INFINITY;
+        for iteration in 0..=ITERATIONS {
             let (phi, jacobian, mass) = self.equations(&q);
-            if phi.iter().all(|residual| residual.abs() < CLOSED) {
-                return Some(Position { q, jacobian, mass });
+            let size = phi.amax();
+            let stalled = iteration == ITERATIONS && size > STALLED * before;
+            if size < CLOSED || (stalled && size < CLOSED_AT_START) {
+                return Some(Ended::Closed(Position { q, jacobian, mass }));
             }
-            let correction = least_norm(&jacobian.select_columns(&self.joint_speeds), &-phi)?;
+            if iteration == ITERATIONS {
+                return stalled.then_some(Ended::Open(phi));
+            }
+            before = size;
+            let correction = solve(&jacobian.select_columns(&self.joint_speeds), &-phi, tolerance)?;
             self.layout.advance(&mut q, &self.all_speeds(&correction));
         }
         None
@@ -185,7 +217,7 @@ impl Walker<'_> {
     }
 
     /// A step of all speeds, in SI, that moves only joints.
-    fn all_speeds(&self, step: &DVector<f64>) -> Vec<f64> {
+    pub fn all_speeds(&self, step: &DVector<f64>) -> Vec<f64> {
         let mut all = vec![0.0; self.system.sizes().all_speeds];
         for (speed, amount) in self.joint_speeds.iter().zip(step.iter()) {
             all[*speed] = *amount * self.units.speeds[*speed];
@@ -195,7 +227,7 @@ impl Walker<'_> {
 }
 
 /// A number in (-1, 1) from a small generator (xorshift), so that generation is reproducible.
-fn random(state: &mut u64) -> f64 {
+pub fn random(state: &mut u64) -> f64 {
     *state ^= *state << 13;
     *state ^= *state >> 7;
     *state ^= *state << 17;
@@ -204,14 +236,18 @@ fn random(state: &mut u64) -> f64 {
 
 /// Columns span the null space.
 pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    nearly_null_space(matrix, RANK_TOLERANCE)
+}
+
+/// The same of what is below a part of the largest singular value.
+pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
     let n = matrix.ncols();
     if n == 0 {
         return DMatrix::zeros(0, 0);
     }
     let (values, v_t) = right_singular_vectors(matrix.clone());
     let largest = values.amax();
-    let rows: Vec<usize> =
-        (0..n).filter(|i| values[*i] <= RANK_TOLERANCE * largest || largest == 0.0).collect();
+    let rows: Vec<usize> = (0..n).filter(|i| values[*i] <= tolerance * largest || largest == 0.0).collect();
     DMatrix::from_fn(n, rows.len(), |i, j| v_t[(rows[j], i)])
 }
 
@@ -227,10 +263,15 @@ pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f6
 
 /// Shortest solution of a rank-deficient system.
 pub fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    solve(matrix, right, RANK_TOLERANCE)
+}
+
+/// The same by the directions above a part of the strongest one.
+fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>, tolerance: f64) -> Option<DVector<f64>> {
     if matrix.is_empty() {
         return Some(DVector::zeros(matrix.ncols()));
     }
     let svd = matrix.clone().svd(true, true);
     let largest = svd.singular_values.amax();
-    svd.solve(right, RANK_TOLERANCE * largest).ok()
+    svd.solve(right, tolerance * largest).ok()
 }

@@ -41,6 +41,20 @@ pub fn assemble_with(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, Ass
     Ok(State { q, v })
 }
 
+/// The closed position that Newton finds at time `t` [s] from a guess of the free coordinates; `held` ones stay.
+///
+/// # Errors
+/// If the loops cannot be closed from there.
+pub fn close_loops(
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+    guess: &[f64],
+    held: &[bool],
+) -> Result<Vec<f64>, AssemblyError> {
+    let still = vec![0.0; evaluator.sizes().speeds];
+    Newton::new(evaluator, t, guess, &still, held).run()
+}
+
 fn close(
     evaluator: &mut Evaluator<'_>,
     t: f64,

@@ -15,7 +15,7 @@ mod static_contact;
 mod units;
 mod within_clearance;
 
-pub use consistent::{assemble, assemble_with};
+pub use consistent::{assemble, assemble_with, close_loops};
 pub use offset::offset_columns;
 pub use state::State;
 pub use static_contact::{assemble_static_contact, check_clearances, place};

@@ -5,12 +5,10 @@
 use super::held::frozen;
 use super::units::Units;
 use crate::error::AssemblyError;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{CLOSED_AT_START, Evaluator};
 use crate::layout::turn;
 use crate::linear::{Orthogonal, dot, largest};
 
-/// A loop open by more than this [rad, [`Units::length`]] after assembly is an error.
-const ASSEMBLED: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 60;
 /// Singular values below this part of the largest are not followed; first strict, then bolder when stuck.
 const TOLERANCES: [f64; 3] = [1e-8, 1e-4, 1e-2];
@@ -86,9 +84,7 @@ impl<'e, 'a> Newton<'e, 'a> {
         self.evaluator.closure(self.t, &q, &self.wish);
         let error = self.evaluator.loop_error();
         // Rounding of large coordinates moves the loops by about their last place.
-        if (error.metres / self.units.length).max(error.radians)
-            <= ASSEMBLED + 4.0 * f64::EPSILON * largest(&q)
-        {
+        if error.part(self.units.arm) <= CLOSED_AT_START + 4.0 * f64::EPSILON * largest(&q) {
             return Ok(q);
         }
         Err(AssemblyError::NoConvergence {

@@ -6,7 +6,7 @@ use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
 
-/// Largest residual [rad/s, [`Units::length`] per second] per unit of the largest speed (at least 1).
+/// Largest residual [rad/s, own units of length per second] per unit of the largest speed (at least 1).
 const CONSISTENT: f64 = 1e-10;
 /// Singular values below this part of the largest count as zero.
 const TOLERANCE: f64 = 1e-10;

@@ -9,8 +9,8 @@ const ORDINARY: core::ops::RangeInclusive<f64> = 1e-2..=1e2;
 
 /// What rows and speeds are multiplied with.
 pub(super) struct Units {
-    /// The unit of length [m].
-    pub length: f64,
+    /// The longest lever arm [m].
+    pub arm: f64,
     /// Residual of every row, kept or dropped, times this: a pure number.
     pub rows: Vec<f64>,
     /// Pure number times this: a free speed, or its step.
@@ -21,18 +21,11 @@ impl Units {
     /// Measures the lever arms at a position.
     pub(super) fn new(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) -> Self {
         let description = evaluator.description();
-        let angles: Vec<bool> =
-            description.speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect();
-        let linear: Vec<bool> = evaluator.kept().iter().map(|row| !description.rows[*row].angular).collect();
-        let jacobian = evaluator.closure(t, q, v).jacobian;
-        let rows = jacobian.chunks_exact(angles.len().max(1)).zip(linear).filter(|(_, linear)| *linear);
-        let arms = rows.flat_map(|(row, _)| row.iter().zip(&angles).filter(|(_, angle)| **angle));
-        let longest = arms.fold(0.0_f64, |longest, (arm, _)| longest.max(arm.abs()));
-        let own = longest.is_finite() && longest > 0.0 && !ORDINARY.contains(&longest);
-        let length = if own { longest } else { 1.0 };
+        let arm = evaluator.longest_arm(t, q, v);
+        let length = if ORDINARY.contains(&arm) { 1.0 } else { arm };
         let speed = |unit: &str| if unit == "m/s" { length } else { 1.0 };
         Self {
-            length,
+            arm,
             rows: description.rows.iter().map(|row| if row.angular { 1.0 } else { 1.0 / length }).collect(),
             speeds: description.speeds.iter().map(|info| speed(&info.unit)).collect(),
         }

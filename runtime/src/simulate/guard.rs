@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::motion::ConstrainedMotion;
 use super::run::Statistics;
 use crate::error::RunError;
-use crate::evaluate::LoopError;
+use crate::evaluate::{CLOSED, LoopError};
 use crate::linear::largest;
 
 /// Part of the energy that went through which may be missing before a run draws a warning: coarse legitimate runs lose
@@ -21,9 +21,6 @@ const BALANCES: f64 = 10.0;
 const BALANCE_ROUNDING: f64 = 1e-9;
 /// A mechanism whose speeds stay below this [rad/s, m/s] is at rest but for rounding.
 const AT_REST: f64 = 1e-11;
-/// Part of the longest lever arm (or of a radian) by which loops may be open. Projection leaves 1e-14; a part in ten
-/// thousand is what lengths are made to.
-const LOOP_OPEN: f64 = 1e-4;
 /// Steps tried after which progress is asked for.
 const WINDOW: u64 = 20_000;
 /// Part of a turn (or of the whole run, if that is shorter) that so many steps have to gain: a turn of 2e8 steps is none
@@ -36,8 +33,6 @@ const LEAST_OF_THE_RUN: f64 = 1e-9;
 pub(super) struct Guard {
     end: f64,
     span: f64,
-    /// Longest lever arm of the loops [m]; 0: no loop has one.
-    arm: f64,
     /// Largest speed of any coordinate so far, and of those that turn.
     fastest: f64,
     fastest_turning: f64,
@@ -51,19 +46,10 @@ pub(super) struct Guard {
 impl Guard {
     /// Begins at a state, for a run from `begin` to `end` [s].
     pub(super) fn new(motion: &mut ConstrainedMotion<'_>, (begin, end): (f64, f64), state: &[f64]) -> Self {
-        let (q, v, _) = motion.split(state);
-        let evaluator = &mut motion.dynamics.evaluator;
-        let description = evaluator.description();
-        let rows: Vec<bool> = evaluator.kept().iter().map(|row| !description.rows[*row].angular).collect();
-        let jacobian = evaluator.closure(begin, q, v).jacobian.chunks_exact(v.len().max(1));
-        let in_metres = jacobian.zip(&rows).filter(|(_, in_metres)| **in_metres);
-        let arms = in_metres.flat_map(|(row, _)| row.iter().zip(&*description.speeds));
-        let arms = arms.filter(|(_, speed)| turns(&speed.unit)).map(|(arm, _)| arm.abs());
         let span = end - begin;
         let mut guard = Self {
             end,
             span,
-            arm: arms.fold(0.0, f64::max),
             fastest: 0.0,
             fastest_turning: 0.0,
             energy: 0.0,
@@ -88,7 +74,7 @@ impl Guard {
         error: LoopError,
     ) -> Result<(), RunError> {
         let LoopError { metres: residual_m, radians: residual_rad, worst } = error;
-        if (self.arm > 0.0 && residual_m > LOOP_OPEN * self.arm) || residual_rad > LOOP_OPEN {
+        if error.part(motion.arm) > CLOSED {
             let joint = motion.dynamics.evaluator.joint_of_row(worst);
             return Err(RunError::LostAssembly { t, joint, residual_m, residual_rad });
         }

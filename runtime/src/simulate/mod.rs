@@ -4,6 +4,7 @@
 
 mod angles;
 mod contacts;
+mod dead_point;
 mod events;
 mod extremes;
 mod guard;

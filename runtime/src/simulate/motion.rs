@@ -71,6 +71,8 @@ pub(super) struct ConstrainedMotion<'a> {
     contacts: usize,
     /// Natural size of every coordinate and speed, 1 unless it moves a journal in its bearing.
     scales: Vec<f64>,
+    /// Longest lever arm of the loops [m].
+    pub(super) arm: f64,
     /// Natural size of the motion along every free speed.
     pub(super) sizes: Vec<f64>,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
@@ -90,6 +92,7 @@ impl<'a> ConstrainedMotion<'a> {
             speeds: sizes.speeds,
             contacts: sizes.contacts,
             scales: vec![1.0; sizes.coordinates + sizes.speeds],
+            arm: 1.0,
             sizes: vec![1.0; sizes.speeds],
             energy_scale: ENERGY_FLOOR,
         }
@@ -134,8 +137,10 @@ impl<'a> ConstrainedMotion<'a> {
         self.dynamics.evaluator.clearances().contacts()[joint].penetration()
     }
 
-    /// Learns at a state how small the motion in the clearances is. Without clearance nothing changes.
+    /// Learns at a state how large the mechanism is, and how small the motion in its clearances.
     pub(super) fn learn_sizes(&mut self, t: f64, state: &State) {
+        self.arm = self.dynamics.evaluator.longest_arm(t, &state.q, &state.v);
+        self.projector.set_arm(self.arm);
         if self.contacts == 0 {
             return;
         }

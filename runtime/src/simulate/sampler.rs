@@ -46,6 +46,8 @@ pub(super) struct Sampler {
     guard: Guard,
     /// Where the extremes of a run go, if anybody asks for them.
     extremes: Option<Collector>,
+    /// Time and state at the end of the last good step.
+    pub(super) reached: (f64, Vec<f64>),
     /// Joints with clearance, where there are any.
     pub(super) follower: Option<Follower>,
     /// Where the present turn ends; the run stops there when joints with clearance are measured.
@@ -80,6 +82,7 @@ impl Sampler {
             contact_loss: motion.contact_loss(state),
             guard,
             extremes: None,
+            reached: (begin, state.to_vec()),
             follower,
             turn_end: None,
             closing: None,
@@ -207,6 +210,8 @@ impl Sampler {
         }
         motion.energy_scale = motion.energy_scale.max(kinetic);
         self.guard.check_step(motion, t, state, &self.statistics)?;
+        self.reached.0 = t;
+        self.reached.1.copy_from_slice(state);
         self.look(motion, t, state)
     }
 

@@ -4,7 +4,7 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
-use super::{events, implicit};
+use super::{dead_point, events, implicit};
 use crate::error::RunError;
 use crate::integrate::{Dopri5, Rk4};
 use crate::watch::Watch;
@@ -17,7 +17,7 @@ pub(super) fn run(
     integrator: Integrator,
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    match integrator {
+    let outcome = match integrator {
         Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, watch),
         Integrator::Dopri5 { tolerance, max_step } => {
             let longest = max_step.unwrap_or(sampler.duration() / 10.0);
@@ -26,7 +26,12 @@ pub(super) fn run(
         Integrator::GeneralizedAlpha { step, rho } => {
             implicit::run_generalized_alpha(motion, sampler, state, (step, rho), watch)
         }
-    }
+    };
+    outcome.map_err(|error| {
+        let (t, reached) = &sampler.reached;
+        let q = motion.split(reached).0.to_vec();
+        dead_point::explain(motion, (*t, &q), error)
+    })
 }
 
 /// Equal steps no longer than asked for, that land on every sample.

@@ -1,0 +1,148 @@
+//! Starts beside a singular position are refused or right by every method; a driver that meets its dead point is named.
+
+use std::f64::consts::{FRAC_PI_3, PI};
+
+use linkwear_codegen::compile::{Compiled, Options, compile};
+use linkwear_codegen::source::SourceFile;
+use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
+
+/// A planar four-bar of these corners on the ground, from O over A and B to D, with what its crank and its rocker do.
+fn four_bar(corners: [[f64; 2]; 3], crank: &str, rocker: &str, more: &str) -> Result<Compiled, &'static str> {
+    let [a, b, d] = corners.map(|[x, y]| format!("[\"{x:?} m\", \"{y:?} m\", 0]"));
+    let text = format!(
+        "spec = 1\nname = \"bars\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[points]\nO = [0, 0, 0]\nA = {a}\nB = {b}\nD = {d}\n[bodies]\n\
+         crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", mass = \"1 kg\" }}\n\
+         coupler = {{ rod = [\"A\", \"B\"], radius = \"8 mm\", mass = \"2 kg\" }}\n\
+         rocker = {{ rod = [\"D\", \"B\"], radius = \"8 mm\", mass = \"1.5 kg\" }}\n[joints]\n\
+         R1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1]{crank} }}\n\
+         R2 = {{ revolute = [\"crank\", \"coupler\"], at = \"A\", axis = [0, 0, 1] }}\n\
+         R3 = {{ revolute = [\"coupler\", \"rocker\"], at = \"B\", axis = [0, 0, 1] }}\n\
+         R4 = {{ revolute = [\"ground\", \"rocker\"], at = \"D\", axis = [0, 0, 1]{rocker} }}\n{more}"
+    );
+    let source = SourceFile { name: "bars.toml".to_owned(), text };
+    compile(&source, &Options::default()).map_err(|errors| errors.list()[0].code.as_str())
+}
+
+fn run(compiled: &Compiled, integrator: Integrator, time: f64) -> Run {
+    let settings = Settings::new(integrator, Span::Time(time), 2);
+    let system = compiled.interpreter();
+    simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
+        .expect("it starts")
+}
+
+const METHODS: [Integrator; 3] = [
+    Integrator::Dopri5 { tolerance: 1e-9, max_step: None },
+    Integrator::Rk4 { step: 1e-3 },
+    Integrator::GeneralizedAlpha { step: 1e-3, rho: 0.8 },
+];
+
+/// Corners of linkages whose links come in line, with the crank at an angle.
+fn foldable(angle: f64) -> [(&'static str, [[f64; 2]; 3]); 4] {
+    let (sine, cosine) = angle.sin_cos();
+    let parallel = |length: f64, base: f64| {
+        let a = [length * cosine, length * sine];
+        [a, [a[0] + base, a[1]], [base, 0.0]]
+    };
+    // Where circles around crank and ground pin meet, on the far side.
+    let meeting = |length: f64, base: f64, coupler: f64, rocker: f64| {
+        let a = [length * cosine, length * sine];
+        let (x, y) = (a[0] - base, a[1]);
+        let distance = x.hypot(y);
+        let along = (rocker * rocker - coupler * coupler + distance * distance) / (2.0 * distance);
+        let across = (rocker * rocker - along * along).max(0.0).sqrt();
+        let b = [base + (x * along - y * across) / distance, (y * along + x * across) / distance];
+        [a, b, [base, 0.0]]
+    };
+    [
+        ("parallelogram", parallel(0.1, 0.3)),
+        ("rhombus", parallel(0.2, 0.2)),
+        ("kite", meeting(0.1, 0.1, 0.3, 0.3)),
+        ("change points", meeting(0.1, 0.3, 0.25, 0.15)),
+    ]
+}
+
+#[test]
+fn a_start_beside_a_singular_position_is_refused_or_right() {
+    let mut taken = 0;
+    for base in [0.0, PI] {
+        for beside in [0.0, 1e-11, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+            for (name, corners) in foldable(base + beside) {
+                for (crank, more) in
+                    [(", drive = \"10 rad/s*t\"", ""), ("", "[initial]\nR1 = { v = \"10 rad/s\" }\n")]
+                {
+                    let case = format!("{name}{crank} from {base} + {beside:e} rad");
+                    let compiled = match four_bar(corners, crank, "", more) {
+                        Ok(compiled) => compiled,
+                        Err(code) => {
+                            assert!(code == "E0608" || beside == 0.0, "{case}: {code}");
+                            continue;
+                        }
+                    };
+                    // A fifth of a second: away from the start, and not yet at the next singular position.
+                    let fine = run(&compiled, Integrator::Dopri5 { tolerance: 1e-11, max_step: None }, 0.2);
+                    for method in METHODS {
+                        let found = run(&compiled, method, 0.2);
+                        if fine.stopped.is_some() || found.stopped.is_some() || !found.warnings.is_empty() {
+                            continue;
+                        }
+                        taken += 1;
+                        for column in ["R1.q", "R4.q"] {
+                            let last = |run: &Run| run.column(column).expect("it is there")[1];
+                            let error = (last(&found) - last(&fine)).abs() % (2.0 * PI);
+                            // Generalised-alpha of steps of a hundredth of a radian is good to 1e-3 rad.
+                            let error = error.min(2.0 * PI - error);
+                            assert!(error < 5e-3, "{case}, {method:?}: {column} off by {error:e} rad");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(taken > 50, "only {taken} runs were taken");
+}
+
+#[test]
+fn a_driver_at_its_dead_point_is_named_with_time_and_place() {
+    // Crank 0.1 and coupler 0.25 in line are 0.35 long; the rocker is 0.2, the ground 0.3: the rocker turns no further
+    // than where its end is 0.35 from the crank's pin.
+    let (coupler, rocker, base) = (0.25_f64, 0.2_f64, 0.3_f64);
+    let angle_at =
+        |reach: f64| ((base * base + rocker * rocker - reach * reach) / (2.0 * base * rocker)).acos();
+    let (outer, inner) = (angle_at(0.35), angle_at(0.15));
+    // The rocker starts between them and is driven towards the outer end, where crank and coupler are in line.
+    let start = FRAC_PI_3;
+    let b = [base - rocker * start.cos(), rocker * start.sin()];
+    let reach = b[0].hypot(b[1]);
+    let crank = 0.1_f64;
+    let along = (crank * crank - coupler * coupler + reach * reach) / (2.0 * reach);
+    let across = (crank * crank - along * along).sqrt();
+    let (ux, uy) = (b[0] / reach, b[1] / reach);
+    let a = [ux * along - uy * across, uy * along + ux * across];
+    assert!(inner < start && start < outer);
+    // The rocker's angle from the ground line grows clockwise.
+    let compiled = four_bar([a, b, [base, 0.0]], "", ", drive = \"-1 rad/s*t\"", "").expect("it starts");
+    for method in METHODS {
+        let run = run(&compiled, method, 2.0);
+        let Some(RunError::DeadPoint { t, joint, position, angular: true }) = &run.stopped else {
+            panic!("{method:?}: {:?}", run.stopped);
+        };
+        // At a double root loops close to the root of their tolerance, 1e-8: 1e-4 rad.
+        assert!((t - (outer - start)).abs() < 2e-4, "{method:?}: {t} s, not {}", outer - start);
+        assert!(
+            (position + (outer - start)).abs() < 2e-4 && joint == "R4",
+            "{method:?}: {joint} at {position}"
+        );
+        assert_eq!(run.rows.len(), 1, "the rows before it are kept");
+    }
+}
+
+#[test]
+fn a_crank_that_passes_a_singular_position_is_told_where() {
+    let [(_, corners), ..] = foldable(1.0);
+    let compiled = four_bar(corners, ", drive = \"10 rad/s*t\"", "", "").expect("it is taken");
+    let messages: Vec<_> =
+        compiled.warnings.iter().map(|warning| (warning.code.as_str(), warning.message.clone())).collect();
+    // One radian is where it is drawn, and zero there: in line again after 180 deg less 57.3.
+    let [("W0117", message)] = &messages[..] else { panic!("{messages:?}") };
+    assert!(message.contains("at 122.7 deg"), "{message}");
+}

@@ -1,0 +1,35 @@
+//! When loops count as closed: one tolerance for checks, assembly, projection and runs. In: how far loops are open, and
+//! the longest lever arm. Out: a share of the mechanism's size. Never closes anything.
+
+use super::Evaluator;
+use super::answers::LoopError;
+
+/// Loops are closed up to this part of the longest lever arm, or of a radian. Projection leaves 1e-14; redundant rows
+/// that a mechanism meets up to the rounding of its drawing follow with the conditioning of the position.
+pub const CLOSED: f64 = 1e-7;
+/// The part that a start may use up: along the motion a loop that is not drawn exactly opens further.
+pub const CLOSED_AT_START: f64 = 0.1 * CLOSED;
+
+impl LoopError {
+    /// How far the loops are open as a part of the longest lever arm [m] or of a radian.
+    pub fn part(&self, arm: f64) -> f64 {
+        // What is not a number wins.
+        let metres = self.metres / arm;
+        if metres.is_nan() || metres > self.radians { metres } else { self.radians }
+    }
+}
+
+impl Evaluator<'_> {
+    /// The longest lever arm [m] by which a turning speed moves a kept row; 1 m if none does. The size that lengths of
+    /// this mechanism are compared with.
+    pub fn longest_arm(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
+        let description = self.description();
+        let linear: Vec<bool> = self.kept().iter().map(|row| !description.rows[*row].angular).collect();
+        let jacobian = self.closure(t, q, v).jacobian;
+        let rows = jacobian.chunks_exact(v.len().max(1)).zip(linear).filter(|(_, linear)| *linear);
+        let arms = rows.flat_map(|(row, _)| row.iter().zip(&*description.speeds));
+        let arms = arms.filter(|(_, speed)| speed.unit.starts_with("rad"));
+        let longest = arms.fold(0.0_f64, |longest, (arm, _)| longest.max(arm.abs()));
+        if longest.is_finite() && longest > 0.0 { longest } else { 1.0 }
+    }
+}
