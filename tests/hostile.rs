@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 
 /// A property by the name of its fuzz target.
-const PROPERTIES: [(&str, fn(&str)); 6] = [
+type Property = (&'static str, fn(&str));
+
+const PROPERTIES: [Property; 6] = [
     ("mechanism", properties::mechanism),
     ("expression", properties::expression),
     ("readings", properties::readings),

@@ -10,7 +10,7 @@ use linkwear_codegen::flexible::ModalData;
 use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::{Overrides, resolve};
 use linkwear_codegen::{Diagnostics, Options, SourceFile, compile, spec};
-use linkwear_gamma::data::{Gauge, Observations, Reading};
+use linkwear_gamma::data::{Gauge, Observations, Reading, Rounding};
 use linkwear_gamma::fit::{Model, estimate};
 use linkwear_gamma::life::{Method, OperatingState};
 use linkwear_gamma::process::PROCESSES;
@@ -88,10 +88,10 @@ pub fn readings(text: &str) {
     if readings.len() > MOST_READINGS {
         return;
     }
-    for gauge in [Gauge::Exact, Gauge::Noisy, Gauge::Resolution(0.5)] {
+    for gauge in [Gauge::Exact, Gauge::Noisy, Gauge::Resolution(Rounding::to(0.5))] {
         for from_zero in [false, true] {
             let Ok(data) = Observations::new(&readings, from_zero, gauge) else { continue };
-            let resolution = if let Gauge::Resolution(step) = gauge { Some(step) } else { None };
+            let resolution = if let Gauge::Resolution(rounding) = gauge { Some(rounding) } else { None };
             for process in
                 PROCESSES.into_iter().filter(|process| process.is_increasing() != (gauge == Gauge::Noisy))
             {

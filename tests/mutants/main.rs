@@ -58,7 +58,10 @@ fn try_one(
     let fault = (|| {
         let named = |command: &'static str| move |fault: String| format!("{command}: {fault}");
         let checked = match run(&["check", name, "--format", "json"], study.check).map_err(named("check"))? {
-            Ended::Refused => return Ok(words.push("refused by check")),
+            Ended::Refused => {
+                words.push("refused by check");
+                return Ok(());
+            }
             Ended::Interrupted => return Err("check had to be interrupted".to_owned()),
             Ended::Done(answer) => answer,
         };
