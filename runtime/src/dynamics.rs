@@ -3,8 +3,9 @@
 //! Never knows step sizes.
 
 use crate::error::RunError;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, Forward};
 use crate::linear::largest;
+use crate::passage::Passage;
 use crate::singular_dynamics::SingularSolver;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
@@ -13,6 +14,18 @@ use crate::singular_dynamics::SingularSolver;
 /// the singular position exact equations would follow such errors onto another branch. Smaller values
 /// let more of that noise in (1e-9: a hundred times); larger ones continue the acceleration for longer.
 pub const SINGULAR_PIVOT: f64 = 1e-7;
+
+/// Below this multiple of it, rounding of the generated elimination already shows more than the error of the means that
+/// [`crate::passage`] takes, ...
+const ROUNDED: f64 = 10.0;
+/// ... and above this multiple rounding is less than that error: there they are taken.
+const BESIDE: f64 = 100.0;
+
+/// Rounding of accelerations at nearness 1, relative to the square of the largest speed: ten last places.
+///
+/// Rounding of the loop, 1e-16 m, shows in the speeds of the nearly lost direction by the inverse square of the singular
+/// value, and these show in its acceleration by one more.
+const NOISE: f64 = 10.0 * f64::EPSILON;
 
 /// Pivots below this part of the largest of all pivots are noise, whatever they were before.
 const NOISE_PIVOT: f64 = 1e-13;
@@ -33,7 +46,10 @@ pub struct Dynamics<'a> {
     nearness: f64,
     reference: Vec<f64>,
     reference_time: Option<f64>,
-    solver: SingularSolver,
+    pub(crate) solver: SingularSolver,
+    pub(crate) passage: Passage,
+    /// The answer of the generated elimination.
+    direct: Vec<f64>,
 }
 
 /// What evaluations change in [`Dynamics`].
@@ -46,10 +62,11 @@ pub(crate) struct Aside {
 
 impl<'a> Dynamics<'a> {
     /// Prepares storage; `singular_pivot` is the threshold, [`SINGULAR_PIVOT`] by default.
-    pub fn new(evaluator: Evaluator<'a>, singular_pivot: f64) -> Self {
-        let solver = SingularSolver::new(&evaluator);
+    pub fn new(mut evaluator: Evaluator<'a>, singular_pivot: f64) -> Self {
+        let (solver, passage) = (SingularSolver::new(&evaluator), Passage::new(&evaluator));
         let sizes = evaluator.sizes();
         Self {
+            direct: evaluator.forward_mut().to_vec(),
             evaluator,
             evaluations: 0,
             rank_revealing_solves: 0,
@@ -59,6 +76,7 @@ impl<'a> Dynamics<'a> {
             reference: vec![0.0; sizes.speeds],
             reference_time: None,
             solver,
+            passage,
         }
     }
 
@@ -70,12 +88,11 @@ impl<'a> Dynamics<'a> {
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), RunError> {
         self.evaluations += 1;
         self.evaluator.forward(t, q, v);
-        self.nearness = self.regularity();
-        if self.is_near_singular() {
-            self.rank_revealing_solves += 1;
-            let reach = |from: f64| (t - from).abs() * largest(v).max(1.0) <= REACH;
-            let reference = self.reference_time.is_some_and(reach).then_some(&self.reference[..]);
-            self.solver.solve(&mut self.evaluator, t, (q, v), reference);
+        self.note_pivots();
+        self.nearness = regularity(self.evaluator.last_forward().pivots, &self.largest_pivots);
+        if self.nearness < ROUNDED * self.singular_pivot {
+            self.pass(t, q, v);
+            self.evaluations += std::mem::take(&mut self.passage.evaluations);
         }
         self.check(t)
     }
@@ -103,13 +120,40 @@ impl<'a> Dynamics<'a> {
         self.nearness < self.singular_pivot
     }
 
-    /// Notes accelerations of a state that was reached, unless it is nearly singular: a near singular
-    /// position they are continued.
+    /// Notes accelerations of a state that was reached, unless it is nearly singular.
     pub fn note_reference(&mut self, t: f64, accelerations: &[f64]) {
         if !self.is_near_singular() {
             self.reference.copy_from_slice(accelerations);
             self.reference_time = Some(t);
         }
+    }
+
+    /// Accelerations on the way through a singular position: by states beside it, if they explain those here but for rounding.
+    fn pass(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.direct.copy_from_slice(self.evaluator.forward_mut());
+        let regularity = |forward: &Forward<'_>| regularity(forward.pivots, &self.largest_pivots);
+        let enough = BESIDE * self.singular_pivot;
+        let branch = self.passage.accelerations(&mut self.evaluator, (t, q, v), (&regularity, enough));
+        if self.nearness < self.singular_pivot {
+            self.rank_revealing_solves += 1;
+            // At a dead point nothing comes later: what was before goes on, and the run ends where loops do not close.
+            let reach = |from: f64| (t - from).abs() * largest(v).max(1.0) <= REACH;
+            let before = self.reference_time.is_some_and(reach).then_some(&self.reference[..]);
+            self.solver.solve(&mut self.evaluator, (t, q, v), branch.or(before));
+            return;
+        }
+        let noise = noise(self.nearness, v);
+        let rounded = |branch: &&[f64]| branch.iter().zip(&self.direct).all(|(a, b)| (a - b).abs() <= noise);
+        let output = self.evaluator.forward_mut();
+        output.copy_from_slice(&self.direct);
+        if let Some(branch) = branch.filter(rounded) {
+            output[..branch.len()].copy_from_slice(branch);
+        }
+    }
+
+    /// Rounding of the accelerations of the last state, whose speeds are `v`, of their largest component.
+    pub(crate) fn noise(&self, v: &[f64]) -> f64 {
+        noise(self.nearness.max(self.singular_pivot), v)
     }
 
     /// As [`Evaluator::visit_memory`], of all that it stands on too.
@@ -125,23 +169,12 @@ impl<'a> Dynamics<'a> {
         self.reference_time = (flag != 0.0).then_some(time);
     }
 
-    fn regularity(&mut self) -> f64 {
-        let pivots = self.evaluator.last_forward().pivots;
-        let mut smallest = 1.0;
-        for (pivot, most) in pivots.iter().zip(&mut self.largest_pivots) {
+    fn note_pivots(&mut self) {
+        for (pivot, most) in self.evaluator.last_forward().pivots.iter().zip(&mut self.largest_pivots) {
             if pivot.is_finite() && *pivot > *most {
                 *most = *pivot;
             }
         }
-        let noise = NOISE_PIVOT * largest(&self.largest_pivots);
-        for (pivot, most) in pivots.iter().zip(&self.largest_pivots) {
-            // A pivot that is not a positive number counts as lost rank.
-            let ratio = if *pivot > noise { pivot / most } else { 0.0 };
-            if ratio < smallest {
-                smallest = ratio;
-            }
-        }
-        smallest
     }
 
     fn check(&self, t: f64) -> Result<(), RunError> {
@@ -159,4 +192,24 @@ impl<'a> Dynamics<'a> {
         };
         Err(RunError::NonFinite { t, what })
     }
+}
+
+/// Smallest pivot relative to the largest value that it has had.
+fn regularity(pivots: &[f64], largest_pivots: &[f64]) -> f64 {
+    let noise = NOISE_PIVOT * largest(largest_pivots);
+    let mut smallest = 1.0;
+    for (pivot, most) in pivots.iter().zip(largest_pivots) {
+        // A pivot that is not a positive number counts as lost rank.
+        let ratio = if *pivot > noise { pivot / most } else { 0.0 };
+        if ratio < smallest {
+            smallest = ratio;
+        }
+    }
+    smallest
+}
+
+/// See [`NOISE`].
+fn noise(nearness: f64, v: &[f64]) -> f64 {
+    let speed = largest(v);
+    NOISE * speed * speed / (nearness * nearness.sqrt())
 }

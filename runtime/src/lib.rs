@@ -57,6 +57,8 @@ pub mod life;
 #[cfg(feature = "std")]
 pub mod linear;
 #[cfg(feature = "std")]
+mod passage;
+#[cfg(feature = "std")]
 mod projection;
 #[cfg(feature = "std")]
 mod record;

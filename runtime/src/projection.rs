@@ -7,7 +7,7 @@
 //! move the mechanism by far more, perhaps to another branch.
 
 use crate::evaluate::{CLOSED, Evaluator, LoopError};
-use crate::linear::{Cholesky, Orthogonal, largest};
+use crate::linear::{Cholesky, Orthogonal, add_scaled, largest};
 
 /// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
 pub const POSITION_TOLERANCE: f64 = 1e-14;
@@ -66,6 +66,8 @@ pub struct Projector {
     error: LoopError,
     /// Longest lever arm [m].
     arm: f64,
+    /// What the last projection moved: positions (as speeds would) and speeds.
+    moved: [Vec<f64>; 2],
     /// Factor on the tolerances.
     strictness: f64,
     /// Whether speeds in nearly lost directions stay untouched.
@@ -93,6 +95,7 @@ impl Projector {
             factored: Factored::No,
             error: LoopError::default(),
             arm: 1.0,
+            moved: [vec![0.0; n], vec![0.0; n]],
             strictness: 1.0,
             keep_lost: false,
             scales: vec![0.0; m],
@@ -116,6 +119,11 @@ impl Projector {
         self.error
     }
 
+    /// All that the last projection moved: positions, as speeds would in unit time, and speeds.
+    pub(crate) fn moved(&mut self) -> &mut [Vec<f64>; 2] {
+        &mut self.moved
+    }
+
     /// Moves `q` and `v` onto the constraints at time `t`. Quaternions come out with unit length.
     ///
     /// `regularity`: [`crate::Dynamics::nearness`], 1 for regular positions. On the way to a singular one
@@ -137,6 +145,7 @@ impl Projector {
         evaluator.layout().normalize(q);
         self.factored = Factored::No;
         self.error = LoopError::default();
+        self.moved.iter_mut().for_each(|moved| moved.fill(0.0));
         if evaluator.sizes().all_rows == 0 {
             return Ok(correction);
         }
@@ -179,6 +188,7 @@ impl Projector {
             before = size;
             self.solve();
             evaluator.layout().advance(q, &self.delta);
+            add_scaled(&mut self.moved[0], 1.0, &self.delta);
             note(&mut correction.position, &mut correction.worst, &self.delta);
         }
         self.error = evaluator.loop_error();
@@ -210,7 +220,8 @@ impl Projector {
                 _ => {}
             }
             self.solve();
-            crate::linear::add_scaled(v, 1.0, &self.delta);
+            add_scaled(v, 1.0, &self.delta);
+            add_scaled(&mut self.moved[1], 1.0, &self.delta);
             note(&mut correction.speed, &mut correction.worst_speed, &self.delta);
             let complete = match self.factored {
                 Factored::Orthogonal { .. } => self.orthogonal.rank() == self.residual.len(),
@@ -260,7 +271,7 @@ impl Projector {
             self.gram.solve(&mut self.right);
             self.delta.fill(0.0);
             for (amount, row) in self.right.iter().zip(self.jacobian.chunks_exact(n.max(1))) {
-                crate::linear::add_scaled(&mut self.delta, *amount, row);
+                add_scaled(&mut self.delta, *amount, row);
             }
         } else {
             self.orthogonal.solve(&self.right, &mut self.delta);

@@ -7,8 +7,8 @@
 //! takes over. What is known of the rows falls apart:
 //! - regular directions: a minimum-norm acceleration meets them;
 //! - nearly lost directions: dividing by their small singular value would blow errors up until the
-//!   mechanism leaves its branch, so the acceleration noted before is continued there (a branch is smooth);
-//! - free directions: the masses decide (principle of Gauss).
+//!   mechanism leaves its branch; states before and after tell its accelerations (a branch is smooth), see [`crate::passage`];
+//! - free directions: the masses decide (principle of Gauss), and they do in all others where no branch is known.
 //!
 //! Multipliers are the smallest ones that balance the regular directions; in lost directions ideal joints
 //! would need infinite forces, which are left out. They do no work.
@@ -22,6 +22,9 @@ pub const NEARLY_LOST: f64 = 1e-3;
 
 /// Below this part they are noise, and lost directions cannot be told from free ones.
 pub const LOST_RANK: f64 = 1e-11;
+
+/// Below this part projections leave a direction alone (their first level), so corrections count it as free.
+const FREE: f64 = 1e-4;
 
 /// Dropped rows shorter than this part of the longest row are rounding errors (1e-16) and say nothing.
 const ROUNDING: f64 = 1e-9;
@@ -102,38 +105,60 @@ impl SingularSolver {
         }
     }
 
-    /// Replaces accelerations, multipliers and drive forces of the last forward dynamics. `reference`:
-    /// free accelerations at a regular state shortly before.
+    /// Replaces accelerations, multipliers and drive forces of the last forward dynamics. `branch`: accelerations of the
+    /// branch that the motion is on; the regular rows are met from there.
     pub fn solve(
         &mut self,
         evaluator: &mut Evaluator<'_>,
-        t: f64,
-        (q, v): (&[f64], &[f64]),
-        reference: Option<&[f64]>,
+        state: (f64, &[f64], &[f64]),
+        branch: Option<&[f64]>,
     ) {
-        self.load(evaluator, t, q, v);
-        let (n, m) = (self.free.len(), self.live.len());
-        let kept = evaluator.sizes().rows;
-        self.constraints.factor(&self.free_jacobian, m, n, NEARLY_LOST);
-        self.constraints.solve(&self.right, &mut self.acceleration);
-        let freedoms = n - self.constraints.rank();
-        for (index, direction) in self.null.chunks_exact_mut(n.max(1)).take(freedoms).enumerate() {
-            self.constraints.null_direction(index, direction);
+        let freedoms = self.load_directions(evaluator, state, NEARLY_LOST);
+        let (n, kept) = (self.free.len(), evaluator.sizes().rows);
+        let branch = branch.filter(|_| self.constraints.rank() < kept);
+        if let Some(branch) = branch {
+            for (right, row) in self.right.iter_mut().zip(self.free_jacobian.chunks_exact(n.max(1))) {
+                *right -= dot(row, branch);
+            }
         }
-        // As many independent directions as in general positions: nothing is lost.
-        let freedoms = if self.constraints.rank() >= kept {
-            freedoms
+        self.constraints.solve(&self.right, &mut self.acceleration);
+        if let Some(branch) = branch {
+            add_scaled(&mut self.acceleration, 1.0, branch);
+            self.put_acceleration();
         } else {
-            self.continue_lost_directions(freedoms, reference)
-        };
-        self.put_acceleration();
-        self.add_free_motion(freedoms);
+            // As many independent directions as in general positions: nothing is lost.
+            let lost = self.constraints.rank() < kept;
+            let freedoms = if lost { self.solve_lost_directions(freedoms) } else { freedoms };
+            self.put_acceleration();
+            self.add_free_motion(freedoms);
+        }
         self.imbalance();
         self.constraints.solve_transposed(&self.residual, &mut self.multipliers);
         for (multiplier, scale) in self.multipliers.iter_mut().zip(&self.scales) {
             *multiplier *= scale;
         }
         self.store(evaluator, kept);
+    }
+
+    /// Replaces corrections of positions and of speeds by the motion along free directions that has to come on top, so that
+    /// the momentum along these stays as it was: joint forces change none, whatever their errors.
+    pub fn keep_momentum(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        state: (f64, &[f64], &[f64]),
+        corrections: [&mut [f64]; 2],
+    ) {
+        let freedoms = self.load_directions(evaluator, state, FREE);
+        self.all_a.fill(0.0);
+        self.bias.fill(0.0);
+        for correction in corrections {
+            self.acceleration.copy_from_slice(correction);
+            self.put_acceleration();
+            self.add_free_motion(freedoms);
+            for (correction, whole) in correction.iter_mut().zip(&self.acceleration) {
+                *correction = whole - *correction;
+            }
+        }
     }
 
     /// Puts accelerations, multipliers and drive forces where the forward dynamics puts them.
@@ -156,9 +181,9 @@ impl SingularSolver {
         }
     }
 
-    /// Within the null space of the regular rows: fixes the acceleration in nearly lost directions and
-    /// leaves a basis of the free ones in `null`. Returns their number.
-    fn continue_lost_directions(&mut self, freedoms: usize, reference: Option<&[f64]>) -> usize {
+    /// Within the null space of the regular rows: meets the nearly lost ones as well as they can be, and leaves a basis of
+    /// the free directions in `null`. Returns their number.
+    fn solve_lost_directions(&mut self, freedoms: usize) -> usize {
         let (n, m) = (self.free.len(), self.live.len());
         let null = |i: usize| i * n..(i + 1) * n;
         for k in 0..m {
@@ -167,31 +192,15 @@ impl SingularSolver {
                 self.lost_rows[k * freedoms + i] = dot(row, &self.null[null(i)]);
             }
         }
-        let size = largest(&self.lost_rows[..m * freedoms]);
-        let distinct = size > LOST_RANK;
-        if !distinct && reference.is_none() {
+        if largest(&self.lost_rows[..m * freedoms]) <= LOST_RANK {
             return freedoms;
         }
-        // Amounts of the null directions in the reference.
-        if let Some(reference) = reference {
-            for i in 0..freedoms {
-                self.amounts[i] = dot(&self.null[null(i)], reference);
-            }
-            for k in 0..m {
-                self.right[k] = dot(&self.lost_rows[k * freedoms..][..freedoms], &self.amounts[..freedoms]);
-            }
-        } else {
-            // Nothing to continue: the equations themselves, as well as they can be solved.
-            for k in 0..m {
-                self.right[k] -= dot(&self.free_jacobian[k * n..][..n], &self.acceleration);
-            }
+        for k in 0..m {
+            self.right[k] -= dot(&self.free_jacobian[k * n..][..n], &self.acceleration);
         }
-        let mut left = 0;
-        if distinct {
-            self.lost.factor(&self.lost_rows, m, freedoms, NEARLY_LOST);
-            self.lost.solve(&self.right, &mut self.amounts[..freedoms]);
-            left = freedoms - self.lost.rank();
-        }
+        self.lost.factor(&self.lost_rows, m, freedoms, NEARLY_LOST);
+        self.lost.solve(&self.right, &mut self.amounts[..freedoms]);
+        let left = freedoms - self.lost.rank();
         for i in 0..freedoms {
             add_scaled(&mut self.acceleration, self.amounts[i], &self.null[i * n..][..n]);
         }
@@ -205,6 +214,23 @@ impl SingularSolver {
         }
         self.null[..left * n].copy_from_slice(&self.free_directions[..left * n]);
         left
+    }
+
+    /// Loads the equations and leaves the directions that rows below `least` do not hold in `null`. Returns their number.
+    fn load_directions(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        (t, q, v): (f64, &[f64], &[f64]),
+        least: f64,
+    ) -> usize {
+        self.load(evaluator, t, q, v);
+        let (n, m) = (self.free.len(), self.live.len());
+        self.constraints.factor(&self.free_jacobian, m, n, least);
+        let freedoms = n - self.constraints.rank();
+        for (index, direction) in self.null.chunks_exact_mut(n.max(1)).take(freedoms).enumerate() {
+            self.constraints.null_direction(index, direction);
+        }
+        freedoms
     }
 
     fn load(&mut self, evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) {

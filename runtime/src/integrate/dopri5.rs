@@ -54,6 +54,17 @@ const SHARE: f64 = 0.1;
 /// Steps below this part of the time (or of the whole span) are at the limit of rounding.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 
+/// What is known of the error of a step.
+#[derive(Clone, Copy)]
+struct Estimate {
+    /// Largest error; 1 is just accepted.
+    error: f64,
+    /// The component it belongs to.
+    worst: usize,
+    /// The estimate shows rounding errors of the slopes: a shorter step would show the same, a longer one might hide more.
+    noisy: bool,
+}
+
 /// State of an adaptive integration.
 #[derive(Clone, Debug)]
 pub struct Dopri5 {
@@ -69,6 +80,9 @@ pub struct Dopri5 {
     y: Vec<f64>,
     next: Vec<f64>,
     slopes: [Vec<f64>; 7],
+    /// Slopes in which rounding may show.
+    rough: [bool; 7],
+    stage: Vec<f64>,
     error: Vec<f64>,
     dense: [Vec<f64>; 5],
     rejected: u64,
@@ -101,12 +115,15 @@ impl Dopri5 {
             y: y.to_vec(),
             next: zero(),
             slopes: std::array::from_fn(|_| zero()),
+            rough: [false; 7],
+            stage: zero(),
             error: zero(),
             dense: std::array::from_fn(|_| zero()),
             rejected: 0,
             trouble: None,
         };
         problem.derivative(t, &method.y, &mut method.slopes[0])?;
+        method.rough[0] = problem.is_rough();
         problem.reached(t, &method.slopes[0]);
         method.step = method.first_step(problem);
         Ok(method)
@@ -147,12 +164,12 @@ impl Dopri5 {
             let outcome = self.attempt(problem, step, next_t);
             let smallest = SMALLEST_STEP * self.span.max(self.t.abs());
             match outcome {
-                Ok((error, _)) if error <= 1.0 => {
+                Ok(estimate) if estimate.error <= 1.0 => {
                     problem.reached(next_t, &self.slopes[6]);
-                    self.accept(step, next_t, error, just_rejected);
+                    self.accept(step, next_t, estimate, just_rejected);
                     return Ok(());
                 }
-                Ok((error, worst)) => {
+                Ok(Estimate { error, worst, .. }) => {
                     if step <= smallest {
                         return Err(RunError::StepTooSmall {
                             t: self.t,
@@ -183,23 +200,19 @@ impl Dopri5 {
     pub fn retake(&mut self, problem: &mut dyn Problem, t: f64) -> Result<(), RunError> {
         core::mem::swap(&mut self.y, &mut self.next);
         self.slopes.swap(0, 6);
+        self.rough.swap(0, 6);
         let (before, longer) = (self.before, self.step);
         self.t = before;
         // A part of a step that was accepted is accepted, whatever its own estimate says.
-        let (error, _) = self.attempt(problem, t - before, t)?;
+        let estimate = self.attempt(problem, t - before, t)?;
         problem.reached(t, &self.slopes[6]);
-        self.accept(t - before, t, error.min(1.0), true);
+        self.accept(t - before, t, Estimate { error: estimate.error.min(1.0), ..estimate }, true);
         self.step = self.step.min(longer);
         Ok(())
     }
 
-    /// Error (1 is just accepted) of a step, and the component it belongs to.
-    fn attempt(
-        &mut self,
-        problem: &mut dyn Problem,
-        step: f64,
-        next_t: f64,
-    ) -> Result<(f64, usize), RunError> {
+    /// Takes a step and estimates its error.
+    fn attempt(&mut self, problem: &mut dyn Problem, step: f64, next_t: f64) -> Result<Estimate, RunError> {
         for stage in 1..7 {
             let (known, unknown) = self.slopes.split_at_mut(stage);
             weighted_sum(&mut self.next, &A[stage], known);
@@ -211,23 +224,57 @@ impl Dopri5 {
             }
             let t = if stage >= 5 { next_t } else { self.t + C[stage] * step };
             problem.derivative(t, &self.next, &mut unknown[0])?;
+            self.rough[stage] = problem.is_rough();
         }
         weighted_sum(&mut self.error, &E, &self.slopes);
-        let (mut most, mut worst) = (0.0, 0);
+        let estimate = self.estimate(problem, step, 0.0);
+        if let Ok(Estimate { error, .. }) = estimate
+            && error > 1.0
+            && self.rough.contains(&true)
+        {
+            let noise = self.noise(problem, step);
+            return self.estimate(problem, step, noise).map_err(|worst| not_finite(problem, next_t, worst));
+        }
+        estimate.map_err(|worst| not_finite(problem, next_t, worst))
+    }
+
+    /// Error of the last step tried, with `noise` in the estimate; the component, if one is not a number.
+    fn estimate(&self, problem: &dyn Problem, step: f64, noise: f64) -> Result<Estimate, usize> {
+        let mut most = Estimate { error: 0.0, worst: 0, noisy: false };
         for i in 0..self.y.len() {
             let size = self.y[i].abs().max(self.next[i].abs()).max(problem.scale(i));
             let error = (step * self.error[i] / (self.tolerance * size)).abs();
             if error.is_nan() {
-                return Err(RunError::NonFinite { t: next_t, what: problem.name(i) });
+                return Err(i);
             }
-            if error > most {
-                (most, worst) = (error, i);
+            let noisy = error > 1.0 && self.error[i].abs() <= noise;
+            let error = if noisy { 1.0 } else { error };
+            if error > most.error {
+                most = Estimate { error, worst: i, noisy };
             }
         }
-        Ok((most, worst))
+        Ok(most)
     }
 
-    fn accept(&mut self, step: f64, next_t: f64, error: f64, just_rejected: bool) {
+    /// How much of the error estimate of the last step tried may be rounding of its slopes.
+    fn noise(&mut self, problem: &mut dyn Problem, step: f64) -> f64 {
+        let mut noise = 0.0;
+        for stage in (0..7).filter(|stage| self.rough[*stage]) {
+            // The last stage is the projected end of the step.
+            self.stage.copy_from_slice(&self.next);
+            if stage < 6 {
+                weighted_sum(&mut self.stage, &A[stage], &self.slopes[..stage]);
+                for (stage, y) in self.stage.iter_mut().zip(&self.y) {
+                    *stage = y + step * *stage;
+                }
+            }
+            let t = self.t + C[stage] * step;
+            noise += E[stage].abs() * problem.noise(t, &self.stage, &self.slopes[stage]);
+        }
+        noise
+    }
+
+    fn accept(&mut self, step: f64, next_t: f64, estimate: Estimate, just_rejected: bool) {
         for i in 0..self.y.len() {
             let difference = self.next[i] - self.y[i];
             let bend = step * self.slopes[0][i] - difference;
@@ -243,10 +290,14 @@ impl Dopri5 {
         }
         core::mem::swap(&mut self.y, &mut self.next);
         self.slopes.swap(0, 6);
+        self.rough.swap(0, 6);
         (self.before, self.t, self.last_step) = (self.t, next_t, step);
-        let error = error.max(1e-10);
-        let growth =
-            SAFETY * libm::pow(self.last_error, PI_WEIGHT) / libm::pow(error, 0.2 - 0.75 * PI_WEIGHT);
+        let error = estimate.error.max(1e-10);
+        let growth = if estimate.noisy {
+            1.0
+        } else {
+            SAFETY * libm::pow(self.last_error, PI_WEIGHT) / libm::pow(error, 0.2 - 0.75 * PI_WEIGHT)
+        };
         let most = if just_rejected { 1.0 } else { GROW_MOST };
         self.step = (step * growth.clamp(SHRINK_MOST, most)).min(self.longest_step);
         self.last_error = error.max(1e-4);
@@ -290,6 +341,10 @@ impl Dopri5 {
         };
         step.min(100.0 * trial).min(self.longest_step)
     }
+}
+
+fn not_finite(problem: &dyn Problem, t: f64, worst: usize) -> RunError {
+    RunError::NonFinite { t, what: problem.name(worst) }
 }
 
 /// `out = sum of weight * slope`, slope by slope: loops over long slices, which compilers vectorise.

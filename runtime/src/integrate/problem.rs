@@ -19,6 +19,17 @@ pub trait Problem {
         Ok(())
     }
 
+    /// Whether rounding may show in the last derivative.
+    fn is_rough(&self) -> bool {
+        false
+    }
+
+    /// Rounding error of the derivative at (`t`, `y`), of its largest component: what is below means nothing.
+    fn noise(&mut self, t: f64, y: &[f64], derivative: &[f64]) -> f64 {
+        let _ = (t, y, derivative);
+        0.0
+    }
+
     /// Told of every state that counts, with its derivative.
     fn reached(&mut self, t: f64, derivative: &[f64]) {
         let _ = (t, derivative);
