@@ -48,6 +48,7 @@ impl LifeStudy<'_> {
     /// # Errors
     /// As [`Self::run`].
     pub fn cost(&self, watch: Watch<'_>) -> Result<Option<Cost>, LifeError> {
+        self.wears()?;
         let system = self.mechanism.system();
         let once = RevolutionSettings { settle: 0, average: 1, ..self.revolutions };
         let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);

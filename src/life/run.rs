@@ -84,9 +84,7 @@ impl LifeStudy<'_> {
             may_go_on(watch.report(last + part * (next - last)))
         };
         let (watch, between) = (Watch::new(&tell), Watch::new(&ask));
-        if !self.mechanism.description.contacts.iter().any(|contact| contact.wear.is_some()) {
-            return Err(Cause::NoWear.into());
-        }
+        self.wears()?;
         let system = self.mechanism.system();
         let mut source = self.source(&*system, between).map_err(Cause::from)?;
         let seconds = source.seconds_per_revolution();
@@ -103,6 +101,12 @@ impl LifeStudy<'_> {
         result.seconds_per_revolution = seconds;
         result.warnings.splice(0..0, source.warnings().iter().map(ToString::to_string));
         Ok(result)
+    }
+
+    /// Whether there is anything to live.
+    pub(super) fn wears(&self) -> Result<(), Cause> {
+        let mut contacts = self.mechanism.description.contacts.iter();
+        if contacts.any(|contact| contact.wear.is_some()) { Ok(()) } else { Err(Cause::NoWear) }
     }
 
     /// Revolutions of a system.
