@@ -78,7 +78,7 @@ fn n_four_bar_with_40_cells_stays_on_its_branch_for_20_s() {
 }
 
 #[test]
-#[ignore = "a minute or two; run with --ignored"]
+#[ignore = "ten seconds of a release build, minutes of another; run with --ignored"]
 fn n_four_bar_with_40_cells_gets_better_with_the_tolerance() {
     let tolerances = [1e-8, 1e-9, 1e-10, 1e-11];
     let runs = tolerances.map(|tolerance| n_four_bar("n_four_bar_40", 40.0, 20.0, tolerance));
