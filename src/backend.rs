@@ -4,6 +4,7 @@
 use std::fmt;
 
 use linkwear_codegen::{Compiled, Options};
+use linkwear_native::{Native, Refusal};
 use linkwear_runtime::System;
 use thiserror::Error;
 
@@ -12,22 +13,30 @@ use crate::mechanisms::{SHIPPED, Shipped};
 /// What runs the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
-    /// Compiled if the file is a shipped mechanism, byte for byte, with no generation-time parameter set; else the
-    /// interpreter.
+    /// Compiled if the file is a shipped mechanism, byte for byte, with no generation-time parameter set; else machine
+    /// code written now; else, where that is refused, the interpreter.
     #[default]
     Auto,
     /// Equations that were compiled into this program.
     Compiled,
+    /// Machine code of any mechanism, written from its tapes when it is read.
+    Native,
     /// Runs the tapes of any mechanism, operation by operation.
     Interpreter,
 }
 
-/// There is no compiled code for what was asked for.
+/// The back end that was asked for cannot run the mechanism.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
-#[error("{reason}")]
-pub struct BackendError {
-    /// Why.
-    pub reason: String,
+pub enum BackendError {
+    /// There is no compiled code for what was asked for.
+    #[error("{reason}")]
+    Compiled {
+        /// Why.
+        reason: String,
+    },
+    /// There is no machine code.
+    #[error(transparent)]
+    Native(#[from] Refusal),
 }
 
 type Make = dyn Fn() -> Box<dyn System<f64>> + Send + Sync;
@@ -36,6 +45,7 @@ type Make = dyn Fn() -> Box<dyn System<f64>> + Send + Sync;
 pub struct Equations {
     name: &'static str,
     make: Box<Make>,
+    refusal: Option<Refusal>,
 }
 
 impl fmt::Debug for Equations {
@@ -47,33 +57,55 @@ impl fmt::Debug for Equations {
 impl Equations {
     /// Of a mechanism that a program compiled in, `|| Box::new(my_mechanism::Mechanism::default())`.
     pub fn compiled(make: impl Fn() -> Box<dyn System<f64>> + Send + Sync + 'static) -> Self {
-        Self { name: "compiled", make: Box::new(make) }
+        Self { name: "compiled", make: Box::new(make), refusal: None }
     }
 
     /// By interpreting the tapes.
     pub fn interpreted(mechanism: &Compiled) -> Self {
         let system = mechanism.interpreter();
-        Self { name: "interpreter", make: Box::new(move || Box::new(system.clone())) }
+        Self { name: "interpreter", make: Box::new(move || Box::new(system.clone())), refusal: None }
+    }
+
+    /// As machine code, written now.
+    ///
+    /// # Errors
+    /// If this processor or this system cannot run it.
+    pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
+        let system = Native::new(&mechanism.tapes, mechanism.sizes())?;
+        Ok(Self { name: "native", make: Box::new(move || Box::new(system.clone())), refusal: None })
     }
 
     /// Of a mechanism, compiled with these options, on the back end that is asked for.
     ///
     /// # Errors
-    /// If compiled code is asked for and there is none for exactly this mechanism.
+    /// If compiled code is asked for and there is none for exactly this mechanism, or machine code and none can be run.
     pub fn choose(mechanism: &Compiled, options: &Options, backend: Backend) -> Result<Self, BackendError> {
-        if backend == Backend::Interpreter {
-            return Ok(Self::interpreted(mechanism));
-        }
-        match compiled_in(mechanism, options) {
-            Ok(shipped) => Ok(Self::compiled(shipped.system)),
-            Err(_) if backend == Backend::Auto => Ok(Self::interpreted(mechanism)),
-            Err(reason) => Err(BackendError { reason }),
+        match backend {
+            Backend::Interpreter => Ok(Self::interpreted(mechanism)),
+            Backend::Native => Ok(Self::native(mechanism)?),
+            Backend::Compiled => compiled_in(mechanism, options)
+                .map(|shipped| Self::compiled(shipped.system))
+                .map_err(|reason| BackendError::Compiled { reason }),
+            Backend::Auto => Ok(compiled_in(mechanism, options).map_or_else(
+                |_| Self::native_or_interpreted(mechanism),
+                |shipped| Self::compiled(shipped.system),
+            )),
         }
     }
 
-    /// `compiled` or `interpreter`.
+    fn native_or_interpreted(mechanism: &Compiled) -> Self {
+        Self::native(mechanism)
+            .unwrap_or_else(|refusal| Self { refusal: Some(refusal), ..Self::interpreted(mechanism) })
+    }
+
+    /// `compiled`, `native` or `interpreter`.
     pub fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// Why they are interpreted although machine code would have been taken; none if nothing was refused.
+    pub const fn refusal(&self) -> Option<&Refusal> {
+        self.refusal.as_ref()
     }
 
     /// The equations, for one thread.

@@ -1,8 +1,8 @@
 //! linkwear compiles a linkage into its life: a TOML file describes a mechanism, a generator derives
 //! its equations and writes specialised Rust, a runtime integrates it.
 //!
-//! This package is the façade: the generator as [`codegen`], the runtime as [`runtime`], the shipped
-//! mechanisms compiled in as [`mechanisms`], and, by the feature `cli`, which is on by default, the command line.
+//! This package is the façade: the generator as [`codegen`], the runtime as [`runtime`], machine code at run time as
+//! [`native`], the shipped mechanisms compiled in as [`mechanisms`], and, by the feature `cli`, which is on by default, the command line.
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
@@ -28,4 +28,5 @@ pub mod progress;
 pub mod table;
 
 pub use linkwear_codegen as codegen;
+pub use linkwear_native as native;
 pub use linkwear_runtime as runtime;

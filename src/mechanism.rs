@@ -7,6 +7,7 @@ use std::{fmt, io};
 use hmac_sha256::Hash;
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
+use linkwear_native::Refusal;
 use linkwear_runtime::{Description, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
@@ -49,7 +50,7 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// From a file: compiled code if it is a shipped mechanism, byte for byte, else interpreted.
+    /// From a file: compiled code if it is a shipped mechanism, byte for byte, else machine code or the interpreter.
     ///
     /// # Errors
     /// [`LoadError::Read`], [`LoadError::Mechanism`].
@@ -102,9 +103,14 @@ impl Mechanism {
         self.equations.system()
     }
 
-    /// What runs them: `compiled` or `interpreter`.
+    /// What runs them: `compiled`, `native` or `interpreter`.
     pub fn backend(&self) -> &'static str {
         self.equations.name()
+    }
+
+    /// Why they are interpreted although machine code would have been taken; none if nothing was refused.
+    pub const fn refusal(&self) -> Option<&Refusal> {
+        self.equations.refusal()
     }
 }
 

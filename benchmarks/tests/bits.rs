@@ -1,6 +1,8 @@
-//! Interpreter and compiled code run the same tape: every entry point of every shipped mechanism must agree in every bit.
+//! Compiled code, machine code written at run time and the interpreter run the same tape: every entry point of every shipped
+//! mechanism must agree in every bit.
 
 use linkwear::mechanisms::{SHIPPED, Shipped};
+use linkwear::native::{Native, Refusal};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::{Entry, System};
 
@@ -41,6 +43,35 @@ fn compiled_and_interpreted_entries_agree_bit_for_bit() {
                 let input: Vec<f64> = (0..sizes.input(entry)).map(|_| 3.0 * random.next()).collect();
                 let mut outputs = [vec![0.0; sizes.output(entry)], vec![1.0; sizes.output(entry)]];
                 system.evaluate(entry, &input, &mut outputs[0], &mut vec![0.0; sizes.workspace]);
+                interpreted.evaluate(entry, &input, &mut outputs[1], &mut vec![0.0; other.workspace]);
+                let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
+                assert_eq!(bits(&outputs[0]), bits(&outputs[1]), "{} of {}", entry.name(), shipped.name);
+            }
+        }
+    }
+}
+
+/// Machine code; none on processors that it is not written for.
+fn native(compiled: &Compiled) -> Option<Native> {
+    match Native::new(&compiled.tapes, compiled.sizes()) {
+        Err(Refusal::Processor) => None,
+        written => Some(written.expect("shipped mechanisms are written")),
+    }
+}
+
+#[test]
+fn native_and_interpreted_entries_agree_bit_for_bit() {
+    for shipped in all() {
+        let compiled = compiled(shipped.name);
+        let Some(native) = native(&compiled) else { return };
+        let interpreted = compiled.interpreter();
+        let mut random = Random(0x2545_F491_4F6C_DD1D);
+        let (sizes, other) = (native.sizes(), System::<f64>::sizes(&interpreted));
+        for entry in Entry::ALL {
+            for _ in 0..50 {
+                let input: Vec<f64> = (0..sizes.input(entry)).map(|_| 3.0 * random.next()).collect();
+                let mut outputs = [vec![0.0; sizes.output(entry)], vec![1.0; sizes.output(entry)]];
+                native.evaluate(entry, &input, &mut outputs[0], &mut vec![f64::NAN; sizes.workspace]);
                 interpreted.evaluate(entry, &input, &mut outputs[1], &mut vec![0.0; other.workspace]);
                 let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<u64>>();
                 assert_eq!(bits(&outputs[0]), bits(&outputs[1]), "{} of {}", entry.name(), shipped.name);

@@ -13,8 +13,12 @@ use linkwear_gamma::process::{PROCESSES, Process};
 
 use super::value::{assignment, covariate, one_of, output, positive, threads};
 
-const BACKENDS: [(&str, Backend); 3] =
-    [("auto", Backend::Auto), ("compiled", Backend::Compiled), ("interpreter", Backend::Interpreter)];
+const BACKENDS: [(&str, Backend); 4] = [
+    ("auto", Backend::Auto),
+    ("compiled", Backend::Compiled),
+    ("native", Backend::Native),
+    ("interpreter", Backend::Interpreter),
+];
 const CLOSURES: [(&str, Closure); 2] = [("joint", Closure::Joint), ("log", Closure::Log)];
 const COUPLINGS: [(&str, Coupling); 2] = [("table", Coupling::Table), ("full", Coupling::Full)];
 const NOTATIONS: [(&str, TextFormat); 3] =

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
+use linkwear::backend::BackendError;
 use linkwear::csv_table::CsvError;
 use linkwear::files::{WriteError, print};
 use linkwear::life::JournalError;
@@ -197,8 +198,16 @@ impl From<LoadError> for Failure {
             LoadError::Read { file, error } => Self::read(&file)(error),
             LoadError::Mechanism(diagnostics) => diagnostics.into(),
             LoadError::Backend(error) => {
-                let help = "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)";
-                Self::new("C0007", None, format!("--backend compiled: {error}"), help)
+                let (name, help) = match error {
+                    BackendError::Compiled { .. } => (
+                        "compiled",
+                        "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
+                    ),
+                    BackendError::Native(_) => {
+                        ("native", "use --backend auto: the interpreter gives the same results, in more time")
+                    }
+                };
+                Self::new("C0007", None, format!("--backend {name}: {error}"), help)
             }
         }
     }

@@ -25,6 +25,11 @@ pub fn load(input: &Input) -> Result<(Compiled, Vec<Value>), Failure> {
 pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Mechanism, Failure> {
     let mechanism = Mechanism::compile(&read_source(&input.file)?, &options(input, rigid), backend)?;
     print_warnings(&mechanism.warnings);
+    if let Some(refusal) = mechanism.refusal() {
+        eprintln!(
+            "note: the equations are interpreted, several times slower, with the same results: {refusal}"
+        );
+    }
     Ok(mechanism)
 }
 

@@ -91,8 +91,29 @@ fn the_gamma_process_has_only_the_allowed_arrows() {
 }
 
 #[test]
+fn machine_code_has_only_the_allowed_arrows() {
+    assert_clean("native/src", "Allowed arrows: native");
+}
+
+/// The workspace's lints forbid it; only the crate that calls machine code has lints of its own.
+#[test]
+fn only_machine_code_is_called_without_the_compilers_guard() {
+    let manifests = ["", "benchmarks/", "case-study/", "codegen/", "gamma/", "oracle/", "runtime/"];
+    for folder in manifests {
+        let manifest = fs::read_to_string(format!("{folder}Cargo.toml")).expect("a manifest");
+        assert!(manifest.contains("[lints]\nworkspace = true"), "{folder}Cargo.toml");
+    }
+    let lifted = rust_files(Path::new("native/src"));
+    let lifted = lifted.iter().filter(|file| !file.components().any(|part| part.as_os_str() == "tests"));
+    let lifted = lifted.filter(|file| code(file).contains("expect(unsafe_code"));
+    let lifted: BTreeSet<String> = lifted.map(|file| file.display().to_string()).collect();
+    assert_eq!(lifted, ["native/src/x86/code.rs", "native/src/x86/functions.rs"].map(str::to_owned).into());
+}
+
+#[test]
 fn allowed_arrows_form_no_circle() {
-    for heading in ["Allowed arrows: codegen", "Allowed arrows: runtime", "Allowed arrows: gamma"] {
+    let headings = ["codegen", "runtime", "gamma", "native"].map(|name| format!("Allowed arrows: {name}"));
+    for heading in &headings {
         let mut left = table(heading);
         while !left.is_empty() {
             let free: Vec<String> = left
@@ -110,7 +131,8 @@ fn allowed_arrows_form_no_circle() {
 
 #[test]
 fn files_form_no_circle() {
-    let roots = ["codegen/src", "runtime/src", "gamma/src", "oracle/src", "src", "case-study/src"];
+    let roots =
+        ["codegen/src", "runtime/src", "gamma/src", "native/src", "oracle/src", "src", "case-study/src"];
     let wrong: Vec<String> =
         roots.iter().flat_map(|root| Graph::read(Path::new(root)).arrows_on_circles()).collect();
     assert!(wrong.is_empty(), "arrows on circles of files:\n{}", wrong.join("\n"));
@@ -150,7 +172,9 @@ fn the_command_line_asks_and_prints_and_does_not_compute() {
 /// Generated code has its own dialect: its users lint it by theirs.
 #[test]
 fn must_use_stands_on_types() {
-    for root in ["codegen/src", "runtime/src", "gamma/src", "oracle/src", "src", "case-study/src"] {
+    for root in
+        ["codegen/src", "runtime/src", "gamma/src", "native/src", "oracle/src", "src", "case-study/src"]
+    {
         for file in rust_files(Path::new(root)) {
             if !file.starts_with("codegen/src/backend") {
                 let code = code(&file);
@@ -166,8 +190,8 @@ fn must_use_stands_on_types() {
 #[test]
 fn libraries_and_programs_deny_what_panics() {
     let lints = ["unwrap_used", "expect_used", "panic", "todo", "unimplemented", "unreachable"];
-    for folder in
-        ["codegen", "gamma", "runtime", ".", "case-study"].map(|folder| Path::new(folder).join("src"))
+    for folder in ["codegen", "gamma", "native", "runtime", ".", "case-study"]
+        .map(|folder| Path::new(folder).join("src"))
     {
         for root in
             ["lib.rs", "main.rs"].map(|root| folder.join(root)).into_iter().filter(|root| root.exists())

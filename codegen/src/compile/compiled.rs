@@ -60,6 +60,11 @@ impl Compiled {
         self.description.parameters.iter().map(|parameter| parameter.default).collect()
     }
 
+    /// Lengths of inputs and outputs; each back end has a workspace of its own.
+    pub const fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
     /// The mechanism as a runtime system, without a compiler.
     pub fn interpreter(&self) -> Interpreted {
         Interpreted::new(&self.tapes, self.sizes, self.description.clone())

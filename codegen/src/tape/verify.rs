@@ -1,4 +1,4 @@
-//! Checks that a tape makes sense: values defined before use, every output written once.
+//! Checks that a tape makes sense: values numbered as they come and defined before use, every output written once.
 //! In: a tape. Out: a defect, if there is one. Runs in tests and debug builds after every stage.
 
 use super::{Operand, Tape};
@@ -19,19 +19,32 @@ pub fn verify(tape: &Tape) -> Result<(), String> {
         }
         _ => Ok(()),
     };
+    let mut write = |index: u32| match written.get_mut(index as usize) {
+        Some(times) => {
+            *times += 1;
+            Ok(())
+        }
+        None => Err(format!("there is no output {index}")),
+    };
     for (index, operand) in &tape.direct {
         check(*operand, 0)?;
-        written[*index as usize] += 1;
+        write(*index)?;
     }
     for statement in &tape.statements {
         for operand in statement.op.operands() {
             check(operand, defined)?;
         }
+        if statement.first != defined {
+            return Err(format!("value {} is defined where {defined} would be next", statement.first));
+        }
         defined = statement.results().end;
         for (index, operand) in &statement.stores {
             check(*operand, defined)?;
-            written[*index as usize] += 1;
+            write(*index)?;
         }
+    }
+    if defined != tape.values {
+        return Err(format!("{defined} values are defined, not {}", tape.values));
     }
     match written.iter().position(|times| *times != 1) {
         Some(output) => Err(format!("output {output} is written {} times", written[output])),

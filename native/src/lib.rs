@@ -1,0 +1,36 @@
+//! Machine code for tapes, written at run time: what no compiler has seen runs as fast as compiled code, in the
+//! interpreter's bits.
+//!
+//! From a tape to code: operations as a graph, in which the runtime's sine and its series stand operation by operation,
+//! an order, registers, bytes, memory that is executable and no longer writable. All but the last step and the call is
+//! safe code.
+//!
+//! # What `unsafe` stands on
+//! `unsafe` is in `x86/code.rs`, which calls the code, and in `x86/functions.rs`, which the code calls. They rely on:
+//! 1. Code comes from the encoder only, for a tape that was verified: it reads and writes the four slices that it is
+//!    given and nothing else, at places below the lengths that are kept beside it, and it ends in a return.
+//! 2. These lengths are compared with those of the slices before every call.
+//! 3. Code uses only what the processor was found to have when it was written.
+//! 4. Memory is made executable once it is written, is never writable and executable together, and lives as long as what
+//!    calls into it.
+//! 5. A called function gets addresses of whole values inside these slices, the result apart from the arguments, and
+//!    does not unwind.
+
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
+mod refusal;
+mod system;
+#[cfg(not(target_arch = "x86_64"))]
+mod unsupported;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub use refusal::Refusal;
+pub use system::Native;

@@ -1,0 +1,29 @@
+//! Why there is no machine code. In: what was found. Out: [`Refusal`].
+
+use thiserror::Error;
+
+/// Why a mechanism does not run as machine code here; the interpreter runs it, in the same bits.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// It is written for other processors.
+    #[error("machine code is written for x86-64 processors with AVX, and this is another")]
+    Processor,
+    /// The system gives no memory that may be run: it is hardened, or there is none left.
+    #[error("the system gives no executable memory ({reason}); hardened systems and services may forbid it")]
+    Memory {
+        /// What the system says.
+        reason: String,
+    },
+    /// The equations are longer than addresses reach.
+    #[error("the equations need more than 2 GB of addresses")]
+    TooLong,
+    /// A tape makes no sense.
+    #[error("the tape of `{function}` is wrong: {defect}")]
+    Tape {
+        /// Its function.
+        function: String,
+        /// Its first defect.
+        defect: String,
+    },
+}

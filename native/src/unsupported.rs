@@ -1,0 +1,23 @@
+//! Processors for which no code is written. In: anything. Out: the refusal.
+
+use std::convert::Infallible;
+
+use linkwear_codegen::tape::Tape;
+
+use crate::refusal::Refusal;
+
+pub(crate) struct Functions(Infallible);
+
+impl Functions {
+    pub(crate) fn new(_: &[Tape]) -> Result<Self, Refusal> {
+        Err(Refusal::Processor)
+    }
+
+    pub(crate) fn workspace(&self) -> usize {
+        match self.0 {}
+    }
+
+    pub(crate) fn run(&self, _: usize, _: &[f64], _: &mut [f64], _: &mut [f64]) {
+        match self.0 {}
+    }
+}

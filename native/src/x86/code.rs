@@ -1,0 +1,90 @@
+//! Executable memory and the call into it. In: functions as written. Out: [`Code`], whose calls are safe.
+#![expect(unsafe_code, reason = "machine code cannot be called without; see the top of the crate")]
+
+use std::mem;
+
+use memmap2::{Mmap, MmapMut};
+
+use crate::refusal::Refusal;
+
+use super::write::Written;
+
+/// Where functions begin, and constants: at whole lines of the cache.
+const LINE: usize = 64;
+
+/// A line of constants.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Line([u64; LINE / size_of::<u64>()]);
+
+/// Inputs, outputs, constants, workspace. The same convention on every system.
+type Call = unsafe extern "sysv64" fn(*const f64, *mut f64, *const Line, *mut f64);
+
+/// A function in executable memory.
+#[derive(Debug)]
+struct Callable {
+    /// Where its code begins.
+    start: usize,
+    pool: Vec<Line>,
+    inputs: usize,
+    outputs: usize,
+    workspace: usize,
+}
+
+/// Functions in executable memory.
+#[derive(Debug)]
+pub(super) struct Code {
+    memory: Mmap,
+    functions: Vec<Callable>,
+}
+
+impl Code {
+    /// Takes code that this processor has been found to run (invariants 1 and 3 of the crate: only `write` makes it).
+    ///
+    /// # Errors
+    /// If the system gives no executable memory.
+    pub(super) fn new(written: Vec<Written>) -> Result<Self, Refusal> {
+        let mut bytes = Vec::new();
+        let mut functions = Vec::with_capacity(written.len());
+        for Written { code, pool, inputs, outputs, workspace } in written {
+            let start = bytes.len();
+            bytes.extend(code);
+            bytes.resize(bytes.len().next_multiple_of(LINE), 0);
+            functions.push(Callable { start, pool: lines(&pool), inputs, outputs, workspace });
+        }
+        let refused = |error: std::io::Error| Refusal::Memory { reason: error.to_string() };
+        let mut memory = MmapMut::map_anon(bytes.len().max(LINE)).map_err(refused)?;
+        memory[..bytes.len()].copy_from_slice(&bytes);
+        Ok(Self { memory: memory.make_exec().map_err(refused)?, functions })
+    }
+
+    /// Length of the scratch slice that every function is content with.
+    pub(super) fn workspace(&self) -> usize {
+        self.functions.iter().map(|function| function.workspace).max().unwrap_or(0)
+    }
+
+    /// Runs a function. Slices hold the numbers of all lanes, value by value.
+    ///
+    /// # Panics
+    /// If a slice is too short, or there is no such function.
+    pub(super) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
+        let Callable { start, pool, inputs, outputs, workspace: length } = &self.functions[function];
+        let (input, output) = (&input[..*inputs], &mut output[..*outputs]);
+        let workspace = &mut workspace[..*length];
+        let code = self.memory[*start..].as_ptr();
+        // SAFETY: whole code of a function of this convention begins here (invariant 1) and is executable (invariant 4).
+        let call = unsafe { mem::transmute::<*const u8, Call>(code) };
+        // SAFETY: the slices are as long as the code takes them to be (invariant 2), the three that are not written may
+        // not change meanwhile and the two that are, are borrowed alone; the processor has what it uses (invariant 3).
+        unsafe { call(input.as_ptr(), output.as_mut_ptr(), pool.as_ptr(), workspace.as_mut_ptr()) };
+    }
+}
+
+fn lines(pool: &[u64]) -> Vec<Line> {
+    let line = |part: &[u64]| {
+        let mut line = Line([0; LINE / size_of::<u64>()]);
+        line.0[..part.len()].copy_from_slice(part);
+        line
+    };
+    pool.chunks(LINE / size_of::<u64>()).map(line).collect()
+}

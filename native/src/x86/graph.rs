@@ -1,0 +1,129 @@
+//! Machine operations of one function as a graph: equal operations are one node.
+//! In: operations, each after its arguments. Out: [`Graph`]. Never knows registers or addresses.
+
+use std::collections::HashMap;
+
+/// Place of a node in its graph; arguments have smaller ones than what is computed from them.
+pub(super) type Id = u32;
+
+/// The sign of a floating point number.
+pub(super) const SIGN: u64 = 1 << 63;
+
+/// What has no instruction of its own and is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Function {
+    Exp,
+    Ln,
+    Atan2,
+    /// First times second plus third, rounded once.
+    MulAdd,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Operation {
+    /// Entry of the flat input.
+    Input(u32),
+    /// A number or a mask, by its bits.
+    Constant(u64),
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    SquareRoot,
+    /// Of all 64 bits, as the next two.
+    And,
+    /// Not the first, and the second.
+    AndNot,
+    Xor,
+    /// All bits set where the first is less than the second, else none.
+    Less,
+    /// The second where the first, a result of `Less`, is set, else the third.
+    Select,
+    Call(Function),
+}
+
+impl Operation {
+    /// Whether it lies in memory before anything is computed.
+    pub(super) const fn is_leaf(self) -> bool {
+        matches!(self, Self::Input(_) | Self::Constant(_))
+    }
+
+    /// Whether its arguments may be exchanged without a change of bits.
+    pub(super) const fn commutes(self) -> bool {
+        matches!(self, Self::Add | Self::Multiply | Self::And | Self::Xor)
+    }
+
+    /// Whether its instruction reads whole registers even when only one number is asked for.
+    pub(super) const fn is_bitwise(self) -> bool {
+        matches!(self, Self::And | Self::AndNot | Self::Xor | Self::Select)
+    }
+}
+
+/// An operation and what it is computed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Node {
+    pub(super) operation: Operation,
+    /// Those past `count` are zero, so that equal nodes are equal.
+    arguments: [Id; 3],
+    count: u8,
+}
+
+impl Node {
+    pub(super) fn arguments(&self) -> &[Id] {
+        &self.arguments[..usize::from(self.count)]
+    }
+
+    /// Each argument once.
+    pub(super) fn distinct_arguments(&self) -> impl Iterator<Item = Id> {
+        let arguments = self.arguments();
+        arguments.iter().enumerate().filter(|(at, id)| !arguments[..*at].contains(id)).map(|(_, id)| *id)
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Graph {
+    nodes: Vec<Node>,
+    known: HashMap<Node, Id>,
+}
+
+impl Graph {
+    /// The node of an operation on at most three arguments.
+    pub(super) fn node_of<const N: usize>(&mut self, operation: Operation, arguments: [Id; N]) -> Id {
+        const { assert!(N <= 3) };
+        let mut all = [0; 3];
+        all[..N].copy_from_slice(&arguments);
+        let node = Node { operation, arguments: all, count: N as u8 };
+        *self.known.entry(node).or_insert_with(|| {
+            self.nodes.push(node);
+            self.nodes.len() as Id - 1
+        })
+    }
+
+    pub(super) fn constant(&mut self, bits: u64) -> Id {
+        self.node_of(Operation::Constant(bits), [])
+    }
+
+    pub(super) fn node(&self, id: Id) -> &Node {
+        &self.nodes[id as usize]
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Which nodes `outputs` need.
+    pub(super) fn live(&self, outputs: &[Id]) -> Vec<bool> {
+        let mut live = vec![false; self.nodes.len()];
+        for id in outputs {
+            live[*id as usize] = true;
+        }
+        for (at, node) in self.nodes.iter().enumerate().rev() {
+            if live[at] {
+                for argument in node.arguments() {
+                    live[*argument as usize] = true;
+                }
+            }
+        }
+        live
+    }
+}

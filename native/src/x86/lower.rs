@@ -1,0 +1,82 @@
+//! From a tape to machine operations. In: a tape that [`verify`] passes. Out: [`Lowered`].
+//! Never knows in which order they will run.
+
+use linkwear_codegen::expr::{Binary, Unary};
+use linkwear_codegen::tape::{Op, Operand, Statement, Tape, verify};
+use linkwear_runtime::{Scalar, angle_over_sine, log_coefficient};
+
+use super::graph::{Graph, Id};
+use super::number::{Number, Recorder};
+
+/// One function as machine operations.
+#[derive(Clone, Debug)]
+pub(super) struct Lowered {
+    pub(super) graph: Graph,
+    /// Length of the flat input.
+    pub(super) inputs: usize,
+    /// The node of every entry of the flat output.
+    pub(super) outputs: Vec<Id>,
+}
+
+/// Writes a tape's operations down, one by one.
+///
+/// # Errors
+/// The tape's first defect.
+pub(super) fn lower(tape: &Tape) -> Result<Lowered, String> {
+    verify(tape)?;
+    let recorder = Recorder::default();
+    let mut outputs = vec![0; tape.output_len()];
+    let mut values: Vec<Number<'_>> = Vec::with_capacity(tape.values as usize);
+    for (index, operand) in &tape.direct {
+        outputs[*index as usize] = recorder.id(number(*operand, &values, &recorder));
+    }
+    for Statement { op, stores, .. } in &tape.statements {
+        let get = |operand: Operand| number(operand, &values, &recorder);
+        let (first, second) = match *op {
+            Op::Unary(operation, a) => (unary(operation, get(a)), None),
+            Op::Binary(operation, a, b) => (binary(operation, get(a), get(b)), None),
+            Op::SinCos(angle) => {
+                let (sine, cosine) = get(angle).sin_cos();
+                (sine, Some(cosine))
+            }
+        };
+        values.push(first);
+        values.extend(second);
+        for (index, operand) in stores {
+            outputs[*index as usize] = recorder.id(number(*operand, &values, &recorder));
+        }
+    }
+    drop(values);
+    Ok(Lowered { graph: recorder.into_graph(), inputs: tape.input_len(), outputs })
+}
+
+fn number<'g>(operand: Operand, values: &[Number<'g>], recorder: &'g Recorder) -> Number<'g> {
+    match operand {
+        Operand::Value(value) => values[value as usize],
+        Operand::Input(index) => recorder.input(index),
+        Operand::Constant(value) => Number::Known(value),
+    }
+}
+
+fn unary(operation: Unary, a: Number<'_>) -> Number<'_> {
+    match operation {
+        Unary::Neg => -a,
+        Unary::Sqrt => a.sqrt(),
+        Unary::Sin => a.sin_cos().0,
+        Unary::Cos => a.sin_cos().1,
+        Unary::Exp => a.exp(),
+        Unary::Ln => a.ln(),
+        Unary::LogCoefficient(rank) => log_coefficient(rank, a),
+    }
+}
+
+fn binary<'g>(operation: Binary, a: Number<'g>, b: Number<'g>) -> Number<'g> {
+    match operation {
+        Binary::Add => a + b,
+        Binary::Sub => a - b,
+        Binary::Mul => a * b,
+        Binary::Div => a / b,
+        Binary::Atan2 => a.atan2(b),
+        Binary::AngleOverSine => angle_over_sine(a, b),
+    }
+}

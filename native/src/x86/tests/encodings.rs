@@ -1,0 +1,252 @@
+//! Every instruction in every form, with every register and many offsets, read back by an independent decoder.
+
+use iced_x86::{Decoder, DecoderOptions, Formatter, MemorySizeOptions, NasmFormatter};
+
+use crate::x86::encode::Encoder;
+use crate::x86::graph::Function;
+use crate::x86::instruction::{Address, Base, Binary, Instruction, Lanes, Operand, Register};
+
+const FUNCTION: usize = 0x1234_5678_9ABC;
+
+/// Instructions as assembly text, one line for each of the machine's.
+struct Assembly {
+    lanes: Lanes,
+    entered: bool,
+}
+
+impl Assembly {
+    fn register(&self, number: Register) -> String {
+        let name = match self.lanes {
+            Lanes::One => "xmm",
+            Lanes::Four => "ymm",
+            Lanes::Eight => "zmm",
+        };
+        format!("{name}{number}")
+    }
+
+    fn address(&self, Address { base, offset }: Address) -> String {
+        let [passed, kept] = match base {
+            Base::Input => ["rdi", "rbx"],
+            Base::Output => ["rsi", "rbp"],
+            Base::Pool => ["rdx", "r14"],
+            Base::Frame => ["rcx", "r15"],
+        };
+        let base = if self.entered { kept } else { passed };
+        match offset {
+            0 => format!("[{base}]"),
+            1.. => format!("[{base}+{offset:X}h]"),
+            _ => format!("[{base}-{:X}h]", offset.unsigned_abs()),
+        }
+    }
+
+    fn operand(&self, operand: Operand) -> String {
+        match operand {
+            Operand::Register(number) => self.register(number),
+            Operand::Memory(address) => self.address(address),
+            Operand::Broadcast(address) => format!("{}{{1to{}}}", self.address(address), self.lanes.count()),
+        }
+    }
+
+    fn lines(&mut self, instruction: Instruction) -> Vec<String> {
+        let scalar = self.lanes == Lanes::One;
+        let suffix = if scalar { "sd" } else { "pd" };
+        let of_moves = if scalar { "vmovsd" } else { "vmovupd" };
+        let line = match instruction {
+            Instruction::Binary { operation, to, first, second } => {
+                let name = match operation {
+                    Binary::Add => format!("vadd{suffix}"),
+                    Binary::Subtract => format!("vsub{suffix}"),
+                    Binary::Multiply => format!("vmul{suffix}"),
+                    Binary::Divide => format!("vdiv{suffix}"),
+                    Binary::And => "vandpd".into(),
+                    Binary::AndNot => "vandnpd".into(),
+                    Binary::Xor => "vxorpd".into(),
+                    Binary::Less => format!("vcmplt_oq{suffix}"),
+                };
+                format!("{name} {},{},{}", self.register(to), self.register(first), self.operand(second))
+            }
+            Instruction::SquareRoot { to, of: of @ Operand::Register(_) } if scalar => {
+                format!("vsqrtsd {},{},{}", self.register(to), self.operand(of), self.operand(of))
+            }
+            Instruction::SquareRoot { to, of } => {
+                format!("vsqrt{suffix} {},{}", self.register(to), self.operand(of))
+            }
+            Instruction::Select { to, no, yes, mask } => {
+                let [to, no, mask] = [to, no, mask].map(|number| self.register(number));
+                format!("vblendvpd {to},{no},{},{mask}", self.operand(yes))
+            }
+            Instruction::LessToMask { first, second } => {
+                format!("vcmplt_oq{suffix} k1,{},{}", self.register(first), self.operand(second))
+            }
+            Instruction::SignToMask { of } => format!("vpmovq2m k1,{}", self.register(of)),
+            Instruction::MaskToRegister { to } => format!("vpmovm2q {},k1", self.register(to)),
+            Instruction::SelectByMask { to, no, yes } => {
+                format!("vblendmpd {}{{k1}},{},{}", self.register(to), self.register(no), self.operand(yes))
+            }
+            Instruction::Load { to, from: Operand::Broadcast(from) } => {
+                format!("vbroadcastsd {},{}", self.register(to), self.address(from))
+            }
+            Instruction::Load { to, from } => {
+                format!("{of_moves} {},{}", self.register(to), self.operand(from))
+            }
+            Instruction::Store { from, to } => {
+                format!("{of_moves} {},{}", self.address(to), self.register(from))
+            }
+            Instruction::Enter => {
+                self.entered = true;
+                let lines = ["push rbx", "push rbp", "push r14", "push r15", "sub rsp,8h"];
+                let moves = ["mov rbx,rdi", "mov rbp,rsi", "mov r14,rdx", "mov r15,rcx"];
+                return lines.into_iter().chain(moves).map(str::to_owned).collect();
+            }
+            Instruction::Leave => {
+                return ["add rsp,8h", "pop r15", "pop r14", "pop rbp", "pop rbx"].map(str::to_owned).into();
+            }
+            Instruction::Argument { number, address } => {
+                let to = ["rdi", "rsi", "rdx", "rcx"][usize::from(number)];
+                format!("lea {to},{}", self.address(address))
+            }
+            Instruction::Call(_) => return vec![format!("mov rax,{FUNCTION:X}h"), "call rax".into()],
+            Instruction::ClearUpper => "vzeroupper".into(),
+            Instruction::Return => "ret".into(),
+        };
+        vec![line]
+    }
+}
+
+/// Encodes and decodes; returns how many instructions there were.
+fn read_back(lanes: Lanes, instructions: &[Instruction]) -> usize {
+    let functions = |_: Function| FUNCTION;
+    let mut encoder = Encoder::new(lanes, &functions);
+    let mut assembly = Assembly { lanes, entered: false };
+    let mut meant = Vec::new();
+    for instruction in instructions {
+        encoder.instruction(*instruction);
+        meant.extend(assembly.lines(*instruction));
+    }
+    let code = encoder.finish();
+    let mut formatter = NasmFormatter::new();
+    let options = formatter.options_mut();
+    options.set_memory_size_options(MemorySizeOptions::Never);
+    options.set_small_hex_numbers_in_decimal(false);
+    options.set_add_leading_zero_to_hex_numbers(false);
+    options.set_show_useless_prefixes(true);
+    let mut found = Decoder::with_ip(64, &code, 0, DecoderOptions::NONE);
+    for meant in &meant {
+        let instruction = found.decode();
+        assert!(!instruction.is_invalid(), "{meant}: invalid bytes at {}", instruction.ip());
+        let mut text = String::new();
+        formatter.format(&instruction, &mut text);
+        // An offset of zero may be written out where the base has no form without.
+        assert_eq!(text.replace("+0]", "]"), *meant);
+    }
+    assert!(!found.can_decode(), "bytes are left");
+    meant.len()
+}
+
+/// Offsets about the borders of every short form, whatever the unit it counts in.
+const OFFSETS: [i32; 24] = [
+    0,
+    8,
+    16,
+    64,
+    120,
+    127,
+    128,
+    136,
+    512,
+    1008,
+    1016,
+    1024,
+    2032,
+    4064,
+    4096,
+    8128,
+    8192,
+    65536,
+    1 << 30,
+    -8,
+    -64,
+    -128,
+    -1024,
+    -8192,
+];
+
+const BASES: [Base; 4] = [Base::Input, Base::Output, Base::Pool, Base::Frame];
+
+fn addresses() -> impl Iterator<Item = Address> {
+    BASES.into_iter().flat_map(|base| OFFSETS.into_iter().map(move |offset| Address { base, offset }))
+}
+
+/// Forms that every register may be in.
+fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<Instruction> {
+    let mut all = Vec::new();
+    let operations = [
+        Binary::Add,
+        Binary::Subtract,
+        Binary::Multiply,
+        Binary::Divide,
+        Binary::And,
+        Binary::AndNot,
+        Binary::Xor,
+    ];
+    let low = a.max(b).max(c) < 16 && lanes != Lanes::Eight;
+    let operations = operations.into_iter().chain(low.then_some(Binary::Less));
+    let memory = addresses().map(Operand::Memory);
+    let spread = addresses().map(Operand::Broadcast).filter(|_| lanes == Lanes::Eight);
+    let anywhere: Vec<Operand> = std::iter::once(Operand::Register(c)).chain(memory).chain(spread).collect();
+    for operation in operations {
+        let binary = |second: &Operand| Instruction::Binary { operation, to: a, first: b, second: *second };
+        all.extend(anywhere.iter().map(binary));
+    }
+    for operand in &anywhere {
+        all.push(Instruction::LessToMask { first: b, second: *operand });
+        all.push(Instruction::SelectByMask { to: a, no: b, yes: *operand });
+        // One lane takes the root of registers only.
+        if lanes != Lanes::One || matches!(operand, Operand::Register(_)) {
+            all.push(Instruction::SquareRoot { to: a, of: *operand });
+        }
+        if low && !matches!(operand, Operand::Broadcast(_)) {
+            all.push(Instruction::Select { to: a, no: b, yes: *operand, mask: (a + 1) % 16 });
+        }
+    }
+    for address in addresses() {
+        all.push(Instruction::Load { to: a, from: Operand::Memory(address) });
+        all.push(Instruction::Store { from: a, to: address });
+        if lanes == Lanes::Eight {
+            all.push(Instruction::Load { to: a, from: Operand::Broadcast(address) });
+        }
+    }
+    all.extend([Instruction::SignToMask { of: a }, Instruction::MaskToRegister { to: a }]);
+    all
+}
+
+#[test]
+fn every_form_is_read_back_as_it_was_meant() {
+    let mut count = 0;
+    for lanes in [Lanes::One, Lanes::Four, Lanes::Eight] {
+        for register in 0..32_u16 {
+            // The two others go through all registers in other orders.
+            let [b, c] = [register * 7 + 3, register * 13 + 5].map(|number| (number % 32) as Register);
+            let register = register as Register;
+            // Where pointers lie as they are passed, and where calls leave them.
+            for (first, last) in [(None, None), (Some(Instruction::Enter), Some(Instruction::Leave))] {
+                for (a, b, c) in [(register, b, c), (b, c, register), (register % 16, b % 16, c % 16)] {
+                    let forms = with_registers(lanes, a, b, c);
+                    let all: Vec<Instruction> = first.into_iter().chain(forms).chain(last).collect();
+                    count += read_back(lanes, &all);
+                }
+            }
+        }
+    }
+    println!("{count} instructions");
+}
+
+#[test]
+fn calls_are_read_back_as_they_were_meant() {
+    let arguments = |number| addresses().map(move |address| Instruction::Argument { number, address });
+    let mut all = vec![Instruction::Enter];
+    all.extend((0..4).flat_map(arguments));
+    all.extend([Instruction::ClearUpper, Instruction::Call(Function::Ln)]);
+    all.extend([Instruction::Leave, Instruction::Return]);
+    read_back(Lanes::Four, &all);
+}

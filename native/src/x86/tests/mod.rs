@@ -1,0 +1,7 @@
+//! Tests of what is written, against a decoder and against plain evaluation.
+
+mod encodings;
+mod guarded;
+mod hostile;
+mod random;
+mod refused;
