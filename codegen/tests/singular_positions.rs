@@ -1,27 +1,12 @@
 //! Starts beside a singular position are refused or right by every method; a driver that meets its dead point is named.
 
+mod bars;
+
 use std::f64::consts::{FRAC_PI_3, PI};
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
+use bars::{foldable, four_bar};
+use linkwear_codegen::compile::Compiled;
 use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
-
-/// A planar four-bar of these corners on the ground, from O over A and B to D, with what its crank and its rocker do.
-fn four_bar(corners: [[f64; 2]; 3], crank: &str, rocker: &str, more: &str) -> Result<Compiled, &'static str> {
-    let [a, b, d] = corners.map(|[x, y]| format!("[\"{x:?} m\", \"{y:?} m\", 0]"));
-    let text = format!(
-        "spec = 1\nname = \"bars\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[points]\nO = [0, 0, 0]\nA = {a}\nB = {b}\nD = {d}\n[bodies]\n\
-         crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", mass = \"1 kg\" }}\n\
-         coupler = {{ rod = [\"A\", \"B\"], radius = \"8 mm\", mass = \"2 kg\" }}\n\
-         rocker = {{ rod = [\"D\", \"B\"], radius = \"8 mm\", mass = \"1.5 kg\" }}\n[joints]\n\
-         R1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1]{crank} }}\n\
-         R2 = {{ revolute = [\"crank\", \"coupler\"], at = \"A\", axis = [0, 0, 1] }}\n\
-         R3 = {{ revolute = [\"coupler\", \"rocker\"], at = \"B\", axis = [0, 0, 1] }}\n\
-         R4 = {{ revolute = [\"ground\", \"rocker\"], at = \"D\", axis = [0, 0, 1]{rocker} }}\n{more}"
-    );
-    let source = SourceFile { name: "bars.toml".to_owned(), text };
-    compile(&source, &Options::default()).map_err(|errors| errors.list()[0].code.as_str())
-}
 
 fn run(compiled: &Compiled, integrator: Integrator, time: f64) -> Run {
     let settings = Settings::new(integrator, Span::Time(time), 2);
@@ -35,31 +20,6 @@ const METHODS: [Integrator; 3] = [
     Integrator::Rk4 { step: 1e-3 },
     Integrator::GeneralizedAlpha { step: 1e-3, rho: 0.8 },
 ];
-
-/// Corners of linkages whose links come in line, with the crank at an angle.
-fn foldable(angle: f64) -> [(&'static str, [[f64; 2]; 3]); 4] {
-    let (sine, cosine) = angle.sin_cos();
-    let parallel = |length: f64, base: f64| {
-        let a = [length * cosine, length * sine];
-        [a, [a[0] + base, a[1]], [base, 0.0]]
-    };
-    // Where circles around crank and ground pin meet, on the far side.
-    let meeting = |length: f64, base: f64, coupler: f64, rocker: f64| {
-        let a = [length * cosine, length * sine];
-        let (x, y) = (a[0] - base, a[1]);
-        let distance = x.hypot(y);
-        let along = (rocker * rocker - coupler * coupler + distance * distance) / (2.0 * distance);
-        let across = (rocker * rocker - along * along).max(0.0).sqrt();
-        let b = [base + (x * along - y * across) / distance, (y * along + x * across) / distance];
-        [a, b, [base, 0.0]]
-    };
-    [
-        ("parallelogram", parallel(0.1, 0.3)),
-        ("rhombus", parallel(0.2, 0.2)),
-        ("kite", meeting(0.1, 0.1, 0.3, 0.3)),
-        ("change points", meeting(0.1, 0.3, 0.25, 0.15)),
-    ]
-}
 
 #[test]
 fn a_start_beside_a_singular_position_is_refused_or_right() {
@@ -145,4 +105,28 @@ fn a_crank_that_passes_a_singular_position_is_told_where() {
     // One radian is where it is drawn, and zero there: in line again after 180 deg less 57.3.
     let [("W0117", message)] = &messages[..] else { panic!("{messages:?}") };
     assert!(message.contains("at 122.7 deg"), "{message}");
+}
+
+#[test]
+fn a_run_that_fails_in_a_singular_position_names_it() {
+    let mut named = 0;
+    for (name, corners) in foldable(1.0) {
+        let compiled = four_bar(corners, ", drive = \"10 rad/s*t\"", "", "").expect("it is taken");
+        for step in [1e-3, 4e-3, 1e-2, 2e-2] {
+            for method in [Integrator::Rk4 { step }, Integrator::GeneralizedAlpha { step, rho: 0.8 }] {
+                let case = format!("{name} {method:?}");
+                let Some(error) = run(&compiled, method, 2.0 * PI / 10.0).stopped else { continue };
+                let RunError::InSingularPosition { t, is_adaptive: false, .. } = &error else {
+                    panic!("{case}: {error}")
+                };
+                named += 1;
+                // Links come in line where the crank lies on the ground: a step, or a tenth of a radian, beside it.
+                let angle = (1.0 + 10.0 * t) % PI;
+                let beside = angle.min(PI - angle);
+                assert!(beside < (10.0 * step).max(0.1), "{case}: {error}, {beside} rad beside");
+                assert!(error.to_string().contains("--integrator dopri5"), "{error}");
+            }
+        }
+    }
+    assert!(named > 0);
 }

@@ -5,7 +5,7 @@
 use crate::error::RunError;
 use crate::evaluate::{Evaluator, Forward};
 use crate::linear::largest;
-use crate::passage::Passage;
+use crate::passage::{Judge, Limit, Passage};
 use crate::singular_dynamics::SingularSolver;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
@@ -48,6 +48,8 @@ pub struct Dynamics<'a> {
     reference_time: Option<f64>,
     pub(crate) solver: SingularSolver,
     pub(crate) passage: Passage,
+    /// Whether the rows lost rank at the last state, so that they do not tell all forces there.
+    rank_lost: bool,
     /// The answer of the generated elimination.
     direct: Vec<f64>,
 }
@@ -57,6 +59,7 @@ pub(crate) struct Aside {
     evaluations: u64,
     rank_revealing_solves: u64,
     nearness: f64,
+    rank_lost: bool,
     largest_pivots: Vec<f64>,
 }
 
@@ -77,6 +80,7 @@ impl<'a> Dynamics<'a> {
             reference_time: None,
             solver,
             passage,
+            rank_lost: false,
         }
     }
 
@@ -87,9 +91,8 @@ impl<'a> Dynamics<'a> {
     /// [`RunError::NonFinite`] if one of them is infinite or not a number.
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), RunError> {
         self.evaluations += 1;
-        self.evaluator.forward(t, q, v);
-        self.note_pivots();
-        self.nearness = regularity(self.evaluator.last_forward().pivots, &self.largest_pivots);
+        self.see_nearness(t, q, v);
+        self.rank_lost = false;
         if self.nearness < ROUNDED * self.singular_pivot {
             self.pass(t, q, v);
             self.evaluations += std::mem::take(&mut self.passage.evaluations);
@@ -97,16 +100,25 @@ impl<'a> Dynamics<'a> {
         self.check(t)
     }
 
+    /// Sees how regular a state is; no part of what a run costs.
+    pub(crate) fn see_nearness(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.evaluator.forward(t, q, v);
+        self.note_pivots();
+        self.nearness = regularity(self.evaluator.last_forward().pivots, &self.largest_pivots);
+    }
+
     /// What to go on with after a look that is no part of the run.
     pub(crate) fn aside(&self) -> Aside {
-        let Self { evaluations, rank_revealing_solves, nearness, .. } = *self;
-        Aside { evaluations, rank_revealing_solves, nearness, largest_pivots: self.largest_pivots.clone() }
+        let Self { evaluations, rank_revealing_solves, nearness, rank_lost, .. } = *self;
+        let largest_pivots = self.largest_pivots.clone();
+        Aside { evaluations, rank_revealing_solves, nearness, rank_lost, largest_pivots }
     }
 
     /// Goes on as if nothing had been evaluated since.
     pub(crate) fn resume(&mut self, aside: Aside) {
         (self.evaluations, self.rank_revealing_solves) = (aside.evaluations, aside.rank_revealing_solves);
-        (self.nearness, self.largest_pivots) = (aside.nearness, aside.largest_pivots);
+        (self.nearness, self.rank_lost) = (aside.nearness, aside.rank_lost);
+        self.largest_pivots = aside.largest_pivots;
     }
 
     /// Smallest pivot at the last state, each relative to the largest value it has had (1: as regular as
@@ -128,20 +140,43 @@ impl<'a> Dynamics<'a> {
         }
     }
 
-    /// Accelerations on the way through a singular position: by states beside it, if they explain those here but for rounding.
+    /// Whether the rows do not tell all forces at the last state. What was not found by the states beside it is then zero.
+    pub(crate) fn is_rank_lost(&self) -> bool {
+        self.rank_lost
+    }
+
+    /// The generated columns at the last state, which lost rank, by the states beside it; leaves the forward dynamics as it is.
+    pub(crate) fn columns_beside(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<&Limit> {
+        self.direct.copy_from_slice(self.evaluator.forward_mut());
+        let regularity = |forward: &Forward<'_>| regularity(forward.pivots, &self.largest_pivots);
+        let judge: Judge<'_> = (&regularity, BESIDE * self.singular_pivot);
+        let found = self.passage.limit(&mut self.evaluator, (t, q, v), judge, true).is_some();
+        self.evaluations += std::mem::take(&mut self.passage.evaluations);
+        self.evaluator.forward_mut().copy_from_slice(&self.direct);
+        found.then_some(&self.passage.limit)
+    }
+
+    /// On the way through a singular position: by states beside it, if they explain what is here but for rounding.
     fn pass(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.direct.copy_from_slice(self.evaluator.forward_mut());
         let regularity = |forward: &Forward<'_>| regularity(forward.pivots, &self.largest_pivots);
-        let enough = BESIDE * self.singular_pivot;
-        let branch = self.passage.accelerations(&mut self.evaluator, (t, q, v), (&regularity, enough));
+        let judge: Judge<'_> = (&regularity, BESIDE * self.singular_pivot);
+        let limit = self.passage.limit(&mut self.evaluator, (t, q, v), judge, false);
         if self.nearness < self.singular_pivot {
             self.rank_revealing_solves += 1;
             // At a dead point nothing comes later: what was before goes on, and the run ends where loops do not close.
             let reach = |from: f64| (t - from).abs() * largest(v).max(1.0) <= REACH;
             let before = self.reference_time.is_some_and(reach).then_some(&self.reference[..]);
-            self.solver.solve(&mut self.evaluator, (t, q, v), branch.or(before));
+            let branch = limit.map(Limit::accelerations).or(before);
+            self.rank_lost = self.solver.solve(&mut self.evaluator, (t, q, v), branch);
+            if let Some(limit) = limit.filter(|_| self.rank_lost) {
+                // The rows' own accelerations stay: they meet the constraints to the last place.
+                let (forward, forces) = (limit.forward(), v.len()..limit.forward().len());
+                self.evaluator.forward_mut()[forces.clone()].copy_from_slice(&forward[forces]);
+            }
             return;
         }
+        let branch = limit.map(Limit::accelerations);
         let noise = noise(self.nearness, v);
         let rounded = |branch: &&[f64]| branch.iter().zip(&self.direct).all(|(a, b)| (a - b).abs() <= noise);
         let output = self.evaluator.forward_mut();

@@ -292,6 +292,23 @@ pub enum RunError {
         /// Energy that went through [J].
         throughput: f64,
     },
+    /// A run failed on its way through a singular position.
+    #[error(
+        "{cause}; near t = {t:.6} s the mechanism passes a singular position, where its loops could go on in two ways: {}",
+        if *is_adaptive {
+            "start elsewhere, change a length, or add a link that holds the loop there"
+        } else {
+            "take adaptive steps (`--integrator dopri5`), change a length, or add a link that holds the loop there"
+        }
+    )]
+    InSingularPosition {
+        /// Time of the most singular state that was met there.
+        t: f64,
+        /// Whether the method chooses its steps.
+        is_adaptive: bool,
+        /// What failed.
+        cause: Box<RunError>,
+    },
     /// Steps are so short that the end is out of reach.
     #[error(
         "at t = {t} s the run makes no progress: {tried} steps gained {gained:.3e} s{}; check its start and how stiff \

@@ -10,8 +10,8 @@
 //!   mechanism leaves its branch; states before and after tell its accelerations (a branch is smooth), see [`crate::passage`];
 //! - free directions: the masses decide (principle of Gauss), and they do in all others where no branch is known.
 //!
-//! Multipliers are the smallest ones that balance the regular directions; in lost directions ideal joints
-//! would need infinite forces, which are left out. They do no work.
+//! Multipliers are the smallest ones that balance the regular directions. In lost directions ideal joints may need infinite
+//! forces; their part, also of the drives, is left out here, and told by the states beside ([`crate::passage`]).
 
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, dot, largest};
@@ -106,16 +106,19 @@ impl SingularSolver {
     }
 
     /// Replaces accelerations, multipliers and drive forces of the last forward dynamics. `branch`: accelerations of the
-    /// branch that the motion is on; the regular rows are met from there.
+    /// branch that the motion is on; the regular rows are met from there. True if the rows have lost rank, so that
+    /// the forces are those of the regular directions only.
     pub fn solve(
         &mut self,
         evaluator: &mut Evaluator<'_>,
         state: (f64, &[f64], &[f64]),
         branch: Option<&[f64]>,
-    ) {
+    ) -> bool {
         let freedoms = self.load_directions(evaluator, state, NEARLY_LOST);
         let (n, kept) = (self.free.len(), evaluator.sizes().rows);
-        let branch = branch.filter(|_| self.constraints.rank() < kept);
+        // As many independent directions as in general positions: nothing is lost.
+        let lost = self.constraints.rank() < kept;
+        let branch = branch.filter(|_| lost);
         if let Some(branch) = branch {
             for (right, row) in self.right.iter_mut().zip(self.free_jacobian.chunks_exact(n.max(1))) {
                 *right -= dot(row, branch);
@@ -126,8 +129,6 @@ impl SingularSolver {
             add_scaled(&mut self.acceleration, 1.0, branch);
             self.put_acceleration();
         } else {
-            // As many independent directions as in general positions: nothing is lost.
-            let lost = self.constraints.rank() < kept;
             let freedoms = if lost { self.solve_lost_directions(freedoms) } else { freedoms };
             self.put_acceleration();
             self.add_free_motion(freedoms);
@@ -138,6 +139,7 @@ impl SingularSolver {
             *multiplier *= scale;
         }
         self.store(evaluator, kept);
+        lost
     }
 
     /// Replaces corrections of positions and of speeds by the motion along free directions that has to come on top, so that

@@ -42,7 +42,7 @@ pub(super) fn run_generalized_alpha(
             sampler.statistics.evaluations += method.evaluations() - spent.1;
             outcome?;
             t = next;
-            take_over(motion, method, t, (state, &mut before, &mut now), *h);
+            take_over(motion, method, t, (state, &mut before, &mut now), *h)?;
             let evaluator = &mut motion.dynamics.evaluator;
             evaluator.closure(t, method.q(), method.v());
             let open = evaluator.loop_error();
@@ -66,9 +66,20 @@ fn take_over(
     t: f64,
     (state, before, now): (&mut [f64], &mut [f64], &mut [f64]),
     h: f64,
-) {
+) -> Result<(), RunError> {
     let (q, v) = (method.q(), method.v());
     let n = q.len() + v.len();
+    if motion.dynamics.evaluator.sizes().rows > 0 {
+        let answer = motion.dynamics.evaluator.forward_mut().to_vec();
+        motion.dynamics.see_nearness(t, q, v);
+        if motion.is_rough() {
+            // Where the rows nearly lose rank rounding decides the method's own multipliers, and with them the power of
+            // drivers; those of its state are right.
+            motion.dynamics.accelerate(t, q, v)?;
+        } else {
+            motion.dynamics.evaluator.forward_mut().copy_from_slice(&answer);
+        }
+    }
     // The rates of the coordinates go where the coordinates come next.
     motion.powers(t, q, v, &mut state[..q.len()], now);
     state[..q.len()].copy_from_slice(q);
@@ -77,6 +88,7 @@ fn take_over(
         *work += 0.5 * h * (*before + *now);
         *before = *now;
     }
+    Ok(())
 }
 
 /// The method at a state, its own accelerations from a short explicit step to their shifted time.

@@ -15,8 +15,10 @@ mod run;
 mod sampler;
 mod schedule;
 mod settings;
+mod singular_passage;
 mod steps;
 mod turns;
+mod unbounded;
 mod warning;
 
 pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};

@@ -212,6 +212,16 @@ impl<'a> ConstrainedMotion<'a> {
         Ok(correction)
     }
 
+    /// The same of a state that no step has evaluated: how regular it is has to be seen first, or the nearly lost
+    /// directions would be corrected that another state still held.
+    pub(super) fn put_sample_on(&mut self, t: f64, y: &mut [f64]) -> Result<Correction, RunError> {
+        if self.dynamics.evaluator.sizes().rows > 0 {
+            let (q, v, _) = self.split(y);
+            self.dynamics.see_nearness(t, q, v);
+        }
+        self.put_on(t, y)
+    }
+
     /// After a projection: moves the state along free directions so that the projection changed no momentum there. What it
     /// takes away near a singular position are errors of large joint forces, by rounding or by the step, and those go
     /// with the masses; the shortest way back onto the constraints does not.

@@ -11,10 +11,13 @@ use super::guard::Guard;
 use super::motion::{ConstrainedMotion, PROJECTED_STAGES};
 use super::run::{Run, Statistics};
 use super::schedule::Schedule;
+use super::singular_passage::Passages;
+use super::unbounded::Unbounded;
 use super::warning::RunWarning;
 use crate::clearance_joint::Channels;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
+use crate::integrate::Problem;
 use crate::linear::largest;
 use crate::watch::Watch;
 
@@ -44,6 +47,8 @@ pub(super) struct Sampler {
     work: (f64, f64),
     contact_loss: f64,
     guard: Guard,
+    unbounded: Unbounded,
+    pub(super) passages: Passages,
     /// Where the extremes of a run go, if anybody asks for them.
     extremes: Option<Collector>,
     /// Time and state at the end of the last good step.
@@ -81,6 +86,8 @@ impl Sampler {
             work,
             contact_loss: motion.contact_loss(state),
             guard,
+            unbounded: Unbounded::default(),
+            passages: Passages::default(),
             extremes: None,
             reached: (begin, state.to_vec()),
             follower,
@@ -176,7 +183,7 @@ impl Sampler {
         t: f64,
         state: &mut [f64],
     ) -> Result<(), RunError> {
-        motion.put_on(t, state)?;
+        motion.put_sample_on(t, state)?;
         self.note_loop_error(motion, t, motion.projector.loop_error())?;
         self.note_energy(motion, t, state);
         self.observe(motion, t, state)?;
@@ -199,6 +206,8 @@ impl Sampler {
         self.statistics.steps += 1;
         self.follow(motion, t, state)?;
         let kinetic = self.note_energy(motion, t, state);
+        let regularity = (motion.is_rough(), motion.dynamics.nearness());
+        self.passages.note(t, regularity, self.statistics.energy_error_J);
         let (_, _, work) = motion.split(state);
         self.statistics.energy_throughput_J +=
             (work.0 - self.work.0).abs() + (work.1 - self.work.1).abs() + (kinetic - self.kinetic).abs();
@@ -325,6 +334,8 @@ impl Sampler {
         let generated = motion.dynamics.evaluator.observe(t, q, v);
         let count = generated.len();
         self.values[..count].copy_from_slice(generated);
+        let columns = &mut self.values[..count];
+        self.unbounded.take_limits(motion, (t, q, v), &self.columns.channels, columns);
         let contacts = motion.dynamics.evaluator.clearances().contacts();
         self.columns.write(contacts, &mut self.values[count..]);
         Ok(())
@@ -384,6 +395,7 @@ impl Sampler {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
             run.turns = follower.measures;
         }
+        run.warnings.extend(self.unbounded.warning(&run.channels));
         if run.stopped.is_none() && self.guard.is_doubtful(&run.statistics) {
             let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
             run.warnings.push(RunWarning::EnergyOff { error, throughput });

@@ -30,7 +30,7 @@ pub(super) fn run(
     outcome.map_err(|error| {
         let (t, reached) = &sampler.reached;
         let q = motion.split(reached).0.to_vec();
-        dead_point::explain(motion, (*t, &q), error)
+        sampler.passages.explain(integrator, dead_point::explain(motion, (*t, &q), error))
     })
 }
 

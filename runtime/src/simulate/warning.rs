@@ -40,6 +40,13 @@ pub enum RunWarning {
         /// Energy that went through [J].
         throughput: f64,
     },
+    /// The motion passes a singular position in which forces grow without bounds.
+    ForcesUnbounded {
+        /// When rows or steps met it first [s].
+        t: f64,
+        /// Columns that hold only what is left of such a force there.
+        columns: Vec<String>,
+    },
     /// The bodies were apart for most of a turn.
     ContactLost {
         /// The joint.
@@ -75,6 +82,12 @@ impl fmt::Display for RunWarning {
                  the step or tighten the tolerance",
                 100.0 * error / throughput
             ),
+            Self::ForcesUnbounded { t, columns } => write!(
+                f,
+                "at t = {t:.6} s the mechanism is in a singular position, where {} without bounds: its rows leave that \
+                 part out, and peaks depend on where steps fall; change a length, or add a link that holds the loop there",
+                grow(columns)
+            ),
             Self::ContactLost { joint, turn, touching_part } => write!(
                 f,
                 "joint `{joint}` is without contact for {:.1} % of turn {turn}; forces and wear are those of \
@@ -82,6 +95,19 @@ impl fmt::Display for RunWarning {
                 100.0 * (1.0 - touching_part)
             ),
         }
+    }
+}
+
+/// Names of columns are told up to this number.
+const TOLD: usize = 4;
+
+/// That columns grow.
+fn grow(columns: &[String]) -> String {
+    let told = columns.iter().take(TOLD).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    match columns.len().saturating_sub(TOLD) {
+        0 if columns.len() == 1 => format!("{told} grows"),
+        0 => format!("{told} grow"),
+        more => format!("{told} and {more} more columns grow"),
     }
 }
 
