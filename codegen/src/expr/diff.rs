@@ -2,7 +2,7 @@
 //! Every function that a file can name has a rule, and no rule divides by something that vanishes where the function
 //! is smooth.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::expression::Expr;
 use super::{Binary, ExprId, Node, Unary};
@@ -12,10 +12,10 @@ impl<'g> Expr<'g> {
     pub fn derivative(self, variable: Self) -> Self {
         let one = self.scope().number(1.0);
         let zero = self.scope().zero();
-        self.derivative_by(&mut HashMap::from([(variable.id(), one)]), zero)
+        self.derivative_by(&mut FxHashMap::from_iter([(variable.id(), one)]), zero)
     }
 
-    fn derivative_by(self, known: &mut HashMap<ExprId, Self>, zero: Self) -> Self {
+    fn derivative_by(self, known: &mut FxHashMap<ExprId, Self>, zero: Self) -> Self {
         if let Some(found) = known.get(&self.id()) {
             return *found;
         }

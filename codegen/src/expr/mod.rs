@@ -9,7 +9,7 @@ mod expression;
 mod scope;
 mod vector;
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::limits::EXPRESSIONS;
 
@@ -77,9 +77,9 @@ pub enum Binary {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    known: HashMap<Node, ExprId>,
+    known: FxHashMap<Node, ExprId>,
     symbols: Vec<String>,
-    labels: HashMap<ExprId, String>,
+    labels: FxHashMap<ExprId, String>,
     sections: Vec<String>,
     /// Index of the section of every node.
     section_of: Vec<usize>,
@@ -158,7 +158,12 @@ impl Graph {
 
     /// Title of the section in which a node was first made.
     pub fn section(&self, id: ExprId) -> &str {
-        self.sections.get(self.section_of[id.index()]).map_or("", String::as_str)
+        self.sections.get(self.section_index(id)).map_or("", String::as_str)
+    }
+
+    /// The same section as a number.
+    pub fn section_index(&self, id: ExprId) -> usize {
+        self.section_of[id.index()]
     }
 
     fn label(&mut self, id: ExprId, name: impl Into<String>) {

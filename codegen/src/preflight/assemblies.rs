@@ -7,8 +7,8 @@ use std::f64::consts::{PI, TAU};
 use linkwear_runtime::{Description, Evaluator, Motion, System, assemble_with, close_loops};
 use nalgebra::DMatrix;
 
-use super::rank::rank;
 use super::samples::random;
+use super::subspace::rank;
 
 /// Speeds of the largest mechanism that is tried: an attempt to assemble then takes a millisecond.
 const LARGEST: usize = 30;

@@ -7,9 +7,8 @@ use linkwear_runtime::CLOSED_AT_START;
 use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
-use super::samples::{
-    ClosedPositions, Ended, Position, STEP, Walker, least_norm, nearly_null_space, null_space,
-};
+use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
+use super::subspace::{least_norm, nearly_null_space, null_space};
 
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
 const NEARLY: f64 = 1e-3;

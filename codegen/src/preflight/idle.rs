@@ -7,7 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::model::{Carrier, Joint, Mechanism};
 
 use super::case::Case;
-use super::samples::{ClosedPositions, null_space, right_singular_vectors};
+use super::samples::ClosedPositions;
+use super::subspace::{null_space, right_singular_vectors};
 
 /// Motions smaller than this share of the largest count as rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;

@@ -10,7 +10,8 @@ use crate::id::JointId;
 use crate::model::Closure;
 
 use super::case::Case;
-use super::samples::{ClosedPositions, Position, null_space};
+use super::samples::{ClosedPositions, Position};
+use super::subspace::null_space;
 
 /// Shares of a unit motion below this are rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;

@@ -19,6 +19,7 @@ mod reactions;
 mod resonance;
 mod samples;
 mod start;
+mod subspace;
 mod turn;
 mod without_play;
 

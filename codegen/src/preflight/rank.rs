@@ -3,7 +3,8 @@
 
 use nalgebra::{DMatrix, DVector, RowDVector};
 
-use super::samples::{ClosedPositions, RANK_TOLERANCE};
+use super::samples::ClosedPositions;
+use super::subspace::{RANK_TOLERANCE, rank, singular_values};
 
 /// A start is singular below this share of the rank's weakest direction elsewhere. At a double root assembly ends within
 /// the square root of rounding, 1e-8; up to 1e-5 rad beside it a step of usual length goes wrong by tenths of a radian
@@ -55,19 +56,23 @@ impl Rows {
     pub fn independent(&self) -> Vec<bool> {
         let m = self.samples.first().map_or(0, DMatrix::nrows);
         let generic = self.generic_samples();
-        let mut rests: Vec<DMatrix<f64>> = generic.iter().map(|at| self.samples[*at].clone()).collect();
+        // Rows of zeros, which planar mechanisms have many of, are never kept.
+        let rows: Vec<usize> =
+            (0..m).filter(|row| generic.iter().any(|at| self.samples[*at].row(*row).amax() > 0.0)).collect();
+        let mut rests: Vec<DMatrix<f64>> =
+            generic.iter().map(|at| self.samples[*at].select_rows(&rows)).collect();
         let mut keep = vec![false; m];
         loop {
-            let gain =
-                |row: usize| rests.iter().map(|rest| rest.row(row).norm()).fold(f64::INFINITY, f64::min);
+            let gain = |at: usize| rests.iter().map(|rest| rest.row(at).norm()).fold(f64::INFINITY, f64::min);
             // Rows within a tenth of the best count as equal: the first in the file's order wins.
-            let gains: Vec<f64> = (0..m).map(|row| if keep[row] { 0.0 } else { gain(row) }).collect();
+            let gains: Vec<f64> =
+                (0..rows.len()).map(|at| if keep[rows[at]] { 0.0 } else { gain(at) }).collect();
             let best = gains.iter().copied().fold(0.0, f64::max);
             let next = match gains.iter().position(|gain| *gain > 0.9 * best) {
                 Some(next) if best > RANK_TOLERANCE => next,
                 _ => return keep,
             };
-            keep[next] = true;
+            keep[rows[next]] = true;
             for rest in &mut rests {
                 let direction: RowDVector<f64> = rest.row(next).normalize();
                 let along: DVector<f64> = &*rest * direction.transpose();
@@ -152,11 +157,7 @@ fn singular_start(samples: &[DMatrix<f64>]) -> bool {
     if rank == 0 {
         return false;
     }
-    let weakest = |matrix: &DMatrix<f64>| {
-        let mut values: Vec<f64> = matrix.clone().singular_values().iter().copied().collect();
-        values.sort_by(|a, b| b.total_cmp(a));
-        values[rank - 1]
-    };
+    let weakest = |matrix: &DMatrix<f64>| singular_values(matrix)[rank - 1];
     let best = samples.iter().map(weakest).fold(0.0, f64::max);
     weakest(&samples[0]) < SINGULAR * best
 }
@@ -170,16 +171,6 @@ fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(a.nrows() + b.nrows(), a.ncols(), |i, j| {
         if i < a.nrows() { a[(i, j)] } else { b[(i - a.nrows(), j)] }
     })
-}
-
-/// Rank of a matrix.
-pub fn rank(matrix: &DMatrix<f64>) -> usize {
-    if matrix.is_empty() {
-        return 0;
-    }
-    let values = matrix.clone().singular_values();
-    let largest = values.amax();
-    values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count()
 }
 
 #[cfg(test)]

@@ -2,7 +2,10 @@
 //! In: the left null space of the constraint Jacobian. Out: names of wrench components.
 
 use super::case::Case;
-use super::samples::{ClosedPositions, null_space};
+use nalgebra::{DMatrix, DVector};
+
+use super::samples::{ClosedPositions, random};
+use super::subspace::null_space;
 
 /// Components below this share of a self-stress, or of the loads that it is as large as, count as untouched by it.
 const UNTOUCHED: f64 = 1e-7;
@@ -10,20 +13,25 @@ const UNTOUCHED: f64 = 1e-7;
 /// Positions looked at: a component that a self-stress leaves alone in one position it may touch in the next.
 const POSITIONS: usize = 6;
 
+/// Mixtures of the self-stresses of a position. A component that all of them leave alone is untouched by each mixture; one
+/// that a stress touches by a tenth of its size hides in a mixture with a chance of 1e-6.
+const MIXTURES: usize = 2;
+
 /// Wrench components (`R1.Fx`) that change under a self-stress in some position.
 pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
     let sizes = case.system.sizes();
     let channels = &case.description.channels;
+    let wrenches: Vec<usize> = (0..channels.len()).filter(|i| is_wrench(&channels[*i].name)).collect();
     let mut touched = vec![false; sizes.channels];
+    let mut generator = 0x9E37_79B9_7F4A_7C15_u64;
     let stride = positions.positions.len().div_ceil(POSITIONS).max(1);
     for position in positions.positions.iter().step_by(stride) {
         let observe = |multipliers: &[f64]| case.observe(&position.q, &vec![0.0; sizes.speeds], multipliers);
         let unloaded = observe(&vec![0.0; sizes.rows]);
         let own = |index: usize, values: &[f64]| values[index] / case.units.channels[index];
-        let wrenches: Vec<usize> = (0..channels.len()).filter(|i| is_wrench(&channels[*i].name)).collect();
         // As large as the loads, for it must stand out of their rounding.
         let size = wrenches.iter().map(|i| own(*i, &unloaded).abs()).fold(1.0, f64::max);
-        for stress in null_space(&position.jacobian.transpose()).column_iter() {
+        for stress in mixtures(&null_space(&position.jacobian.transpose()), &mut generator) {
             // A row in metres has a force as its multiplier, a row in radians a moment.
             let multipliers = stress.iter().zip(&case.units.rows);
             let multipliers: Vec<f64> =
@@ -38,6 +46,16 @@ pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
     names.filter(|(_, touched)| *touched).map(|(channel, _)| channel.name.to_string()).collect()
 }
 
+/// Unit stresses: all of them if they are few, else mixtures of all.
+fn mixtures(stresses: &DMatrix<f64>, generator: &mut u64) -> Vec<DVector<f64>> {
+    let count = stresses.ncols();
+    if count <= MIXTURES {
+        return stresses.column_iter().map(|stress| stress.into_owned()).collect();
+    }
+    (0..MIXTURES).map(|_| stresses * DVector::from_fn(count, |_, _| random(generator))).collect()
+}
+
 fn is_wrench(name: &str) -> bool {
-    ["Fx", "Fy", "Fz", "Mx", "My", "Mz"].iter().any(|suffix| name.ends_with(&format!(".{suffix}")))
+    let component = name.rsplit_once('.').map(|(_, component)| component);
+    component.is_some_and(|component| ["Fx", "Fy", "Fz", "Mx", "My", "Mz"].contains(&component))
 }

@@ -7,6 +7,7 @@ use linkwear_runtime::{
 use nalgebra::{DMatrix, DVector};
 
 use super::own_units::OwnUnits;
+use super::subspace::{RANK_TOLERANCE, least_norm, least_norm_within, null_space};
 
 /// Positions tried beyond the first, of small mechanisms: enough to walk once round a closed motion, since rows
 /// that are independent here may depend on each other elsewhere.
@@ -24,9 +25,6 @@ const ITERATIONS: usize = 19;
 pub const STEP: f64 = 0.25;
 /// Loops count as closed below this residual [rad, own units]; Newton ends near 1e-15.
 const CLOSED: f64 = 1e-11;
-/// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
-/// meant to be special has none below 1e-4.
-pub const RANK_TOLERANCE: f64 = 1e-8;
 
 /// One closed position.
 #[derive(Clone, Debug)]
@@ -178,7 +176,8 @@ impl Walker<'_> {
                 return stalled.then_some(Ended::Open(phi));
             }
             before = size;
-            let correction = solve(&jacobian.select_columns(&self.joint_speeds), &-phi, tolerance)?;
+            let correction =
+                least_norm_within(&jacobian.select_columns(&self.joint_speeds), &-phi, tolerance)?;
             self.layout.advance(&mut q, &self.all_speeds(&correction));
         }
         None
@@ -232,46 +231,4 @@ pub fn random(state: &mut u64) -> f64 {
     *state ^= *state >> 7;
     *state ^= *state << 17;
     (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-}
-
-/// Columns span the null space.
-pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    nearly_null_space(matrix, RANK_TOLERANCE)
-}
-
-/// The same of what is below a part of the largest singular value.
-pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
-    let n = matrix.ncols();
-    if n == 0 {
-        return DMatrix::zeros(0, 0);
-    }
-    let (values, v_t) = right_singular_vectors(matrix.clone());
-    let largest = values.amax();
-    let rows: Vec<usize> = (0..n).filter(|i| values[*i] <= tolerance * largest || largest == 0.0).collect();
-    DMatrix::from_fn(n, rows.len(), |i, j| v_t[(rows[j], i)])
-}
-
-/// As many singular values as there are columns, and all right singular vectors as rows.
-pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
-    // Zero rows below make the decomposition return all of them.
-    let height = matrix.nrows().max(matrix.ncols());
-    let svd = matrix.resize_vertically(height, 0.0).svd(false, true);
-    #[expect(clippy::expect_used, reason = "the second argument of `svd` asks for them")]
-    let v_t = svd.v_t.expect("right singular vectors");
-    (svd.singular_values, v_t)
-}
-
-/// Shortest solution of a rank-deficient system.
-pub fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
-    solve(matrix, right, RANK_TOLERANCE)
-}
-
-/// The same by the directions above a part of the strongest one.
-fn solve(matrix: &DMatrix<f64>, right: &DVector<f64>, tolerance: f64) -> Option<DVector<f64>> {
-    if matrix.is_empty() {
-        return Some(DVector::zeros(matrix.ncols()));
-    }
-    let svd = matrix.clone().svd(true, true);
-    let largest = svd.singular_values.amax();
-    svd.solve(right, tolerance * largest).ok()
 }

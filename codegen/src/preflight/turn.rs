@@ -9,7 +9,8 @@ use crate::model::Coordinate;
 
 use super::case::Case;
 use super::resonance::turns_per_second;
-use super::samples::{ClosedPositions, RANK_TOLERANCE, Walker, least_norm};
+use super::samples::{ClosedPositions, Walker};
+use super::subspace::{RANK_TOLERANCE, least_norm, singular_values};
 
 /// Speeds of the largest mechanism that is turned: above, each of some hundred decompositions takes a second.
 const LARGEST: usize = 60;
@@ -195,10 +196,7 @@ impl<'a> Loops<'a> {
     /// Singular values of the loops by the free speeds, the largest first.
     fn strengths(&self, q: &[f64]) -> Vec<f64> {
         let (_, jacobian, _) = self.walker.equations(q);
-        let values = jacobian.select_columns(&self.free).singular_values();
-        let mut values: Vec<f64> = values.iter().copied().collect();
-        values.sort_by(|a, b| b.total_cmp(a));
-        values
+        singular_values(&jacobian.select_columns(&self.free))
     }
 }
 

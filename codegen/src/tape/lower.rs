@@ -5,7 +5,7 @@
 //! together for readers; functions beyond `READABLE` statements go depth first from output to output,
 //! which keeps values short-lived.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::derive::{Equations, Function};
 use crate::expr::{Binary, ExprId, Graph, Node, Unary};
@@ -65,12 +65,15 @@ struct Lowerer<'a> {
     graph: &'a Graph,
     /// See [`Graph::uses`].
     uses: &'a [u32],
-    inputs: HashMap<ExprId, u32>,
-    operands: HashMap<ExprId, Operand>,
+    inputs: FxHashMap<ExprId, u32>,
+    /// By node; nothing reads those that are not made.
+    operands: Vec<Operand>,
     /// Statement of the sine and cosine of an angle.
-    angles: HashMap<ExprId, usize>,
+    angles: FxHashMap<ExprId, usize>,
     /// Statement that defines a node.
-    defined: HashMap<ExprId, usize>,
+    defined: FxHashMap<ExprId, usize>,
+    /// Sections of the graph as those of the tape.
+    sections: FxHashMap<usize, usize>,
     tape: Tape,
 }
 
@@ -91,8 +94,13 @@ impl<'a> Lowerer<'a> {
             values: 0,
         };
         let inputs = (0..).zip(inputs()).map(|(index, id)| (id, index)).collect();
-        let (operands, angles, defined) = (HashMap::new(), HashMap::new(), HashMap::new());
-        Self { graph, uses, inputs, operands, angles, defined, tape }
+        let operands = vec![Operand::Constant(f64::NAN); uses.len()];
+        let (angles, defined, sections) = Default::default();
+        Self { graph, uses, inputs, operands, angles, defined, sections, tape }
+    }
+
+    fn operand(&self, id: ExprId) -> Operand {
+        self.operands[id.index()]
     }
 
     fn node(&mut self, id: ExprId) {
@@ -104,12 +112,12 @@ impl<'a> Lowerer<'a> {
             Node::Unary(Unary::Neg, inner) => self.negated(id, inner),
             // A product or difference that only its negative needs is made by that.
             _ if self.made_by_negative(id) => return,
-            Node::Unary(operation, a) => self.push(id, Op::Unary(operation, self.operands[&a])),
+            Node::Unary(operation, a) => self.push(id, Op::Unary(operation, self.operand(a))),
             Node::Binary(operation, a, b) => {
-                self.push(id, Op::Binary(operation, self.operands[&a], self.operands[&b]))
+                self.push(id, Op::Binary(operation, self.operand(a), self.operand(b)))
             }
         };
-        self.operands.insert(id, operand);
+        self.operands[id.index()] = operand;
     }
 
     /// Whether the node's only user is a negation that can absorb its sign.
@@ -138,12 +146,12 @@ impl<'a> Lowerer<'a> {
                 other => other,
             };
             if let Node::Binary(operation, a, b) = self.graph.node(inner) {
-                let (a, b) = (self.operands[&a], self.operands[&b]);
+                let (a, b) = (self.operand(a), self.operand(b));
                 let (a, b) = if operation == Binary::Sub { (b, a) } else { (flip(a), flip(b)) };
                 return self.push(id, Op::Binary(operation, a, b));
             }
         }
-        match self.operands[&inner] {
+        match self.operand(inner) {
             Operand::Constant(number) => Operand::Constant(-number),
             operand => self.push(id, Op::Unary(Unary::Neg, operand)),
         }
@@ -153,7 +161,7 @@ impl<'a> Lowerer<'a> {
         let statement = match self.angles.get(&angle) {
             Some(statement) => *statement,
             None => {
-                self.push(id, Op::SinCos(self.operands[&angle]));
+                self.push(id, Op::SinCos(self.operand(angle)));
                 let statement = self.tape.statements.len() - 1;
                 self.tape.statements[statement].labels = [None, None];
                 self.angles.insert(angle, statement);
@@ -168,11 +176,10 @@ impl<'a> Lowerer<'a> {
     }
 
     fn push(&mut self, id: ExprId, op: Op) -> Operand {
-        let title = self.graph.section(id);
-        let sections = &mut self.tape.sections;
-        let section = sections.iter().position(|known| known == title).unwrap_or_else(|| {
-            sections.push(title.to_owned());
-            sections.len() - 1
+        let titles = &mut self.tape.sections;
+        let section = *self.sections.entry(self.graph.section_index(id)).or_insert_with(|| {
+            titles.push(self.graph.section(id).to_owned());
+            titles.len() - 1
         });
         let label = self.graph.label_of(id).map(str::to_owned);
         let first = self.tape.values;
@@ -185,7 +192,7 @@ impl<'a> Lowerer<'a> {
 
     fn finish(mut self, roots: &[ExprId]) -> Tape {
         for (index, root) in (0..).zip(roots) {
-            let store = (index, self.operands[root]);
+            let store = (index, self.operand(*root));
             match self.defined.get(root) {
                 Some(statement) => self.tape.statements[*statement].stores.push(store),
                 None => self.tape.direct.push(store),

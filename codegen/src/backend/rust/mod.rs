@@ -1,6 +1,7 @@
 //! Writes tapes as specialised, unrolled Rust: a documented struct that implements the runtime's contract.
 //! In: [`EmitInput`]. Out: source text, the same bytes every time. Never knows mechanics.
 
+mod body;
 mod comment;
 mod contact;
 mod describe;
@@ -41,9 +42,8 @@ pub fn emit(input: &EmitInput<'_>) -> String {
     let mut text = header(input);
     text.push_str(&format_items(items(input, &runtime, sizes)));
     for (tape, split) in input.tapes.iter().zip(&splits) {
-        let tokens = function::functions(tape, split, &runtime);
         text.push('\n');
-        text.push_str(&comment::with_comments(&format_items(tokens), &tape.sections));
+        text.push_str(&function::functions(tape, split, &runtime));
     }
     text
 }
@@ -84,7 +84,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
     );
     let parameters = input.description.parameters.iter();
     let mut names = Names::default();
-    let fields: Vec<_> = parameters.clone().map(|parameter| names.unique(&parameter.name)).collect();
+    let fields: Vec<_> = parameters.clone().map(|parameter| names.identifier(&parameter.name)).collect();
     let docs = parameters
         .clone()
         .map(|parameter| format!(" [{}], {:?} in the file.", one_line(&parameter.unit), parameter.default));
@@ -193,7 +193,7 @@ mod tests {
         let first = input_for(&tapes, &description);
         assert_eq!(first, input_for(&tapes, &description));
         assert!(first.contains("// a section"));
-        assert!(!first.contains("__section"));
+        assert!(!first.contains("__statements"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Identifiers for generated code: unique, valid, as close to the reader's names as possible.
 //! In: labels. Out: identifiers.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use proc_macro2::{Ident, Span};
 
@@ -43,7 +43,9 @@ fn clean(name: &str) -> String {
     if text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit()) || text == "_" {
         text.insert(0, 'n');
     }
-    if syn::parse_str::<Ident>(&text).is_err() || TAKEN.contains(&text.as_str()) {
+    // No keyword has a digit or an underscore inside; most names here have, and are not parsed.
+    let may_be_keyword = text.bytes().all(|byte| byte.is_ascii_alphabetic());
+    if (may_be_keyword && syn::parse_str::<Ident>(&text).is_err()) || TAKEN.contains(&text.as_str()) {
         text.push('_');
     }
     text
@@ -53,19 +55,30 @@ fn clean(name: &str) -> String {
 #[derive(Default)]
 pub struct Names {
     used: HashSet<String>,
+    /// The last number that was tried for a name.
+    numbers: HashMap<String, u32>,
 }
 
 impl Names {
     /// The name, or the name with a number if it is taken.
-    pub fn unique(&mut self, wanted: &str) -> Ident {
+    pub fn unique(&mut self, wanted: &str) -> String {
         let base = clean(wanted);
-        let mut name = base.clone();
-        let mut number = 2;
-        while !self.used.insert(name.clone()) {
-            name = format!("{base}_{number}");
-            number += 1;
+        if self.used.insert(base.clone()) {
+            return base;
         }
-        Ident::new(&name, Span::call_site())
+        let number = self.numbers.entry(base.clone()).or_insert(1);
+        loop {
+            *number += 1;
+            let name = format!("{base}_{number}");
+            if self.used.insert(name.clone()) {
+                return name;
+            }
+        }
+    }
+
+    /// The same as a token.
+    pub fn identifier(&mut self, wanted: &str) -> Ident {
+        Ident::new(&self.unique(wanted), Span::call_site())
     }
 }
 
@@ -76,13 +89,13 @@ mod tests {
     #[test]
     fn keywords_digits_and_repeats_become_valid_names() {
         let mut names = Names::default();
-        assert_eq!(names.unique("type").to_string(), "type_");
-        assert_eq!(names.unique("2nd").to_string(), "n2nd");
-        assert_eq!(names.unique("a-b").to_string(), "a_b");
-        assert_eq!(names.unique("a-b").to_string(), "a_b_2");
-        assert_eq!(names.unique("x").to_string(), "x_");
-        assert_eq!(names.unique("x_").to_string(), "x__2");
-        assert_eq!(names.unique("gen").to_string(), "gen_");
-        assert_eq!(names.unique("ROWS").to_string(), "ROWS_");
+        assert_eq!(names.unique("type"), "type_");
+        assert_eq!(names.unique("2nd"), "n2nd");
+        assert_eq!(names.unique("a-b"), "a_b");
+        assert_eq!(names.unique("a-b"), "a_b_2");
+        assert_eq!(names.unique("x"), "x_");
+        assert_eq!(names.unique("x_"), "x__2");
+        assert_eq!(names.unique("gen"), "gen_");
+        assert_eq!(names.unique("ROWS"), "ROWS_");
     }
 }

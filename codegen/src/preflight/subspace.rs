@@ -1,0 +1,208 @@
+//! Rank, null space and shortest solution of constraint rows. In: matrices. Out: numbers. Never knows mechanics.
+//!
+//! A QR decomposition with pivots costs a tenth of the singular values. It answers where it leaves no doubt of the
+//! rank, and the singular values answer elsewhere.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
+/// meant to be special has none below 1e-4.
+pub const RANK_TOLERANCE: f64 = 1e-8;
+
+/// Pivots above this share of the largest belong to the rank. The weakest singular value is below the last pivot by a
+/// factor that reaches ten in matrices of hundreds of rows: it stays far above any tolerance asked for.
+const CLEARLY_THERE: f64 = 1e-2;
+
+/// Pivots below this share are rounding.
+const CLEARLY_NOTHING: f64 = 1e-12;
+
+/// Tolerances that the two bounds leave no doubt about.
+const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-11..=1e-3;
+
+/// Rank of a matrix.
+pub fn rank(matrix: &DMatrix<f64>) -> usize {
+    if let Some(factor) = Factor::new(matrix, RANK_TOLERANCE) {
+        return factor.rank;
+    }
+    let values = singular_values(matrix);
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count()
+}
+
+/// The largest first, as many as the shorter side is long.
+pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let (rows, columns) = matrix.shape();
+    let matrix = without_zero_rows(matrix);
+    let mut values: Vec<f64> =
+        if matrix.is_empty() { Vec::new() } else { matrix.singular_values().iter().copied().collect() };
+    values.resize(rows.min(columns), 0.0);
+    values.sort_by(|a, b| b.total_cmp(a));
+    values
+}
+
+/// Columns span the null space.
+pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    nearly_null_space(matrix, RANK_TOLERANCE)
+}
+
+/// The same of what is below a part of the largest singular value.
+pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+    let n = matrix.ncols();
+    if n == 0 {
+        return DMatrix::zeros(0, 0);
+    }
+    if let Some(factor) = Factor::new(matrix, tolerance) {
+        return factor.null_space();
+    }
+    let (values, v_t) = right_singular_vectors(without_zero_rows(matrix));
+    let largest = values.amax();
+    let rows: Vec<usize> = (0..n).filter(|i| values[*i] <= tolerance * largest || largest == 0.0).collect();
+    DMatrix::from_fn(n, rows.len(), |i, j| v_t[(rows[j], i)])
+}
+
+/// As many singular values as there are columns, and all right singular vectors as rows.
+pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    // Zero rows below make the decomposition return all of them.
+    let height = matrix.nrows().max(matrix.ncols());
+    let svd = matrix.resize_vertically(height, 0.0).svd(false, true);
+    #[expect(clippy::expect_used, reason = "the second argument of `svd` asks for them")]
+    let v_t = svd.v_t.expect("right singular vectors");
+    (svd.singular_values, v_t)
+}
+
+/// Shortest solution of a rank-deficient system.
+pub fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    least_norm_within(matrix, right, RANK_TOLERANCE)
+}
+
+/// The same by the directions above a part of the strongest one.
+pub fn least_norm_within(
+    matrix: &DMatrix<f64>,
+    right: &DVector<f64>,
+    tolerance: f64,
+) -> Option<DVector<f64>> {
+    if matrix.is_empty() {
+        return Some(DVector::zeros(matrix.ncols()));
+    }
+    let factor = Factor::new(matrix, tolerance);
+    if let Some(solution) = factor.and_then(|factor| factor.least_norm(matrix, right)) {
+        return Some(solution);
+    }
+    let svd = matrix.clone().svd(true, true);
+    let largest = svd.singular_values.amax();
+    svd.solve(right, tolerance * largest).ok()
+}
+
+/// Rows of zeros, which planar mechanisms have many of, say nothing.
+fn without_zero_rows(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    matrix.select_rows(&rows_that_say_something(matrix))
+}
+
+fn rows_that_say_something(matrix: &DMatrix<f64>) -> Vec<usize> {
+    (0..matrix.nrows()).filter(|row| matrix.row(*row).iter().any(|value| *value != 0.0)).collect()
+}
+
+/// QR decomposition of the transpose with pivots, where they tell the rank.
+struct Factor {
+    /// The rows that are not zero.
+    rows: Vec<usize>,
+    decomposition: nalgebra::ColPivQR<f64, nalgebra::Dyn, nalgebra::Dyn>,
+    rank: usize,
+    columns: usize,
+}
+
+impl Factor {
+    /// `None` where the pivots leave doubt.
+    fn new(matrix: &DMatrix<f64>, tolerance: f64) -> Option<Self> {
+        let rows = rows_that_say_something(matrix);
+        let columns = matrix.ncols();
+        if rows.is_empty() || columns == 0 || !TOLERANCES.contains(&tolerance) {
+            return None;
+        }
+        // Columns of zeros beside them make the decomposition return the directions that no row asks for.
+        let transposed = DMatrix::from_fn(columns, rows.len().max(columns), |i, j| {
+            rows.get(j).map_or(0.0, |row| matrix[(*row, i)])
+        });
+        let decomposition = transposed.col_piv_qr();
+        let r = decomposition.r();
+        let pivots: Vec<f64> = (0..columns).map(|i| r[(i, i)].abs()).collect();
+        let largest = pivots.iter().copied().fold(0.0, f64::max);
+        let rank = pivots.iter().take_while(|pivot| **pivot > CLEARLY_THERE * largest).count();
+        let clear = pivots.iter().skip(rank).all(|pivot| *pivot < CLEARLY_NOTHING * largest);
+        (clear && largest.is_finite()).then_some(Self { rows, decomposition, rank, columns })
+    }
+
+    fn null_space(&self) -> DMatrix<f64> {
+        self.decomposition.q().columns(self.rank, self.columns - self.rank).into_owned()
+    }
+
+    /// Of independent rows; others ask for a compromise. `matrix' multipliers` with `R' R multipliers = right`, which needs no
+    /// directions; it loses the digits of the condition twice, and the condition is small here.
+    fn least_norm(&self, matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+        if self.rank < self.rows.len() {
+            return None;
+        }
+        let mut wanted = DVector::zeros(self.rows.len().max(self.columns));
+        self.rows.iter().enumerate().for_each(|(place, row)| wanted[place] = right[*row]);
+        self.decomposition.p().permute_rows(&mut wanted);
+        let r = self.decomposition.r();
+        let triangle = r.view((0, 0), (self.rank, self.rank));
+        let along = triangle.tr_solve_upper_triangular(&wanted.rows(0, self.rank))?;
+        let mut multipliers = wanted;
+        multipliers.fill(0.0);
+        multipliers.rows_mut(0, self.rank).copy_from(&triangle.solve_upper_triangular(&along)?);
+        self.decomposition.p().inv_permute_rows(&mut multipliers);
+        let mut all = DVector::zeros(matrix.nrows());
+        self.rows.iter().enumerate().for_each(|(place, row)| all[*row] = multipliers[place]);
+        Some(matrix.tr_mul(&all))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::random;
+    use super::*;
+
+    fn matrix(rows: usize, columns: usize, generator: &mut u64) -> DMatrix<f64> {
+        DMatrix::from_fn(rows, columns, |_, _| random(generator))
+    }
+
+    /// Products of two matrices have the rank of the narrower.
+    #[test]
+    fn ranks_null_spaces_and_shortest_solutions_are_those_of_the_singular_values() {
+        let mut generator = 7;
+        for (rows, columns, rank) in [(4, 7, 4), (7, 4, 4), (6, 6, 3), (9, 5, 2), (3, 8, 1), (20, 21, 20)] {
+            let mut given = matrix(rows, rank, &mut generator) * matrix(rank, columns, &mut generator);
+            given = given.insert_row(1, 0.0);
+            assert_eq!(super::rank(&given), rank);
+            let free = null_space(&given);
+            assert_eq!(free.ncols(), columns - rank);
+            assert!(
+                (&given * &free).amax() < 1e-12
+                    && (free.transpose() * &free - DMatrix::identity(columns - rank, columns - rank)).amax()
+                        < 1e-12
+            );
+            let right = &given * matrix(columns, 1, &mut generator).column(0);
+            let solution = least_norm(&given, &right).unwrap();
+            let svd = given.clone().svd(true, true);
+            let expected = svd.solve(&right, 1e-10).unwrap();
+            // The condition of these is below a thousand.
+            assert!((solution - expected).amax() < 1e-11, "{rows} by {columns} of rank {rank}");
+        }
+    }
+
+    #[test]
+    fn a_row_of_zeros_with_something_to_ask_for_changes_no_solution() {
+        let given = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 3.0, 4.0]);
+        let solution = least_norm(&given, &DVector::from_vec(vec![1.0, 5.0])).unwrap();
+        assert!((solution - DVector::from_vec(vec![0.6, 0.8])).amax() < 1e-15);
+    }
+
+    #[test]
+    fn doubtful_ranks_go_by_the_singular_values() {
+        let given = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1e-7]);
+        assert_eq!(rank(&given), 2);
+        assert_eq!(nearly_null_space(&given, 1e-3).ncols(), 1);
+        assert_eq!((rank(&DMatrix::zeros(2, 3)), null_space(&DMatrix::zeros(2, 3)).ncols()), (0, 3));
+    }
+}
