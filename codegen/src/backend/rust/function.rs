@@ -9,6 +9,7 @@ use crate::tape::{Split, Tape};
 
 use super::body;
 use super::comment::{count_text, one_line};
+use super::format::format_items;
 
 /// Name of the macro that stands for a function's statements until its frame is formatted.
 const STATEMENTS: &str = "__statements";
@@ -25,7 +26,7 @@ pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> String {
     }
     let mut statements = std::iter::once(public).chain(parts);
     let mut text = String::new();
-    for line in super::format_items(frames(tape, split, runtime)).lines() {
+    for line in format_items(frames(tape, split, runtime)).lines() {
         if line.trim_start().starts_with(STATEMENTS) {
             text.extend(statements.next());
         } else {

@@ -5,6 +5,7 @@ mod body;
 mod comment;
 mod contact;
 mod describe;
+mod format;
 mod function;
 mod names;
 
@@ -15,6 +16,7 @@ use quote::{format_ident, quote};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use comment::one_line;
+use format::format_items;
 use names::Names;
 
 /// What is emitted.
@@ -46,12 +48,6 @@ pub fn emit(input: &EmitInput<'_>) -> String {
         text.push_str(&function::functions(tape, split, &runtime));
     }
     text
-}
-
-fn format_items(tokens: TokenStream) -> String {
-    #[expect(clippy::expect_used, reason = "the emitter's own tokens: a defect here, not in a user's file")]
-    let file = syn::parse2(tokens).expect("emitted tokens are valid Rust");
-    prettyplease::unparse(&file)
 }
 
 fn header(input: &EmitInput<'_>) -> String {
