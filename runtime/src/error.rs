@@ -338,6 +338,17 @@ pub enum RunError {
         /// Column of the angle.
         angle: String,
     },
+    /// A spring or a formula uses an angle where it jumps by a whole turn.
+    #[error(
+        "at t = {t:.6} s `{angle}` passes half a turn, and a force that depends on it would jump there: the joint closes a \
+         loop, so that its angle is known only up to whole turns; write `cut = true` to another joint of that loop"
+    )]
+    AngleJumps {
+        /// Time of the half turn.
+        t: f64,
+        /// Column of the angle.
+        angle: String,
+    },
     /// The caller asked to stop.
     #[error("stopped on request at t = {t} s; the samples up to then are kept")]
     Interrupted {

@@ -1,4 +1,5 @@
 //! Four-bars whose links come in line, for tests of singular positions.
+#![allow(dead_code, reason = "every test takes what it needs")]
 
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::source::SourceFile;
@@ -10,8 +11,13 @@ pub fn four_bar(
     rocker: &str,
     more: &str,
 ) -> Result<Compiled, &'static str> {
+    compiled(four_bar_text(corners, crank, rocker, more))
+}
+
+/// The same as a file.
+pub fn four_bar_text(corners: [[f64; 2]; 3], crank: &str, rocker: &str, more: &str) -> String {
     let [a, b, d] = corners.map(|[x, y]| format!("[\"{x:?} m\", \"{y:?} m\", 0]"));
-    let text = format!(
+    format!(
         "spec = 1\nname = \"bars\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[points]\nO = [0, 0, 0]\nA = {a}\nB = {b}\nD = {d}\n[bodies]\n\
          crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", mass = \"1 kg\" }}\n\
          coupler = {{ rod = [\"A\", \"B\"], radius = \"8 mm\", mass = \"2 kg\" }}\n\
@@ -20,7 +26,11 @@ pub fn four_bar(
          R2 = {{ revolute = [\"crank\", \"coupler\"], at = \"A\", axis = [0, 0, 1] }}\n\
          R3 = {{ revolute = [\"coupler\", \"rocker\"], at = \"B\", axis = [0, 0, 1] }}\n\
          R4 = {{ revolute = [\"ground\", \"rocker\"], at = \"D\", axis = [0, 0, 1]{rocker} }}\n{more}"
-    );
+    )
+}
+
+/// Compiles a file, or says the code of its first fault.
+pub fn compiled(text: String) -> Result<Compiled, &'static str> {
     let source = SourceFile { name: "bars.toml".to_owned(), text };
     compile(&source, &Options::default()).map_err(|errors| errors.list()[0].code.as_str())
 }

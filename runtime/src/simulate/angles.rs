@@ -28,6 +28,17 @@ struct Knot {
     values: Vec<(f64, f64)>,
 }
 
+/// A half turn that an angle passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing {
+    /// Its column.
+    pub(super) place: usize,
+    /// Times before and after it.
+    pub(super) between: (f64, f64),
+    /// The whole turn in which it was before.
+    pub(super) level: f64,
+}
+
 impl Angles {
     /// For these columns; turns are counted from the first time that is noted.
     pub(super) fn new(channels: &[Channel]) -> Self {
@@ -75,11 +86,37 @@ impl Angles {
         Ok(())
     }
 
+    /// The half turns that angles passed in the last step.
+    pub(super) fn crossings(&self) -> Vec<Crossing> {
+        let pairs = self.knots.windows(2).flat_map(|knots| {
+            let ends = self.places.iter().zip(knots[0].values.iter().zip(&knots[1].values));
+            ends.filter_map(|(place, ((before, _), (after, _)))| {
+                let level = whole_turn(*before);
+                let between = (knots[0].t, knots[1].t);
+                (whole_turn(*after) != level).then_some(Crossing { place: *place, between, level })
+            })
+        });
+        pairs.collect()
+    }
+
+    /// The whole turn in which the angle of a column is at a time within the last step.
+    pub(super) fn level(&self, place: usize, t: f64, columns: &[f64]) -> f64 {
+        let (Some(at), Some(knot)) = (self.places.iter().position(|other| *other == place), self.knot(t))
+        else {
+            return 0.0;
+        };
+        let (predicted, _) = knot.predict(at, t, columns[place + 1]);
+        whole_turn(unwrap(columns[place], predicted))
+    }
+
+    /// The last one not after a time.
+    fn knot(&self, t: f64) -> Option<&Knot> {
+        self.knots.iter().rev().find(|knot| knot.t <= t).or(self.knots.first())
+    }
+
     /// Puts the angles in columns of a time within the last step on their turns.
     pub(super) fn unwrap(&self, t: f64, columns: &mut [f64]) {
-        let Some(knot) = self.knots.iter().rev().find(|knot| knot.t <= t).or(self.knots.first()) else {
-            return;
-        };
+        let Some(knot) = self.knot(t) else { return };
         for (at, place) in self.places.iter().enumerate() {
             let (predicted, _) = knot.predict(at, t, columns[place + 1]);
             columns[*place] = unwrap(columns[*place], predicted);
@@ -94,6 +131,11 @@ impl Knot {
         let step = t - self.t;
         (angle + 0.5 * step * (before + rate), step * (rate - before).abs())
     }
+}
+
+/// The whole turn in which an angle is, from half a turn below to half a turn above.
+fn whole_turn(angle: f64) -> f64 {
+    (angle / (2.0 * PI)).round()
 }
 
 /// The angle plus the whole turns that bring it nearest to `near`.

@@ -8,6 +8,7 @@ mod dead_point;
 mod events;
 mod extremes;
 mod guard;
+mod half_turn;
 mod ideal;
 mod implicit;
 mod motion;

@@ -8,6 +8,7 @@ use super::angles::Angles;
 use super::contacts::Follower;
 use super::extremes::Collector;
 use super::guard::Guard;
+use super::half_turn;
 use super::motion::{ConstrainedMotion, PROJECTED_STAGES};
 use super::run::{Run, Statistics};
 use super::schedule::Schedule;
@@ -228,7 +229,7 @@ impl Sampler {
     /// the state at a time within the step, if the method can.
     ///
     /// # Errors
-    /// [`RunError::TurnsUnclear`], or what the mechanism reports.
+    /// [`RunError::TurnsUnclear`], [`RunError::AngleJumps`], or what the mechanism reports.
     pub(super) fn follow_angles(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
@@ -263,7 +264,24 @@ impl Sampler {
             }
             pending.push(middle);
         }
+        let begin = &self.reached;
+        let straight = |time: f64, mixed: &mut [f64]| {
+            let part = (time - begin.0) / (t - begin.0);
+            for ((mixed, from), to) in mixed.iter_mut().zip(&begin.1).zip(state) {
+                *mixed = from + part * (to - from);
+            }
+        };
+        let within = between.unwrap_or(&straight);
+        for crossing in self.angles.crossings() {
+            let name = &self.columns.channels[crossing.place].name;
+            half_turn::check(motion, &self.angles, &crossing, (within, state.len()), name)?;
+        }
         Ok(())
+    }
+
+    /// Follows angles although there are no rows.
+    pub(super) fn watch_angles(&mut self) {
+        self.angles = Angles::new(&self.columns.channels);
     }
 
     /// Collects the extremes of all columns along the way.

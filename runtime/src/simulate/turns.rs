@@ -57,6 +57,8 @@ pub struct TurnRunner<'a> {
     integrator: Integrator,
     t: f64,
     state: State,
+    /// Whether a turn was looked at for forces that jump with an angle.
+    angles_looked_at: bool,
 }
 
 impl<'a> TurnRunner<'a> {
@@ -80,7 +82,7 @@ impl<'a> TurnRunner<'a> {
         let state = assemble_static_contact(&mut evaluator, 0.0)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
         motion.learn_sizes(0.0, &state);
-        Ok(Self { motion, integrator, t: 0.0, state })
+        Ok(Self { motion, integrator, t: 0.0, state, angles_looked_at: false })
     }
 
     /// Everything that has to be kept to go on from here.
@@ -193,10 +195,15 @@ impl<'a> TurnRunner<'a> {
         let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
         let mut state = self.motion.join(&self.state);
         let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
+        if !self.angles_looked_at {
+            // One turn tells for all: they hardly differ.
+            sampler.watch_angles();
+        }
         if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, watch) {
             self.restore(&kept)?;
             return Err(error);
         }
+        self.angles_looked_at = true;
         let (q, v, _) = self.motion.split(&state);
         self.state = State { q: q.to_vec(), v: v.to_vec() };
         self.t = schedule.end;

@@ -1,0 +1,63 @@
+//! Forces that depend on the angle of a cut joint are right, or the run ends where the angle would jump.
+
+mod bars;
+
+use std::f64::consts::TAU;
+
+use bars::{compiled, four_bar_text};
+use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
+
+const METHODS: [Integrator; 3] = [
+    Integrator::Dopri5 { tolerance: 1e-9, max_step: None },
+    Integrator::Rk4 { step: 1e-3 },
+    Integrator::GeneralizedAlpha { step: 1e-3, rho: 0.8 },
+];
+
+/// One turn of a crank on a long ground; `own` is what the pin between crank and coupler does, `more` follows.
+fn turn(cut: &str, own: &str, more: &str, method: Integrator) -> Run {
+    // A crank of 0.1 m with a coupler and a rocker of 0.3 m: the crank turns against the coupler once in its turn.
+    let corners = [[0.1, 0.0], [0.2, 0.08_f64.sqrt()], [0.3, 0.0]];
+    let drive = ", drive = \"10 rad/s*t\"";
+    let pin = "at = \"A\", axis = [0, 0, 1]";
+    let text = four_bar_text(corners, drive, if cut == "R4" { ", cut = true" } else { "" }, more);
+    let cut = if cut == "R2" { ", cut = true" } else { "" };
+    let compiled = compiled(text.replace(pin, &format!("{pin}{own}{cut}"))).expect("it is taken");
+    let settings = Settings::new(method, Span::Time(TAU / 10.0), 101);
+    let system = compiled.interpreter();
+    simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
+        .expect("it starts")
+}
+
+#[test]
+fn a_spring_on_the_angle_of_a_cut_joint_ends_the_run_at_half_a_turn() {
+    let spring = ", spring = { stiffness = \"2 N m/rad\", rest = \"0 rad\" }";
+    for method in METHODS {
+        let in_the_tree = turn("R4", spring, "", method);
+        assert_eq!(in_the_tree.stopped, None, "{method:?}");
+        let cut = turn("R2", spring, "", method);
+        let Some(RunError::AngleJumps { t, angle }) = &cut.stopped else {
+            panic!("{method:?}: {:?}", cut.stopped)
+        };
+        assert_eq!(angle, "R2.q");
+        let angles = in_the_tree.column("R2.q").expect("it is there");
+        let row = angles.iter().position(|angle| angle.abs() > 0.5 * TAU).expect("it turns round");
+        let times = &in_the_tree.times;
+        assert!(times[row - 1] <= *t && *t <= times[row], "{method:?}: {t}, not {}", times[row]);
+        // Up to there both are the same, by methods that are good to 1e-5 of a torque of 6 N m at least.
+        let drive = in_the_tree.column("R1.drive").expect("it is driven");
+        let same = cut.column("R1.drive").expect("it is driven").into_iter().zip(drive);
+        same.for_each(|(cut, tree)| assert!((cut - tree).abs() < 1e-4, "{method:?}: {cut} {tree}"));
+    }
+}
+
+#[test]
+fn a_force_that_repeats_every_turn_passes_half_a_turn() {
+    let actuator = |law: &str| format!(", force = \"{law}\"");
+    for method in METHODS {
+        let repeats = turn("R2", &actuator("1 N m*sin(R2.q)"), "", method);
+        assert_eq!(repeats.stopped, None, "{method:?}");
+        let grows = turn("R2", &actuator("1 N m*R2.q/(1 rad)"), "", method).stopped;
+        assert!(matches!(grows, Some(RunError::AngleJumps { .. })), "{method:?}: {grows:?}");
+        assert_eq!(turn("R2", "", "", method).stopped, None);
+    }
+}
