@@ -5,6 +5,7 @@
 mod answer;
 mod arguments;
 mod check;
+mod cost;
 mod equations;
 mod failure;
 mod fit;
@@ -49,6 +50,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
     match command {
         Command::Check(input) => check::run(input),
         Command::Equations(arguments) => equations::run(arguments),
+        Command::Cost(input) => cost::run(input),
         Command::Generate(arguments) => generate::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),

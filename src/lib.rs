@@ -16,6 +16,7 @@
 )]
 
 pub mod backend;
+pub mod cost;
 #[cfg(feature = "cli")]
 pub mod csv_table;
 pub mod files;

@@ -73,6 +73,32 @@ fn equations_lists_every_output_with_its_cost() {
 }
 
 #[test]
+fn cost_counts_and_times_every_entry_point() {
+    let file = "mechanisms/pendulum.toml";
+    let cost = linkwear(&["cost", file, "--format", "json"]).json();
+    let generated = linkwear(&["generate", file, "--format", "json"]).json();
+    for expected in generated["entry_points"].as_array().expect("a list") {
+        let point = &cost["entry_points"][expected["name"].as_str().expect("a name")];
+        assert_operations(&point["operations"]);
+        assert_eq!(point["operations"], expected["operations"]);
+        let sections = point["sections"].as_array().expect("a list").iter();
+        let sum: u64 =
+            sections.map(|section| section["operations"]["total"].as_u64().expect("a count")).sum();
+        assert_eq!(point["operations"]["total"], sum);
+        // A shipped file has both for certain; the others depend on the processor.
+        assert!(
+            point["ns"]["interpreter"].as_f64() > Some(0.0) && point["ns"]["compiled"].as_f64() > Some(0.0)
+        );
+        for name in ["native", "lanes4", "lanes8"] {
+            assert!(point["ns"][name].is_number() || point["ns"][name].is_null(), "{name}");
+        }
+    }
+    let turn = &cost["turn"];
+    assert_eq!(turn["backend"], "compiled");
+    assert!(turn["steps"].as_u64() > Some(0) && turn["milliseconds"].as_f64() > Some(0.0), "{turn}");
+}
+
+#[test]
 fn equations_can_be_narrowed_to_one_output() {
     let all = linkwear(&["equations", "mechanisms/pendulum.toml", "--format", "json"]).json();
     let name = all["outputs"][0]["name"].as_str().expect("a name").to_owned();

@@ -9,6 +9,7 @@ use serde_json::Value;
 fn help_of_every_subcommand_has_an_example() {
     for name in [
         "check",
+        "cost",
         "equations",
         "generate",
         "simulate",
@@ -91,7 +92,7 @@ fn an_error_object_has_the_six_fields_scripts_read() {
 fn a_broken_file_is_an_error_of_the_input_with_its_place() {
     let folder = command::Folder::new("broken");
     let file = folder.write("broken.toml", "spec = 1\nname = = \"x\"\n");
-    for name in ["check", "equations", "generate", "simulate"] {
+    for name in ["check", "cost", "equations", "generate", "simulate"] {
         let answer = linkwear(&[name, &file]);
         assert_eq!((answer.code, answer.out.as_str()), (1, ""), "{name}");
         assert!(answer.err.contains("broken.toml"), "{}", answer.err);

@@ -2,7 +2,7 @@
 //! mechanism must agree in every bit.
 
 use linkwear::mechanisms::{SHIPPED, Shipped};
-use linkwear::native::{Native, Refusal};
+use linkwear::native::{Lanes, Native, Refusal};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::{Entry, System};
 
@@ -54,7 +54,7 @@ fn compiled_and_interpreted_entries_agree_bit_for_bit() {
 /// Machine code; none on processors that it is not written for.
 fn native(compiled: &Compiled) -> Option<Native> {
     match Native::new(&compiled.tapes, compiled.sizes()) {
-        Err(Refusal::Processor) => None,
+        Err(Refusal::Processor { .. }) => None,
         written => Some(written.expect("shipped mechanisms are written")),
     }
 }
@@ -78,6 +78,44 @@ fn native_and_interpreted_entries_agree_bit_for_bit() {
             }
         }
     }
+}
+
+/// Every lane has the bits of the state alone.
+fn lanes_agree<const N: usize>() {
+    for shipped in all() {
+        let compiled = compiled(shipped.name);
+        let lanes = match Lanes::<N>::new(&compiled.tapes, compiled.sizes()) {
+            Err(Refusal::Processor { .. }) => return,
+            written => written.expect("shipped mechanisms are written"),
+        };
+        let alone = compiled.interpreter();
+        let mut random = Random(0x9E6C_63D0_876A_68DE);
+        let (sizes, other) = (lanes.sizes(), System::<f64>::sizes(&alone));
+        for entry in Entry::ALL {
+            let mut input = vec![[0.0; N]; sizes.input(entry)];
+            input.as_flattened_mut().fill_with(|| 3.0 * random.next());
+            let mut output = vec![[0.0; N]; sizes.output(entry)];
+            lanes.evaluate(entry, &input, &mut output, &mut vec![[f64::NAN; N]; sizes.workspace]);
+            for lane in 0..N {
+                let state: Vec<f64> = input.iter().map(|value| value[lane]).collect();
+                let mut expected = vec![1.0; sizes.output(entry)];
+                alone.evaluate(entry, &state, &mut expected, &mut vec![0.0; other.workspace]);
+                let found = output.iter().map(|value| value[lane].to_bits());
+                let expected = expected.iter().map(|value| value.to_bits());
+                assert!(found.eq(expected), "lane {lane} of {}, {} of {}", N, entry.name(), shipped.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn four_states_side_by_side_have_the_bits_of_each_alone() {
+    lanes_agree::<4>();
+}
+
+#[test]
+fn eight_states_side_by_side_have_the_bits_of_each_alone() {
+    lanes_agree::<8>();
 }
 
 #[test]

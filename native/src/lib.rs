@@ -33,4 +33,4 @@ mod unsupported;
 mod x86;
 
 pub use refusal::Refusal;
-pub use system::Native;
+pub use system::{Lanes, Native};

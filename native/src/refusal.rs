@@ -7,8 +7,11 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Refusal {
     /// It is written for other processors.
-    #[error("machine code is written for x86-64 processors with AVX, and this is another")]
-    Processor,
+    #[error("machine code is written for x86-64 processors with {needed}, and this is another")]
+    Processor {
+        /// What the processor must have.
+        needed: &'static str,
+    },
     /// The system gives no memory that may be run: it is hardened, or there is none left.
     #[error("the system gives no executable memory ({reason}); hardened systems and services may forbid it")]
     Memory {

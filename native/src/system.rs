@@ -14,18 +14,29 @@ use crate::x86::Functions;
 
 /// A mechanism as machine code of this processor. Clones share the code.
 #[derive(Clone)]
-pub struct Native {
+pub struct Native(Lanes<1>);
+
+/// A mechanism as machine code that evaluates `N` states side by side, 4 or 8: every one with the bits that it would have
+/// alone. Clones share the code.
+#[derive(Clone)]
+pub struct Lanes<const N: usize> {
     functions: Arc<Functions>,
     sizes: Sizes,
 }
 
 impl fmt::Debug for Native {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Native").field("sizes", &self.sizes).finish_non_exhaustive()
+        f.debug_tuple("Native").field(&self.0.sizes).finish()
     }
 }
 
-impl Native {
+impl<const N: usize> fmt::Debug for Lanes<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Lanes").field("lanes", &N).field("sizes", &self.sizes).finish_non_exhaustive()
+    }
+}
+
+impl<const N: usize> Lanes<N> {
     /// Writes the code of tapes, in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
     ///
     /// # Errors
@@ -35,18 +46,49 @@ impl Native {
             let (function, defect) = (entry.name().to_owned(), "there is none".to_owned());
             return Err(Refusal::Tape { function, defect });
         }
-        let functions = Functions::new(tapes)?;
-        let sizes = Sizes { workspace: functions.workspace(), ..sizes };
+        let functions = Functions::new::<N>(tapes)?;
+        let sizes = Sizes { workspace: functions.workspace().div_ceil(N), ..sizes };
         Ok(Self { functions: Arc::new(functions), sizes })
+    }
+
+    /// The layout of inputs and outputs, as for one state.
+    pub const fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    /// Evaluates `entry`: every value is that of all states. It is fastest where inputs and outputs begin at multiples of
+    /// 64 bytes.
+    ///
+    /// # Panics
+    /// If a slice is shorter than [`Sizes`] says.
+    pub fn evaluate(
+        &self,
+        entry: Entry,
+        input: &[[f64; N]],
+        output: &mut [[f64; N]],
+        workspace: &mut [[f64; N]],
+    ) {
+        let (input, output) = (input.as_flattened(), output.as_flattened_mut());
+        self.functions.run(entry as usize, input, output, workspace.as_flattened_mut());
+    }
+}
+
+impl Native {
+    /// Writes the code of tapes, in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
+    ///
+    /// # Errors
+    /// If this processor or this system cannot run it, or a tape makes no sense.
+    pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
+        Lanes::new(tapes, sizes).map(Self)
     }
 }
 
 impl System<f64> for Native {
     fn sizes(&self) -> Sizes {
-        self.sizes
+        self.0.sizes
     }
 
     fn evaluate(&self, entry: Entry, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        self.functions.run(entry as usize, input, output, workspace);
+        self.0.functions.run(entry as usize, input, output, workspace);
     }
 }

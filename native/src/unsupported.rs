@@ -9,8 +9,8 @@ use crate::refusal::Refusal;
 pub(crate) struct Functions(Infallible);
 
 impl Functions {
-    pub(crate) fn new(_: &[Tape]) -> Result<Self, Refusal> {
-        Err(Refusal::Processor)
+    pub(crate) fn new<const LANES: usize>(_: &[Tape]) -> Result<Self, Refusal> {
+        Err(Refusal::Processor { needed: "AVX" })
     }
 
     pub(crate) fn workspace(&self) -> usize {

@@ -59,6 +59,9 @@ pub enum Command {
     /// Print the symbolic equations, with operation counts before and after sharing.
     #[command(after_help = "Example:\n  linkwear equations mechanisms/pendulum.toml --only mass --as latex")]
     Equations(EquationsArguments),
+    /// Count the operations of every entry point, and measure what they cost here on every back end.
+    #[command(after_help = "Example:\n  linkwear cost mechanisms/rssr_rigid.toml")]
+    Cost(Input),
     /// Write the specialised source code.
     #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \
                       linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check")]
@@ -167,7 +170,8 @@ pub struct SimulateArguments {
     /// Error tolerance of dopri5 [default: 1e-9].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
-    /// What runs the equations.
+    /// What runs the equations, with the same results: code that was compiled in, machine code written now, the
+    /// interpreter; `auto` takes the first that there is.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
     /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
@@ -223,7 +227,8 @@ pub struct LifeArguments {
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
-    /// What runs the equations.
+    /// What runs the equations, with the same results: code that was compiled in, machine code written now, the
+    /// interpreter; `auto` takes the first that there is.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
 }

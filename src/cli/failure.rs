@@ -197,19 +197,23 @@ impl From<LoadError> for Failure {
         match error {
             LoadError::Read { file, error } => Self::read(&file)(error),
             LoadError::Mechanism(diagnostics) => diagnostics.into(),
-            LoadError::Backend(error) => {
-                let (name, help) = match error {
-                    BackendError::Compiled { .. } => (
-                        "compiled",
-                        "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
-                    ),
-                    BackendError::Native(_) => {
-                        ("native", "use --backend auto: the interpreter gives the same results, in more time")
-                    }
-                };
-                Self::new("C0007", None, format!("--backend {name}: {error}"), help)
-            }
+            LoadError::Backend(error) => error.into(),
         }
+    }
+}
+
+impl From<BackendError> for Failure {
+    fn from(error: BackendError) -> Self {
+        let (name, help) = match error {
+            BackendError::Compiled { .. } => (
+                "compiled",
+                "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
+            ),
+            BackendError::Native(_) => {
+                ("native", "use --backend auto: the interpreter gives the same results, in more time")
+            }
+        };
+        Self::new("C0007", None, format!("--backend {name}: {error}"), help)
     }
 }
 

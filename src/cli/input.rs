@@ -33,7 +33,7 @@ pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Me
     Ok(mechanism)
 }
 
-fn options(input: &Input, rigid: bool) -> Options {
+pub fn options(input: &Input, rigid: bool) -> Options {
     let reach = if input.allow_outside_data { Reach::Anywhere } else { Reach::Below };
     Options { closure: input.closure, overrides: input.overrides.clone(), rigid, reach }
 }

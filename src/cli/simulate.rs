@@ -22,7 +22,7 @@ use super::table::{duration, plural, table};
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
 /// Tolerance of the adaptive method unless one is given.
-const DEFAULT_TOLERANCE: f64 = 1e-9;
+pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 

@@ -64,6 +64,15 @@ impl Tape {
         counts
     }
 
+    /// Operations by section, in the order in which the sections begin.
+    pub fn operations_by_section(&self) -> Vec<(String, Operations)> {
+        let mut counts = vec![Operations::default(); self.sections.len()];
+        for statement in &self.statements {
+            counts[statement.section].count(&statement.op);
+        }
+        self.sections.iter().cloned().zip(counts).collect()
+    }
+
     /// Operations that one output block needs on its own.
     pub fn operations_of(&self, output: usize) -> Operations {
         let first: usize = self.outputs[..output].iter().map(|block| block.entries.len()).sum();

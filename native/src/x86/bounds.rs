@@ -88,3 +88,67 @@ fn is_low(operand: Operand) -> bool {
         Operand::Broadcast(_) => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LENGTHS: Lengths = Lengths { input: 32, output: 32, pool: 16, frame: 32 };
+
+    fn is_found(lanes: Lanes, registers: u8, instruction: Instruction) -> bool {
+        let target = Target { lanes, registers };
+        first_out_of_bounds(&[instruction], target, LENGTHS) == Some(instruction)
+    }
+
+    fn load(base: Base, offset: i32) -> Instruction {
+        Instruction::Load { to: 0, from: Operand::Memory(Address { base, offset }) }
+    }
+
+    #[test]
+    fn the_last_value_is_within_and_the_next_is_not() {
+        for (base, last) in [(Base::Input, 24), (Base::Output, 24), (Base::Pool, 8), (Base::Frame, 24)] {
+            assert!(!is_found(Lanes::One, 16, load(base, last)));
+            assert!(is_found(Lanes::One, 16, load(base, last + 1)));
+            assert!(is_found(Lanes::One, 16, load(base, -1)));
+            assert_eq!(is_found(Lanes::Four, 16, load(base, 0)), base == Base::Pool);
+        }
+    }
+
+    #[test]
+    fn bitwise_operations_read_sixteen_bytes() {
+        let and = |offset| Instruction::Binary {
+            operation: Binary::And,
+            to: 0,
+            first: 0,
+            second: Operand::Memory(Address { base: Base::Pool, offset }),
+        };
+        assert!(!is_found(Lanes::One, 16, and(0)));
+        assert!(is_found(Lanes::One, 16, and(8)));
+    }
+
+    #[test]
+    fn inputs_and_constants_are_never_written() {
+        for base in [Base::Input, Base::Pool] {
+            let address = Address { base, offset: 0 };
+            assert!(is_found(Lanes::One, 16, Instruction::Store { from: 0, to: address }));
+            assert!(is_found(Lanes::One, 16, Instruction::Argument { number: 0, address }));
+            assert!(!is_found(Lanes::One, 16, Instruction::Argument { number: 1, address }));
+        }
+    }
+
+    #[test]
+    fn registers_and_masks_that_the_processor_lacks_are_found() {
+        let add =
+            Instruction::Binary { operation: Binary::Add, to: 16, first: 0, second: Operand::Register(1) };
+        assert!(is_found(Lanes::One, 16, add) && !is_found(Lanes::One, 32, add));
+        let mask = Instruction::SignToMask { of: 0 };
+        assert!(is_found(Lanes::One, 16, mask) && !is_found(Lanes::One, 32, mask));
+        let select = Instruction::Select { to: 0, no: 1, yes: Operand::Register(2), mask: 16 };
+        assert!(is_found(Lanes::One, 32, select));
+        assert!(is_found(
+            Lanes::Eight,
+            32,
+            Instruction::Select { mask: 3, to: 0, no: 1, yes: Operand::Register(2) }
+        ));
+    }
+}

@@ -29,6 +29,7 @@ struct Callable {
     inputs: usize,
     outputs: usize,
     workspace: usize,
+    slack: usize,
 }
 
 /// Functions in executable memory.
@@ -46,11 +47,11 @@ impl Code {
     pub(super) fn new(written: Vec<Written>) -> Result<Self, Refusal> {
         let mut bytes = Vec::new();
         let mut functions = Vec::with_capacity(written.len());
-        for Written { code, pool, inputs, outputs, workspace } in written {
+        for Written { code, pool, inputs, outputs, workspace, slack } in written {
             let start = bytes.len();
             bytes.extend(code);
             bytes.resize(bytes.len().next_multiple_of(LINE), 0);
-            functions.push(Callable { start, pool: lines(&pool), inputs, outputs, workspace });
+            functions.push(Callable { start, pool: lines(&pool), inputs, outputs, workspace, slack });
         }
         let refused = |error: std::io::Error| Refusal::Memory { reason: error.to_string() };
         let mut memory = MmapMut::map_anon(bytes.len().max(LINE)).map_err(refused)?;
@@ -60,7 +61,7 @@ impl Code {
 
     /// Length of the scratch slice that every function is content with.
     pub(super) fn workspace(&self) -> usize {
-        self.functions.iter().map(|function| function.workspace).max().unwrap_or(0)
+        self.functions.iter().map(|function| function.workspace + function.slack).max().unwrap_or(0)
     }
 
     /// Runs a function. Slices hold the numbers of all lanes, value by value.
@@ -68,9 +69,10 @@ impl Code {
     /// # Panics
     /// If a slice is too short, or there is no such function.
     pub(super) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        let Callable { start, pool, inputs, outputs, workspace: length } = &self.functions[function];
+        let Callable { start, pool, inputs, outputs, workspace: length, slack } = &self.functions[function];
         let (input, output) = (&input[..*inputs], &mut output[..*outputs]);
-        let workspace = &mut workspace[..*length];
+        let skipped = workspace.as_ptr().align_offset(LINE).min(*slack);
+        let workspace = &mut workspace[skipped..][..*length];
         let code = self.memory[*start..].as_ptr();
         // SAFETY: whole code of a function of this convention begins here (invariant 1) and is executable (invariant 4).
         let call = unsafe { mem::transmute::<*const u8, Call>(code) };

@@ -5,11 +5,6 @@ use linkwear_runtime::Scalar;
 
 use super::graph::Function;
 
-/// The addresses for code of one lane.
-pub(super) fn address_one(function: Function) -> usize {
-    address::<1>(function)
-}
-
 /// Where a function for `LANES` lanes lies.
 pub(super) fn address<const LANES: usize>(function: Function) -> usize {
     match function {

@@ -110,20 +110,4 @@ impl Graph {
     pub(super) fn len(&self) -> usize {
         self.nodes.len()
     }
-
-    /// Which nodes `outputs` need.
-    pub(super) fn live(&self, outputs: &[Id]) -> Vec<bool> {
-        let mut live = vec![false; self.nodes.len()];
-        for id in outputs {
-            live[*id as usize] = true;
-        }
-        for (at, node) in self.nodes.iter().enumerate().rev() {
-            if live[at] {
-                for argument in node.arguments() {
-                    live[*argument as usize] = true;
-                }
-            }
-        }
-        live
-    }
 }

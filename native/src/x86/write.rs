@@ -8,7 +8,7 @@ use super::allocate::allocate;
 use super::bounds::{Lengths, first_out_of_bounds};
 use super::encode::Encoder;
 use super::graph::Function;
-use super::instruction::Target;
+use super::instruction::{Lanes, Target};
 use super::lower::{Lowered, lower};
 use super::order::order;
 
@@ -21,6 +21,8 @@ pub(super) struct Written {
     pub(super) inputs: usize,
     pub(super) outputs: usize,
     pub(super) workspace: usize,
+    /// How much of a longer workspace may be left out at its beginning, so that it begins where lines of the cache do.
+    pub(super) slack: usize,
 }
 
 /// Writes the code of a tape; `functions` tells where the functions lie that it calls.
@@ -59,6 +61,8 @@ pub(super) fn write_in_order(
         inputs: lowered.inputs * lanes,
         outputs: lowered.outputs.len() * lanes,
         workspace: straight.frame * lanes,
+        // Values of several lanes that cross lines cost twice; single numbers never do.
+        slack: if target.lanes == Lanes::One { 0 } else { 7 },
         pool: straight.pool,
     };
     let bytes = |numbers: usize| numbers * size_of::<f64>();

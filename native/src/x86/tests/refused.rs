@@ -31,7 +31,8 @@ fn refused_memory_is_a_reason_and_no_crash() {
 #[ignore = "run by the test before, in a process of its own"]
 fn inside_a_hardened_process() {
     assert!(env::var_os(INSIDE).is_some(), "it hardens the whole process");
-    let returns = || Written { code: vec![0xC3], pool: vec![], inputs: 0, outputs: 0, workspace: 0 };
+    let returns =
+        || Written { code: vec![0xC3], pool: vec![], inputs: 0, outputs: 0, workspace: 0, slack: 0 };
     let given = Code::new(vec![returns()]).expect("memory, as long as nothing forbids it");
     given.run(0, &[], &mut [], &mut []);
     // SAFETY: a flag of this process.
