@@ -11,7 +11,7 @@ use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
 use super::subspace::{least_norm, nearly_null_space, null_space};
 
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
-const NEARLY: f64 = 1e-3;
+pub const NEARLY: f64 = 1e-3;
 /// Openings below this part are rounding.
 const ROUNDING: f64 = 1e-10;
 /// Positions within this part of a step from the start are the start: what closes only there does not move.

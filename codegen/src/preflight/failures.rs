@@ -8,7 +8,7 @@ use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
-use super::exactness::Opening;
+use super::exactness::{NEARLY, Opening};
 use super::rank::{Lost, Rows};
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
@@ -285,8 +285,14 @@ pub fn abrupt_driver(mechanism: &Mechanism, joint: &str, what: &str) -> Diagnost
     at_joint(diagnostic, mechanism, joint, "driven here")
 }
 
-/// Drivers must prescribe independent freedoms.
-pub fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Rows) -> Vec<Diagnostic> {
+/// Drivers must prescribe independent freedoms. `misses`: by which part of the mechanism the loops stay open when the driver of
+/// this speed goes on by a small step.
+pub fn conflicts(
+    mechanism: &Mechanism,
+    drivers: &[(JointId, usize)],
+    rows: &Rows,
+    misses: &dyn Fn(usize) -> f64,
+) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
     for group in rows.driver_conflicts() {
         let joints: Vec<&Joint> = group.iter().map(|driver| mechanism.joint(drivers[*driver].0)).collect();
@@ -298,11 +304,17 @@ pub fn conflicts(mechanism: &Mechanism, drivers: &[(JointId, usize)], rows: &Row
                 format!("the loops couple the driven joints {names}: they cannot all be prescribed");
             (Code::DriversInConflict, message)
         };
-        errors.push(
-            Diagnostic::new(code, message)
-                .help("keep as many drivers as there are freedoms to drive")
-                .at_each(joints.iter().map(|joint| joint.span), "driven here"),
-        );
+        let mut error = Diagnostic::new(code, message)
+            .help("keep as many drivers as there are freedoms to drive")
+            .at_each(joints.iter().map(|joint| joint.span), "driven here");
+        let nearly = group.first().filter(|_| group.len() == 1).map(|driver| misses(drivers[*driver].1));
+        if let Some(part) = nearly.filter(|part| *part < NEARLY) {
+            error = error.help(format!(
+                "its loop misses that motion by {part:.1e} of its size only: correct lengths and axes, or give them more \
+                 digits; {CLOSED_AT_START:e} is close enough"
+            ));
+        }
+        errors.push(error);
     }
     errors
 }

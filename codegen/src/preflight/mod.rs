@@ -85,7 +85,8 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
             reason: "in every position tried, the other rows of its loops already forbid it".to_owned(),
         });
     }
-    let mut errors = failures::conflicts(mechanism, &drivers, &rows);
+    let misses = |speed| case.walker().driver_misses(&positions.positions[0], speed, &[]);
+    let mut errors = failures::conflicts(mechanism, &drivers, &rows, &misses);
     if analysis.speeds == analysis.independent_rows {
         errors.insert(0, failures::locked(mechanism, &analysis));
     }

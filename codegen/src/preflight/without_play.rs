@@ -51,7 +51,7 @@ pub fn check_without_play(
             <= play
     };
     if conflicts.iter().any(|group| !follows(group)) {
-        return fail(failures::conflicts(mechanism, &drivers, &rows));
+        return fail(failures::conflicts(mechanism, &drivers, &rows, &|_| f64::INFINITY));
     }
     if !conflicts.is_empty() {
         return Ok(by_clearance("without them its drivers would be blocked"));

@@ -194,6 +194,16 @@ impl<'a> ConstrainedMotion<'a> {
         (q, v, (work[0], work[1]))
     }
 
+    /// Names and values of all angles that count turns: free ones of a flat state, and those of drivers, prescribed last.
+    pub(super) fn angles<'y>(&'y self, y: &'y [f64]) -> impl Iterator<Item = (&'y str, f64)> {
+        let description = self.dynamics.evaluator.description();
+        let free = description.coordinates.iter().zip(self.split(y).0);
+        let free = free.filter(|(info, _)| info.unit == "rad").map(|(info, angle)| (&*info.name, *angle));
+        let laws = self.dynamics.evaluator.last_prescribed().chunks_exact(3);
+        let driven = description.drivers.iter().zip(laws).filter(|(driver, _)| driver.angular);
+        free.chain(driven.map(|(driver, law)| (&*driver.joint, law[0])))
+    }
+
     /// Puts a state onto the constraints, however far it moves.
     pub(super) fn put_on(&mut self, t: f64, y: &mut [f64]) -> Result<Correction, RunError> {
         let (q, rest) = y.split_at_mut(self.coordinates);

@@ -14,7 +14,7 @@ use super::run::{Run, Statistics};
 use super::schedule::Schedule;
 use super::singular_passage::Passages;
 use super::unbounded::Unbounded;
-use super::warning::RunWarning;
+use super::warning::{self, RunWarning};
 use crate::clearance_joint::Channels;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
@@ -414,6 +414,7 @@ impl Sampler {
             run.turns = follower.measures;
         }
         run.warnings.extend(self.unbounded.warning(&run.channels));
+        run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
         if run.stopped.is_none() && self.guard.is_doubtful(&run.statistics) {
             let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
             run.warnings.push(RunWarning::EnergyOff { error, throughput });

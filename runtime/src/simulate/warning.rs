@@ -40,6 +40,15 @@ pub enum RunWarning {
         /// Energy that went through [J].
         throughput: f64,
     },
+    /// An angle is so large that rounding shows in where it stands in its turn.
+    AngleRounded {
+        /// Its coordinate, or its driven joint.
+        angle: String,
+        /// The angle at the end [rad].
+        reached: f64,
+        /// Its last place there [rad].
+        rounding: f64,
+    },
     /// The motion passes a singular position in which forces grow without bounds.
     ForcesUnbounded {
         /// When rows or steps met it first [s].
@@ -82,6 +91,11 @@ impl fmt::Display for RunWarning {
                  the step or tighten the tolerance",
                 100.0 * error / throughput
             ),
+            Self::AngleRounded { angle, reached, rounding } => write!(
+                f,
+                "`{angle}` reaches {reached:.3e} rad, where its last place is {rounding:.1e} rad: forces and all else that goes \
+                 with the place in its turn are known no better; check its speed, or run fewer turns"
+            ),
             Self::ForcesUnbounded { t, columns } => write!(
                 f,
                 "at t = {t:.6} s the mechanism is in a singular position, where {} without bounds: its rows leave that \
@@ -96,6 +110,17 @@ impl fmt::Display for RunWarning {
             ),
         }
     }
+}
+
+/// Rounding of an angle [rad] from which it draws a warning: ten times the tolerance that runs have unless told otherwise.
+const ANGLE_DOUBTFUL: f64 = 1e-8;
+
+/// The warning for the largest of some angles [rad], if it needs one.
+pub(super) fn rounded_angle<'a>(angles: impl Iterator<Item = (&'a str, f64)>) -> Option<RunWarning> {
+    let (angle, reached) = angles.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let rounding = f64::EPSILON * reached.abs();
+    let warning = RunWarning::AngleRounded { angle: angle.to_owned(), reached, rounding };
+    (rounding > ANGLE_DOUBTFUL).then_some(warning)
 }
 
 /// Names of columns are told up to this number.
@@ -120,5 +145,21 @@ pub(super) fn step_limits(integrator: Integrator) -> Option<(f64, f64)> {
         Integrator::Rk4 { .. } => Some((1.0, 2.0 * std::f64::consts::SQRT_2)),
         Integrator::GeneralizedAlpha { .. } => Some((0.5, f64::INFINITY)),
         Integrator::Dopri5 { .. } => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_largest_angle_is_named_once_its_rounding_shows() {
+        let angles = |turns: f64| [("R1", -2.0 * PI * turns), ("R2.q", 3.0)].into_iter();
+        assert_eq!(rounded_angle(angles(1e6)), None);
+        let Some(RunWarning::AngleRounded { angle, reached, rounding }) = rounded_angle(angles(1e7)) else {
+            panic!("ten million turns are known to 1.4e-8 rad")
+        };
+        assert_eq!((angle.as_str(), reached), ("R1", -2.0 * PI * 1e7));
+        assert!((1.3e-8..1.5e-8).contains(&rounding), "{rounding}");
     }
 }
