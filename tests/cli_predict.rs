@@ -119,7 +119,7 @@ fn a_wrong_fit_file_is_named_with_place_and_cure() {
     };
     let (message, line) = case("{\n \"alpha\": 2,\n oops");
     assert!(message.starts_with("not JSON") && line == Some(3), "{message} {line:?}");
-    assert_eq!(case("{\"beta\": 2}"), ("`alpha` is missing".to_owned(), None));
+    assert_eq!(case("{\"beta\": 2}"), ("`alpha` is missing".to_owned(), Some(1)));
     let (message, line) = case("{\n \"alpha\": 2,\n \"beta\": -1 }");
     assert!(message.contains("`beta` is -1") && line == Some(3), "{message}");
     let (message, _) = case(r#"{"alpha": 2, "beta": 1, "covariance": [[1, 2], [2, 1]]}"#);
@@ -328,21 +328,63 @@ fn other_processes_are_predicted_from_as_they_are_fitted() {
 }
 
 #[test]
-fn an_interval_by_the_covariance_of_few_increments_is_called_too_short() {
+fn a_fit_of_an_older_program_has_an_interval_by_the_covariance_and_says_so_after_few_increments() {
+    // Its increments have no loads.
     let fit = |increments: usize| {
         let column = |of: &dyn Fn(usize) -> usize| (0..increments).map(of).collect::<Vec<_>>();
         let [from, to] = [column(&|at| at % 4), column(&|at| at % 4 + 1)];
         serde_json::json!({
-            "alpha": 2.0, "beta": 2.0, "covariance": [[0.2, 0.2], [0.2, 0.3]], "resolution": 0.5,
+            "alpha": 2.0, "beta": 2.0, "covariates": [{ "name": "load", "coefficient": 0.5 }],
+            "covariance": [[0.2, 0.2, 0.0], [0.2, 0.3, 0.0], [0.0, 0.0, 0.1]],
             "increments": { "from": from, "to": to, "wear": vec![1.0; increments] },
         })
     };
     let folder = Folder::new("predict-few");
     let warnings = |increments| {
         let file = folder.write("fit.json", &fit(increments).to_string());
-        let life = linkwear(&["predict", &file, "--threshold", "20", "--format", "json"]).json();
+        let life =
+            linkwear(&["predict", &file, "--threshold", "20", "--covariate", "load=2", "--format", "json"])
+                .json();
         assert_eq!(life["interval95"]["kind"], "normal");
         life["warnings"].as_array().expect("a list").len()
     };
     assert_eq!((warnings(8), warnings(40)), (1, 0));
+}
+
+#[test]
+fn after_covariates_and_rounded_readings_the_interval_counts_in_what_the_increments_leave_open() {
+    let folder = Folder::new("predict-informed");
+    let mut csv = "unit,t,w,load\n".to_owned();
+    for unit in 0..4 {
+        let mut wear = 0.0;
+        for t in 0..=4 {
+            csv += &format!("{unit},{t},{wear},{}\n", 1 + unit % 2);
+            wear += 0.5 * [3.0, 1.0, 2.0, 4.0][(t + unit) % 4] * (1 + unit % 2) as f64;
+        }
+    }
+    let data = folder.write("wear.csv", &csv);
+    let file = folder.path("fit.json");
+    let base = ["fit", &data, "--unit", "unit", "--exposure", "t", "--wear", "w", "--out", &file];
+    for (fitted, asked) in
+        [(["--covariate", "load"], &["--covariate", "load=1"][..]), (["--resolution", "0.5"], &[])]
+    {
+        assert_eq!(linkwear(&[&base[..], &fitted].concat()).code, 0);
+        let ask = || {
+            let base = ["predict", &file, "--threshold", "20", "--format", "json"];
+            linkwear(&[&base[..], asked].concat()).json()
+        };
+        let life = ask();
+        assert_eq!(life["interval95"]["kind"], "predictive", "{life}");
+        // Increments that the fit is not of.
+        let text = std::fs::read_to_string(&file).expect("written");
+        let mut fit: Value = serde_json::from_str(&text).expect("JSON");
+        for wear in fit["increments"]["wear"].as_array_mut().expect("a column") {
+            *wear = (2.0 * wear.as_f64().expect("a number")).into();
+        }
+        std::fs::write(&file, fit.to_string()).expect("writable");
+        let (message, _) =
+            refusal(&[&["predict", &file, "--threshold", "20", "--format", "json"], asked].concat());
+        assert!(message.contains("not those that the parameters"), "{message}");
+        std::fs::remove_file(&file).expect("there");
+    }
 }

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::error::LifeError;
 use crate::inspection::{Effort, History, InspectionError, Mixture, Particles, Posterior, Prior};
 use crate::life::{
-    Band, Bands, Contribution, ErrorBudget, Estimate, FirstPassage, Lifetime, Method, Moments, NormalMixture,
+    Band, Bands, Contribution, ErrorBudget, Estimate, FirstPassage, LifeMixture, Lifetime, Method, Moments,
     OperatingState, Sample, WithError,
 };
 
@@ -111,7 +111,7 @@ impl Prediction {
             && *increments < FEW
         {
             answer.warnings.push(format!(
-                "the interval of lives goes by the covariance alone, which says too little after {increments} increments: with a covariate 86 % of lives end within after 8 of them and 92 % after 16, not 95 %"
+                "the interval of lives goes by the covariance alone, which says too little after {increments} increments: with a covariate 86 % of lives end within after 8 of them and 92 % after 16, not 95 %; if an older version wrote the fit, fit again"
             ));
         }
         let known = Contribution::None("the fit gives no covariance");
@@ -121,9 +121,10 @@ impl Prediction {
 
     /// The interval that holds the life of a joint of the fit's population with probability [`Self::LEVEL`], over all samples
     /// that the fit might have been made from: from the posterior of the parameters after the fit's increments under a
-    /// flat prior (that of [`Prior::Flat`]), whose tails match those of repeated sampling; the bench
-    /// `gamma/tests/coverage.rs` shows how well. Where increments do not say all (covariates, rounded readings) from the normal
-    /// law of the logarithms; without increments from the estimate alone.
+    /// flat prior (that of [`Prior::Matching`]), whose tails match those of repeated sampling; the bench
+    /// `gamma/tests/coverage.rs` shows how well. After covariates or rounded readings from the sets of parameters of
+    /// [`crate::FitFile::informed`]; after many increments from the normal law of the logarithms; without increments from the
+    /// estimate alone.
     ///
     /// # Errors
     /// [`LifeError`], if a parameter leaves the range of numbers.
@@ -142,13 +143,17 @@ impl Prediction {
                     return Ok((ends(&posterior)?, IntervalKind::Predictive));
                 }
             }
+            Sample::Sets(sets) => {
+                let mixture = LifeMixture::of_sets(estimate, state, sets)?;
+                return Ok((ends(&mixture)?, IntervalKind::Predictive));
+            }
             Sample::Unknown => return Ok((ends(&state.life(estimate)?)?, IntervalKind::PlugIn)),
             _ => {}
         }
         if !estimate.is_uncertain() {
             return Ok((ends(&state.life(estimate)?)?, IntervalKind::PlugIn));
         }
-        let mixture = NormalMixture::new(estimate, state, NORMAL_SETS)?;
+        let mixture = LifeMixture::normal(estimate, state, NORMAL_SETS)?;
         Ok((ends(&mixture)?, IntervalKind::Normal))
     }
 

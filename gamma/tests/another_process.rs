@@ -47,6 +47,10 @@ impl Process for ByPrecision {
         Term { value, gradient: [a, -0.5 * b], hessian: [aa, -0.5 * ab, 0.25 * bb] }
     }
 
+    fn variance(&self, logs: [f64; 2]) -> f64 {
+        Wiener.variance(by_spread(logs))
+    }
+
     fn slice(&self, first: f64, increments: &[(f64, f64)]) -> Slice {
         let slice = Wiener.slice(first, increments);
         Slice { slope: -0.5 * slice.slope, power: 1.0, ..slice }

@@ -77,13 +77,14 @@ impl Case {
             };
             fitted += 1;
             let fit = FitFile::new(&fit, &data, &names, ("um", "h"), false);
-            let fit = fit.estimate(&values).expect("its own fit");
+            let fit = fit.informed(&values).expect("its own fit");
             for (sum, (threshold, current)) in sums.iter_mut().zip(STATES) {
                 let state =
                     OperatingState::new(threshold).and_then(|new| new.worn(current, 0.0)).expect("left");
                 let ((lower, upper), kind) =
                     Prediction::predictive_interval(&fit, &state).expect("an interval");
-                assert_eq!(kind, self.kind);
+                // A coarse gauge may leave so much open that the covariance has to do, with a warning.
+                assert!(kind == self.kind || self.step.is_some(), "{kind:?}");
                 let clock = Clock::linear(1.0).expect("positive");
                 let truth = FirstPassage::from(law, clock, threshold, current, 0.0).expect("left");
                 let (early, late) = (truth.failed(lower), truth.reliability(upper));
@@ -128,19 +129,34 @@ fn table_of_coverages() {
 }
 
 #[test]
-#[ignore = "some minutes: the second table of the docs"]
-fn normal_intervals() {
+#[ignore = "ten minutes: the second table of the docs"]
+fn covariates_and_rounded_readings() {
     println!(
         "| data | increments | shape | 5 mean increments | 5, half worn | 20 | 20, half worn |\n|---|---|---|---|---|---|---|"
     );
-    let normal = |shape, increments| Case { kind: IntervalKind::Normal, ..Case::exact(shape, increments) };
-    for (shape, increments) in [(2.0, 12), (2.0, 40)] {
-        let case = Case { step: Some(0.5), ..normal(shape, increments) };
-        println!("| rounded | {increments} | {shape} | {} |", cells(case.coverage(200)));
+    // Nothing beyond the two per cent, and three standard errors of the mean of 100 coverages that scatter by 7 %.
+    let row = |data: &str, case: Case| {
+        let coverages = case.coverage(100);
+        println!("| {data} | {} | {} | {} |", case.increments, case.shape, cells(coverages));
+        coverages.into_iter().all(|[within, ..]| (within - 95.0).abs() < 2.0 + 2.1)
+    };
+    let mut all = true;
+    for increments in [8, 16, 40] {
+        for shape in [0.3, 2.0, 20.0] {
+            all &= row("load", Case { load: Some(2.0), ..Case::exact(shape, increments) });
+        }
+        for shape in [0.3, 2.0, 20.0] {
+            all &= row("step 0.5", Case { step: Some(0.5), ..Case::exact(shape, increments) });
+        }
     }
-    for (shape, increments) in [(2.0, 40), (2.0, 16), (20.0, 16), (0.3, 16), (2.0, 8)] {
-        let case = Case { load: Some(2.0), ..normal(shape, increments) };
-        println!("| load | {increments} | {shape} | {} |", cells(case.coverage(200)));
-    }
-    println!("| exact | 404 | 2 | {} |", cells(normal(2.0, 404).coverage(100)));
+    assert!(all, "a cell is off");
+}
+
+#[test]
+#[ignore = "some minutes: where the normal law of the parameters takes over"]
+fn many_increments() {
+    let normal = |increments| Case { kind: IntervalKind::Normal, ..Case::exact(2.0, increments) };
+    println!("| exact | 404 | 2 | {} |", cells(normal(404).coverage(100)));
+    let rounded = Case { step: Some(0.5), ..normal(104) };
+    println!("| step 0.5 | 104 | 2 | {} |", cells(rounded.coverage(100)));
 }

@@ -19,7 +19,12 @@ const STRIDE: usize = 5;
 
 pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
     let fit = read_fit(&arguments.fit)?;
-    let estimate = fit.estimate(&arguments.covariate).map_err(Failure::fit(&arguments.fit))?;
+    // Inspections update the fit's own law; without them the interval of lives asks for more.
+    let estimate = match arguments.inspections {
+        Some(_) => fit.estimate(&arguments.covariate),
+        None => fit.informed(&arguments.covariate),
+    };
+    let estimate = estimate.map_err(Failure::fit(&arguments.fit))?;
     let state = state(arguments, &estimate)?;
     let mut answer = predict(arguments, estimate, &state)?;
     for (at, (name, value)) in arguments.covariate.iter().enumerate() {

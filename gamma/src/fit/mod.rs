@@ -11,6 +11,7 @@ mod goodness;
 mod interval;
 mod maximise;
 mod model;
+mod parameter_sets;
 mod rounded;
 
 pub use bootstrap::{Bootstrap, bootstrap};
@@ -19,6 +20,7 @@ pub use estimate::{Fit, LikelihoodRatio, estimate, likelihood_ratio};
 pub use goodness::{Goodness, goodness};
 pub use interval::{Interval, profile_interval};
 pub use model::Model;
+pub(crate) use parameter_sets::parameter_sets;
 
 #[cfg(test)]
 mod tests;

@@ -75,43 +75,6 @@ fn drawn_lives(
     (0..count).map(at).collect()
 }
 
-/// The law of a life when the logarithms of the parameters are normal, by drawn parameters of equal weight.
-#[derive(Debug)]
-pub struct NormalMixture {
-    lives: Vec<FirstPassage>,
-    typical: f64,
-}
-
-impl NormalMixture {
-    /// Of `count` draws by a seed of its own.
-    ///
-    /// # Errors
-    /// [`LifeError`] if drawn parameters leave the range of numbers.
-    pub fn new(estimate: &Estimate, state: &OperatingState, count: usize) -> Result<Self, LifeError> {
-        const SEED: u64 = 0;
-        let typical = state.life(estimate)?.typical();
-        Ok(Self { lives: drawn_lives(estimate, state, count, SEED)?, typical })
-    }
-
-    fn mean(&self, of: impl Fn(&FirstPassage) -> f64) -> f64 {
-        self.lives.iter().map(of).sum::<f64>() / self.lives.len() as f64
-    }
-}
-
-impl Lifetime for NormalMixture {
-    fn reliability(&self, t: f64) -> f64 {
-        self.mean(|life| life.reliability(t))
-    }
-
-    fn failed(&self, t: f64) -> f64 {
-        self.mean(|life| life.failed(t))
-    }
-
-    fn typical(&self) -> f64 {
-        self.typical
-    }
-}
-
 /// The scale on which a value is unbounded.
 #[derive(Clone, Copy)]
 enum Scale {

@@ -16,12 +16,23 @@ pub enum Sample {
     Unknown,
     /// Increments: exposure before (without an exponent), exposure after, wear.
     Increments(Vec<[f64; 3]>),
-    /// There were data, but their law is not that of the process alone (covariates, a gauge's step): the covariance has to
-    /// stand for them.
+    /// Data whose law is not that of the process alone (covariates, a gauge's step), as what they leave open of the
+    /// parameters: sets whose weights sum to 1.
+    Sets(Vec<ParameterSet>),
+    /// There were data, but the covariance has to stand for them.
     Indirect {
         /// How many increments.
         increments: usize,
     },
+}
+
+/// Parameters of a process as data may have come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterSet {
+    /// Logarithms of the two parameters, and of the exponent if it was estimated.
+    pub logs: Vec<f64>,
+    /// Its probability.
+    pub weight: f64,
 }
 
 /// The parameters of a process and perhaps the exponent of exposure, with the covariance of their logarithms.

@@ -12,18 +12,20 @@ mod estimate;
 mod first_passage;
 mod law;
 mod lifetime;
+mod mixture;
 mod state;
 mod statistics;
 
 pub use crate::error::LifeError;
-pub use band::{Band, Bands, Method, NormalMixture};
+pub use band::{Band, Bands, Method};
 pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
-pub use estimate::{Estimate, Sample};
+pub use estimate::{Estimate, ParameterSet, Sample};
 pub use first_passage::FirstPassage;
 pub use law::Law;
 pub(crate) use lifetime::mixed_hazard;
 pub use lifetime::{Lifetime, Moments};
+pub use mixture::LifeMixture;
 pub use state::OperatingState;
 pub use statistics::{LifeStatistics, WithError};
 

@@ -33,6 +33,9 @@ pub trait Process: Debug + Sync {
     /// ln density of an increment over exposure 1, with derivatives by `logs`.
     fn density(&self, logs: [f64; 2], wear: f64) -> Term;
 
+    /// Variance of an increment over exposure 1.
+    fn variance(&self, logs: [f64; 2]) -> f64;
+
     /// Means of what an increment over exposure 1 is below and above `wear`: the integrals of its distribution function up to there
     /// and of its complement from there on; None where readings rounded to a gauge's step cannot be taken as such.
     fn mean_excess(&self, _logs: [f64; 2], _wear: f64) -> Option<[f64; 2]> {

@@ -46,6 +46,10 @@ impl Process for Gamma {
         Some([ln_alpha, ln_alpha + libm::log(ratio)])
     }
 
+    fn variance(&self, logs: [f64; 2]) -> f64 {
+        libm::exp(logs[0] - 2.0 * logs[1])
+    }
+
     fn density(&self, [eta, ln_beta]: [f64; 2], wear: f64) -> Term {
         let a = libm::exp(eta);
         let ln_wear = libm::log(wear);

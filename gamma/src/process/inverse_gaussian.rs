@@ -52,6 +52,10 @@ impl Process for InverseGaussian {
         (wears.iter().all(|wear| *wear > 0.0) && scatters(scatter, exposure / drift)).then_some(logs)
     }
 
+    fn variance(&self, logs: [f64; 2]) -> f64 {
+        libm::exp(3.0 * logs[0] - logs[1])
+    }
+
     fn density(&self, [ln_mean, ln_shape]: [f64; 2], wear: f64) -> Term {
         let (mean, shape) = (libm::exp(ln_mean), libm::exp(ln_shape));
         let miss = wear - mean;

@@ -46,6 +46,10 @@ impl Process for Wiener {
         (drift > 0.0 && scatters(scatter, drift * wear)).then_some(logs)
     }
 
+    fn variance(&self, logs: [f64; 2]) -> f64 {
+        libm::exp(2.0 * logs[1])
+    }
+
     fn density(&self, [ln_mean, ln_deviation]: [f64; 2], wear: f64) -> Term {
         let (mean, deviation) = (libm::exp(ln_mean), libm::exp(ln_deviation));
         let (z, m) = ((wear - mean) / deviation, mean / deviation);

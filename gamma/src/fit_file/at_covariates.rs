@@ -1,0 +1,157 @@
+//! The estimate at given covariates. In: a fit's file, values. Out: an [`Estimate`], with what the data leave open, or what is wrong.
+//! Never knows lives.
+
+use super::definition::FitFile;
+use super::error::{FitFileError, WRITE_ONE};
+use crate::data::Rounding;
+use crate::fit::{Model, parameter_sets};
+use crate::life::{Estimate, LifeError, ParameterSet, Sample};
+use crate::matrix::Factor;
+
+/// How far parameters may be from the maximum of the increments beside them: digits lost in print, no other fit.
+const SAME_MAXIMUM: f64 = 1e-3;
+
+/// How far the log-likelihood may be from its maximum, twice: a tenth of a standard error.
+const SAME_LIKELIHOOD: f64 = 1e-2;
+
+/// Increments up to which the parameters are integrated over; of more the normal law of their logarithms is as good, and quicker.
+const MOST: usize = 400;
+/// The same of rounded readings, whose likelihood costs a thousand times as much.
+const MOST_ROUNDED: usize = 100;
+
+impl FitFile {
+    /// The process where the covariates have these values, one for each: Lambda times the values to the powers b is the
+    /// process with other parameters; the uncertainty of the powers goes over to them to first order.
+    ///
+    /// # Errors
+    /// [`FitFileError`] for values that are missing, unknown or not positive, and for a covariance that is none.
+    pub fn estimate(&self, values: &[(String, f64)]) -> Result<Estimate, FitFileError> {
+        let wrong = |error: LifeError| self.fault("covariance", &error.to_string(), WRITE_ONE);
+        let (all, kept) = (self.names().len(), self.names().len() - self.covariates.len());
+        let sized = self.covariance.len() == all && self.covariance.iter().all(|row| row.len() == all);
+        if !(self.covariance.is_empty() || sized) {
+            let message = format!("`covariance` is not one of {all} parameters");
+            return Err(self.fault("covariance", &message, WRITE_ONE));
+        }
+        let ln_values: Vec<f64> = self.in_order(values)?.into_iter().map(libm::log).collect();
+        let powers = self.covariates.iter().map(|covariate| covariate.coefficient);
+        let ln_factor: f64 = powers.zip(&ln_values).map(|(power, ln)| power * ln).sum();
+        let scales = self.process.exposure_powers();
+        let factors = scales.map(|scale| libm::exp(scale * ln_factor));
+        let parameters = [self.parameters[0] * factors[0], self.parameters[1] * factors[1]];
+        let estimate = Estimate::new(self.process, parameters, self.exponent).map_err(wrong)?;
+        let estimate = estimate.with_sample(self.sample()?);
+        if self.covariance.is_empty() {
+            return Ok(estimate);
+        }
+        // Derivatives of the parameters kept by all of them.
+        let mut slopes = vec![vec![0.0; all]; kept];
+        for (at, row) in slopes.iter_mut().enumerate() {
+            row[at] = factors.get(at).copied().unwrap_or(1.0);
+            let through = if at < 2 { scales[at] * parameters[at] } else { 0.0 };
+            for (slope, ln) in row[kept..].iter_mut().zip(&ln_values) {
+                *slope = through * ln;
+            }
+        }
+        let entry = |i: usize, j: usize| -> f64 {
+            let of_row = |k: usize| -> f64 { (0..all).map(|l| self.covariance[k][l] * slopes[j][l]).sum() };
+            (0..all).map(|k| slopes[i][k] * of_row(k)).sum()
+        };
+        let covariance: Vec<Vec<f64>> = (0..kept).map(|i| (0..kept).map(|j| entry(i, j)).collect()).collect();
+        estimate.with_covariance(&covariance).map_err(wrong)
+    }
+
+    fn sample(&self) -> Result<Sample, FitFileError> {
+        if self.increments.is_empty() {
+            return Ok(Sample::Unknown);
+        }
+        if self.resolution.is_some() || !self.covariates.is_empty() {
+            return Ok(Sample::Indirect { increments: self.increments.len() });
+        }
+        if self.exponent.is_none() {
+            let exposures: Vec<f64> = self.increments.iter().map(|one| one.to - one.from).collect();
+            let wears: Vec<f64> = self.increments.iter().map(|one| one.wear).collect();
+            let maximum = self.process.maximum(&exposures, &wears);
+            let same = |(log, own): (&f64, &f64)| (libm::exp(*log) / own - 1.0).abs() < SAME_MAXIMUM;
+            if !maximum.is_some_and(|logs| logs.iter().zip(&self.parameters).all(same)) {
+                return Err(self.other_increments());
+            }
+        }
+        Ok(Sample::Increments(self.increments.iter().map(|one| [one.from, one.to, one.wear]).collect()))
+    }
+
+    fn other_increments(&self) -> FitFileError {
+        let message = "`increments` are not those that the parameters were estimated from";
+        self.fault("increments", message, WRITE_ONE)
+    }
+
+    /// [`Self::estimate`], after covariates or rounded readings with all that up to some hundred increments leave open of the
+    /// parameters, [`Sample::Sets`]: some hundred likelihoods, so seconds for a gauge with an error.
+    ///
+    /// # Errors
+    /// [`FitFileError`], also for increments that the parameters were not estimated from.
+    pub fn informed(&self, values: &[(String, f64)]) -> Result<Estimate, FitFileError> {
+        let estimate = self.estimate(values)?;
+        let most = if self.resolution.is_some() { MOST_ROUNDED } else { MOST };
+        let is_told = matches!(estimate.sample(), Sample::Indirect { increments } if *increments <= most);
+        if !is_told || !estimate.is_uncertain() || !self.has_covariates_of_increments() {
+            return Ok(estimate);
+        }
+        let resolution = self.resolution.map(|step| Rounding { step, error: self.gauge.unwrap_or(0.0) });
+        let (power_law, covariates) = (self.exponent.is_some(), self.covariates.len());
+        let model = Model { process: self.process, power_law, covariates, resolution };
+        let mut phi: Vec<f64> = self.parameters.map(libm::log).to_vec();
+        phi.extend(self.exponent);
+        phi.extend(self.covariates.iter().map(|covariate| covariate.coefficient));
+        let point = model.point(&phi, &self.increments);
+        let gain = Factor::definite(&point.information).and_then(|factor| factor.distance(&point.gradient));
+        if !gain.is_some_and(|gain| gain < SAME_LIKELIHOOD) {
+            return Err(self.other_increments());
+        }
+        let inverse = Factor::definite(&point.information).and_then(|factor| factor.inverse());
+        let sets = inverse.and_then(|covariance| parameter_sets(&model, &self.increments, &phi, &covariance));
+        let Some(sets) = sets else { return Ok(estimate) };
+        let ln_values: Vec<f64> = self.in_order(values)?.into_iter().map(libm::log).collect();
+        let (scales, kept) = (self.process.exposure_powers(), phi.len() - covariates);
+        let at_values = |(mut logs, weight): (Vec<f64>, f64)| {
+            let ln_factor: f64 = logs[kept..].iter().zip(&ln_values).map(|(power, ln)| power * ln).sum();
+            logs.truncate(kept);
+            logs.iter_mut().zip(scales).for_each(|(log, scale)| *log += scale * ln_factor);
+            ParameterSet { logs, weight }
+        };
+        Ok(estimate.with_sample(Sample::Sets(sets.into_iter().map(at_values).collect())))
+    }
+
+    /// Values in the order of the fit's covariates.
+    fn in_order(&self, values: &[(String, f64)]) -> Result<Vec<f64>, FitFileError> {
+        let fault = |message: String, cure: &str| Err(self.fault("covariates", &message, cure));
+        let names: Vec<&str> = self.covariates.iter().map(|covariate| covariate.name.as_str()).collect();
+        for (at, (name, value)) in values.iter().enumerate() {
+            if values[..at].iter().any(|(before, _)| before == name) {
+                return fault(format!("covariate `{name}` is given twice"), "give one");
+            }
+            if !names.contains(&name.as_str()) {
+                let cure = match names.is_empty() {
+                    true => "it has none: give no value (leave --covariate out)".to_owned(),
+                    false => format!("its covariates are: `{}`", names.join("`, `")),
+                };
+                return fault(format!("the fit has no covariate `{name}`"), &cure);
+            }
+            if !(value.is_finite() && *value > 0.0) {
+                return fault(format!("covariate `{name}` is {value}"), "give a positive, finite number");
+            }
+        }
+        let mut ordered = Vec::new();
+        for name in names {
+            let Some((_, value)) = values.iter().find(|(given, _)| given == name) else {
+                let cure = format!("add --covariate {name}=VALUE, in the unit of the fit's data");
+                return fault(
+                    format!("the fit has a covariate `{name}`, and no value of it is given"),
+                    &cure,
+                );
+            };
+            ordered.push(*value);
+        }
+        Ok(ordered)
+    }
+}

@@ -1,0 +1,162 @@
+//! A fit as its file has it. In: a fit and the names of its data. Out: JSON. Never knows how it is read.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::error::{FitFileError, fault};
+use crate::data::{Increment, Observations};
+use crate::fit::Fit;
+use crate::process::Process;
+
+/// A fitted process: what a prediction needs, in the units of the data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitFile {
+    /// The process.
+    pub process: &'static dyn Process,
+    /// Its parameters, in the order of [`Process::parameters`].
+    pub parameters: [f64; 2],
+    /// Exponent c of Lambda = exposure^c, when it was estimated; none: Lambda is the exposure as given.
+    pub exponent: Option<f64>,
+    /// Covariates that multiply Lambda, each as value^b.
+    pub covariates: Vec<Covariate>,
+    /// Covariance of (the two parameters, [exponent], [b of each covariate]): square, symmetric; empty if unknown.
+    pub covariance: Vec<Vec<f64>>,
+    /// Log-likelihood at the estimate, of the wear increments in the units given; NaN if the file has none.
+    pub log_likelihood: f64,
+    /// Number of increments.
+    pub n: usize,
+    /// Number of units (specimens).
+    pub units: usize,
+    /// What wear is counted in, as the data call it.
+    pub wear_unit: String,
+    /// What exposure or Lambda is counted in, as the data call it.
+    pub exposure_unit: String,
+    /// Whether it was fitted over Lambda (true) or over an exposure as it is; none: the file does not say.
+    pub over_lambda: Option<bool>,
+    /// Increments it was made from; empty in files that do not hold them, and without covariates in files of older programs.
+    pub increments: Vec<Increment>,
+    /// Step of the gauge they were read with, if they are taken as rounded.
+    pub resolution: Option<f64>,
+    /// Standard deviation of the gauge's error before rounding, if there is one.
+    pub gauge: Option<f64>,
+    /// The text it was read from.
+    pub(super) text: String,
+}
+
+/// Increments as the file has them.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Columns {
+    pub(super) from: Vec<f64>,
+    pub(super) to: Vec<f64>,
+    pub(super) wear: Vec<f64>,
+    /// Which unit each is of; files of older programs do not have it.
+    #[serde(default)]
+    pub(super) unit: Vec<usize>,
+    /// Of each covariate its values; files of older programs do not have them.
+    #[serde(default)]
+    pub(super) covariates: Vec<Vec<f64>>,
+}
+
+/// A covariate of a fit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Covariate {
+    /// Its name in the data.
+    pub name: String,
+    /// Its power b.
+    pub coefficient: f64,
+}
+
+impl FitFile {
+    /// Of a fit: names of its covariates, what wear and exposure are counted in, whether exposure is Lambda already.
+    pub fn new(
+        fit: &Fit,
+        observations: &Observations,
+        covariates: &[String],
+        (wear, exposure): (&str, &str),
+        over_lambda: bool,
+    ) -> Self {
+        let found = fit.parameters();
+        let covariate = |(name, b): (&String, &f64)| Covariate { name: name.clone(), coefficient: *b };
+        Self {
+            process: fit.model.process,
+            parameters: [found[0], found[1]],
+            exponent: fit.exponent(),
+            covariates: covariates.iter().zip(fit.powers()).map(covariate).collect(),
+            covariance: fit.covariance(),
+            log_likelihood: fit.log_likelihood,
+            n: fit.increments,
+            units: observations.units.len(),
+            wear_unit: wear.to_owned(),
+            exposure_unit: exposure.to_owned(),
+            over_lambda: Some(over_lambda),
+            increments: observations
+                .increments
+                .iter()
+                .map(|one| Increment { row: 0, ..one.clone() })
+                .collect(),
+            resolution: fit.model.resolution.map(|rounding| rounding.step),
+            gauge: fit.model.resolution.map(|rounding| rounding.error).filter(|error| *error > 0.0),
+            text: String::new(),
+        }
+    }
+
+    /// Names of the process's parameters, `exponent`, `power of` each covariate: those that were estimated, in the order of
+    /// the covariance.
+    pub fn names(&self) -> Vec<String> {
+        let mut names: Vec<String> = self.process.parameters().map(str::to_owned).to_vec();
+        names.extend(self.exponent.map(|_| "exponent".to_owned()));
+        names.extend(self.covariates.iter().map(|covariate| format!("power of {}", covariate.name)));
+        names
+    }
+
+    /// As the file has it.
+    pub fn to_json(&self) -> Value {
+        let mut file = Map::new();
+        file.insert("process".into(), json!(self.process.name()));
+        for (name, value) in self.process.parameters().into_iter().zip(self.parameters) {
+            file.insert(name.into(), json!(value));
+        }
+        let column = |of: &dyn Fn(&Increment) -> f64| self.increments.iter().map(of).collect::<Vec<_>>();
+        let is_whole = self.has_covariates_of_increments();
+        let covariate = |at: usize| column(&|one| libm::exp(one.ln_covariates[at]));
+        let columns = Columns {
+            from: column(&|one| one.from),
+            to: column(&|one| one.to),
+            wear: column(&|one| one.wear),
+            unit: self.increments.iter().map(|one| one.unit).collect(),
+            covariates: (0..self.covariates.len()).filter(|_| is_whole).map(covariate).collect(),
+        };
+        let more = json!({
+            "exponent": self.exponent,
+            "covariates": self.covariates,
+            "covariance": self.covariance,
+            "log_likelihood": self.log_likelihood,
+            "n": self.n,
+            "units": self.units,
+            "wear_unit": self.wear_unit,
+            "exposure_unit": self.exposure_unit,
+            "over_lambda": self.over_lambda,
+            "resolution": self.resolution,
+            "gauge": self.gauge,
+            "increments": columns,
+        });
+        file.extend(more.as_object().cloned().unwrap_or_default());
+        Value::Object(file)
+    }
+
+    /// Whether each increment has a value of each covariate.
+    pub(super) fn has_covariates_of_increments(&self) -> bool {
+        self.increments.iter().all(|one| one.ln_covariates.len() == self.covariates.len())
+    }
+
+    /// What a reader of the answer has to know about the fit.
+    pub fn warning(&self) -> Option<&'static str> {
+        let known = "the fit has no `covariance`: its parameters are taken as known, bands have no width";
+        self.covariance.is_empty().then_some(known)
+    }
+
+    /// The fit does not do for what is asked; with the line where the key stands, if it does.
+    pub fn fault(&self, key: &str, message: &str, cure: &str) -> FitFileError {
+        fault(&self.text, key, message, cure)
+    }
+}

@@ -1,0 +1,140 @@
+//! Reads a fit's file. In: text. Out: a [`FitFile`], or what is wrong with it, where, and what to do. Never knows paths.
+
+use serde_json::Value;
+
+use super::definition::{Columns, Covariate, FitFile};
+use super::error::{FitFileError, WRITE_ONE, fault};
+use crate::data::Increment;
+use crate::process::{PROCESSES, Process, named};
+
+/// How far printed standard errors may be from the root of the variance beside them.
+const SAME: f64 = 0.01;
+
+impl FitFile {
+    /// Reads `process` (the Gamma process, if it is not there), its parameters, perhaps `exponent`, `covariates` and the
+    /// `covariance` of these, in this order and not of their logarithms.
+    ///
+    /// # Errors
+    /// [`FitFileError`].
+    pub fn parse(text: &str) -> Result<Self, FitFileError> {
+        let value: Value = serde_json::from_str(text).map_err(|error| FitFileError {
+            line: Some(error.line()),
+            message: format!("not JSON: {error}"),
+            cure: WRITE_ONE.to_owned(),
+        })?;
+        let reader = Reader { text, value: &value };
+        let process = reader.process()?;
+        let [first, second] = process.parameters().map(|name| reader.positive(name));
+        let text_of = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let count = |key: &str| value.get(key).and_then(Value::as_u64).unwrap_or(0) as usize;
+        Ok(Self {
+            process,
+            parameters: [first?, second?],
+            exponent: reader.given("exponent").map(|_| reader.positive("exponent")).transpose()?,
+            covariates: reader.covariates()?,
+            covariance: reader.covariance(process)?,
+            log_likelihood: value.get("log_likelihood").and_then(Value::as_f64).unwrap_or(f64::NAN),
+            n: count("n"),
+            units: count("units"),
+            wear_unit: text_of("wear_unit"),
+            exposure_unit: text_of("exposure_unit"),
+            over_lambda: value.get("over_lambda").and_then(Value::as_bool),
+            increments: reader.increments()?,
+            resolution: reader.given("resolution").map(|_| reader.positive("resolution")).transpose()?,
+            gauge: reader.given("gauge").map(|_| reader.positive("gauge")).transpose()?,
+            text: text.to_owned(),
+        })
+    }
+}
+
+/// A file that is JSON.
+struct Reader<'a> {
+    text: &'a str,
+    value: &'a Value,
+}
+
+impl Reader<'_> {
+    fn wrong(&self, key: &str, message: &str) -> FitFileError {
+        fault(self.text, key, message, WRITE_ONE)
+    }
+
+    /// A key that is there and not null.
+    fn given(&self, key: &str) -> Option<&Value> {
+        self.value.get(key).filter(|value| !value.is_null())
+    }
+
+    fn process(&self) -> Result<&'static dyn Process, FitFileError> {
+        let Some(given) = self.given("process") else { return Ok(PROCESSES[0]) };
+        given.as_str().and_then(named).ok_or_else(|| {
+            let names = PROCESSES.map(Process::name).join(", ");
+            self.wrong("process", &format!("`process` is {given}: known are {names}"))
+        })
+    }
+
+    fn positive(&self, key: &str) -> Result<f64, FitFileError> {
+        let found = self.value.get(key).ok_or_else(|| self.wrong(key, &format!("`{key}` is missing")))?;
+        let number = found.as_f64().filter(|number| *number > 0.0 && number.is_finite());
+        number.ok_or_else(|| self.wrong(key, &format!("`{key}` is {found}: a positive number is needed")))
+    }
+
+    fn covariates(&self) -> Result<Vec<Covariate>, FitFileError> {
+        let Some(list) = self.given("covariates") else { return Ok(Vec::new()) };
+        serde_json::from_value(list.clone()).map_err(|error| {
+            let message = format!("`covariates` is no list of names and coefficients: {error}");
+            self.wrong("covariates", &message)
+        })
+    }
+
+    fn increments(&self) -> Result<Vec<Increment>, FitFileError> {
+        let Some(given) = self.given("increments") else { return Ok(Vec::new()) };
+        let wrong = |what: &str| self.wrong("increments", &format!("`increments` {what}"));
+        let columns: Columns = serde_json::from_value(given.clone())
+            .map_err(|error| wrong(&format!("are no columns `from`, `to`, `wear`: {error}")))?;
+        let Columns { from, to, wear, unit, covariates } = columns;
+        let lengths = [to.len(), wear.len()].into_iter().chain(covariates.iter().map(Vec::len));
+        if !lengths.chain((!unit.is_empty()).then_some(unit.len())).all(|length| length == from.len()) {
+            return Err(wrong("have columns of different lengths"));
+        }
+        if covariates.iter().flatten().any(|value| !(value.is_finite() && *value > 0.0)) {
+            return Err(wrong("have a covariate that is no positive, finite number"));
+        }
+        let row = |at: usize| Increment {
+            unit: unit.get(at).copied().unwrap_or(0),
+            from: from[at],
+            to: to[at],
+            wear: wear[at],
+            ln_covariates: covariates.iter().map(|column| libm::log(column[at])).collect(),
+            row: 0,
+        };
+        let rows: Vec<Increment> = (0..from.len()).map(row).collect();
+        let rises = |one: &Increment| {
+            one.from >= 0.0 && one.from < one.to && one.to.is_finite() && one.wear.is_finite()
+        };
+        match rows.iter().position(|row| !rises(row)) {
+            Some(at) => {
+                Err(wrong(&format!("have no rising, finite exposure or no finite wear in row {}", at + 1)))
+            }
+            None => Ok(rows),
+        }
+    }
+
+    /// A matrix of logarithms, or of other parameters, would be taken for this one: standard errors tell.
+    fn covariance(&self, process: &dyn Process) -> Result<Vec<Vec<f64>>, FitFileError> {
+        let Some(given) = self.given("covariance") else { return Ok(Vec::new()) };
+        let matrix: Vec<Vec<f64>> = serde_json::from_value(given.clone()).unwrap_or_default();
+        if matrix.is_empty() {
+            return Err(self.wrong("covariance", "`covariance` is no list of lists of numbers"));
+        }
+        for (at, name) in process.parameters().into_iter().enumerate() {
+            let key = format!("se_{name}");
+            let Some(error) = self.value.get(&key).and_then(Value::as_f64) else { continue };
+            let variance = matrix.get(at).and_then(|row| row.get(at)).copied().unwrap_or(f64::NAN);
+            let same = (libm::sqrt(variance) - error).abs() <= SAME * error;
+            if !same {
+                let message = format!("`{key}` is {error}, but the variance in `covariance` is {variance}");
+                return Err(self.wrong("covariance", &message));
+            }
+        }
+        Ok(matrix)
+    }
+}

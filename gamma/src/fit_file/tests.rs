@@ -1,0 +1,90 @@
+//! A fit's file written, read, and taken at covariates.
+
+use super::*;
+use crate::data::{Gauge, Observations, Reading};
+use crate::fit::{Model, estimate};
+use crate::life::Estimate;
+use crate::process::{PROCESSES, Process};
+
+/// Two loads, ten units each, wear 1.5 times as fast at the second load, and some scatter.
+fn readings(unit_of_load: f64) -> Vec<Reading> {
+    let scatter = |unit: usize, step: usize| 1.0 + 0.3 * (((7 * unit + 5 * step) % 11) as f64 / 5.0 - 1.0);
+    let mut readings = Vec::new();
+    for unit in 0..20 {
+        let (load, pace) = if unit % 2 == 0 { (2.0, 1.0) } else { (5.0, 1.5) };
+        let mut wear = 0.0;
+        for step in 0..6 {
+            readings.push(Reading {
+                unit: unit.to_string(),
+                exposure: step as f64,
+                wear,
+                covariates: vec![load / unit_of_load],
+                row: readings.len() + 2,
+            });
+            wear += pace * scatter(unit, step);
+        }
+    }
+    readings
+}
+
+fn fitted(process: &'static dyn Process, unit_of_load: f64) -> FitFile {
+    let data = Observations::new(&readings(unit_of_load), false, Gauge::Exact).expect("growing wear");
+    let model = Model { process, covariates: 1, ..Model::default() };
+    let fit = estimate(&data, &model).expect("a maximum");
+    FitFile::new(&fit, &data, &["load".to_owned()], ("um", "h"), false)
+}
+
+fn at(file: &FitFile, load: f64) -> Estimate {
+    file.estimate(&[("load".to_owned(), load)]).expect("one value")
+}
+
+#[test]
+fn a_fit_at_a_load_does_not_depend_on_the_unit_of_the_load() {
+    for process in PROCESSES {
+        // With the load counted in units of 3, a load of 3 is 1: there the parameters and their covariance hold.
+        let (plain, scaled) = (at(&fitted(process, 1.0), 3.0), fitted(process, 3.0));
+        let one = at(&scaled, 1.0);
+        for k in 0..2 {
+            let (a, b) = (plain.parameters()[k], one.parameters()[k]);
+            assert!((a / b - 1.0).abs() < 1e-9, "{process:?}: {a} {b}");
+            assert!((b / scaled.parameters[k] - 1.0).abs() < 1e-14);
+        }
+        for gradient in [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
+            let (a, b) = (plain.variance(&gradient), one.variance(&gradient));
+            // Both maxima are found to 1e-10; the change of variables is linear in the logarithms, so exact.
+            assert!((a / b - 1.0).abs() < 1e-7, "{process:?}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn values_that_do_not_match_the_covariates_are_refused() {
+    let text = r#"{ "alpha": 2.0, "beta": 1.0, "covariates": [{ "name": "load", "coefficient": 0.5 }] }"#;
+    let fit = FitFile::parse(text).expect("a fit");
+    assert!((at(&fit, 4.0).parameters()[0] - 4.0).abs() < 1e-14);
+    let load = |value: f64| ("load".to_owned(), value);
+    let cases = [
+        vec![],
+        vec![load(1.0), load(2.0)],
+        vec![load(-1.0)],
+        vec![load(f64::NAN)],
+        vec![("mass".to_owned(), 1.0)],
+    ];
+    for values in cases {
+        let error = fit.estimate(&values).expect_err("no match");
+        assert!(error.line == Some(1) && !error.cure.is_empty(), "{values:?}: {error}");
+    }
+    let wrong = FitFile { covariance: vec![vec![1.0]], ..fit };
+    assert!(wrong.estimate(&[load(1.0)]).is_err());
+}
+
+#[test]
+fn a_fit_survives_its_file_bit_for_bit() {
+    for process in PROCESSES {
+        let file = fitted(process, 1.0);
+        let read = FitFile::parse(&file.to_json().to_string()).expect("what was written");
+        assert_eq!(FitFile { text: String::new(), ..read }, file);
+    }
+    let error = FitFile::parse("{\n\"process\": \"levy\", \"alpha\": 1, \"beta\": 1 }").expect_err("unknown");
+    assert!(error.line == Some(2) && error.message.contains("gamma, wiener, inverse-gaussian"), "{error}");
+}
