@@ -2,7 +2,9 @@
 
 mod command;
 
-use command::{Folder, linkwear};
+use std::process::Command;
+
+use command::{Answer, Folder, linkwear};
 use linkwear_gamma::life::{Bands, Clock, Estimate, FirstPassage, Law, Lifetime, Method, OperatingState};
 use linkwear_gamma::process::Gamma;
 use linkwear_gamma::series::{SeriesSystem, SharedFactor};
@@ -62,7 +64,30 @@ fn threads_change_no_bit_and_the_mean_path_has_no_scatter() {
         linkwear(&arguments).json()
     };
     let lives = |threads| with(&["--trajectories", "40", "--threads", threads]);
-    assert_eq!(lives("1"), lives("2"));
+    let one = lives("1");
+    assert_eq!(one, lives("2"));
+    // A system without room for a further stack: all is lived on the one thread there is.
+    let mut program = Command::new("env");
+    let starved =
+        program.arg("RUST_MIN_STACK=1152921504606846976").arg(env!("CARGO_BIN_EXE_linkwear")).args([
+            "life",
+            RSSR,
+            "--step",
+            "5e-5",
+            "--settle",
+            "1",
+            "--format",
+            "json",
+            "--trajectories",
+            "40",
+            "--threads",
+            "4",
+        ]);
+    let mut starved = Answer::of(starved.output().expect("the program runs")).json();
+    let warnings = starved["warnings"].to_string();
+    assert!(warnings.contains("the system gave 1 of 4 threads"), "{warnings}");
+    starved["warnings"] = one["warnings"].clone();
+    assert_eq!(starved, one);
     let mean = with(&["--mean"]);
     assert_eq!(
         (&mean["trajectories"], &mean["std"], &mean["random"]),
@@ -116,7 +141,7 @@ fn a_life_that_stops_early_keeps_the_cycles_it_had() {
 }
 
 /// A life without feedback, in a hurry: wear per cycle is a constant, so there is a closed form.
-fn steady(more: &[&str]) -> command::Answer {
+fn steady(more: &[&str]) -> Answer {
     let hurry = ["life", RSSR, "--rigid", "--no-feedback", "--step", "5e-5", "--settle", "1"];
     linkwear(&[&hurry[..], more].concat())
 }

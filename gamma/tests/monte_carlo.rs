@@ -177,3 +177,23 @@ fn a_run_that_is_stopped_keeps_the_lives_it_had() {
     );
     assert_eq!((run.ended, run.failures.len()), (Ended::Cancelled, 5));
 }
+
+#[test]
+fn a_thread_that_panics_ends_the_run_with_its_life_and_words() {
+    let settings = settings(1.0, WearStep::TABLE);
+    let draw = GammaDraw::new(1, &[RATES]);
+    for threads in [1, 3] {
+        let threads = NonZero::new(threads).expect("threads");
+        let watch = |part: f64| if part < 0.045 { ControlFlow::Continue(()) } else { panic!("at {part}") };
+        let run = MonteCarlo { settings: &settings, draw: &draw, trajectories: 0..100, threads }.run(
+            &|lend| {
+                lend(&mut Power(0.5));
+                Ok(())
+            },
+            Watch::new(&watch),
+        );
+        let Ended::Panicked { trajectory, message } = run.ended else { panic!("{:?}", run.ended) };
+        assert!(message == "at 0.05" && (1..100).contains(&trajectory), "{trajectory} {message}");
+        assert!(run.failures.len() >= 5, "{}", run.failures.len());
+    }
+}

@@ -84,6 +84,14 @@ pub enum Cause {
         /// Why.
         error: Box<dyn StdError + Send + Sync>,
     },
+    /// The thread of a random life panicked.
+    #[error("{}its thread panicked: {message}", of_life(Some(*.trajectory)))]
+    Panicked {
+        /// The random life.
+        trajectory: u64,
+        /// What the panic said.
+        message: String,
+    },
     /// Stopped on request.
     #[error("stopped on request{}", within(*.trajectory, *.lives))]
     Interrupted {

@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use std::error::Error as StdError;
 use std::num::NonZero;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
 use linkwear_codegen::limits;
@@ -133,6 +133,8 @@ pub(super) struct Plan<'s> {
     /// Random lives; none for the mean path alone.
     pub trajectories: Option<u64>,
     pub threads: NonZero<usize>,
+    /// Those of them that the system did not give.
+    missing_threads: AtomicUsize,
     watch: Watch<'s>,
     /// For work between two reports.
     between: Watch<'s>,
@@ -163,7 +165,18 @@ impl<'s> Plan<'s> {
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
         let threads = threads.min(NonZero::new(limits::THREADS.most).unwrap_or(threads));
-        Ok(Self { study, settings, coupling, process, journal, trajectories, threads, watch, between })
+        Ok(Self {
+            study,
+            settings,
+            coupling,
+            process,
+            journal,
+            trajectories,
+            threads,
+            missing_threads: AtomicUsize::new(0),
+            watch,
+            between,
+        })
     }
 
     fn by_table(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
@@ -257,6 +270,14 @@ impl<'s> Plan<'s> {
             result.parameter_error = by_fits;
         }
         result.lives = lives.into_iter().map(|(_, end)| end).collect();
+        let missing = self.missing_threads.load(Ordering::Relaxed);
+        if missing > 0 {
+            let given = self.threads.get() - missing;
+            let of = self.threads;
+            result.warnings.push(format!(
+                "the system gave {given} of {of} threads: the lives are the same, and took longer"
+            ));
+        }
         Ok(())
     }
 
@@ -278,7 +299,8 @@ impl<'s> Plan<'s> {
                 journal.keep_life(batch, number, end);
             }
         };
-        let Lives { failures, ended } = run.go_on(known, &keep, scale, watch);
+        let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);
+        self.missing_threads.fetch_max(missing_threads, Ordering::Relaxed);
         let lives = Some((failures.len(), count));
         let cause = match ended {
             Ended::Complete => return Ok(failures),
@@ -287,6 +309,7 @@ impl<'s> Plan<'s> {
                 Cause::Interrupted { trajectory, .. } => Cause::Interrupted { trajectory, lives },
                 cause => cause,
             },
+            Ended::Panicked { trajectory, message } => Cause::Panicked { trajectory, message },
             Ended::Survived { trajectory } => {
                 Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles }
             }

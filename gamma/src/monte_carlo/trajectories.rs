@@ -1,9 +1,12 @@
 //! Many trajectories of one mechanism. In: settings, a way to make fine scales, a draw. Out: lives in the order of
 //! their trajectories, the same bits for any number of threads. Never knows how a revolution is computed.
 
+use std::any::Any;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::ops::{ControlFlow, Range};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
@@ -39,6 +42,13 @@ pub enum Ended<E> {
         /// Why.
         stop: LifeError<E>,
     },
+    /// Its thread panicked: a bug, of the caller's or of this library.
+    Panicked {
+        /// The trajectory at hand; the lowest if several did.
+        trajectory: u64,
+        /// What the panic said.
+        message: String,
+    },
     /// A trajectory did not fail within the cycles that the settings allow.
     Survived {
         /// Its number; the lowest if several did.
@@ -53,6 +63,8 @@ pub struct Lives<E> {
     pub failures: Vec<(u64, FailureEvent)>,
     /// How it ended.
     pub ended: Ended<E>,
+    /// Threads that the system did not give; the lives are the same.
+    pub missing_threads: usize,
 }
 
 /// Creates a fine scale for one thread and passes it to the callback. Errors are those of creating it. The callback
@@ -102,13 +114,14 @@ impl MonteCarlo<'_> {
             let stop = watch.report(part).is_break() || halt.load(Ordering::Relaxed);
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let work = || {
+        let live_all = |at: &Cell<u64>| {
             let made = scale(&mut |mut fine| {
                 while !halt.load(Ordering::Relaxed) {
                     let trajectory = next.fetch_add(1, Ordering::Relaxed);
                     if trajectory >= self.trajectories.end {
                         break;
                     }
+                    at.set(trajectory);
                     if is_known.binary_search(&trajectory).is_err() {
                         ended(trajectory, self.live(&mut fine, trajectory, Watch::new(&go_on)));
                     }
@@ -120,16 +133,24 @@ impl MonteCarlo<'_> {
                 ended(trajectory, Err(Ended::Stopped { trajectory, stop }));
             }
         };
-        std::thread::scope(|scope| {
-            for _ in 1..self.threads.get().min(usize::try_from(left).unwrap_or(usize::MAX)) {
-                // A system that gives no more threads gives time: the lives are the same.
-                if Builder::new().spawn_scoped(scope, work).is_err() {
-                    break;
-                }
+        let work = || {
+            let at = Cell::new(self.trajectories.start);
+            // What a panic leaves is not looked at again: the results are those of whole lives.
+            if let Err(panic) = catch_unwind(AssertUnwindSafe(|| live_all(&at))) {
+                let (trajectory, message) = (at.get(), said(&*panic));
+                ended(trajectory, Err(Ended::Panicked { trajectory, message }));
             }
+        };
+        let wanted = self.threads.get().min(usize::try_from(left).unwrap_or(usize::MAX)).max(1);
+        let missing_threads = std::thread::scope(|scope| {
+            // A system that gives no more threads gives time: the lives are the same.
+            let spawned =
+                (1..wanted).take_while(|_| Builder::new().spawn_scoped(scope, work).is_ok()).count();
             work();
+            wanted - 1 - spawned
         });
-        collect(results.into_inner().unwrap_or_else(PoisonError::into_inner))
+        let (failures, ended) = collect(results.into_inner().unwrap_or_else(PoisonError::into_inner));
+        Lives { failures, ended, missing_threads }
     }
 
     fn live<F: WearSource>(&self, fine: &mut F, trajectory: u64, watch: Watch<'_>) -> Result<F::Error> {
@@ -146,7 +167,7 @@ impl MonteCarlo<'_> {
 }
 
 /// In the order of the trajectories; the first that stopped for a reason of its own says why.
-fn collect<E>(mut results: Vec<(u64, Result<E>)>) -> Lives<E> {
+fn collect<E>(mut results: Vec<(u64, Result<E>)>) -> (Vec<(u64, FailureEvent)>, Ended<E>) {
     results.sort_by_key(|(trajectory, _)| *trajectory);
     let (mut failures, mut ended) = (Vec::with_capacity(results.len()), Ended::Complete);
     for (trajectory, result) in results {
@@ -156,5 +177,12 @@ fn collect<E>(mut results: Vec<(u64, Result<E>)>) -> Lives<E> {
             (Err(_), _) => {}
         }
     }
-    Lives { failures, ended }
+    (failures, ended)
+}
+
+/// What a panic says.
+fn said(panic: &(dyn Any + Send)) -> String {
+    let text =
+        panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    text.unwrap_or("no text").to_owned()
 }
