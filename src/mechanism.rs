@@ -84,13 +84,16 @@ impl Mechanism {
         Self { description, parameters, warnings: Diagnostics::default(), origin, equations }
     }
 
+    /// What the version is called in [`Self::identity`].
+    pub(crate) const VERSION_KEY: &'static str = "the version of linkwear";
+
     /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
     pub(crate) fn identity(&self) -> Map<String, Value> {
         let [file, tapes] = &self.origin;
         let parameters = self.description.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
         let mut entries = Map::new();
-        entries.insert("the version of linkwear".to_owned(), json!(env!("CARGO_PKG_VERSION")));
+        entries.insert(Self::VERSION_KEY.to_owned(), json!(env!("CARGO_PKG_VERSION")));
         entries.insert("the hash of the file".to_owned(), json!(file));
         entries.extend(parameters);
         entries.insert("the hash of the equations".to_owned(), json!(tapes));

@@ -124,6 +124,10 @@ impl Failure {
             JournalError::Damaged { file, .. } => {
                 (file, "nothing was changed; take the file from a copy, or begin again with another --out")
             }
+            JournalError::OtherVersion { file, .. } => (
+                file,
+                "nothing was changed; finish the run with that version, or begin again with another --out",
+            ),
             JournalError::OtherRun { file, .. } => {
                 (file, "give the file and the options of that run, or another --out")
             }

@@ -23,6 +23,7 @@ use serde_json::{Map, Value};
 use thiserror::Error;
 
 use crate::files::{WriteError, claim_folder, sync_folder};
+use crate::mechanism::Mechanism;
 
 /// The file in the folder.
 const NAME: &str = "life.journal";
@@ -47,6 +48,16 @@ pub enum JournalError {
         file: PathBuf,
         /// The line, from 1.
         line: u64,
+    },
+    /// It is whole, but another version of the program wrote it.
+    #[error("`{}` is of another version of linkwear{}: this one does not write lines such as line {line}", .file.display(), named(.version.as_deref()))]
+    OtherVersion {
+        /// The journal.
+        file: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// The version, if a line before says it.
+        version: Option<String>,
     },
     /// It is of a run that differs in what decides its numbers.
     #[error("`{}` is of another run: {what} is {is} now, and was {was}", .file.display())]
@@ -201,7 +212,13 @@ impl Journal {
             if digits != hexadecimal(&checksum[..CHECKSUM]).as_bytes() {
                 return Err(damaged());
             }
-            match serde_json::from_slice(json).map_err(|_| damaged())? {
+            // Damage does not pass the checksum.
+            let other_version = |_| {
+                let run = self.run.lock().unwrap_or_else(PoisonError::into_inner);
+                let version = run.as_ref().and_then(|run| run.get(Mechanism::VERSION_KEY)).map(said);
+                JournalError::OtherVersion { file: path.clone(), line, version }
+            };
+            match serde_json::from_slice(json).map_err(other_version)? {
                 Record::Run(run) => *self.run.get_mut().unwrap_or_else(PoisonError::into_inner) = Some(run),
                 Record::Measurement(measurement) => self.measurements.push(measurement),
                 Record::Life { batch, number, end } => {
@@ -346,6 +363,11 @@ fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
+/// In brackets, where it is known.
+fn named(version: Option<&str>) -> String {
+    version.map(|version| format!(" ({version})")).unwrap_or_default()
+}
+
 /// A value for people: text without quotes, nothing as a word.
 fn said(value: &Value) -> String {
     match value {
@@ -433,6 +455,31 @@ mod tests {
         assert!(matches!(used, Err(JournalError::Write(WriteError::Exists(_)))));
         drop(journal);
         assert!(Journal::resume(&folder).is_ok());
+        fs::remove_dir_all(&folder).expect("folder");
+    }
+
+    #[test]
+    fn a_whole_line_that_this_version_does_not_write_is_of_another_one_and_no_damage() {
+        let folder = folder("version");
+        let known = json!({ "run": { (Mechanism::VERSION_KEY): "0.0.9" } });
+        // A life without its end, a kind of record that is not there any more.
+        for record in [json!({ "life": { "batch": 0, "number": 1 } }), json!({ "turn": 3 })] {
+            let (mut checksum, mut text) = ([0; 32], Vec::new());
+            for record in [&known, &record] {
+                let json = record.to_string().into_bytes();
+                checksum = chained(&checksum, &json);
+                text.extend([hexadecimal(&checksum[..CHECKSUM]).as_bytes(), b" ", &json, b"\n"].concat());
+            }
+            fs::create_dir_all(&folder).expect("a folder");
+            fs::write(folder.join(NAME), &text).expect("a file");
+            let error = Journal::resume(&folder).expect_err("not of this version");
+            let JournalError::OtherVersion { line: 2, version: Some(version), .. } = &error else {
+                panic!("{error}")
+            };
+            assert_eq!(version, "0.0.9");
+            assert!(error.to_string().contains("another version of linkwear (0.0.9)"), "{error}");
+            assert_eq!(fs::read(folder.join(NAME)).expect("a file"), text);
+        }
         fs::remove_dir_all(&folder).expect("folder");
     }
 
