@@ -71,6 +71,72 @@ fn every_mistake_leads_to_its_cure() {
     assert!(asked >= 200, "{asked}");
 }
 
+/// What stands after `words` in an advice: a quantity in quotes, or a number.
+fn literal<'h>(help: &'h str, words: &str) -> Option<&'h str> {
+    let rest = help.split_once(words)?.1;
+    match rest.strip_prefix('"') {
+        Some(quoted) => Some(&rest[..quoted.find('"')? + 2]),
+        None => rest.split([' ', ',', '`']).next().filter(|word| word.parse::<f64>().is_ok()),
+    }
+}
+
+/// The text with each quantity in quotes and each number in turn replaced.
+fn replaced(text: &str, by: &str) -> Vec<String> {
+    let mut places: Vec<(usize, usize)> = Vec::new();
+    let quotes: Vec<usize> = text.match_indices('"').map(|(at, _)| at).collect();
+    places.extend(quotes.chunks_exact(2).map(|pair| (pair[0], pair[1] + 1)));
+    let mut at = 0;
+    for word in text.split_inclusive([' ', ',', '[', ']', '{', '}']) {
+        let number = word.trim_end_matches([' ', ',', '[', ']', '{', '}']);
+        if number.parse::<f64>().is_ok() {
+            places.push((at, at + number.len()));
+        }
+        at += word.len();
+    }
+    places.into_iter().map(|(from, to)| format!("{}{by}{}", &text[..from], &text[to..])).collect()
+}
+
+#[test]
+fn an_advised_quantity_is_taken_where_the_wrong_one_stood() {
+    let mut followed = 0;
+    for value in table("set")["press"].as_array().expect("a list") {
+        let texts: Vec<&str> = value.as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+        let [code, name, given, _] = texts[..] else { panic!("{value}") };
+        for entry in answer(&right("press"), &[(name, given)]).entries() {
+            let Some(advised) = literal(&entry.help, &format!("--set {name}=")) else { continue };
+            let after = answer(&right("press"), &[(name, advised.trim_matches('"'))]);
+            assert!(after.entries().iter().all(|entry| entry.code != code), "{value}: {advised}\n{after}");
+            followed += 1;
+        }
+    }
+    assert!(followed >= 8, "{followed}");
+    let mut followed = 0;
+    for (name, mistakes) in table("wrong") {
+        let file = right(&name);
+        for mistake in mistakes.as_array().expect("a list") {
+            let texts: Vec<&str> =
+                mistake.as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+            let [code, found, written, _] = texts[..] else { panic!("{mistake}") };
+            let wrong = answer(&file.replacen(found, written, 1), &[]).entries();
+            // Several at once are several quantities.
+            let told: Vec<_> = wrong.iter().filter(|entry| entry.code == code).collect();
+            let [entry] = told[..] else { continue };
+            let advised = |words: &str| literal(&entry.help, words);
+            let Some(advised) = advised("something like ").or_else(|| advised("the unit that is meant: "))
+            else {
+                continue;
+            };
+            let is_taken = replaced(written, advised).iter().any(|written| {
+                let after = answer(&file.replacen(found, written, 1), &[]).entries();
+                after.iter().all(|entry| entry.code != code)
+            });
+            assert!(is_taken, "{mistake}: {advised} is refused too");
+            followed += 1;
+        }
+    }
+    assert!(followed >= 10, "{followed}");
+}
+
 #[test]
 fn a_crank_that_is_too_long_is_told_where_it_ends() {
     // Without clearance: what holds it is kinematics.

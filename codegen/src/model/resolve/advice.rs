@@ -25,6 +25,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("exponent", "1.5"),
     ("count", "3"),
     ("modes", "6"),
+    ("frequencies", "\"120 Hz\""),
 ];
 
 /// The key that `what` names first: "`radius` of body `crank`".

@@ -7,7 +7,8 @@ use super::resolver::{Resolver, place};
 use super::section::{SAME_PLACE, outer_stress};
 use crate::diagnostic::Code;
 use crate::flexible::{
-    Attachment, Beam, BeamError, BeamInput, Counts, Hold, Material, ModalData, Node, Section, Theory,
+    Attachment, Beam, BeamError, BeamInput, Counts, Hold, MODE_LIMIT, Material, ModalData, Node, Section,
+    Theory,
 };
 use crate::id::PointId;
 use crate::model::{Flexible, Inertia, LeftOut, Station};
@@ -85,10 +86,11 @@ impl Resolver<'_> {
             let value = this.fixed(name, key, written, Dimension::NONE, 0.0);
             if let Some(written) = written
                 && !value.is_nan()
-                && !(value.fract() == 0.0 && (0.0..=100.0).contains(&value))
+                && !(value.fract() == 0.0 && (0.0..=MODE_LIMIT as f64).contains(&value))
             {
                 let message = format!("{} is {value}, not a number of modes", place(key, "body", name));
-                this.refuse(Code::BadModes, written.span, message).help("write a whole number from 0 to 100");
+                let help = format!("write a whole number from 0 to {MODE_LIMIT}");
+                this.refuse(Code::BadModes, written.span, message).help(help);
                 return 0;
             }
             // Checked above to be a small whole number, or not known, which is reported.

@@ -2,7 +2,7 @@
 
 use super::names::Thing;
 use super::overrides::Overrides;
-use super::quantity::Allowed;
+use super::quantity::{Allowed, Origin};
 use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::ParameterId;
@@ -131,6 +131,23 @@ impl Resolver<'_> {
                 name.value
             ));
             return model::Formula::number(f64::NAN, dimension);
+        }
+        if let Some(expression) = &expression {
+            let origin = Origin { quantity: &quantity, allowed: Allowed::CONSTANTS, what: &what };
+            let Some((_, found)) = self.term(expression, &origin) else {
+                return model::Formula::number(f64::NAN, dimension);
+            };
+            if found != dimension && !matches!(expression.form, Form::Number { value: 0.0, .. }) {
+                let example = match &self.parameters[position].written {
+                    Some((number, unit)) => format!("{number} {unit}").trim_end().to_owned(),
+                    None if own.turns > 0 => "2 Hz".to_owned(),
+                    None => dimension.example(),
+                };
+                let (is, needed) = (found.description(), dimension.description());
+                self.refuse(Code::UnitMismatch, span, format!("{what} is {is}, but {needed} is needed"))
+                    .help(format!("write it as the file does, `--set {}=\"{example}\"`", name.value));
+                return model::Formula::number(f64::NAN, dimension);
+            }
         }
         self.turning[position] = if given == Turning::default() { own } else { given };
         self.parameters[position].written = written(&quantity);
