@@ -69,7 +69,7 @@ impl<'a> CsvTable<'a> {
             ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
         let broken = |error: csv::Error| {
             let line = error.position().and_then(|position| usize::try_from(position.line()).ok());
-            let help = "each line needs as many cells as the header";
+            let help = "each line needs as many cells as the header, and each quote its end";
             fault(file, line, format!("this is no CSV table: {error}"), help)
         };
         let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
@@ -105,8 +105,14 @@ impl<'a> CsvTable<'a> {
             (Some((at, _)), None) => Ok(at),
             (Some(_), Some(_)) => wrong(format!("column `{name}` is there twice"), "rename one of them"),
             _ => {
+                let separator = |name: &&str| name.contains([';', '\t']);
+                let joined = self.header.iter().map(String::as_str).find(separator);
                 let help = match nearest(name, self.header.iter().map(String::as_str)) {
                     Some(column) => format!("did you mean `{column}`?"),
+                    None if joined.is_some() => {
+                        "columns are parted by commas: write the file with commas, and decimal points"
+                            .to_owned()
+                    }
                     None => format!("the columns are: {}", cut(&self.header.join(", "), SHOWN[1])),
                 };
                 wrong(format!("there is no column `{name}`"), &help)
@@ -138,6 +144,12 @@ impl<'a> CsvTable<'a> {
     fn no_number(&self, line: usize, column: usize, cell: &str) -> CsvError {
         let name = self.header.get(column).map_or("", String::as_str);
         let (name, cell) = (cut(name, SHOWN[0]), &*cut(cell, SHOWN[0]));
+        let pointed = cell.replacen(',', ".", 1);
+        if pointed != cell && pointed.parse::<f64>().is_ok() {
+            let message = format!("line {line}: `{name}` is `{cell}`, a number with a decimal comma");
+            let help = format!("write a decimal point in all numbers: `{pointed}`");
+            return fault(self.file, Some(line), message, &help);
+        }
         let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
         if !unit.is_empty() && unit.len() < cell.len() {
             let message = format!("line {line}: `{name}` is `{cell}`, a number with a unit");

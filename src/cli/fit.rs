@@ -9,7 +9,7 @@ use std::io::Write as _;
 
 use linkwear::files::write_whole;
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
-use linkwear_gamma::fit::{LikelihoodRatio, likelihood_ratio};
+use linkwear_gamma::fit::{FitError, LikelihoodRatio, likelihood_ratio};
 
 use self::analysis::{Analysis, model, rounding};
 use self::read::{Group, groups};
@@ -82,8 +82,21 @@ fn analyse(arguments: &FitArguments, name: &str, data: &Observations) -> Result<
     Analysis::new(arguments, name, data).map_err(|error| {
         let message =
             if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
-        Failure::data(&arguments.file, None, message, "look at the data; estimate fewer parameters")
+        Failure::data(&arguments.file, None, message, cure(error))
     })
+}
+
+/// In the words of the command line.
+fn cure(error: FitError) -> &'static str {
+    match error {
+        FitError::NoScatter => {
+            "no process is needed for wear that follows a line; if the gauge rounds, give its step by --resolution"
+        }
+        FitError::BadResolution => "correct --resolution and --gauge",
+        FitError::LargeError => "give a --resolution of a tenth of --gauge: a finer one is lost in the error",
+        FitError::NoResolution => "leave --process or --resolution out",
+        _ => "look at the data; estimate fewer parameters",
+    }
 }
 
 /// A fault of the data, in the words of the command line.

@@ -47,6 +47,12 @@ pub enum DataError {
         /// Whether it is a matrix.
         definite: bool,
     },
+    /// A number is below 0.
+    #[error("{place} is negative")]
+    Negative {
+        /// The number.
+        place: String,
+    },
     /// The mass matrix of rigid and modal motion together has a direction of negative mass: Γ, C, M_ff and the rigid
     /// constants do not come from one body.
     #[error(
@@ -78,6 +84,9 @@ impl ModalData {
         self.check_finite()?;
         if self.mass <= 0.0 {
             return Err(DataError::NotPositive { place: "mass".to_owned(), definite: false });
+        }
+        if let Some(mode) = self.modes.iter().find(|mode| mode.frequency < 0.0) {
+            return Err(DataError::Negative { place: format!("frequency of mode {}", mode.name) });
         }
         symmetric("second_moment", &square3(&self.second_moment))?;
         for k in 0..self.mode_count() {

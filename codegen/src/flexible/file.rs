@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::check::DataError;
 use super::data::{ModalData, Mode, Node, SecondOrder, Strain, transposed};
+use super::exact::{Exact, whole_list};
 
 type Vector = [f64; 3];
 type Matrix = [[f64; 3]; 3];
@@ -87,7 +88,9 @@ struct File {
     units: String,
     order: u32,
     mass: f64,
+    #[serde(deserialize_with = "whole_list")]
     first_moment: Vector,
+    #[serde(deserialize_with = "whole_list")]
     second_moment: Matrix,
     mass_matrix: Vec<Vec<f64>>,
     stiffness: Vec<Vec<f64>>,
@@ -107,22 +110,29 @@ struct File {
 struct FileMode {
     name: String,
     frequency: f64,
+    #[serde(deserialize_with = "whole_list")]
     gamma: Vector,
+    #[serde(deserialize_with = "whole_list")]
     moment: Matrix,
 }
 
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, bound(deserialize = "T: Exact<'de>"))]
 struct Pair<T> {
+    #[serde(deserialize_with = "whole_list")]
     modes: [String; 2],
+    #[serde(deserialize_with = "whole_list")]
     value: T,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PairSecond {
+    #[serde(deserialize_with = "whole_list")]
     modes: [String; 2],
+    #[serde(deserialize_with = "whole_list")]
     gamma: Vector,
+    #[serde(deserialize_with = "whole_list")]
     moment: Matrix,
 }
 
@@ -130,8 +140,11 @@ struct PairSecond {
 #[serde(deny_unknown_fields)]
 struct FileNode {
     name: String,
+    #[serde(deserialize_with = "whole_list")]
     position: Vector,
+    #[serde(deserialize_with = "whole_list")]
     displacement: Vec<Vector>,
+    #[serde(deserialize_with = "whole_list")]
     rotation: Vec<Vector>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     displacement2: Vec<Pair<Vector>>,

@@ -14,6 +14,7 @@ mod check;
 mod eigen;
 mod element;
 mod error;
+mod exact;
 mod file;
 mod integrals;
 mod legendre;

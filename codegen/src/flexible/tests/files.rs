@@ -68,6 +68,8 @@ fn numbers_that_belong_to_no_body_are_refused() {
     assert_eq!(refused(|data| data.mass_matrix[1][1] = 0.0), positive("mass_matrix"));
     assert_eq!(refused(|data| data.second_moment[2][2] = -1e-9), positive("second_moment"));
     assert!(matches!(refused(|data| data.mass = 0.0), DataError::NotPositive { definite: false, .. }));
+    let negative = refused(|data| data.modes[1].frequency = -1.0);
+    assert!(matches!(negative, DataError::Negative { .. }), "{negative}");
     assert!(matches!(refused(|data| data.damping[0][1] = 1.0), DataError::NotSymmetric { .. }));
     assert!(matches!(refused(|data| data.coupling[0][1][1][2] = 0.5), DataError::NotSymmetric { .. }));
     assert!(matches!(refused(|data| data.gamma[0][1] = f64::NAN), DataError::NotFinite { .. }));
@@ -76,6 +78,21 @@ fn numbers_that_belong_to_no_body_are_refused() {
     assert!(matches!(refused(|data| data.nodes[1].displacement2 = None), DataError::Order { .. }));
     let short = refused(|data| data.nodes[2].rotation.truncate(3));
     assert_eq!(short, DataError::Length { place: "rotation of node end".to_owned(), found: 3, expected: 4 });
+}
+
+#[test]
+fn lists_are_as_long_as_they_must_be() {
+    for (from, to) in [
+        ("first_moment = [", "first_moment = [0.0, "),
+        ("second_moment = [[", "second_moment = [[0.0, "),
+        (r#"modes = ["z1", "z1"]"#, r#"modes = ["z1", "z1", "y1"]"#),
+        ("gamma = [", "gamma = [0.0, "),
+        ("position = [", "position = [0.0, "),
+        ("displacement = [[", "displacement = [[0.0, "),
+    ] {
+        let error = unread(from, to).to_string();
+        assert!(error.contains("are needed"), "{from}: {error}");
+    }
 }
 
 #[test]
