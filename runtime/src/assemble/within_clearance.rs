@@ -20,6 +20,9 @@ const TOLERANCE: f64 = 1e-10;
 const MAX_ITERATIONS: usize = 60;
 /// The sum of squares falls by less than this part: the offsets are as small as they get.
 const NO_BETTER: f64 = 1e-6;
+/// How well offsets are known then: a minimum is flat. Of joints that are as far outside but for this, the last is named,
+/// so that rounding does not choose.
+const ALIKE: f64 = 1e-3;
 /// Parts of a step that are tried: 1, 1/2 and so on.
 const HALVINGS: usize = 12;
 
@@ -40,7 +43,9 @@ pub(super) fn check(
         let depth = touch.penetration() / touch.clearance;
         (joint, if depth.is_nan() { f64::INFINITY } else { depth }, touch)
     });
-    match depths.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b)) {
+    let worse =
+        |worst: (_, f64, _), next: (_, f64, _)| if worst.1 > (1.0 + ALIKE) * next.1 { worst } else { next };
+    match depths.reduce(worse) {
         Some((joint, depth, touch)) if depth > deepest => Err(AssemblyError::OutsideClearance {
             joint: evaluator.description().contacts[joint].joint.to_string(),
             distance: touch.clearance + touch.penetration(),
