@@ -20,6 +20,11 @@ macro_rules! typed_index {
             pub const fn index(self) -> usize {
                 self.0 as usize
             }
+
+            /// The same as it is kept.
+            pub const fn number(self) -> u32 {
+                self.0
+            }
         }
     };
 }

@@ -35,7 +35,7 @@ pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Me
 
 pub fn options(input: &Input, rigid: bool) -> Options {
     let reach = if input.allow_outside_data { Reach::Anywhere } else { Reach::Below };
-    Options { closure: input.closure, overrides: input.overrides.clone(), rigid, reach }
+    Options { closure: input.closure, overrides: input.overrides.clone(), rigid, reach, ..Options::default() }
 }
 
 fn print_warnings(warnings: &Diagnostics) {

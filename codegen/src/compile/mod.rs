@@ -1,10 +1,10 @@
-//! The whole pipeline, in order: parse, resolve, derive, analyse, derive again without redundant rows, lower.
+//! The whole pipeline, in order: parse, resolve, derive, analyse, derive again without redundant rows, shorten, lower.
 //! In: a source file. Out: [`Compiled`]. Never knows how a stage works.
 
 mod compiled;
 
 use crate::backend::interp::Interpreted;
-use crate::derive::{self, Derived, Purpose};
+use crate::derive::{self, Derived, Guide, Purpose};
 use crate::diagnostic::{Code, Diagnostics};
 use crate::input::Reach;
 use crate::limits::{self, Limit};
@@ -27,6 +27,8 @@ pub struct Options {
     pub rigid: bool,
     /// Where the files of data may lie that the file names.
     pub reach: Reach,
+    /// Forward dynamics by the saddle point alone, where rows first would be shorter: to compare both.
+    pub saddle: bool,
 }
 
 /// Compiles a file.
@@ -47,10 +49,14 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         mechanism.freeze();
     }
     let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
-    let Findings { analysis, keep, warnings: remarks } = analyse(source, &mechanism, &topology)?;
+    let Findings { analysis, mut guide, warnings: remarks } = analyse(source, &mechanism, &topology)?;
+    if options.saddle {
+        // Without numbers no accelerations count as fixed by the rows.
+        guide.jacobians.clear();
+    }
     warnings.extend(remarks);
-    let derived = derived(source, &mechanism, &topology, Some(&keep), Purpose::Everything)?;
-    let tapes = tape::lower(&derived.equations);
+    let derived = derived(source, &mechanism, &topology, Some(&guide), Purpose::Everything)?;
+    let tapes = tape::lower_short(&derived.equations);
     let mut compiled = Compiled {
         source: source.clone(),
         mechanism,
@@ -121,10 +127,10 @@ fn derived(
     source: &SourceFile,
     mechanism: &Mechanism,
     topology: &Topology,
-    keep: Option<&[bool]>,
+    guide: Option<&Guide>,
     purpose: Purpose,
 ) -> Result<Derived, Diagnostics> {
-    let derived = derive::derive(mechanism, topology, keep, purpose);
+    let derived = derive::derive(mechanism, topology, guide, purpose);
     within(source, [(limits::SPEEDS, derived.sizes.all_speeds)])?;
     within(source, [(limits::EXPRESSIONS, derived.equations.graph.wanted())])?;
     Ok(derived)

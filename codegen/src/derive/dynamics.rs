@@ -7,7 +7,9 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
-use crate::expr::{Expr, Vec3};
+use nalgebra::DMatrix;
+
+use crate::expr::{Expr, Scope, Vec3};
 
 use super::closure::CutRows;
 use super::geometry::Geometry;
@@ -18,7 +20,9 @@ use super::loads::Loads;
 use super::mass_matrix::mass_matrix;
 use super::mass_properties::MassProperties;
 use super::motion::Motion;
+use super::plan::Plan;
 use super::row::Row;
+use super::rows::Block;
 use super::solve::{Solution, solve};
 use super::wrench::Wrench;
 
@@ -150,37 +154,166 @@ pub fn kept_rows<'a, 'g>(
         .collect()
 }
 
-/// Forward dynamics by the structured elimination of [`solve`].
-pub fn forward<'g>(
-    motion: &Motion<'g>,
-    masses: &[LinkMass<'g>],
-    loads: &Loads<'g>,
-    (rows, partition): (&[KeptRow<'_, 'g>], &Partition),
-) -> Forward<'g> {
-    let g = motion.poses.geometry.g;
-    let h = bias_forces(motion, masses, loads);
-    g.begin_section("mass matrix by composite bodies");
-    let mass = mass_matrix(&motion.poses, masses);
-    let pick = |row: &[Expr<'g>]| -> Vec<Expr<'g>> { partition.free.iter().map(|j| row[*j]).collect() };
-    let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| pick(&mass[*i])).collect();
-    let jacobian: Vec<Vec<Expr<'g>>> = rows.iter().map(|row| pick(&row.jacobian)).collect();
-    let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
-    let target: Vec<Expr<'g>> = rows.iter().map(|kept| -kept.row.bias).collect();
-    let solution = solve(g, &block, &jacobian, &force, &target);
-    g.begin_section("drive forces");
-    let drive = partition
-        .driven
-        .iter()
-        .map(|d| {
-            let mut sum = h[*d];
-            for (entry, acceleration) in pick(&mass[*d]).into_iter().zip(&solution.accelerations) {
-                sum += entry * *acceleration;
+/// Everything that forward dynamics is made of.
+pub struct Problem<'a, 'g> {
+    /// Motion with the accelerations of the driven speeds, and none of the free ones.
+    pub motion: &'a Motion<'g>,
+    /// All speeds.
+    pub v: &'a [Expr<'g>],
+    /// The accelerations that `motion` has.
+    pub rates: &'a [Expr<'g>],
+    pub masses: &'a [LinkMass<'g>],
+    pub loads: &'a Loads<'g>,
+    pub rows: &'a [KeptRow<'a, 'g>],
+    pub partition: &'a Partition,
+}
+
+impl<'g> Problem<'_, 'g> {
+    /// Loop Jacobian by the free speeds.
+    pub fn jacobian(&self) -> Vec<Vec<Expr<'g>>> {
+        self.rows.iter().map(|row| self.pick(&row.jacobian)).collect()
+    }
+
+    fn pick(&self, row: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.partition.free.iter().map(|j| row[*j]).collect()
+    }
+
+    /// gamma at any state.
+    fn target(&self) -> Vec<Expr<'g>> {
+        self.rows.iter().map(|kept| -kept.row.bias.whole).collect()
+    }
+
+    /// By the structured elimination of [`solve`] alone.
+    pub fn saddle(&self) -> Forward<'g> {
+        let (motion, partition) = (self.motion, self.partition);
+        let g = motion.poses.geometry.g;
+        let h = bias_forces(motion, self.masses, self.loads);
+        g.begin_section("mass matrix by composite bodies");
+        let mass = mass_matrix(&motion.poses, self.masses);
+        let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| self.pick(&mass[*i])).collect();
+        let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
+        let solution = solve(g, &block, &self.jacobian(), &force, &self.target());
+        g.begin_section("drive forces");
+        let drive = partition
+            .driven
+            .iter()
+            .map(|d| {
+                let mut sum = h[*d];
+                for (entry, acceleration) in self.pick(&mass[*d]).into_iter().zip(&solution.accelerations) {
+                    sum += entry * *acceleration;
+                }
+                sum - self.of_loops(*d, &solution.multipliers)
+            })
+            .collect();
+        Forward { solution, drive }
+    }
+
+    /// What a speed feels of the loops.
+    fn of_loops(&self, speed: usize, multipliers: &[Expr<'g>]) -> Expr<'g> {
+        let g = self.motion.poses.geometry.g;
+        g.sum(self.rows.iter().zip(multipliers).map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
+    }
+
+    /// Rows first, by a plan: the blocks from the rows, the rest by [`solve`], then multipliers and drives from
+    /// inverse dynamics with all accelerations known.
+    pub fn rows_first(&self, plan: &Plan) -> Forward<'g> {
+        let g = self.motion.poses.geometry.g;
+        let (jacobian, mut target) = (self.jacobian(), self.target());
+        for row in plan.blocks.iter().flat_map(|block| &block.rows) {
+            target[*row] = -self.rows[*row].row.bias.closed;
+        }
+        g.begin_section("accelerations that the loops fix");
+        let blocks: Vec<Block<'_, 'g>> =
+            plan.blocks.iter().map(|block| Block::new(g, block, &jacobian)).collect();
+        let zero = g.zero();
+        let mut accelerations = vec![zero; self.partition.free.len()];
+        let right = |accelerations: &[Expr<'g>], row: usize| {
+            let known = jacobian[row].iter().zip(accelerations);
+            known.fold(target[row], |sum, (entry, acceleration)| sum - *entry * *acceleration)
+        };
+        for block in &blocks {
+            let rights: Vec<Expr<'g>> =
+                block.plan.rows.iter().map(|row| right(&accelerations, *row)).collect();
+            for (speed, acceleration) in block.plan.speeds.iter().zip(block.solve(&rights)) {
+                accelerations[*speed] = acceleration;
             }
-            for (row, multiplier) in rows.iter().zip(&solution.multipliers) {
-                sum -= row.jacobian[*d] * *multiplier;
+        }
+        let (mut multipliers, mut pivots) = (vec![zero; self.rows.len()], vec![zero; self.rows.len()]);
+        let rest = &plan.rest;
+        if !rest.speeds.is_empty() {
+            let h = bias_forces(&self.moving(&accelerations), self.masses, self.loads);
+            g.begin_section("mass matrix by composite bodies");
+            let mass = mass_matrix(&self.motion.poses, self.masses);
+            let free = |speed: &usize| self.partition.free[*speed];
+            let of_rest = |row: &[Expr<'g>]| rest.speeds.iter().map(|speed| row[*speed]).collect();
+            let block: Vec<Vec<Expr<'g>>> =
+                rest.speeds.iter().map(|speed| of_rest(&self.pick(&mass[free(speed)]))).collect();
+            let entries: Vec<Vec<Expr<'g>>> = rest.rows.iter().map(|row| of_rest(&jacobian[*row])).collect();
+            let force: Vec<Expr<'g>> = rest.speeds.iter().map(|speed| -h[free(speed)]).collect();
+            let rights: Vec<Expr<'g>> = rest.rows.iter().map(|row| right(&accelerations, *row)).collect();
+            let solution = solve(g, &block, &entries, &force, &rights);
+            for (speed, acceleration) in rest.speeds.iter().zip(solution.accelerations) {
+                accelerations[*speed] = acceleration;
             }
-            sum
-        })
+            for ((row, multiplier), pivot) in rest.rows.iter().zip(solution.multipliers).zip(solution.pivots)
+            {
+                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
+            }
+        }
+        // J^T lambda carries what inertia and loads leave over.
+        let felt = bias_forces(&self.moving(&accelerations), self.masses, self.loads);
+        g.begin_section("multipliers");
+        for block in blocks.iter().rev() {
+            let rights: Vec<Expr<'g>> = block
+                .plan
+                .speeds
+                .iter()
+                .map(|speed| self.partition.free[*speed])
+                .map(|speed| felt[speed] - self.of_loops(speed, &multipliers))
+                .collect();
+            let pivot = block.pivot();
+            for (row, multiplier) in block.plan.rows.iter().zip(block.solve_transposed(&rights)) {
+                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
+            }
+        }
+        g.begin_section("drive forces");
+        let drive =
+            self.partition.driven.iter().map(|d| felt[*d] - self.of_loops(*d, &multipliers)).collect();
+        Forward { solution: Solution { accelerations, multipliers, pivots }, drive }
+    }
+
+    /// The motion with these accelerations of the free speeds.
+    fn moving(&self, accelerations: &[Expr<'g>]) -> Motion<'g> {
+        let mut rates = self.rates.to_vec();
+        for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
+            rates[*speed] = *acceleration;
+        }
+        self.motion.accelerated(self.v, &rates)
+    }
+}
+
+impl<'g> Forward<'g> {
+    /// All that it consists of.
+    fn operations(&self, g: &'g Scope) -> usize {
+        let Solution { accelerations, multipliers, pivots } = &self.solution;
+        g.operations([accelerations, multipliers, pivots, &self.drive].into_iter().flatten().copied())
+    }
+}
+
+/// Forward dynamics by the plan that takes the fewest operations: rows first where the loops fix accelerations, else, or
+/// where that is dearer, by elimination alone.
+pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> Forward<'g> {
+    let pattern: Vec<Vec<bool>> = problem
+        .jacobian()
+        .into_iter()
+        .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
         .collect();
-    Forward { solution, drive }
+    let g = problem.motion.poses.geometry.g;
+    let saddle = problem.saddle();
+    let plan = Plan::new(&pattern, problem.partition.free.len(), jacobians);
+    if plan.blocks.is_empty() {
+        return saddle;
+    }
+    let rows_first = problem.rows_first(&plan);
+    if rows_first.operations(g) < saddle.operations(g) { rows_first } else { saddle }
 }

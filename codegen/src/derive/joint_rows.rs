@@ -6,14 +6,23 @@ use crate::model::JointModel;
 
 use super::geometry::Geometry;
 use super::relative_motion::RelativeMotion;
-use super::row::Row;
+use super::row::{Bias, Row};
 
 /// Makes the rows of one cut.
 pub struct RowMaker<'a, 'g> {
     g: &'g Scope,
     motion: &'a RelativeMotion<'g>,
     exact: bool,
+    /// Of it, what the joint leaves free.
+    free: FreePart<'g>,
     rows: Vec<Row<'g>>,
+}
+
+/// Relative velocity.
+#[derive(Clone, Copy)]
+struct FreePart<'g> {
+    slide: Vec3<'g>,
+    omega: Vec3<'g>,
 }
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
@@ -21,13 +30,15 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 impl<'a, 'g> RowMaker<'a, 'g> {
     /// For the cut with this motion; with `exact` the moments hold off the closed positions too.
     pub fn new(motion: &'a RelativeMotion<'g>, exact: bool) -> Self {
-        Self { g: motion.distance.scope(), motion, exact, rows: Vec::new() }
+        let free = FreePart { slide: motion.slide, omega: motion.omega };
+        Self { g: motion.distance.scope(), motion, exact, free, rows: Vec::new() }
     }
 
     /// The rows of a joint: no translation along axes that nothing slides along; no rotation but about the axes
     /// that something turns about; a thread ties both.
     pub fn joint(mut self, geometry: &Geometry<'g>, joint: &JointModel) -> Vec<Row<'g>> {
         let own = self.own_axes();
+        self.free = self.free_part(joint, own);
         let frame = match (joint.axes.is_empty(), self.motion.beside()) {
             (false, _) => "the joint",
             (true, None) => "ground",
@@ -60,25 +71,50 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         for &j in which {
             let u = axes[j];
             let residual = u.dot(self.motion.distance);
-            let (bias, rate) = (self.translation_bias(u), u.dot(self.motion.slide));
+            let (bias, rate) =
+                (self.both(|relative| self.translation_bias(u, relative)), u.dot(self.motion.slide));
             let (meaning, moment) =
                 (format!("translation along {} of {frame}", NAMES[j]), self.g.zero_vector());
             self.rows.push(Row { meaning, angular: false, residual, moment, force: u, rate, bias });
         }
     }
 
+    /// On closed states the rows' own velocity constraints hold, so that only what the joint leaves free is not zero.
+    /// What numbers of one state show must not be used here: these facts hold in every assembly.
+    fn free_part(&self, joint: &JointModel, own: [Vec3<'g>; 3]) -> FreePart<'g> {
+        let along = |vector: Vec3<'g>, axes: &[usize]| {
+            axes.iter().fold(self.g.zero_vector(), |sum, j| sum + own[*j].dot(vector) * own[*j])
+        };
+        let held = joint.held_axes();
+        let slides: Vec<usize> = (0..3).filter(|axis| !held.contains(axis)).collect();
+        let slide = along(self.motion.slide, &slides);
+        let omega = match joint.turns().len() {
+            _ if joint.turns_freely() => self.motion.omega,
+            0 => self.g.zero_vector(),
+            1 => along(self.motion.omega, &[2]),
+            _ => self.motion.omega,
+        };
+        FreePart { slide, omega }
+    }
+
+    /// A bias with the whole relative velocity, and with what is free of it.
+    fn both(&self, bias: impl Fn(&FreePart<'g>) -> Expr<'g>) -> Bias<'g> {
+        let whole = FreePart { slide: self.motion.slide, omega: self.motion.omega };
+        Bias { whole: bias(&whole), closed: bias(&self.free) }
+    }
+
     /// u . (a_C - a_P) - u . ((omega_beside + omega_P) x slide).
-    fn translation_bias(&self, u: Vec3<'g>) -> Expr<'g> {
+    fn translation_bias(&self, u: Vec3<'g>, relative: &FreePart<'g>) -> Expr<'g> {
         let turning = self.beside_omega() + self.motion.parent_omega;
-        u.dot(self.motion.acceleration - turning.cross(self.motion.slide))
+        u.dot(self.motion.acceleration - turning.cross(relative.slide))
     }
 
     /// u . (alpha_C - alpha_P) - u . (omega_beside x omega_rel).
-    fn rotation_bias(&self, u: Vec3<'g>) -> Expr<'g> {
-        u.dot(self.motion.alpha - self.beside_omega().cross(self.motion.omega))
+    fn rotation_bias(&self, u: Vec3<'g>, relative: &FreePart<'g>) -> Expr<'g> {
+        u.dot(self.motion.alpha - self.beside_omega().cross(relative.omega))
     }
 
-    fn push_rotation(&mut self, meaning: &str, residual: Expr<'g>, moment: Vec3<'g>, bias: Expr<'g>) {
+    fn push_rotation(&mut self, meaning: &str, residual: Expr<'g>, moment: Vec3<'g>, bias: Bias<'g>) {
         let (meaning, force) = (meaning.to_owned(), self.g.zero_vector());
         let rate = moment.dot(self.motion.omega);
         self.rows.push(Row { meaning, angular: true, residual, moment, force, rate, bias });
@@ -92,8 +128,9 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let [x, y] = if in_child { [about_x, -about_y] } else { [-about_x, about_y] };
         // On closed positions `other` is own[2] and the moments are own[0] and own[1].
         let moments = if self.exact { [own[1].cross(other), other.cross(own[0])] } else { [own[0], own[1]] };
-        self.push_rotation("tilt about x of the joint", x, moments[0], self.rotation_bias(moments[0]));
-        self.push_rotation("tilt about y of the joint", y, moments[1], self.rotation_bias(moments[1]));
+        let bias = moments.map(|moment| self.both(|relative| self.rotation_bias(moment, relative)));
+        self.push_rotation("tilt about x of the joint", x, moments[0], bias[0]);
+        self.push_rotation("tilt about y of the joint", y, moments[1], bias[1]);
     }
 
     /// No relative rotation: three rows, the axial vector of the relative rotation matrix.
@@ -104,7 +141,8 @@ impl<'a, 'g> RowMaker<'a, 'g> {
             let residual = 0.5 * (rotation[l][k] - rotation[k][l]);
             let axis = if self.exact { self.turned_axis(rotation, j) } else { axis };
             let meaning = format!("rotation about {} of the joint", NAMES[j]);
-            self.push_rotation(&meaning, residual, axis, self.rotation_bias(axis));
+            let bias = self.both(|relative| self.rotation_bias(axis, relative));
+            self.push_rotation(&meaning, residual, axis, bias);
         }
     }
 
@@ -134,6 +172,7 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let (a_dot, b_dot) = (motion.parent_omega.cross(a), motion.child_omega.cross(b));
         let u_dot = a_dot.cross(b) + a.cross(b_dot);
         let bias = u_dot.dot(motion.omega) + u.dot(motion.alpha);
+        let bias = Bias { whole: bias, closed: bias };
         self.push_rotation("twist about the common normal of both axes", residual, u, bias);
     }
 
@@ -147,7 +186,8 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let turned = rotation[1][0] * cosine;
         let residual = scale * (rotation[0][0] * sine - turned);
         let moment = -h * z;
-        let bias = self.translation_bias(z) + -h * self.rotation_bias(z);
+        let bias =
+            self.both(|relative| self.translation_bias(z, relative) + -h * self.rotation_bias(z, relative));
         let rate = z.dot(self.motion.slide) + -h * z.dot(self.motion.omega);
         let meaning = "advance against turn of the thread".to_owned();
         self.rows.push(Row { meaning, angular: false, residual, moment, force: z, rate, bias });

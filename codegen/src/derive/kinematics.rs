@@ -36,6 +36,7 @@ pub struct Acceleration<'g> {
 }
 
 /// Poses of all links for given coordinates.
+#[derive(Clone)]
 pub struct Poses<'g> {
     /// The links and the places of their joints.
     pub geometry: Geometry<'g>,

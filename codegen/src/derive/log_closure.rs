@@ -10,7 +10,7 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::relative_motion::RelativeMotion;
-use super::row::Row;
+use super::row::{Bias, Row};
 
 /// The six rows of a split end body; `motion` is in the frame of the copy (branch a). Without `exact`
 /// the Jacobian is that of closed positions, where `J_r^-1` is the identity.
@@ -26,6 +26,7 @@ pub fn log_rows<'g>(motion: &RelativeMotion<'g>, exact: bool) -> Vec<Row<'g>> {
             let (moment, force) = if i < 3 { (a[i], zero) } else { (b[i - 3], a[i - 3]) };
             let (way, axis) =
                 (if i < 3 { "rotation about" } else { "translation along" }, ["x", "y", "z"][i % 3]);
+            let bias = moment.dot(motion.alpha) + force.dot(motion.acceleration);
             Row {
                 meaning: format!("{way} {axis} of the end body"),
                 angular: i < 3,
@@ -33,7 +34,7 @@ pub fn log_rows<'g>(motion: &RelativeMotion<'g>, exact: bool) -> Vec<Row<'g>> {
                 moment,
                 force,
                 rate: moment.dot(motion.omega) + force.dot(motion.slide),
-                bias: moment.dot(motion.alpha) + force.dot(motion.acceleration),
+                bias: Bias { whole: bias, closed: bias },
             }
         })
         .collect()

@@ -2,7 +2,7 @@
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
-//! `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
+//! `plan`, `rows`, `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
 
 mod attachment;
 mod closure;
@@ -29,9 +29,11 @@ mod mass_matrix;
 mod mass_properties;
 mod motion;
 mod orientation;
+mod plan;
 mod relative_motion;
 mod rigid_part;
 mod row;
+mod rows;
 mod solve;
 mod start;
 #[cfg(test)]
@@ -41,6 +43,7 @@ mod wrench;
 pub use closure::row_count;
 pub use entries::{Derived, Purpose, derive};
 pub use linkage::{Freedom, Link, Linkage};
+pub use plan::Guide;
 
 use crate::expr::{ExprId, Graph};
 

@@ -3,10 +3,12 @@
 
 use crate::expr::{Expr, Mat3, Vec3};
 
-use super::kinematics::{Acceleration, Poses, Twist, carried_twist};
+use super::geometry::Geometry;
+use super::kinematics::{Acceleration, Poses, Twist, accelerations, carried_twist};
 use super::linkage::{LinkIndex, Linkage};
 
 /// Kinematics of all links at one instant.
+#[derive(Clone)]
 pub struct Motion<'g> {
     pub poses: Poses<'g>,
     pub twists: Vec<Twist<'g>>,
@@ -27,6 +29,20 @@ pub struct ModalState<'g> {
 }
 
 impl<'g> Motion<'g> {
+    /// The same positions and speeds (`v`) with other accelerations.
+    pub fn accelerated(&self, v: &[Expr<'g>], v_dot: &[Expr<'g>]) -> Self {
+        let Geometry { g, linkage, .. } = self.poses.geometry;
+        g.begin_section("accelerations of the links");
+        let mut motion = self.clone();
+        motion.accelerations = accelerations(&self.poses, &self.twists, (v, v_dot), self.ground);
+        for (modes, link) in motion.modes.iter_mut().zip(&linkage.links) {
+            if !modes.v_dot.is_empty() {
+                modes.v_dot = v_dot[link.speeds()].to_vec();
+            }
+        }
+        motion
+    }
+
     fn twist(&self, link: LinkIndex) -> Twist<'g> {
         link.map_or_else(|| Twist::none(self.ground.scope()), |at| self.twists[at])
     }

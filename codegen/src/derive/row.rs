@@ -2,6 +2,17 @@
 
 use crate::expr::{Expr, Vec3};
 
+/// Acceleration residual of a row for the accelerations that `Motion` was built with.
+#[derive(Clone, Copy)]
+pub struct Bias<'g> {
+    /// At any state. Near a singular position the accelerations have its errors multiplied, so motion that rows do not fix
+    /// needs this form.
+    pub whole: Expr<'g>,
+    /// At closed states: without relative velocities that the rows forbid. Where the rows alone fix the motion nothing adds
+    /// up that this leaves out, because the closed state is one.
+    pub closed: Expr<'g>,
+}
+
 /// One scalar constraint of a cut.
 pub struct Row<'g> {
     /// What it forbids, for people.
@@ -16,6 +27,6 @@ pub struct Row<'g> {
     pub force: Vec3<'g>,
     /// Velocity residual.
     pub rate: Expr<'g>,
-    /// Acceleration residual for the accelerations that `Motion` was built with.
-    pub bias: Expr<'g>,
+    /// Acceleration residual.
+    pub bias: Bias<'g>,
 }

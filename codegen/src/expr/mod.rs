@@ -3,10 +3,14 @@
 //!
 //! Children are always created before their parents, so node order is a topological order.
 
+mod count;
 mod diff;
 mod eval;
 mod expression;
+mod operators;
+mod passes;
 mod scope;
+mod signs;
 mod vector;
 
 use rustc_hash::FxHashMap;
@@ -15,7 +19,9 @@ use crate::limits::EXPRESSIONS;
 
 pub use crate::id::{ExprId, SymbolId};
 pub use expression::Expr;
+pub use passes::{Program, shortened};
 pub use scope::Scope;
+pub use signs::Signs;
 pub use vector::{Mat3, Vec3};
 
 /// A node. Constants hold the bits of an f64, so that nodes can be hashed.
@@ -137,11 +143,6 @@ impl Graph {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
             _ => None,
         }
-    }
-
-    /// The node `-id`, if it has been made.
-    pub fn negation_of(&self, id: ExprId) -> Option<ExprId> {
-        self.known.get(&Node::Unary(Unary::Neg, id)).copied()
     }
 
     /// Number of nodes asked for. Beyond [`EXPRESSIONS`] the graph is cut off and means nothing.

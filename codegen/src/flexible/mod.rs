@@ -13,6 +13,7 @@ mod beam;
 mod check;
 mod eigen;
 mod element;
+mod equal;
 mod error;
 mod exact;
 mod file;

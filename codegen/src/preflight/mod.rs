@@ -23,6 +23,7 @@ mod subspace;
 mod turn;
 mod without_play;
 
+use crate::derive::Guide;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Mechanism;
 
@@ -43,8 +44,8 @@ use rank::Rows;
 pub struct Findings {
     /// For people and reports.
     pub analysis: Analysis,
-    /// Which constraint rows to keep.
-    pub keep: Vec<bool>,
+    /// Which constraint rows to keep, and numbers at closed positions.
+    pub guide: Guide,
     /// Remarks.
     pub warnings: Vec<Diagnostic>,
 }
@@ -118,7 +119,8 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
     warnings.extend(turn::turn_remark(case, &positions));
-    Ok(Findings { analysis, keep, warnings })
+    let jacobians = positions.positions.into_iter().map(|position| position.jacobian).collect();
+    Ok(Findings { analysis, guide: Guide { keep, jacobians }, warnings })
 }
 
 /// What is wrong with a start that loops as such allow: out of reach, or singular.

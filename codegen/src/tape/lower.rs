@@ -7,25 +7,49 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::derive::{Equations, Function};
-use crate::expr::{Binary, ExprId, Graph, Node, Unary};
+use crate::derive::{Block, Equations, Function};
+use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary, shortened};
 
 use super::{Op, Operand, Statement, Tape, verify};
 
 /// Above this many live nodes order serves the machine, not the reader.
 const READABLE: usize = 3000;
 
-/// Lowers every function of a set of equations.
+/// Lowers every function of a set of equations, operation by operation as the derivation made them.
 pub fn lower(equations: &Equations) -> Vec<Tape> {
     equations.functions.iter().map(|function| lower_function(&equations.graph, function)).collect()
+}
+
+/// Lowers every function in as few operations as passes over its graph find; other values by rounding only.
+pub fn lower_short(equations: &Equations) -> Vec<Tape> {
+    let each = |function: &Function| {
+        let flat = |blocks: &[Block]| -> Vec<ExprId> {
+            blocks.iter().flat_map(|block| block.entries.iter().copied()).collect()
+        };
+        let short = shortened(&equations.graph, &flat(&function.inputs), &flat(&function.outputs));
+        let placed = |blocks: &[Block], ids: &[ExprId]| -> Vec<Block> {
+            let mut ids = ids.iter().copied();
+            let with = |block: &Block| Block {
+                entries: ids.by_ref().take(block.entries.len()).collect(),
+                ..block.clone()
+            };
+            blocks.iter().map(with).collect()
+        };
+        let inputs = placed(&function.inputs, &short.inputs);
+        let outputs = placed(&function.outputs, &short.roots);
+        lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() })
+    };
+    equations.functions.iter().map(each).collect()
 }
 
 fn lower_function(graph: &Graph, function: &Function) -> Tape {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
     let uses = graph.uses(&roots);
-    let mut lowerer = Lowerer::new(graph, function, &uses);
-    for id in order(graph, &uses, &roots) {
+    let mut lowerer = Lowerer::new(graph, function, Signs::of(graph, &uses), uses.len());
+    let order = order(graph, &uses, &roots);
+    lowerer.find_negations(&order);
+    for id in order {
         lowerer.node(id);
     }
     lowerer.finish(&roots)
@@ -61,10 +85,18 @@ fn order(graph: &Graph, uses: &[u32], roots: &[ExprId]) -> Vec<ExprId> {
     order
 }
 
+fn negative(operand: Operand) -> Operand {
+    match operand {
+        Operand::Constant(number) => Operand::Constant(-number),
+        other => other,
+    }
+}
+
 struct Lowerer<'a> {
     graph: &'a Graph,
-    /// See [`Graph::uses`].
-    uses: &'a [u32],
+    signs: Signs,
+    /// By a node that is made with the other sign, the negation that wants it so.
+    negations: FxHashMap<ExprId, ExprId>,
     inputs: FxHashMap<ExprId, u32>,
     /// By node; nothing reads those that are not made.
     operands: Vec<Operand>,
@@ -78,7 +110,7 @@ struct Lowerer<'a> {
 }
 
 impl<'a> Lowerer<'a> {
-    fn new(graph: &'a Graph, function: &Function, uses: &'a [u32]) -> Self {
+    fn new(graph: &'a Graph, function: &Function, signs: Signs, nodes: usize) -> Self {
         let inputs = || function.inputs.iter().flat_map(|block| block.entries.iter().copied());
         #[expect(clippy::expect_used, reason = "the derivation makes the inputs of functions of symbols")]
         let name = |id| graph.symbol_name(graph.as_symbol(id).expect("inputs are symbols")).to_owned();
@@ -94,13 +126,23 @@ impl<'a> Lowerer<'a> {
             values: 0,
         };
         let inputs = (0..).zip(inputs()).map(|(index, id)| (id, index)).collect();
-        let operands = vec![Operand::Constant(f64::NAN); uses.len()];
-        let (angles, defined, sections) = Default::default();
-        Self { graph, uses, inputs, operands, angles, defined, sections, tape }
+        let operands = vec![Operand::Constant(f64::NAN); nodes];
+        let (negations, angles, defined, sections) = Default::default();
+        Self { graph, signs, negations, inputs, operands, angles, defined, sections, tape }
     }
 
     fn operand(&self, id: ExprId) -> Operand {
         self.operands[id.index()]
+    }
+
+    fn find_negations(&mut self, live: &[ExprId]) {
+        for id in live {
+            if let Node::Unary(Unary::Neg, inner) = self.graph.node(*id)
+                && self.signs.is_reversed(inner)
+            {
+                self.negations.insert(inner, *id);
+            }
+        }
     }
 
     fn node(&mut self, id: ExprId) {
@@ -110,9 +152,8 @@ impl<'a> Lowerer<'a> {
             Node::Unary(Unary::Sin, angle) => self.sine_or_cosine(id, angle, 0),
             Node::Unary(Unary::Cos, angle) => self.sine_or_cosine(id, angle, 1),
             Node::Unary(Unary::Neg, inner) => self.negated(id, inner),
-            // A product or difference that only its negative needs is made by that.
-            _ if self.made_by_negative(id) => return,
             Node::Unary(operation, a) => self.push(id, Op::Unary(operation, self.operand(a))),
+            Node::Binary(operation, ..) if self.signs.is_reversed(id) => self.reversed(id, operation),
             Node::Binary(operation, a, b) => {
                 self.push(id, Op::Binary(operation, self.operand(a), self.operand(b)))
             }
@@ -120,38 +161,40 @@ impl<'a> Lowerer<'a> {
         self.operands[id.index()] = operand;
     }
 
-    /// Whether the node's only user is a negation that can absorb its sign.
-    fn made_by_negative(&self, id: ExprId) -> bool {
-        self.uses[id.index()] == 1 && self.absorbs_sign(id) && self.negated_only(id)
-    }
-
-    fn absorbs_sign(&self, id: ExprId) -> bool {
-        match self.graph.node(id) {
-            Node::Binary(Binary::Sub, ..) => true,
-            Node::Binary(Binary::Mul, a, b) => {
-                self.graph.as_constant(a).is_some() || self.graph.as_constant(b).is_some()
+    /// The negative of a binary node, by operands of which one may have its sign changed already: see [`Signs`].
+    fn reversed(&mut self, id: ExprId, operation: Binary) -> Operand {
+        let below: Vec<ExprId> = self.graph.node(id).children().collect();
+        let operands = [below[0], below[1]].map(|child| self.operand(child));
+        let turned = [below[0], below[1]].map(|child| self.signs.is_reversed(child));
+        let op = match (operation, operands, turned) {
+            (Binary::Sub, [a, b], _) => Op::Binary(Binary::Sub, b, a),
+            // -(a + b) is (-a) - b.
+            (Binary::Add, [a, b], [true, _]) => Op::Binary(Binary::Sub, a, b),
+            (Binary::Add, [a, b], [_, true]) => Op::Binary(Binary::Sub, b, a),
+            (Binary::Add, [Operand::Constant(a), b], _) => Op::Binary(Binary::Sub, Operand::Constant(-a), b),
+            (Binary::Add, [a, Operand::Constant(b)], _) => Op::Binary(Binary::Sub, Operand::Constant(-b), a),
+            (_, [a, b], [false, false]) => {
+                let (a, b) = match a {
+                    Operand::Constant(a) => (Operand::Constant(-a), b),
+                    _ => (a, negative(b)),
+                };
+                Op::Binary(operation, a, b)
             }
-            _ => false,
+            (_, [a, b], _) => Op::Binary(operation, a, b),
+        };
+        let named = self.negations.get(&id).copied();
+        let operand = self.push(named.unwrap_or(id), op);
+        if named.is_none() {
+            // Its name says the other sign.
+            let last = self.tape.statements.len() - 1;
+            self.tape.statements[last].labels = [None, None];
         }
-    }
-
-    fn negated_only(&self, id: ExprId) -> bool {
-        self.graph.negation_of(id).is_some_and(|negation| self.uses[negation.index()] > 0)
+        operand
     }
 
     fn negated(&mut self, id: ExprId, inner: ExprId) -> Operand {
-        if self.made_by_negative(inner) {
-            let flip = |operand: Operand| match operand {
-                Operand::Constant(number) => Operand::Constant(-number),
-                other => other,
-            };
-            if let Node::Binary(operation, a, b) = self.graph.node(inner) {
-                let (a, b) = (self.operand(a), self.operand(b));
-                let (a, b) = if operation == Binary::Sub { (b, a) } else { (flip(a), flip(b)) };
-                return self.push(id, Op::Binary(operation, a, b));
-            }
-        }
         match self.operand(inner) {
+            operand if self.signs.is_reversed(inner) => operand,
             Operand::Constant(number) => Operand::Constant(-number),
             operand => self.push(id, Op::Unary(Unary::Neg, operand)),
         }
@@ -206,7 +249,6 @@ impl<'a> Lowerer<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derive::Block;
     use crate::expr::{Expr, Scope};
 
     fn lowered<const N: usize>(
@@ -228,6 +270,14 @@ mod tests {
             tape.statements[0].op,
             Op::Binary(Binary::Sub, Operand::Input(1), Operand::Input(0))
         ));
+    }
+
+    #[test]
+    fn signs_go_down_to_an_operand_that_can_take_them() {
+        let tape = lowered(|_, a, b| [-((a - b) * a), -(1.0 / b), -((a - 3.0 * b) + a.square())]);
+        assert_eq!(tape.statements.len(), 7);
+        let changes = tape.statements.iter().filter(|one| matches!(one.op, Op::Unary(Unary::Neg, _)));
+        assert_eq!(changes.count(), 0);
     }
 
     #[test]

@@ -9,7 +9,7 @@ mod split;
 mod stats;
 mod verify;
 
-pub use lower::lower;
+pub use lower::{lower, lower_short};
 pub use registers::Registers;
 pub use split::{PART_LIMIT, Part, Split, split};
 pub use stats::{Operations, unshared_operations};

@@ -1,6 +1,8 @@
 //! The symbols of one mechanism, and its motion, loads and closure rows at an instant.
 //! In: [`Geometry`], which constraint rows to keep. Out: [`Instant`]s. Never knows what entry points return.
 
+use nalgebra::DMatrix;
+
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::Mechanism;
@@ -18,6 +20,7 @@ use crate::derive::link_mass::{LinkMass, link_masses};
 use crate::derive::linkage::{Freedom, Link};
 use crate::derive::loads::Loads;
 use crate::derive::motion::{ModalState, Motion};
+use crate::derive::plan::Guide;
 
 /// Symbols of tunable parameters and time, numbers for the other parameters; and the tunable ones alone.
 pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<'g>>) {
@@ -69,6 +72,8 @@ pub struct Deriver<'g> {
     /// Symbols of the wrenches that contact laws hand in.
     pub contacts: Vec<ContactWrench<'g>>,
     pub keep: Vec<bool>,
+    /// Of the kept rows by the free speeds, at closed positions.
+    pub jacobians: Vec<DMatrix<f64>>,
 }
 
 /// Link motion with what depends on it.
@@ -110,11 +115,11 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 }
 
 impl<'g> Deriver<'g> {
-    /// Makes the symbols; `keep` says for every constraint row whether it is kept, `None` keeps all.
-    pub fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, keep: Option<&[bool]>) -> Self {
+    /// Makes the symbols; without a guide all constraint rows are kept.
+    pub fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, guide: Option<&Guide>) -> Self {
         let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
-        let keep = keep.map_or_else(|| vec![true; rows.sum()], <[bool]>::to_vec);
+        let keep = guide.map_or_else(|| vec![true; rows.sum()], |guide| guide.keep.clone());
         let drivers = drivers(&geometry);
         let names = variable_names(mechanism, linkage);
         let symbol = |name: &str, suffix: &str| g.symbol(name.replace('.', "_") + suffix);
@@ -123,6 +128,10 @@ impl<'g> Deriver<'g> {
         let driven: Vec<usize> = drivers.iter().map(|driver| driver.speed).collect();
         let free = (0..v_all.len()).filter(|index| !driven.contains(index)).collect();
         let partition = Partition { free, driven };
+        let kept: Vec<usize> = (0..keep.len()).filter(|row| keep[*row]).collect();
+        let numbers = guide.map_or(&[][..], |guide| &guide.jacobians);
+        let jacobians = numbers.iter().map(|all| all.select_rows(&kept).select_columns(&partition.free));
+        let jacobians = jacobians.collect();
         let v_dot = partition.free.iter().map(|index| symbol(&names.1[*index].0, "_dot")).collect();
         let (mut kept, mut spare) = (0, 0);
         let lambda = keep
@@ -162,6 +171,7 @@ impl<'g> Deriver<'g> {
             drive,
             contacts,
             keep,
+            jacobians,
         }
     }
 

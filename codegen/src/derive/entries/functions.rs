@@ -6,7 +6,7 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
+use crate::derive::dynamics::{Problem, bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
@@ -74,7 +74,16 @@ impl<'g> Deriver<'g> {
         let motion = &instant.state.motion;
         self.geometry.g.begin_section("loop Jacobian");
         let rows = kept_rows(motion, &instant.cuts, &self.keep);
-        let result = forward(motion, masses, &instant.loads, (&rows, &self.partition));
+        let problem = Problem {
+            motion,
+            v: &instant.state.v,
+            rates: &instant.state.v_dot,
+            masses,
+            loads: &instant.loads,
+            rows: &rows,
+            partition: &self.partition,
+        };
+        let result = forward(&problem, &self.jacobians);
         let outputs = vec![
             Block::vector("v_dot", result.solution.accelerations)
                 .doc("Accelerations of the free speeds [rad/s², m/s²].")
@@ -211,7 +220,7 @@ impl<'g> Deriver<'g> {
             Block::matrix("phi_q", (rows.len(), n), jacobian)
                 .doc("Jacobian of all rows by all speeds.")
                 .cites("[CS (3)]"),
-            Block::vector("gamma", rows.iter().map(|kept| -kept.row.bias))
+            Block::vector("gamma", rows.iter().map(|kept| -kept.row.bias.whole))
                 .doc("Right side of phi_q v̇ = gamma.")
                 .cites("[CS (6)]"),
         ];

@@ -16,6 +16,7 @@ use crate::model::{Mechanism, Topology};
 use super::geometry::Geometry;
 use super::linkage::Linkage;
 use super::linkage_build::linkage;
+use super::plan::Guide;
 use super::{Equations, Function};
 use deriver::{Deriver, inputs};
 use functions::function;
@@ -42,12 +43,11 @@ pub enum Purpose {
     Analysis,
 }
 
-/// Derives all entry points. `keep` says for every constraint row (cuts in topology order) whether it is
-/// kept; `None` keeps all.
+/// Derives all entry points; without a guide all constraint rows are kept.
 pub fn derive(
     mechanism: &Mechanism,
     topology: &Topology,
-    keep: Option<&[bool]>,
+    guide: Option<&Guide>,
     purpose: Purpose,
 ) -> Derived {
     let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
@@ -57,7 +57,7 @@ pub fn derive(
         scope.begin_section("prescribed motion");
         let (inputs, parameters) = inputs(&scope, mechanism);
         let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-        results(&Deriver::new(geometry, parameters, keep), purpose)
+        results(&Deriver::new(geometry, parameters, guide), purpose)
     };
     Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
 }

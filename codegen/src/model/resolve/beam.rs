@@ -221,7 +221,7 @@ impl Resolver<'_> {
             stations,
             start: vec![[0.0; 2]; data.modes.len()],
             left_out: left_out.map(|(name, frequency)| LeftOut { name: name.to_owned(), frequency }).to_vec(),
-            data,
+            data: data.with_equal_numbers(),
         })
     }
 

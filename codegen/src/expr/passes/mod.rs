@@ -1,0 +1,107 @@
+//! Passes that shorten one function: other expressions of the same values but for rounding.
+//! In: a graph and roots. Out: [`Program`], a graph of its own. Never knows what is computed.
+//!
+//! Every pass is judged by [`Graph::operations`]: what does not get smaller is thrown away, so no function gets dearer.
+//! Ties are broken by the order of nodes, so the result repeats.
+
+mod equal;
+mod factor;
+mod formula;
+mod program;
+mod rebuild;
+mod share;
+mod sums;
+
+use super::{ExprId, Graph};
+use program::Whole;
+
+pub use program::Program;
+
+/// A pass; nothing if it finds nothing to do.
+type Pass = fn(&Program) -> Option<Program>;
+
+const PASSES: [Pass; 2] = [factor::factor, share::share];
+
+/// Rounds of all passes at most; nothing shipped takes more than three.
+const ROUNDS: usize = 4;
+
+/// The function with these inputs (all symbols that it reads) and outputs, shortened.
+pub fn shortened(graph: &Graph, inputs: &[ExprId], roots: &[ExprId]) -> Program {
+    let whole = Whole { graph, inputs, roots };
+    let mut best = equal::merged(&whole);
+    let mut least = best.operations();
+    for _ in 0..ROUNDS {
+        let before = least;
+        for pass in PASSES {
+            let Some(next) = pass(&best) else { continue };
+            let count = next.operations();
+            if count < least {
+                (best, least) = (next, count);
+            }
+        }
+        if least == before {
+            break;
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Expr, Scope};
+
+    /// Operations before and after, with the outputs before and after at one point.
+    fn shortened_at<const N: usize>(
+        point: [f64; 4],
+        build: impl for<'g> Fn([Expr<'g>; 4]) -> [Expr<'g>; N],
+    ) -> ([usize; 2], [[f64; N]; 2]) {
+        let g = Scope::new();
+        let symbols = ["a", "b", "c", "d"].map(|name| g.symbol(name));
+        let roots = build(symbols).map(Expr::id);
+        let graph = g.into_graph();
+        let short = shortened(&graph, &symbols_of(&graph), &roots);
+        let values = |graph: &Graph, roots: &[ExprId]| {
+            let all = graph.evaluate_all(&point);
+            std::array::from_fn(|i| all[roots[i].index()])
+        };
+        let outputs = [values(&graph, &roots), values(&short.graph, &short.roots)];
+        ([graph.operations(&roots), short.operations()], outputs)
+    }
+
+    fn symbols_of(graph: &Graph) -> Vec<ExprId> {
+        (0..4).map(ExprId::new).inspect(|id| assert!(graph.as_symbol(*id).is_some())).collect()
+    }
+
+    #[test]
+    fn common_factors_of_a_sum_are_taken_out() {
+        let (counts, [before, after]) =
+            shortened_at([2.0, 3.0, 5.0, 7.0], |[a, b, c, d]| [a * b + c * d - a * (c * c)]);
+        assert_eq!(counts, [6, 5]);
+        assert_eq!(before, after);
+    }
+
+    #[test]
+    fn pairs_of_terms_in_several_sums_are_added_once() {
+        let (counts, [before, after]) =
+            shortened_at([2.0, 3.0, 5.0, 7.0], |[a, b, c, d]| [(a + c) - b, (a + d) - b, (b + c.sin()) - a]);
+        assert_eq!(counts, [7, 5]);
+        assert_eq!(before[..2], after[..2]);
+        assert!((before[2] - after[2]).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_value_that_something_else_reads_stays() {
+        let (counts, [before, after]) =
+            shortened_at([2.0, 3.0, 5.0, 7.0], |[a, b, c, _]| [a * b + a * c, a * b, (a * c).sqrt()]);
+        assert_eq!(counts, [4, 4]);
+        assert_eq!(before, after);
+    }
+
+    #[test]
+    fn numbers_that_differ_by_rounding_are_one() {
+        let (counts, _) =
+            shortened_at([1.0; 4], |[a, b, ..]| [0.42 * a * b, (0.420_000_000_000_000_04 * a).sqrt()]);
+        assert_eq!(counts, [4, 3]);
+    }
+}

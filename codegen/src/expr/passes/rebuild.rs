@@ -1,0 +1,95 @@
+//! Copies a function to a graph of its own, node by node, through the constructors that fold and order.
+//! Names and sections come along.
+
+use super::program::{Program, Whole};
+use crate::expr::{Binary, Expr, ExprId, Graph, Node, Scope, Unary};
+
+/// A copy under construction.
+pub struct Rebuild<'a, 'g> {
+    pub old: &'a Graph,
+    pub scope: &'g Scope,
+    /// By old node.
+    made: Vec<Option<Expr<'g>>>,
+}
+
+/// Copies what the roots need in the old order; `each` makes every node.
+pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId)) -> Program {
+    let uses = whole.graph.uses(whole.roots);
+    let scope = Scope::new();
+    let (inputs, roots) = {
+        let mut rebuild = Rebuild { old: whole.graph, scope: &scope, made: vec![None; uses.len()] };
+        scope.make(|g| g.sections = whole.graph.sections.clone());
+        for id in whole.inputs {
+            if let Some(symbol) = whole.graph.as_symbol(*id) {
+                rebuild.set(*id, scope.symbol(whole.graph.symbol_name(symbol)));
+            }
+        }
+        for index in (0..uses.len()).filter(|index| uses[*index] > 0) {
+            let id = ExprId::new(index);
+            if rebuild.made[index].is_none() {
+                scope.make(|g| g.current_section = whole.graph.section_of[index]);
+                each(&mut rebuild, id);
+                if let (Some(new), Some(name)) = (rebuild.made[index], whole.graph.label_of(id)) {
+                    new.label(name);
+                }
+            }
+        }
+        let new = |ids: &[ExprId]| ids.iter().map(|id| rebuild.get(*id).id()).collect();
+        (new(whole.inputs), new(whole.roots))
+    };
+    Program { graph: scope.into_graph(), inputs, roots }
+}
+
+impl Program {
+    /// A copy of what is needed, with `each` in charge of every node.
+    pub fn rebuilt(&self, each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId)) -> Self {
+        copy(&Whole { graph: &self.graph, inputs: &self.inputs, roots: &self.roots }, each)
+    }
+}
+
+impl<'g> Rebuild<'_, 'g> {
+    /// What has become of an old node; zero for one that was left out, which nothing needs.
+    pub fn get(&self, id: ExprId) -> Expr<'g> {
+        let made = self.made[id.index()];
+        debug_assert!(made.is_some(), "{id:?} was left out");
+        made.unwrap_or_else(|| self.scope.zero())
+    }
+
+    /// Says what becomes of an old node.
+    pub fn set(&mut self, id: ExprId, new: Expr<'g>) {
+        self.made[id.index()] = Some(new);
+    }
+
+    /// Makes the same operation on what has become of the operands.
+    pub fn again(&mut self, id: ExprId) {
+        let new = match self.old.node(id) {
+            Node::Constant(bits) => self.scope.number(f64::from_bits(bits)),
+            // All symbols are inputs, which are there.
+            Node::Symbol(symbol) => self.scope.symbol(self.old.symbol_name(symbol)),
+            Node::Unary(operation, a) => {
+                let a = self.get(a);
+                match operation {
+                    Unary::Neg => -a,
+                    Unary::Sqrt => a.sqrt(),
+                    Unary::Sin => a.sin(),
+                    Unary::Cos => a.cos(),
+                    Unary::Exp => a.exp(),
+                    Unary::Ln => a.ln(),
+                    Unary::LogCoefficient(rank) => a.log_coefficient(rank),
+                }
+            }
+            Node::Binary(operation, a, b) => {
+                let (a, b) = (self.get(a), self.get(b));
+                match operation {
+                    Binary::Add => a + b,
+                    Binary::Sub => a - b,
+                    Binary::Mul => a * b,
+                    Binary::Div => a / b,
+                    Binary::Atan2 => a.atan2(b),
+                    Binary::AngleOverSine => a.angle_over_sine(b),
+                }
+            }
+        };
+        self.set(id, new);
+    }
+}

@@ -1,0 +1,184 @@
+//! A pair of terms that several sums have is added once: the pair of most sums first.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap;
+
+use super::program::Program;
+use super::rebuild::Rebuild;
+use super::sums::{Sum, sums};
+use crate::expr::{Expr, ExprId};
+
+/// A term: an old node, or behind those a pair by its number.
+type Term = u32;
+
+/// Two terms, the first made first, and whether their signs differ.
+type Pair = (Term, Term, bool);
+
+/// Adds pairs that several sums have once.
+pub fn share(program: &Program) -> Option<Program> {
+    let (graph, uses) = (&program.graph, program.uses());
+    let sums = sums(graph, &uses);
+    let mut sharing = Sharing::new(&sums, uses.len());
+    sharing.run();
+    if sharing.pairs.is_empty() {
+        return None;
+    }
+    let mut changed: Vec<Option<usize>> = vec![None; uses.len()];
+    let mut left_out = vec![false; uses.len()];
+    for (at, sum) in sums.iter().enumerate().filter(|(at, _)| sharing.changed[*at]) {
+        changed[sum.root.index()] = Some(at);
+        sum.inner.iter().for_each(|id| left_out[id.index()] = true);
+    }
+    // Pairs by node of the new graph, made where the first sum needs them.
+    let mut made: Vec<Option<ExprId>> = vec![None; sharing.pairs.len()];
+    Some(program.rebuilt(|rebuild, id| match changed[id.index()] {
+        Some(at) => {
+            let mut sum = rebuild.scope.zero();
+            for (negative, term) in &sharing.terms[at] {
+                let term = sharing.term(rebuild, &mut made, *term);
+                sum = if *negative { sum - term } else { sum + term };
+            }
+            rebuild.set(id, sum);
+        }
+        None if left_out[id.index()] => {}
+        None => rebuild.again(id),
+    }))
+}
+
+/// Sums while their pairs are being found.
+struct Sharing {
+    /// Old nodes.
+    nodes: usize,
+    /// Signed terms of every sum.
+    terms: Vec<Vec<(bool, Term)>>,
+    changed: Vec<bool>,
+    /// Sums that had the pair when it was found.
+    places: FxHashMap<Pair, Vec<u32>>,
+    /// By number of sums, then the first made.
+    queue: BinaryHeap<(usize, Reverse<Pair>)>,
+    /// Chosen, in order.
+    pairs: Vec<Pair>,
+}
+
+impl Sharing {
+    fn new(sums: &[Sum], nodes: usize) -> Self {
+        // What one sum has alone is in no common pair.
+        let mut sums_with = vec![0_u32; nodes];
+        for (_, term) in sums.iter().flat_map(|sum| &sum.terms) {
+            sums_with[term.index()] += 1;
+        }
+        let number = |id: ExprId| -> Term { id.number() };
+        let terms: Vec<Vec<(bool, Term)>> = sums
+            .iter()
+            .map(|sum| sum.terms.iter().map(|(negative, id)| (*negative, number(*id))).collect())
+            .collect();
+        let mut sharing = Self {
+            nodes,
+            changed: vec![false; terms.len()],
+            terms,
+            places: FxHashMap::default(),
+            queue: BinaryHeap::new(),
+            pairs: Vec::new(),
+        };
+        for at in 0..sharing.terms.len() {
+            let common: Vec<(bool, Term)> =
+                sharing.terms[at].iter().filter(|(_, term)| sums_with[*term as usize] > 1).copied().collect();
+            for (position, first) in common.iter().enumerate() {
+                for second in &common[position + 1..] {
+                    sharing.note(at, pair(*first, *second));
+                }
+            }
+        }
+        sharing.queue = sharing
+            .places
+            .iter()
+            .filter(|(_, at)| at.len() > 1)
+            .map(|(pair, at)| (at.len(), Reverse(*pair)))
+            .collect();
+        sharing
+    }
+
+    fn note(&mut self, sum: usize, pair: Pair) {
+        let places = self.places.entry(pair).or_default();
+        // Sums are fewer than nodes, which are counted in 32 bits.
+        let sum = u32::try_from(sum).unwrap_or(u32::MAX);
+        if places.last() != Some(&sum) {
+            places.push(sum);
+        }
+    }
+
+    fn run(&mut self) {
+        while let Some((count, Reverse(pair))) = self.queue.pop() {
+            let mut places = self.places.get(&pair).cloned().unwrap_or_default();
+            places.retain(|at| find(&self.terms[*at as usize], pair).is_some());
+            if places.len() == count {
+                self.take(pair, &places);
+            } else if places.len() > 1 {
+                self.queue.push((places.len(), Reverse(pair)));
+                self.places.insert(pair, places);
+            }
+        }
+    }
+
+    /// Puts the pair as one new term into every sum that has it.
+    fn take(&mut self, chosen: Pair, places: &[u32]) {
+        let Ok(new) = Term::try_from(self.nodes + self.pairs.len()) else { return };
+        self.pairs.push(chosen);
+        let mut found: Vec<Pair> = Vec::new();
+        for at in places.iter().map(|at| *at as usize) {
+            let Some([first, second]) = find(&self.terms[at], chosen) else { continue };
+            // The sign of the pair is that of its first made term.
+            let terms = &mut self.terms[at];
+            let negative = terms[first].0;
+            terms[first.min(second)] = (negative, new);
+            terms.remove(first.max(second));
+            self.changed[at] = true;
+            let others: Vec<Pair> = terms
+                .iter()
+                .filter(|(_, term)| *term != new)
+                .map(|other| pair(*other, (negative, new)))
+                .collect();
+            for pair in others {
+                self.note(at, pair);
+                found.push(pair);
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        for pair in found {
+            let count = self.places[&pair].len();
+            if count > 1 {
+                self.queue.push((count, Reverse(pair)));
+            }
+        }
+    }
+
+    /// The node of a term in the new graph.
+    fn term<'g>(&self, rebuild: &Rebuild<'_, 'g>, made: &mut [Option<ExprId>], term: Term) -> Expr<'g> {
+        let Some(number) = (term as usize).checked_sub(self.nodes) else {
+            return rebuild.get(ExprId::new(term as usize));
+        };
+        if let Some(id) = made[number] {
+            return rebuild.scope.zero().at(id);
+        }
+        let (first, second, differ) = self.pairs[number];
+        let [first, second] = [first, second].map(|term| self.term(rebuild, made, term));
+        let sum = if differ { first - second } else { first + second };
+        made[number] = Some(sum.id());
+        sum
+    }
+}
+
+fn pair(a: (bool, Term), b: (bool, Term)) -> Pair {
+    (a.1.min(b.1), a.1.max(b.1), a.0 != b.0)
+}
+
+/// Where a sum has both terms of a pair.
+fn find(terms: &[(bool, Term)], (first, second, differ): Pair) -> Option<[usize; 2]> {
+    let at = terms.iter().position(|(_, term)| *term == first)?;
+    let wanted = (terms[at].0 != differ, second);
+    let other = terms.iter().enumerate().position(|(other, term)| other != at && *term == wanted)?;
+    Some([at, other])
+}
