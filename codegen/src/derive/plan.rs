@@ -76,6 +76,10 @@ impl PlanBlock {
     fn is_regular(&self, numbers: &[DMatrix<f64>]) -> bool {
         let singular = numbers.iter().filter(|jacobian| {
             let rows = jacobian.select_rows(&self.rows);
+            // The search for singular values does not end for these.
+            if rows.iter().any(|value| !value.is_finite()) {
+                return true;
+            }
             let values = rows.select_columns(&self.speeds).singular_values();
             // Against all of its rows: an entry may be there symbolically and vanish wherever loops close.
             values.min() <= SINGULAR * rows.amax()

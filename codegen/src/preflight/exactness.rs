@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
-use super::subspace::{least_norm, nearly_null_space, null_space};
+use super::subspace::{least_norm, nearly_null_space, null_space, singular_values};
 
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
 pub const NEARLY: f64 = 1e-3;
@@ -102,8 +102,9 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
         .collect();
     let scaled = DMatrix::from_fn(rows.nrows(), rows.ncols(), |i, j| rows[(i, j)] / lengths[i]);
     let right = DVector::from_fn(kept.len(), |i, _| -residual[kept[i]] / lengths[i]);
-    let values = scaled.singular_values();
-    let weak = values.min() / values.max().max(f64::MIN_POSITIVE);
+    let values = singular_values(&scaled);
+    let [strongest, weakest] = [values.first(), values.last()].map(|value| value.copied().unwrap_or(0.0));
+    let weak = weakest / strongest.max(f64::MIN_POSITIVE);
     let step = least_norm(&scaled, &right)?;
     let opened = &residual + jacobian * step;
     let growth = if weak < WEAK { (weak / WEAKEST).max(1.0) } else { 1.0 };

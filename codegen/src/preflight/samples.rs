@@ -205,6 +205,9 @@ impl Walker<'_> {
         for _ in 0..20 {
             self.layout.advance(&mut q, &step);
             let (phi, jacobian, _) = self.equations(&q);
+            if phi.iter().any(|value| !value.is_finite()) {
+                break;
+            }
             least = least.min(phi.amax());
             let Some(correction) = least_norm(&jacobian.select_columns(&followers), &-phi) else { break };
             step.fill(0.0);

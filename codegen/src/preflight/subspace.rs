@@ -1,7 +1,8 @@
 //! Rank, null space and shortest solution of constraint rows. In: matrices. Out: numbers. Never knows mechanics.
 //!
 //! A QR decomposition with pivots costs a tenth of the singular values. It answers where it leaves no doubt of the
-//! rank, and the singular values answer elsewhere.
+//! rank, and the singular values answer elsewhere. The search for singular values does not end for numbers that are
+//! infinite or none: such a matrix has no rank, no directions and no solution here.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -33,8 +34,11 @@ pub fn rank(matrix: &DMatrix<f64>) -> usize {
 pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
     let (rows, columns) = matrix.shape();
     let matrix = without_zero_rows(matrix);
-    let mut values: Vec<f64> =
-        if matrix.is_empty() { Vec::new() } else { matrix.singular_values().iter().copied().collect() };
+    let mut values: Vec<f64> = if matrix.is_empty() || !is_finite(&matrix) {
+        Vec::new()
+    } else {
+        matrix.singular_values().iter().copied().collect()
+    };
     values.resize(rows.min(columns), 0.0);
     values.sort_by(|a, b| b.total_cmp(a));
     values
@@ -48,8 +52,8 @@ pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 /// The same of what is below a part of the largest singular value.
 pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
     let n = matrix.ncols();
-    if n == 0 {
-        return DMatrix::zeros(0, 0);
+    if n == 0 || !is_finite(matrix) {
+        return DMatrix::zeros(n, 0);
     }
     if let Some(factor) = Factor::new(matrix, tolerance) {
         return factor.null_space();
@@ -62,6 +66,10 @@ pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> 
 
 /// As many singular values as there are columns, and all right singular vectors as rows.
 pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    if !is_finite(&matrix) {
+        let n = matrix.ncols();
+        return (DVector::repeat(n, f64::NAN), DMatrix::identity(n, n));
+    }
     // Zero rows below make the decomposition return all of them.
     let height = matrix.nrows().max(matrix.ncols());
     let svd = matrix.resize_vertically(height, 0.0).svd(false, true);
@@ -84,6 +92,9 @@ pub fn least_norm_within(
     if matrix.is_empty() {
         return Some(DVector::zeros(matrix.ncols()));
     }
+    if !is_finite(matrix) || right.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
     let factor = Factor::new(matrix, tolerance);
     if let Some(solution) = factor.and_then(|factor| factor.least_norm(matrix, right)) {
         return Some(solution);
@@ -91,6 +102,10 @@ pub fn least_norm_within(
     let svd = matrix.clone().svd(true, true);
     let largest = svd.singular_values.amax();
     svd.solve(right, tolerance * largest).ok()
+}
+
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
+    matrix.iter().all(|value| value.is_finite())
 }
 
 /// Rows of zeros, which planar mechanisms have many of, say nothing.
@@ -196,6 +211,18 @@ mod tests {
         let given = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 3.0, 4.0]);
         let solution = least_norm(&given, &DVector::from_vec(vec![1.0, 5.0])).unwrap();
         assert!((solution - DVector::from_vec(vec![0.6, 0.8])).amax() < 1e-15);
+    }
+
+    #[test]
+    fn numbers_that_are_none_have_no_rank_and_no_solution() {
+        for odd in [f64::NAN, f64::INFINITY] {
+            let given = DMatrix::from_row_slice(2, 3, &[1.0, 2.0, 0.0, odd, 1.0, 3.0]);
+            assert_eq!((rank(&given), singular_values(&given)), (0, vec![0.0; 2]));
+            assert_eq!(null_space(&given).shape(), (3, 0));
+            assert_eq!(least_norm(&given, &DVector::zeros(2)), None);
+            assert!(right_singular_vectors(given).0.iter().all(|value| value.is_nan()));
+        }
+        assert_eq!(least_norm(&DMatrix::identity(2, 2), &DVector::from_vec(vec![f64::NAN, 0.0])), None);
     }
 
     #[test]
