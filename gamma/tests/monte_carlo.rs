@@ -193,7 +193,10 @@ fn a_thread_that_panics_ends_the_run_with_its_life_and_words() {
             Watch::new(&watch),
         );
         let Ended::Panicked { trajectory, message } = run.ended else { panic!("{:?}", run.ended) };
-        assert!(message == "at 0.05" && (1..100).contains(&trajectory), "{trajectory} {message}");
+        // Every thread may panic once, and which of them is told is chance: five lives are finished then, or one more each.
+        let told =
+            (5..5 + threads.get()).any(|finished| message == format!("at {}", finished as f64 / 100.0));
+        assert!(told && (1..100).contains(&trajectory), "{trajectory} {message}");
         assert!(run.failures.len() >= 5, "{}", run.failures.len());
     }
 }
