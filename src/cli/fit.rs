@@ -94,6 +94,7 @@ fn cure(error: FitError) -> &'static str {
         }
         FitError::BadResolution => "correct --resolution and --gauge",
         FitError::LargeError => "give a --resolution of a tenth of --gauge: a finer one is lost in the error",
+        FitError::TooManyWindows { .. } => "fit fewer units, or every tenth reading of each",
         FitError::NoResolution => "leave --process or --resolution out",
         _ => "look at the data; estimate fewer parameters",
     }

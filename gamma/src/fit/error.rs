@@ -28,6 +28,16 @@ pub enum FitError {
         "the gauge's error is more than a hundred times its resolution; state a resolution of a tenth of the error"
     )]
     LargeError,
+    /// More readings of a coarse gauge than can be taken together.
+    #[error(
+        "the gauge is coarse for {readings} readings, whose true wear is sought within its step: at most {most} such readings can be taken together"
+    )]
+    TooManyWindows {
+        /// How many there are.
+        readings: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// A gauge's step for a process that has no use for it.
     #[error("only the Gamma process takes readings as rounded to a step of the gauge")]
     NoResolution,

@@ -4,6 +4,7 @@
 use super::error::FitError;
 use super::maximise::{maximise, start};
 use super::model::Model;
+use super::rounded::{Laws, windows};
 use crate::data::{Increment, Observations, Rounding};
 use crate::matrix::Factor;
 use crate::special::gamma_q;
@@ -53,21 +54,33 @@ pub(super) fn estimate_increments(
         if error > MOST_ERROR * step {
             return Err(FitError::LargeError);
         }
-        model.process.mean_excess([0.0; 2], step).ok_or(FitError::NoResolution)?;
+        model.process.mean_shortfall([0.0; 2], step).ok_or(FitError::NoResolution)?;
     }
     let (phi, point) = if model.parameters() == 2 && model.resolution.is_none() {
         let lambdas: Vec<f64> = increments.iter().map(|increment| increment.to - increment.from).collect();
         let wears: Vec<f64> = increments.iter().map(|increment| increment.wear).collect();
         let phi = model.process.maximum(&lambdas, &wears).ok_or(FitError::NoScatter)?.to_vec();
-        let point = model.point(&phi, increments);
+        let point = model.point(&phi, increments, None);
         (phi, point)
     } else {
         let from = near.map_or_else(|| start(model, increments), |phi| Ok(phi.to_vec()))?;
+        follows(model, increments, &from)?;
         maximise(model, increments, &from, None)?
     };
     let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
     let covariance = covariance.ok_or(FitError::NotConverged)?;
     Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: increments.len() })
+}
+
+/// Refuses more rounded readings than can be followed.
+fn follows(model: &Model, increments: &[Increment], phi: &[f64]) -> Result<(), FitError> {
+    let Some(rounding) = model.resolution else { return Ok(()) };
+    let logs = |one: &Increment| model.logs(phi, one);
+    let windows = windows(Laws { process: model.process, logs: &logs }, increments, rounding);
+    match windows.count > windows.most {
+        true => Err(FitError::TooManyWindows { readings: windows.count, most: windows.most }),
+        false => Ok(()),
+    }
 }
 
 impl Fit {

@@ -41,7 +41,7 @@ pub fn maximise(
     held: Option<usize>,
 ) -> Result<(Vec<f64>, Point), FitError> {
     let mut phi = start.to_vec();
-    let mut here = model.point(&phi, increments);
+    let mut here = model.point(&phi, increments, held);
     let free: Vec<usize> = (0..phi.len()).filter(|at| Some(*at) != held).collect();
     for _ in 0..MOST_STEPS {
         let gradient: Vec<f64> = free.iter().map(|at| here.gradient[*at]).collect();
@@ -57,7 +57,7 @@ pub fn maximise(
                 next[*at] += length * step;
             }
             let usable = !model.power_law || next[2] > 0.0;
-            let there = usable.then(|| model.point(&next, increments));
+            let there = usable.then(|| model.point(&next, increments, held));
             let slack = 1e-12 * here.value.abs().max(1.0);
             if let Some(there) = there.filter(|there| there.value >= here.value - slack) {
                 (phi, here) = (next, there);

@@ -102,7 +102,7 @@ impl Model {
 
     /// Value and derivatives of a likelihood of rounded readings, by central differences of order 4, mixed ones of order 2: ample
     /// for Newton's method and for standard errors.
-    fn point_of_rounded(&self, phi: &[f64], increments: &[Increment]) -> Point {
+    fn point_of_rounded(&self, phi: &[f64], increments: &[Increment], held: Option<usize>) -> Point {
         const H: f64 = 2e-3;
         let size = phi.len();
         // An exponent stays positive.
@@ -116,12 +116,13 @@ impl Model {
         };
         let value = at(&[]);
         let mut point = Point { value, gradient: vec![0.0; size], information: vec![vec![0.0; size]; size] };
-        for i in 0..size {
+        let is_free = |i: &usize| held != Some(*i);
+        for i in (0..size).filter(is_free) {
             let [far_down, down, up, far_up] = [-2.0, -1.0, 1.0, 2.0].map(|by| at(&[(i, by)]));
             point.gradient[i] = (8.0 * (up - down) - (far_up - far_down)) / (12.0 * width(i));
             point.information[i][i] =
                 -(16.0 * (up + down) - 30.0 * value - (far_up + far_down)) / (12.0 * width(i) * width(i));
-            for j in 0..i {
+            for j in (0..i).filter(is_free) {
                 let corner = |a: f64, b: f64| at(&[(i, a), (j, b)]);
                 let mixed = corner(1.0, 1.0) - corner(1.0, -1.0) - corner(-1.0, 1.0) + corner(-1.0, -1.0);
                 point.information[i][j] = -mixed / (4.0 * width(i) * width(j));
@@ -131,10 +132,10 @@ impl Model {
         point
     }
 
-    /// Value, gradient and information.
-    pub fn point(&self, phi: &[f64], increments: &[Increment]) -> Point {
+    /// Value, gradient and information, but for a parameter that is held: its entries may be 0.
+    pub fn point(&self, phi: &[f64], increments: &[Increment], held: Option<usize>) -> Point {
         if self.resolution.is_some() {
-            return self.point_of_rounded(phi, increments);
+            return self.point_of_rounded(phi, increments, held);
         }
         let size = phi.len();
         let mut point =
@@ -188,14 +189,14 @@ mod tests {
         let model = Model { process, power_law: true, covariates: 1, resolution: None };
         let data = [sample(0.8, 0.0, 2.0, 0.3), sample(1.7, 2.0, 5.0, -0.4)];
         let phi = [0.7, 0.9, 0.8, 0.5];
-        let here = model.point(&phi, &data);
+        let here = model.point(&phi, &data, None);
         assert!((here.value - model.value(&phi, &data)).abs() < 1e-14);
         let step = 1e-5;
         for i in 0..4 {
             let moved = |by: f64| {
                 let mut phi = phi;
                 phi[i] += by;
-                model.point(&phi, &data)
+                model.point(&phi, &data, None)
             };
             let (up, down) = (moved(step), moved(-step));
             // Central differences: error step^2 and eps / step, both about 1e-10; the censored term's curvature 1e-6.

@@ -103,7 +103,7 @@ impl FitFile {
         let mut phi: Vec<f64> = self.parameters.map(libm::log).to_vec();
         phi.extend(self.exponent);
         phi.extend(self.covariates.iter().map(|covariate| covariate.coefficient));
-        let point = model.point(&phi, &self.increments);
+        let point = model.point(&phi, &self.increments, None);
         let gain = Factor::definite(&point.information).and_then(|factor| factor.distance(&point.gradient));
         if !gain.is_some_and(|gain| gain < SAME_LIKELIHOOD) {
             return Err(self.other_increments());

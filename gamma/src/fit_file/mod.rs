@@ -4,6 +4,7 @@
 mod at_covariates;
 mod definition;
 mod error;
+mod once;
 mod reader;
 
 pub use definition::{Covariate, FitFile};

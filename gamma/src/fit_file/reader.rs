@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use super::definition::{Columns, Covariate, FitFile};
 use super::error::{FitFileError, WRITE_ONE, fault};
+use super::once::Once;
 use crate::data::Increment;
 use crate::process::{PROCESSES, Process, named};
 
@@ -17,9 +18,9 @@ impl FitFile {
     /// # Errors
     /// [`FitFileError`].
     pub fn parse(text: &str) -> Result<Self, FitFileError> {
-        let value: Value = serde_json::from_str(text).map_err(|error| FitFileError {
+        let Once(value) = serde_json::from_str(text).map_err(|error| FitFileError {
             line: Some(error.line()),
-            message: format!("not JSON: {error}"),
+            message: if error.is_data() { error.to_string() } else { format!("not JSON: {error}") },
             cure: WRITE_ONE.to_owned(),
         })?;
         let reader = Reader { text, value: &value };

@@ -33,12 +33,23 @@ pub trait Process: Debug + Sync {
     /// ln density of an increment over exposure 1, with derivatives by `logs`.
     fn density(&self, logs: [f64; 2], wear: f64) -> Term;
 
+    /// ln density of an increment over exposure 1 alone.
+    fn ln_density(&self, logs: [f64; 2], wear: f64) -> f64 {
+        self.density(logs, wear).value
+    }
+
     /// Variance of an increment over exposure 1.
     fn variance(&self, logs: [f64; 2]) -> f64;
 
-    /// Means of what an increment over exposure 1 is below and above `wear`: the integrals of its distribution function up to there
-    /// and of its complement from there on; None where readings rounded to a gauge's step cannot be taken as such.
-    fn mean_excess(&self, _logs: [f64; 2], _wear: f64) -> Option<[f64; 2]> {
+    /// Mean of what an increment over exposure 1 is below `wear`: the integral of its distribution function up to there; None
+    /// where readings rounded to a gauge's step cannot be taken as such.
+    fn mean_shortfall(&self, _logs: [f64; 2], _wear: f64) -> Option<f64> {
+        None
+    }
+
+    /// Mean of what it is above `wear`: the integral of what its distribution function lacks to 1 from there on. Excess and
+    /// shortfall differ by mean - wear.
+    fn mean_excess(&self, _logs: [f64; 2], _wear: f64) -> Option<f64> {
         None
     }
 

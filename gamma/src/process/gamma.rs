@@ -56,20 +56,35 @@ impl Process for Gamma {
         let scaled = libm::exp(ln_beta) * wear;
         let slope = a * (ln_beta + ln_wear - digamma(a));
         Term {
-            value: a * ln_beta - ln_gamma(a) + (a - 1.0) * ln_wear - scaled,
+            value: self.ln_density([eta, ln_beta], wear),
             gradient: [slope, a - scaled],
             hessian: [slope - a * a * trigamma(a), a, -scaled],
         }
     }
 
-    fn mean_excess(&self, logs: [f64; 2], wear: f64) -> Option<[f64; 2]> {
-        let [shape, beta] = logs.map(libm::exp);
-        let (mean, x) = (shape / beta, beta * wear);
+    fn ln_density(&self, [eta, ln_beta]: [f64; 2], wear: f64) -> f64 {
+        let a = libm::exp(eta);
+        a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) - libm::exp(ln_beta) * wear
+    }
+
+    /// P(a, x) = P(a + 1, x) + x^a exp(-x) / Gamma(a + 1), Q likewise the other way round: sums that lose no digits.
+    fn mean_shortfall(&self, logs: [f64; 2], wear: f64) -> Option<f64> {
         if wear <= 0.0 {
-            return Some([0.0, mean - wear]);
+            return Some(0.0);
         }
-        let lower = wear * gamma_p(shape, x) - mean * gamma_p(shape + 1.0, x);
-        Some([lower, mean * gamma_q(shape + 1.0, x) - wear * gamma_q(shape, x)])
+        let [shape, beta] = logs.map(libm::exp);
+        let next = gamma_p(shape + 1.0, beta * wear);
+        Some(wear * (next + between_shapes(shape, beta * wear)) - shape / beta * next)
+    }
+
+    fn mean_excess(&self, logs: [f64; 2], wear: f64) -> Option<f64> {
+        let [shape, beta] = logs.map(libm::exp);
+        let mean = shape / beta;
+        if wear <= 0.0 {
+            return Some(mean - wear);
+        }
+        let left = gamma_q(shape, beta * wear);
+        Some(mean * (left + between_shapes(shape, beta * wear)) - wear * left)
     }
 
     fn slice(&self, ln_alpha: f64, increments: &[(f64, f64)]) -> Slice {
@@ -197,6 +212,11 @@ fn profile_ln_alpha(lambdas: &[f64], wears: &[f64]) -> Option<f64> {
     }
     // Rounding keeps the last digit going: the bracket is as narrow as it gets.
     (high - low < 1e-10).then_some(s)
+}
+
+/// P(a, x) - P(a + 1, x).
+fn between_shapes(shape: f64, x: f64) -> f64 {
+    libm::exp(shape * libm::log(x) - x - ln_gamma(shape + 1.0))
 }
 
 #[cfg(test)]

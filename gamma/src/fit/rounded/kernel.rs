@@ -1,0 +1,117 @@
+//! The law of one increment between two windows. In: a process, a difference of readings. Out: chances to go from a part to a part, or
+//! the slope of a density that hardly changes. Never knows what came before.
+
+use super::window::{Even, Window};
+use crate::data::{Increment, Rounding};
+use crate::process::Process;
+
+/// Change of the logarithm of the density from part to part below which its values give the chances: differences of
+/// integrals would lose their digits there, and Simpson's rule has an error of some 1e-9.
+const SMOOTH: f64 = 0.02;
+/// Change of the logarithm of the density over all parts below which a parabola through three values has the others: the cubic
+/// term is below 1e-8, as are products of bends. A fine gauge has a difference of its own for nearly every increment, which would
+/// cost 33 values each, and parts by parts products.
+const NEARLY_EVEN: f64 = 2e-3;
+
+/// The law of increments: a process, with the logarithms of its parameters over exposure 1 for each.
+#[derive(Clone, Copy)]
+pub struct Laws<'a> {
+    pub process: &'a dyn Process,
+    pub logs: &'a dyn Fn(&Increment) -> [f64; 2],
+}
+
+/// Increments over one exposure whose readings differ by `steps` steps.
+pub(super) struct Kernel<'a> {
+    pub process: &'a dyn Process,
+    pub logs: [f64; 2],
+    pub part: f64,
+    pub parts: usize,
+    /// Wear between the middles of both windows.
+    pub middle: f64,
+}
+
+impl<'a> Kernel<'a> {
+    pub fn new(laws: Laws<'a>, increment: &Increment, rounding: Rounding, window: &Window) -> Self {
+        Self {
+            process: laws.process,
+            logs: (laws.logs)(increment),
+            part: window.part,
+            parts: window.parts,
+            middle: libm::round(increment.wear / rounding.step) * rounding.step,
+        }
+    }
+
+    /// Equal spans have equal chances.
+    pub fn key(&self) -> [u64; 3] {
+        [self.logs[0], self.logs[1], self.middle].map(f64::to_bits)
+    }
+
+    pub fn wear(&self, k: isize) -> f64 {
+        self.middle + k as f64 * self.part
+    }
+
+    pub fn below(&self, wear: f64) -> f64 {
+        if wear > 0.0 { self.process.cumulative(self.logs, 1.0, wear) } else { 0.0 }
+    }
+
+    /// Integral of the distribution function up to part `k`.
+    pub fn shortfall(&self, k: isize) -> f64 {
+        self.process.mean_shortfall(self.logs, self.wear(k)).unwrap_or(f64::NAN)
+    }
+
+    /// Integral of what the distribution function lacks to 1 from part `k` on.
+    pub fn excess(&self, k: isize) -> f64 {
+        self.process.mean_excess(self.logs, self.wear(k)).unwrap_or(f64::NAN)
+    }
+
+    pub fn ln_density(&self, k: isize) -> f64 {
+        if self.wear(k) > 0.0 { self.process.ln_density(self.logs, self.wear(k)) } else { f64::NAN }
+    }
+
+    /// The density, where it hardly changes.
+    pub fn even(&self) -> Option<Even> {
+        self.even_within(NEARLY_EVEN)
+    }
+
+    /// The density, where it changes by less than `most` over all parts.
+    pub fn even_within(&self, most: f64) -> Option<Even> {
+        let last = self.parts as isize;
+        let [low, middle, high] = [-last, 0, last].map(|k| self.ln_density(k));
+        let reach = self.parts as f64 * self.part;
+        [low, high].into_iter().all(|end| (end - middle).abs() < most).then(|| Even {
+            ln: middle,
+            slope: 0.5 * (high - low) / reach,
+            bend: (0.5 * (high + low) - middle) / (reach * reach),
+        })
+    }
+
+    /// Chances of all differences of parts, from -(parts - 1) on.
+    pub fn chances(&self) -> Vec<f64> {
+        let last = self.parts as isize;
+        let ends = [-last, last - 1].map(|k| (self.ln_density(k + 1) - self.ln_density(k)).abs());
+        if ends.into_iter().all(|change| change < SMOOTH) {
+            let values: Vec<f64> = (-last..=last).map(|k| libm::exp(self.ln_density(k))).collect();
+            return values
+                .windows(3)
+                .map(|v| self.part * (v[1] + (v[0] - 2.0 * v[1] + v[2]) / 12.0))
+                .collect();
+        }
+        // The integral that is small there keeps the digits of its differences.
+        let is_upper = self.excess(0) < self.shortfall(0);
+        let integral = |k: isize| if is_upper { self.excess(k) } else { self.shortfall(k) };
+        let values: Vec<f64> = (-last..=last).map(integral).collect();
+        values.windows(3).map(|v| ((v[0] - 2.0 * v[1] + v[2]) / self.part).max(0.0)).collect()
+    }
+
+    /// Masses of the parts of the next window before it is read, after wear that is known exactly.
+    pub fn after_exact(&self) -> Vec<f64> {
+        let edge = |k: usize| self.wear(0) + (k as f64 - 0.5 * self.parts as f64) * self.part;
+        let is_upper = self.below(self.wear(0)) > 0.5;
+        let tail = |wear: f64| if wear > 0.0 { self.process.failure(self.logs, 1.0, wear) } else { 1.0 };
+        let mass = |k: usize| match is_upper {
+            true => tail(edge(k)) - tail(edge(k + 1)),
+            false => self.below(edge(k + 1)) - self.below(edge(k)),
+        };
+        (0..self.parts).map(mass).collect()
+    }
+}
