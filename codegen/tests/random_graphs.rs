@@ -54,6 +54,7 @@ fn equations(graph: Graph, symbols: &[ExprId], outputs: &[ExprId]) -> Equations 
         doc: String::new(),
         inputs: vec![Block::vector("x", symbols.to_vec())],
         outputs: vec![Block::vector("y", outputs.to_vec())],
+        goes_on: false,
     };
     Equations { graph, functions: Entry::ALL.iter().map(function).collect() }
 }

@@ -25,7 +25,7 @@ pub fn contact_frequencies(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: 
 }
 
 /// Inverse of the mass [1/kg] that a contact moves along its normal: what a unit force there changes in the
-/// acceleration of the offset. Leaves the forward dynamics under another wrench.
+/// acceleration of the offset.
 pub(crate) fn inverse_mass(
     evaluator: &mut Evaluator<'_>,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -35,11 +35,11 @@ pub(crate) fn inverse_mass(
     let (wrenches, change) = storage.split_at_mut(evaluator.sizes().contacts * CONTACT_WRENCH);
     let normal = touch.normal();
     wrenches.copy_from_slice(evaluator.clearances().wrenches());
-    change.copy_from_slice(evaluator.forward_under(t, q, v, wrenches).accelerations);
+    change.copy_from_slice(evaluator.accelerations_under(t, q, v, wrenches).values);
     for (wrench, component) in wrenches[joint * CONTACT_WRENCH..].iter_mut().zip(normal) {
         *wrench += component;
     }
-    let loaded = evaluator.forward_under(t, q, v, wrenches).accelerations;
+    let loaded = evaluator.accelerations_under(t, q, v, wrenches).values;
     change.iter_mut().zip(loaded).for_each(|(change, loaded)| *change = loaded - *change);
     // Rates of the offset are linear in the speeds: accelerations in their place give its acceleration.
     let rate = |motion: &[f64]| dot(&motion[joint * CONTACT_MOTION + 3..][..3], &normal);

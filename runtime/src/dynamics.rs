@@ -4,7 +4,7 @@
 
 use crate::error::RunError;
 use crate::evaluate::{Evaluator, Forward};
-use crate::linear::largest;
+use crate::linear::{is_finite, largest};
 use crate::passage::{Judge, Limit, Passage};
 use crate::singular_dynamics::SingularSolver;
 
@@ -102,9 +102,16 @@ impl<'a> Dynamics<'a> {
 
     /// Sees how regular a state is; no part of what a run costs.
     pub(crate) fn see_nearness(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        self.evaluator.forward(t, q, v);
-        self.note_pivots();
-        self.nearness = regularity(self.evaluator.last_forward().pivots, &self.largest_pivots);
+        let pivots = self.evaluator.forward(t, q, v).pivots;
+        note_pivots(pivots, &mut self.largest_pivots);
+        self.nearness = regularity(pivots, &self.largest_pivots);
+    }
+
+    /// The same by accelerations alone: leaves the forward dynamics as it is.
+    pub(crate) fn see_nearness_aside(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        let pivots = self.evaluator.accelerations(t, q, v).pivots;
+        note_pivots(pivots, &mut self.largest_pivots);
+        self.nearness = regularity(pivots, &self.largest_pivots);
     }
 
     /// What to go on with after a look that is no part of the run.
@@ -204,28 +211,31 @@ impl<'a> Dynamics<'a> {
         self.reference_time = (flag != 0.0).then_some(time);
     }
 
-    fn note_pivots(&mut self) {
-        for (pivot, most) in self.evaluator.last_forward().pivots.iter().zip(&mut self.largest_pivots) {
-            if pivot.is_finite() && *pivot > *most {
-                *most = *pivot;
-            }
-        }
-    }
-
     fn check(&self, t: f64) -> Result<(), RunError> {
-        let forward = self.evaluator.last_forward();
+        let Forward { accelerations, multipliers, drives, .. } = self.evaluator.last_forward();
+        if [accelerations, multipliers, drives].into_iter().all(is_finite) {
+            return Ok(());
+        }
         let description = self.evaluator.description();
         let bad = |values: &[f64]| values.iter().position(|x| !x.is_finite());
-        let what = if let Some(i) = bad(forward.accelerations) {
+        let what = if let Some(i) = bad(accelerations) {
             format!("acceleration of {}", description.speeds[i].name)
-        } else if let Some(i) = bad(forward.drives) {
+        } else if let Some(i) = bad(drives) {
             format!("drive of {}", description.drivers[i].joint)
-        } else if let Some(i) = bad(forward.multipliers) {
-            format!("multiplier of {}", self.evaluator.joint_of_row(self.evaluator.kept()[i]))
         } else {
-            return Ok(());
+            let row = bad(multipliers).map_or(0, |i| self.evaluator.kept()[i]);
+            format!("multiplier of {}", self.evaluator.joint_of_row(row))
         };
         Err(RunError::NonFinite { t, what })
+    }
+}
+
+/// Keeps the largest value of each.
+fn note_pivots(pivots: &[f64], largest_pivots: &mut [f64]) {
+    for (pivot, most) in pivots.iter().zip(largest_pivots) {
+        if pivot.is_finite() && *pivot > *most {
+            *most = *pivot;
+        }
     }
 }
 
@@ -234,10 +244,11 @@ fn regularity(pivots: &[f64], largest_pivots: &[f64]) -> f64 {
     let noise = NOISE_PIVOT * largest(largest_pivots);
     let mut smallest = 1.0;
     for (pivot, most) in pivots.iter().zip(largest_pivots) {
-        // A pivot that is not a positive number counts as lost rank.
-        let ratio = if *pivot > noise { pivot / most } else { 0.0 };
-        if ratio < smallest {
-            smallest = ratio;
+        if *pivot <= noise || pivot.is_nan() {
+            // A pivot that is not a positive number counts as lost rank.
+            smallest = 0.0;
+        } else if *pivot < smallest * most {
+            smallest = pivot / most;
         }
     }
     smallest

@@ -4,8 +4,10 @@
 
 mod answers;
 mod closed;
+mod derivative;
+mod questions;
 
-pub use answers::{Closure, Equations, Forward, LoopError, Rates};
+pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};
 
 use crate::clearance_joint::Clearances;
@@ -13,11 +15,12 @@ use crate::description::Description;
 use crate::error::SetupError;
 use crate::layout::Layout;
 use crate::linear::dot;
-use crate::system::{Entry, Sizes, System};
+use crate::system::{CONTACT_MOTION, Entry, Sizes, System};
+use derivative::Derivative;
+use questions::Questions;
 
 /// A mechanism with fixed parameters and the storage to evaluate it.
 pub struct Evaluator<'a> {
-    system: &'a dyn System<f64>,
     description: &'a Description,
     layout: Layout,
     sizes: Sizes,
@@ -29,11 +32,8 @@ pub struct Evaluator<'a> {
     /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
     multipliers: Vec<f64>,
     clearances: Clearances,
-    /// Time, coordinates, speeds and wrenches of the last forward dynamics; empty if its answer is not there any more.
-    last_forward_at: Vec<f64>,
-    input: Vec<f64>,
-    workspace: Vec<f64>,
-    outputs: [Vec<f64>; Entry::ALL.len()],
+    derivative: Derivative,
+    questions: Questions<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -74,11 +74,7 @@ impl<'a> Evaluator<'a> {
             let name = description.parameters[at].name.to_string();
             return Err(SetupError::Parameter { name, value: parameters[at] });
         }
-        let longest = Entry::ALL.iter().map(|entry| sizes.input(*entry)).max().unwrap_or(0);
-        let mut input = vec![0.0; longest];
-        input[..parameters.len()].copy_from_slice(parameters);
         Ok(Self {
-            system,
             description,
             layout,
             sizes,
@@ -87,10 +83,8 @@ impl<'a> Evaluator<'a> {
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
             clearances: Clearances::new(&description.contacts)?,
-            last_forward_at: Vec::new(),
-            input,
-            workspace: vec![0.0; sizes.workspace],
-            outputs: Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]),
+            derivative: Derivative::new(sizes, parameters),
+            questions: Questions::new(system, parameters),
         })
     }
 
@@ -114,29 +108,15 @@ impl<'a> Evaluator<'a> {
         &self.kept
     }
 
-    fn ask(&mut self, entry: Entry, t: f64, blocks: &[&[f64]]) -> &[f64] {
-        let mut at = self.sizes.parameters;
-        self.input[at] = t;
-        at += 1;
-        for block in blocks {
-            self.input[at..at + block.len()].copy_from_slice(block);
-            at += block.len();
-        }
-        debug_assert_eq!(at, self.sizes.input(entry));
-        let output = &mut self.outputs[entry as usize];
-        self.system.evaluate(entry, &self.input[..at], output, &mut self.workspace);
-        output
-    }
-
     /// Position, speed and acceleration of every driver, driver by driver.
     pub fn prescribed(&mut self, t: f64) -> &[f64] {
-        self.ask(Entry::Prescribed, t, &[])
+        self.questions.ask(Entry::Prescribed, t, &[])
     }
 
     /// Guess of the free coordinates and wish for the free speeds.
     pub fn start(&mut self, t: f64) -> (&[f64], &[f64]) {
         let n = self.sizes.coordinates;
-        self.ask(Entry::Start, t, &[]).split_at(n)
+        self.questions.ask(Entry::Start, t, &[]).split_at(n)
     }
 
     /// Joints with clearance: their laws, states, and contacts at the last evaluation.
@@ -151,57 +131,51 @@ impl<'a> Evaluator<'a> {
 
     /// Motion of every joint with clearance, [`crate::CONTACT_MOTION`] values each.
     pub fn contact_motion(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
-        self.ask(Entry::Contacts, t, &[q, v])
+        &self.questions.ask(Entry::Contacts, t, &[q, v])[..CONTACT_MOTION * self.sizes.contacts]
     }
 
     /// Evaluates the contacts; their wrenches go into every answer from here on. Nothing to do without clearance.
     pub fn evaluate_contacts(&mut self, t: f64, q: &[f64], v: &[f64]) {
         if self.sizes.contacts > 0 {
-            self.ask(Entry::Contacts, t, &[q, v]);
-            self.clearances.evaluate(&self.outputs[Entry::Contacts as usize]);
+            self.derivative.contacts(&mut self.questions, &mut self.clearances, (t, q, v));
         }
     }
 
     /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state. Asked again
     /// for the same state, as by a step that begins where one was looked at, it has the answer.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
-        self.evaluate_contacts(t, q, v);
-        let clearances = core::mem::take(&mut self.clearances);
-        let time = [t];
-        let at = || [&time[..], q, v, clearances.wrenches()].into_iter().flatten();
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
-        if self.last_forward_at.len() == at().count() && self.last_forward_at.iter().zip(at()).all(same) {
-            self.multipliers.fill(0.0);
-        } else {
-            self.forward_under(t, q, v, clearances.wrenches());
-            self.last_forward_at.extend(at());
-        }
-        self.clearances = clearances;
-        self.last_forward()
+        self.multipliers.fill(0.0);
+        self.derivative.evaluate(&mut self.questions, &mut self.clearances, (t, q, v));
+        self.derivative.forward()
     }
 
-    /// The same with given wrenches of the contacts, whatever the laws say.
-    pub fn forward_under(&mut self, t: f64, q: &[f64], v: &[f64], wrenches: &[f64]) -> Forward<'_> {
-        self.multipliers.fill(0.0);
-        self.last_forward_at.clear();
-        self.ask(Entry::ForwardDynamics, t, &[q, v, wrenches]);
-        self.last_forward()
+    /// Accelerations and pivots alone, with the forces of the contacts at this state. Leaves the forward dynamics as it is.
+    pub fn accelerations(&mut self, t: f64, q: &[f64], v: &[f64]) -> Accelerations<'_> {
+        self.evaluate_contacts(t, q, v);
+        let wrenches = self.clearances.wrenches();
+        Accelerations::of(self.questions.ask(Entry::Accelerations, t, &[q, v, wrenches]), self.sizes.speeds)
+    }
+
+    /// The same under given wrenches of the contacts, whatever the laws say.
+    pub fn accelerations_under(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        wrenches: &[f64],
+    ) -> Accelerations<'_> {
+        Accelerations::of(self.questions.ask(Entry::Accelerations, t, &[q, v, wrenches]), self.sizes.speeds)
     }
 
     /// The last answer of [`Self::forward`] or the numbers put in its place.
     pub fn last_forward(&self) -> Forward<'_> {
-        let output = &self.outputs[Entry::ForwardDynamics as usize];
-        let (accelerations, rest) = output.split_at(self.sizes.speeds);
-        let (multipliers, rest) = rest.split_at(self.sizes.rows);
-        let (drives, pivots) = rest.split_at(self.sizes.drivers);
-        Forward { accelerations, multipliers, drives, pivots }
+        self.derivative.forward()
     }
 
     /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.
     pub fn forward_mut(&mut self) -> &mut [f64] {
         self.multipliers.fill(0.0);
-        self.last_forward_at.clear();
-        &mut self.outputs[Entry::ForwardDynamics as usize]
+        self.derivative.forward_mut()
     }
 
     /// Writable multipliers of all rows, zero after [`Self::forward`] and [`Self::forward_mut`]: a solve done
@@ -210,19 +184,22 @@ impl<'a> Evaluator<'a> {
         &mut self.multipliers
     }
 
-    /// Rates of the coordinates and powers, with the drive forces of the last forward dynamics.
+    /// Rates of the coordinates and powers at the state of the last forward dynamics, with its drive forces or those put in
+    /// their place.
     pub fn rates(&mut self, t: f64, q: &[f64], v: &[f64]) -> Rates<'_> {
-        let first = self.sizes.speeds + self.sizes.rows;
-        let forward = core::mem::take(&mut self.outputs[Entry::ForwardDynamics as usize]);
-        self.ask(Entry::Rates, t, &[q, v, &forward[first..first + self.sizes.drivers]]);
-        self.outputs[Entry::ForwardDynamics as usize] = forward;
-        let (coordinates, powers) = self.outputs[Entry::Rates as usize].split_at(self.sizes.coordinates);
-        Rates { coordinates, supplied: powers[0], dissipated: powers[1] }
+        if self.derivative.rates().is_none() {
+            let drives = self.derivative.forward().drives;
+            self.questions.ask(Entry::Rates, t, &[q, v, drives]);
+        }
+        self.derivative.rates().unwrap_or_else(|| {
+            let (coordinates, powers) = self.questions.last(Entry::Rates).split_at(self.sizes.coordinates);
+            Rates { coordinates, supplied: powers[0], dissipated: powers[1] }
+        })
     }
 
     /// Residuals of the loops and their Jacobian.
     pub fn closure(&mut self, t: f64, q: &[f64], v: &[f64]) -> Closure<'_> {
-        self.ask(Entry::Closure, t, &[q, v]);
+        self.questions.ask(Entry::Closure, t, &[q, v]);
         self.note_row_lengths();
         self.last_closure()
     }
@@ -242,7 +219,7 @@ impl<'a> Evaluator<'a> {
     fn note_row_lengths(&mut self) {
         let n = self.sizes.speeds.max(1);
         let first = self.sizes.all_rows + self.sizes.rows;
-        let jacobian = &self.outputs[Entry::Closure as usize][first..];
+        let jacobian = &self.questions.last(Entry::Closure)[first..];
         let mut grown = false;
         for (length, row) in self.row_lengths.iter_mut().zip(jacobian.chunks_exact(n)) {
             let now = dot(row, row).sqrt();
@@ -267,7 +244,7 @@ impl<'a> Evaluator<'a> {
 
     /// The last answer of [`Self::closure`].
     pub fn last_closure(&self) -> Closure<'_> {
-        let (positions, rest) = self.outputs[Entry::Closure as usize].split_at(self.sizes.all_rows);
+        let (positions, rest) = self.questions.last(Entry::Closure).split_at(self.sizes.all_rows);
         let (speeds, jacobian) = rest.split_at(self.sizes.rows);
         Closure { positions, speeds, jacobian }
     }
@@ -294,26 +271,18 @@ impl<'a> Evaluator<'a> {
 
     /// Kinetic and potential energy [J].
     pub fn energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
-        let output = self.ask(Entry::Energy, t, &[q, v]);
+        let output = self.questions.ask(Entry::Energy, t, &[q, v]);
         (output[0], output[1])
     }
 
     /// One value per channel, with the last forward dynamics.
     pub fn observe(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
-        let (n, m) = (self.sizes.speeds, self.sizes.rows);
-        let forward = core::mem::take(&mut self.outputs[Entry::ForwardDynamics as usize]);
-        let mut multipliers = core::mem::take(&mut self.multipliers);
-        for (row, multiplier) in self.kept.iter().zip(&forward[n..n + m]) {
-            multipliers[*row] = *multiplier;
+        let Forward { accelerations, multipliers, drives, .. } = self.derivative.forward();
+        for (row, multiplier) in self.kept.iter().zip(multipliers) {
+            self.multipliers[*row] = *multiplier;
         }
-        let drives = &forward[n + m..n + m + self.sizes.drivers];
-        let clearances = core::mem::take(&mut self.clearances);
-        let wrenches = clearances.wrenches();
-        self.ask(Entry::Observe, t, &[q, v, &forward[..n], &multipliers, drives, wrenches]);
-        self.clearances = clearances;
-        self.outputs[Entry::ForwardDynamics as usize] = forward;
-        self.multipliers = multipliers;
-        &self.outputs[Entry::Observe as usize]
+        let wrenches = self.clearances.wrenches();
+        self.questions.ask(Entry::Observe, t, &[q, v, accelerations, &self.multipliers, drives, wrenches])
     }
 
     /// Fills the slices of all coordinates and speeds from the free ones and the drivers; leaves the
@@ -325,16 +294,14 @@ impl<'a> Evaluator<'a> {
 
     /// The last answer of [`Self::prescribed`].
     pub fn last_prescribed(&self) -> &[f64] {
-        &self.outputs[Entry::Prescribed as usize]
+        self.questions.last(Entry::Prescribed)
     }
 
     /// Mass matrix, bias, constraint rows of all coordinates, under the wrenches of the last [`Self::evaluate_contacts`].
     pub fn equations(&mut self, t: f64, all_q: &[f64], all_v: &[f64]) -> Equations<'_> {
         let (n, m) = (self.sizes.all_speeds, self.sizes.all_rows);
-        let clearances = core::mem::take(&mut self.clearances);
-        self.ask(Entry::EquationsOfMotion, t, &[all_q, all_v, clearances.wrenches()]);
-        self.clearances = clearances;
-        let output = &self.outputs[Entry::EquationsOfMotion as usize];
+        let wrenches = self.clearances.wrenches();
+        let output = self.questions.ask(Entry::EquationsOfMotion, t, &[all_q, all_v, wrenches]);
         let (mass, rest) = output.split_at(n * (n + 1) / 2);
         let (bias, rest) = rest.split_at(n);
         let (positions, rest) = rest.split_at(m);

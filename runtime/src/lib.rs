@@ -90,7 +90,9 @@ pub use {
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
     error::{AssemblyError, NoColumn, RunError, SetupError},
-    evaluate::{CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates},
+    evaluate::{
+        Accelerations, CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates,
+    },
     layout::{Group, Layout},
     projection::{Correction, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::{Cells, Table, TableColumn, write_csv},

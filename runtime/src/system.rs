@@ -16,6 +16,8 @@ pub enum Entry {
     /// In: parameters, t, q, v, contact wrenches ([`CONTACT_WRENCH`] each). Out: accelerations `v̇` (free speeds),
     /// multipliers, drive forces, loop pivots (one per kept constraint row, positive; small next to their usual size near a singular position).
     ForwardDynamics,
+    /// In: as [`Entry::ForwardDynamics`]. Out: of its answer accelerations and pivots alone.
+    Accelerations,
     /// In: parameters, t, q, v, drive forces. Out: `q̇`, power supplied [W], power dissipated [W].
     Rates,
     /// In: parameters, t, q, v. Out: position residuals of every row (kept and dropped alike, row order
@@ -32,8 +34,12 @@ pub enum Entry {
     /// `M v̇ + h = Q_drive + Phi_qᵀ lambda`), and of every row, kept and dropped alike: Phi, Phi_q (row
     /// major), gamma. Dropped rows take over where the kept ones happen to lose rank.
     EquationsOfMotion,
-    /// In: parameters, t, q, v. Out: [`CONTACT_MOTION`] values for every joint with clearance, [CS (7)-(12)].
+    /// In: parameters, t, q, v. Out: [`CONTACT_MOTION`] values for every joint with clearance, [CS (7)-(12)]; then
+    /// values for [`Entry::Derivative`], as many as [`Sizes::held`] says.
     Contacts,
+    /// In: as [`Entry::ForwardDynamics`], then the answer of [`Entry::Contacts`] at the same parameters, t, q, v.
+    /// Out: `q̇`, the answer of [`Entry::ForwardDynamics`], power supplied [W], power dissipated [W].
+    Derivative,
 }
 
 /// Values per joint with clearance in the output of [`Entry::Contacts`], in the frame of the bearing (the joint's
@@ -49,16 +55,18 @@ pub const CONTACT_WRENCH: usize = 6;
 
 impl Entry {
     /// Every entry, in the order in which generated code lists them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Prescribed,
         Self::Start,
         Self::ForwardDynamics,
+        Self::Accelerations,
         Self::Rates,
         Self::Closure,
         Self::Energy,
         Self::Observe,
         Self::EquationsOfMotion,
         Self::Contacts,
+        Self::Derivative,
     ];
 
     /// Name in snake case, as functions of generated code are called.
@@ -67,12 +75,14 @@ impl Entry {
             Self::Prescribed => "prescribed",
             Self::Start => "start",
             Self::ForwardDynamics => "forward_dynamics",
+            Self::Accelerations => "accelerations",
             Self::Rates => "rates",
             Self::Closure => "closure",
             Self::Energy => "energy",
             Self::Observe => "observe",
             Self::EquationsOfMotion => "equations_of_motion",
             Self::Contacts => "contacts",
+            Self::Derivative => "derivative",
         }
     }
 }
@@ -100,6 +110,8 @@ pub struct Sizes {
     pub contacts: usize,
     /// Output channels of [`Entry::Observe`].
     pub channels: usize,
+    /// Values that [`Entry::Contacts`] hands to [`Entry::Derivative`] besides the motion of journals.
+    pub held: usize,
     /// Length of the scratch slice that [`System::evaluate`] wants.
     pub workspace: usize,
 }
@@ -113,7 +125,8 @@ impl Sizes {
         match entry {
             Entry::Prescribed | Entry::Start => base,
             Entry::Closure | Entry::Energy | Entry::Contacts => state,
-            Entry::ForwardDynamics => state + wrenches,
+            Entry::ForwardDynamics | Entry::Accelerations => state + wrenches,
+            Entry::Derivative => state + wrenches + self.output(Entry::Contacts),
             Entry::Rates => state + self.drivers,
             Entry::Observe => state + self.speeds + self.all_rows + self.drivers + wrenches,
             Entry::EquationsOfMotion => base + self.all_coordinates + self.all_speeds + wrenches,
@@ -127,12 +140,14 @@ impl Sizes {
             Entry::Prescribed => 3 * self.drivers,
             Entry::Start => self.coordinates + self.speeds,
             Entry::ForwardDynamics => self.speeds + self.rows + self.drivers + self.rows,
+            Entry::Accelerations => self.speeds + self.rows,
             Entry::Rates => self.coordinates + 2,
             Entry::Closure => self.all_rows + self.rows + self.rows * self.speeds,
             Entry::Energy => 2,
             Entry::Observe => self.channels,
             Entry::EquationsOfMotion => n * (n + 1) / 2 + n + self.all_rows * (n + 2),
-            Entry::Contacts => CONTACT_MOTION * self.contacts,
+            Entry::Contacts => CONTACT_MOTION * self.contacts + self.held,
+            Entry::Derivative => self.coordinates + self.output(Entry::ForwardDynamics) + 2,
         }
     }
 }

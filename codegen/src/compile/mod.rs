@@ -3,6 +3,8 @@
 
 mod compiled;
 
+use linkwear_runtime::Entry;
+
 use crate::backend::interp::Interpreted;
 use crate::derive::{self, Derived, Guide, Purpose};
 use crate::diagnostic::{Code, Diagnostics};
@@ -57,6 +59,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     warnings.extend(remarks);
     let derived = derived(source, &mechanism, &topology, Some(&guide), Purpose::Everything)?;
     let tapes = tape::lower_short(&derived.equations);
+    let mut sizes = derived.sizes;
+    sizes.held = tapes[Entry::Contacts as usize].output_len() - sizes.output(Entry::Contacts);
     let mut compiled = Compiled {
         source: source.clone(),
         mechanism,
@@ -67,7 +71,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         equations: derived.equations,
         tapes,
         description: derived.description,
-        sizes: derived.sizes,
+        sizes,
     };
     let system = compiled.interpreter();
     preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;

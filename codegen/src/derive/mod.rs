@@ -67,6 +67,9 @@ pub struct Function {
     pub inputs: Vec<Block>,
     /// Output blocks; their concatenation (row major) is the flat output slice.
     pub outputs: Vec<Block>,
+    /// Whether it goes on from the function before it, which has answered at the same inputs: those begin alike. It may take
+    /// over what that one has computed; then that one hands it out, and this one has it as further inputs.
+    pub goes_on: bool,
 }
 
 /// A named vector or matrix of expressions (of symbols, for inputs).

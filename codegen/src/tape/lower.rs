@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 use crate::derive::{Block, Equations, Function};
 use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary, shortened};
 
+use super::cut::{Joined, cut};
 use super::{Op, Operand, Statement, Tape, verify};
 
 /// Above this many live nodes order serves the machine, not the reader.
@@ -17,12 +18,12 @@ const READABLE: usize = 3000;
 
 /// Lowers every function of a set of equations, operation by operation as the derivation made them.
 pub fn lower(equations: &Equations) -> Vec<Tape> {
-    equations.functions.iter().map(|function| lower_function(&equations.graph, function)).collect()
+    each(equations, &|function| lower_function(&equations.graph, function))
 }
 
 /// Lowers every function in as few operations as passes over its graph find; other values by rounding only.
 pub fn lower_short(equations: &Equations) -> Vec<Tape> {
-    let each = |function: &Function| {
+    each(equations, &|function| {
         let flat = |blocks: &[Block]| -> Vec<ExprId> {
             blocks.iter().flat_map(|block| block.entries.iter().copied()).collect()
         };
@@ -38,11 +39,34 @@ pub fn lower_short(equations: &Equations) -> Vec<Tape> {
         let inputs = placed(&function.inputs, &short.inputs);
         let outputs = placed(&function.outputs, &short.roots);
         lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() })
-    };
-    equations.functions.iter().map(each).collect()
+    })
 }
 
-fn lower_function(graph: &Graph, function: &Function) -> Tape {
+/// One tape for every function: of a function and the one that goes on from it as one, then cut.
+fn each(equations: &Equations, lower: &dyn Fn(&Function) -> Lowered) -> Vec<Tape> {
+    let mut tapes = Vec::with_capacity(equations.functions.len());
+    let mut functions = equations.functions.iter().peekable();
+    while let Some(function) = functions.next() {
+        let Some(next) = functions.next_if(|next| next.goes_on) else {
+            tapes.push(lower(function).tape);
+            continue;
+        };
+        let outputs = function.outputs.iter().chain(&next.outputs).cloned().collect();
+        let Lowered { tape, nodes } = lower(&Function { outputs, ..next.clone() });
+        let parts = cut(Joined { tape, nodes, functions: [function, next] });
+        debug_assert!(parts.iter().all(|tape| verify(tape) == Ok(())));
+        tapes.extend(parts);
+    }
+    tapes
+}
+
+/// A tape, and the node behind each of its values.
+struct Lowered {
+    tape: Tape,
+    nodes: Vec<ExprId>,
+}
+
+fn lower_function(graph: &Graph, function: &Function) -> Lowered {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
     let uses = graph.uses(&roots);
@@ -233,7 +257,7 @@ impl<'a> Lowerer<'a> {
         Operand::Value(first)
     }
 
-    fn finish(mut self, roots: &[ExprId]) -> Tape {
+    fn finish(mut self, roots: &[ExprId]) -> Lowered {
         for (index, root) in (0..).zip(roots) {
             let store = (index, self.operand(*root));
             match self.defined.get(root) {
@@ -242,7 +266,13 @@ impl<'a> Lowerer<'a> {
             }
         }
         debug_assert_eq!(verify(&self.tape), Ok(()));
-        self.tape
+        let mut nodes = vec![ExprId::new(0); self.tape.values as usize];
+        for (index, operand) in self.operands.iter().enumerate() {
+            if let Operand::Value(value) = operand {
+                nodes[*value as usize] = ExprId::new(index);
+            }
+        }
+        Lowered { tape: self.tape, nodes }
     }
 }
 
@@ -258,8 +288,8 @@ mod tests {
         let (a, b) = (g.symbol("a"), g.symbol("b"));
         let outputs = vec![Block::vector("y", build(&g, a, b))];
         let inputs = vec![Block::vector("x", [a, b])];
-        let function = Function { name: "test".into(), doc: String::new(), inputs, outputs };
-        lower_function(&g.into_graph(), &function)
+        let function = Function { name: "test".into(), doc: String::new(), inputs, outputs, goes_on: false };
+        lower_function(&g.into_graph(), &function).tape
     }
 
     #[test]

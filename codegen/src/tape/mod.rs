@@ -3,6 +3,7 @@
 //!
 //! All rewriting ends here. Back ends must not reorder, fuse or fold, so that they agree in every bit.
 
+mod cut;
 mod lower;
 mod registers;
 mod split;

@@ -111,6 +111,7 @@ mod tests {
             doc: String::new(),
             inputs: vec![Block::vector("x", [x])],
             outputs: vec![Block::vector("y", [end])],
+            goes_on: false,
         };
         let equations = Equations { graph: g.into_graph(), functions: vec![function] };
         let tape = super::super::lower(&equations).remove(0);

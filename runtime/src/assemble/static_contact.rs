@@ -145,12 +145,12 @@ fn ideal_reactions(
             |(joint, axis): &(usize, usize)| crate::linear::dot(&columns[*joint][*axis], accelerations);
         places.iter().map(along).collect()
     };
-    let unloaded = project(evaluator.forward_under(t, q, v, &wrenches).accelerations);
+    let unloaded = project(evaluator.accelerations_under(t, q, v, &wrenches).values);
     let n = places.len();
     let mut matrix = vec![0.0; n * n];
     for (column, (joint, axis)) in places.iter().enumerate() {
         wrenches[joint * CONTACT_WRENCH + axis] += 1.0;
-        let loaded = project(evaluator.forward_under(t, q, v, &wrenches).accelerations);
+        let loaded = project(evaluator.accelerations_under(t, q, v, &wrenches).values);
         wrenches[joint * CONTACT_WRENCH + axis] -= 1.0;
         for row in 0..n {
             matrix[row * n + column] = loaded[row] - unloaded[row];

@@ -23,7 +23,7 @@ const JOURNAL: &[Quantity] = &[
     ("gap", "m", |contact| contact.gap),
     ("Fn", "N", |contact| contact.normal_force),
     ("vt", "m/s", |contact| contact.sliding_speed),
-    ("contact_angle", "rad", |contact| contact.angle),
+    ("contact_angle", "rad", ContactState::angle),
 ];
 
 /// All columns of a mechanism: the generated ones, then those that contacts add; names that exist already are not

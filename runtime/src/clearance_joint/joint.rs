@@ -3,7 +3,7 @@
 
 use crate::contact::{
     Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
-    SphericalMotion, Stiffness, Support, positive,
+    SphericalMotion, Stiffness, Support, bearing_angle, positive,
 };
 use crate::description::{ContactInfo, WearInfo};
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
@@ -28,8 +28,6 @@ pub struct Clearance {
 pub struct ContactState {
     /// Journal centre minus bearing centre, in the bearing's frame [m].
     pub offset: [f64; 3],
-    /// Angle of the offset about the joint's axis, in (-pi, pi] [rad]; zero for a ball.
-    pub angle: f64,
     /// Radial clearance with its mean wear [m]: what stiffness and area go by.
     pub clearance: f64,
     /// Gap where the bodies are nearest, negative while they touch [m].
@@ -55,6 +53,11 @@ pub struct ContactState {
 }
 
 impl ContactState {
+    /// Angle of a journal's offset about the joint's axis, in (-pi, pi] [rad]. A ball has no such axis.
+    pub fn angle(&self) -> f64 {
+        bearing_angle([self.offset[0], self.offset[1]])
+    }
+
     /// Minus the gap [m].
     pub fn penetration(&self) -> f64 {
         -self.gap
@@ -172,11 +175,11 @@ impl Clearance {
         let round = motion[9] + worn;
         let clearance = round + profile.map_or(0.0, Profile::mean);
         let stiffness = self.stiffness(clearance);
-        let (angle, contact, force) = if self.ball {
+        let (contact, force) = if self.ball {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
             let contact = SphericalContact::new(&motion, self.radius, clearance);
             let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
-            (0.0, geometry, contact.force(&self.laws, stiffness, memory))
+            (geometry, contact.force(&self.laws, stiffness, memory))
         } else {
             let [[x, y, _], [vx, vy, _]] = [offset, offset_rate];
             let support = match self.grid.as_ref().zip(profile) {
@@ -186,13 +189,12 @@ impl Clearance {
             let motion = RevoluteMotion { offset: [x, y], offset_rate: [vx, vy], joint_speed: turning[2] };
             let contact = RevoluteContact::new(&motion, self.radius, &support);
             let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
-            (contact.angle, geometry, contact.force(&self.laws, stiffness, memory))
+            (geometry, contact.force(&self.laws, stiffness, memory))
         };
         let [penetration, penetration_rate, sliding_speed] = contact;
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
         let mut touch = ContactState {
             offset: if self.ball { offset } else { [offset[0], offset[1], 0.0] },
-            angle,
             clearance,
             gap: -penetration,
             penetration_rate,

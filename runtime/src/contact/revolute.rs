@@ -45,8 +45,6 @@ impl<T: Scalar> Support<T> {
 /// Geometry and sliding of a contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RevoluteContact<T> {
-    /// Contact angle atan2(y, x) of the offset in the bearing's frame, in (-pi, pi] [rad].
-    pub angle: T,
     /// Penetration, negative while the bodies are apart [m].
     pub penetration: T,
     /// Rate of the penetration [m/s].
@@ -90,7 +88,6 @@ impl<T: Scalar> RevoluteContact<T> {
         let Support { penetration, gradient: normal } = *support;
         let tangent = [-normal[1], normal[0]];
         Self {
-            angle: bearing_angle(motion.offset),
             penetration,
             penetration_rate: dot(normal, motion.offset_rate),
             normal,
@@ -150,7 +147,7 @@ mod tests {
         let contact = RevoluteContact::new(&motion, 0.01, &Support::round(motion.offset, 1e-5));
         let force = contact.force(&laws(), stiffness, &ImpactMemory::in_contact(0.0));
         // Ten printed digits; p loses two of them against the clearance, F_n has 1.5 times its error.
-        assert!((contact.angle - 0.481_561_615_3).abs() < 1e-9);
+        assert!((bearing_angle(motion.offset) - 0.481_561_615_3).abs() < 1e-9);
         assert!((contact.penetration / 4.614_308_708e-8 - 1.0).abs() < 1e-7, "{}", contact.penetration);
         // The rate is a difference of numbers of 2e-3 m/s with ten digits.
         assert!((contact.penetration_rate + 6.290_717_92e-5).abs() < 1e-11, "{}", contact.penetration_rate);
@@ -169,9 +166,10 @@ mod tests {
         let support = Support::round(motion.offset, d(1e-5, 0.0));
         let contact = RevoluteContact::new(&motion, d(0.01, 0.0), &support);
         let force = contact.force(&laws(), d(K, 0.0), &ImpactMemory::apart());
-        assert_eq!((contact.angle.value, contact.penetration.value), (0.0, -1e-5));
+        let angle = bearing_angle(motion.offset);
+        assert_eq!((angle.value, contact.penetration.value), (0.0, -1e-5));
         assert_eq!((force.force[0].value, force.force[1].value, force.moment[2].value), (0.0, 0.0, 0.0));
-        for x in [contact.angle, contact.penetration_rate, contact.sliding_speed] {
+        for x in [angle, contact.penetration_rate, contact.sliding_speed] {
             assert!(x.value.is_finite() && x.derivative.is_finite());
         }
         for x in [force.force[0], force.force[1], force.moment[2], force.friction_loss] {

@@ -13,6 +13,22 @@ pub struct Forward<'a> {
     pub pivots: &'a [f64],
 }
 
+/// Answer of [`crate::Entry::Accelerations`].
+#[derive(Clone, Copy, Debug)]
+pub struct Accelerations<'a> {
+    /// Accelerations of the free speeds.
+    pub values: &'a [f64],
+    /// Loop pivots, one per kept row.
+    pub pivots: &'a [f64],
+}
+
+impl<'a> Accelerations<'a> {
+    pub(super) fn of(output: &'a [f64], speeds: usize) -> Self {
+        let (values, pivots) = output.split_at(speeds);
+        Self { values, pivots }
+    }
+}
+
 /// Answer of [`crate::Entry::Closure`].
 #[derive(Clone, Copy, Debug)]
 pub struct Closure<'a> {

@@ -25,3 +25,9 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() + 0.0 * most })
 }
+
+/// Whether all are numbers, and none is infinite.
+pub fn is_finite(values: &[f64]) -> bool {
+    // Without a way out before the end compilers take several at once.
+    values.iter().fold(true, |all, x| all & (x.abs() < f64::INFINITY))
+}

@@ -288,11 +288,12 @@ fn spread(
     let pair = joint.pair(now.clearance);
     let surface = (pair.journal_radius + pair.clearance) * pair.length;
     let amount = archard.volume_rate() * wear_integral / surface;
-    let arc = (to.angle - from.angle + PI).rem_euclid(2.0 * PI) - PI;
+    let from_angle = from.angle();
+    let arc = (to.angle() - from_angle + PI).rem_euclid(2.0 * PI) - PI;
     let pieces = (2.0 * arc.abs() / deposit.bin_angle()).ceil().max(1.0);
     let (first, last) = (half_angle(from), half_angle(to));
     for piece in 0..pieces as usize {
         let part = (piece as f64 + 0.5) / pieces;
-        deposit.deposit(from.angle + part * arc, first + part * (last - first), amount / pieces);
+        deposit.deposit(from_angle + part * arc, first + part * (last - first), amount / pieces);
     }
 }

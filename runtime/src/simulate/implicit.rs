@@ -70,14 +70,11 @@ fn take_over(
     let (q, v) = (method.q(), method.v());
     let n = q.len() + v.len();
     if motion.dynamics.evaluator.sizes().rows > 0 {
-        let answer = motion.dynamics.evaluator.forward_mut().to_vec();
-        motion.dynamics.see_nearness(t, q, v);
+        motion.dynamics.see_nearness_aside(t, q, v);
         if motion.is_rough() {
             // Where the rows nearly lose rank rounding decides the method's own multipliers, and with them the power of
             // drivers; those of its state are right.
             motion.dynamics.accelerate(t, q, v)?;
-        } else {
-            motion.dynamics.evaluator.forward_mut().copy_from_slice(&answer);
         }
     }
     // The rates of the coordinates go where the coordinates come next.

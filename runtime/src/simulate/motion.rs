@@ -7,7 +7,7 @@ use crate::description::Motion;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
 use crate::integrate::Problem;
-use crate::linear::{add_scaled, largest};
+use crate::linear::{add_scaled, is_finite, largest};
 use crate::projection::{Correction, Projector};
 
 /// A projection may move coordinates or speeds by this part of what the step itself moved them...
@@ -272,7 +272,7 @@ impl<'a> ConstrainedMotion<'a> {
         derivative[self.coordinates..][..self.speeds].copy_from_slice(accelerations);
         let (coordinates, work) = derivative.split_at_mut(self.first_integral());
         self.powers(t, q, v, &mut coordinates[..self.coordinates], work);
-        if work.iter().all(|power| power.is_finite()) {
+        if is_finite(work) {
             Ok(())
         } else {
             Err(RunError::NonFinite { t, what: "power of drivers and forces".to_owned() })
@@ -284,16 +284,19 @@ impl Problem for ConstrainedMotion<'_> {
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (q, v, _) = self.split(y);
         self.dynamics.accelerate(t, q, v)?;
-        let projected = self.dynamics.nearness() < PROJECTED_STAGES;
+        if self.dynamics.nearness() >= PROJECTED_STAGES {
+            return self.write_derivative(t, y, derivative);
+        }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
-        if projected && self.put_on(t, &mut stage).is_ok() {
+        let mut outcome = Ok(());
+        if self.put_on(t, &mut stage).is_ok() {
             let (q, v, _) = self.split(&stage);
-            self.dynamics.accelerate(t, q, v)?;
+            outcome = self.dynamics.accelerate(t, q, v);
         }
-        let result = self.write_derivative(t, &stage, derivative);
+        let outcome = outcome.and_then(|()| self.write_derivative(t, &stage, derivative));
         self.stage = stage;
-        result
+        outcome
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {

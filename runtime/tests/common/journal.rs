@@ -8,6 +8,8 @@ use linkwear_runtime::{
     ParameterInfo, Sizes, System, VariableInfo, WearInfo,
 };
 
+use super::others::by_others;
+
 /// Force on the journal [N] by time.
 pub type Load = fn(f64) -> [f64; 2];
 
@@ -182,6 +184,7 @@ impl System<f64> for Journal {
                     output[2] = -forces[2];
                 }
             }
+            Entry::Accelerations | Entry::Derivative => by_others(self, entry, input, output),
             Entry::Rates => {
                 let (_, v, drives) = state();
                 output[..n].copy_from_slice(v);

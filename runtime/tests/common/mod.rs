@@ -6,12 +6,14 @@
 pub mod bars;
 pub mod body;
 pub mod journal;
+pub mod others;
 
 use linkwear_runtime::{
     CONTACT_WRENCH, Channel, ContactInfo, Description, DriverInfo, Entry, Layout, Motion, ParameterInfo,
     RowInfo, Sizes, System, VariableInfo,
 };
 use nalgebra::{DMatrix, DVector};
+use others::by_others;
 
 /// `mass * a + bias = rowsᵀ lambda + drive`, `rows * a = gamma`, over all coordinates.
 pub struct Terms {
@@ -109,7 +111,7 @@ impl<M: Model> Dense<M> {
             drivers: prescribed.len(),
             contacts: model.contacts().len(),
             channels: channels.len(),
-            workspace: 0,
+            ..Sizes::default()
         };
         let driver = |i| DriverInfo { joint: format!("driver{i}").into(), angular: true };
         let description = Description {
@@ -256,6 +258,7 @@ impl<M: Model> System<f64> for Dense<M> {
                 output.iter_mut().zip(q.iter().chain(&v)).for_each(|(out, (value, _))| *out = *value);
             }
             Entry::ForwardDynamics => self.forward(p, t, state(), output),
+            Entry::Accelerations | Entry::Derivative => by_others(self, entry, input, output),
             Entry::Rates => self.rates(p, t, state().0, state().1, state().2, output),
             Entry::Closure => self.closure(p, t, state().0, state().1, output),
             Entry::Energy => {

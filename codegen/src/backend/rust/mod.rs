@@ -177,6 +177,7 @@ mod tests {
                 doc: "A test.".into(),
                 inputs: vec![Block::vector("x", [x])],
                 outputs: vec![Block::vector("y", [value])],
+                goes_on: false,
             })
             .collect();
         lower(&Equations { graph: g.into_graph(), functions })

@@ -27,6 +27,7 @@ impl Deriver<'_> {
             drivers: self.drivers.len(),
             contacts: self.contacts.len(),
             channels,
+            held: 0,
             workspace: 0,
         }
     }

@@ -6,7 +6,9 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{Problem, bias_forces, forward, kept_rows, kinetic_energy, weight_energy};
+use crate::derive::dynamics::{
+    Forward, Problem, bias_forces, forward, kept_rows, kinetic_energy, weight_energy,
+};
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
@@ -16,7 +18,16 @@ use crate::derive::{Block, Function};
 use crate::expr::{Expr, Vec3};
 
 pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
-    Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs }
+    Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs, goes_on: false }
+}
+
+/// What the state does next, apart from its accelerations.
+pub(super) struct StateRates<'g> {
+    /// Of the free coordinates.
+    coordinates: Vec<Expr<'g>>,
+    /// Power of applied forces, without drivers.
+    supplied: Expr<'g>,
+    dissipated: Expr<'g>,
 }
 
 impl<'g> Deriver<'g> {
@@ -70,7 +81,8 @@ impl<'g> Deriver<'g> {
         (function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs), values)
     }
 
-    pub(super) fn forward_dynamics(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Function {
+    /// Accelerations, multipliers and drive forces as expressions of the state.
+    pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Forward<'g> {
         let motion = &instant.state.motion;
         self.geometry.g.begin_section("loop Jacobian");
         let rows = kept_rows(motion, &instant.cuts, &self.keep);
@@ -83,25 +95,23 @@ impl<'g> Deriver<'g> {
             rows: &rows,
             partition: &self.partition,
         };
-        let result = forward(&problem, &self.jacobians);
-        let outputs = vec![
-            Block::vector("v_dot", result.solution.accelerations)
-                .doc("Accelerations of the free speeds [rad/s², m/s²].")
-                .cites("[CS (6)]"),
-            Block::vector("lambda", result.solution.multipliers)
-                .doc("Multipliers of the kept rows [N, N m], on the joint's child.")
-                .cites("[CS (6)]"),
-            Block::vector("drive", result.drive)
-                .doc("Generalised force of every driver on the child [N m, N]."),
-            Block::vector("pivots", result.solution.pivots).doc(
-                "Pivots of the loop rows, positive; small next to their usual size near a singular position.",
-            ),
-        ];
-        let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
-        function(Entry::ForwardDynamics, doc, self.state_inputs([self.contact_input()]), outputs)
+        forward(&problem, &self.jacobians)
     }
 
-    pub(super) fn rates(&self, instant: &Instant<'g>) -> Function {
+    pub(super) fn forward_dynamics(&self, solved: &Forward<'g>) -> Function {
+        let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
+        let inputs = self.state_inputs([self.contact_input()]);
+        function(Entry::ForwardDynamics, doc, inputs, solution_blocks(solved).into())
+    }
+
+    pub(super) fn accelerations(&self, solved: &Forward<'g>) -> Function {
+        let [accelerations, _, _, pivots] = solution_blocks(solved);
+        let doc = "Accelerations alone, where nobody asks for multipliers and drive forces.";
+        let inputs = self.state_inputs([self.contact_input()]);
+        function(Entry::Accelerations, doc, inputs, vec![accelerations, pivots])
+    }
+
+    pub(super) fn state_rates(&self, instant: &Instant<'g>) -> StateRates<'g> {
         let (q, v) = (&instant.state.q, &instant.state.v);
         self.geometry.g.begin_section("rates of the coordinates");
         let mut q_dot = Vec::new();
@@ -110,19 +120,41 @@ impl<'g> Deriver<'g> {
             let (q, v) = (&q[first..][..link.freedom.coordinates()], &v[speed..][..link.freedom.speeds()]);
             q_dot.extend(coordinate_rates(link.freedom, q, v));
         }
+        StateRates {
+            coordinates: self.free_q.iter().map(|i| q_dot[*i]).collect(),
+            supplied: instant.loads.supplied,
+            dissipated: instant.loads.dissipated,
+        }
+    }
+
+    /// Rates of the coordinates, and powers with these drive forces.
+    fn rate_blocks(&self, rates: &StateRates<'g>, drive: &[Expr<'g>]) -> [Block; 3] {
         self.geometry.g.begin_section("power");
-        let mut supplied = instant.loads.supplied;
-        for (driver, force) in self.drivers.iter().zip(&self.drive) {
+        let mut supplied = rates.supplied;
+        for (driver, force) in self.drivers.iter().zip(drive) {
             supplied += *force * driver.law[1];
         }
-        let q_dot = self.free_q.iter().map(|i| q_dot[*i]);
-        let outputs = vec![
-            Block::vector("q_dot", q_dot).doc("Rates of the free coordinates."),
+        [
+            Block::vector("q_dot", rates.coordinates.iter().copied()).doc("Rates of the free coordinates."),
             Block::vector("supplied", [supplied]).doc("Power of drivers and applied forces [W]."),
-            Block::vector("dissipated", [instant.loads.dissipated]).doc("Power lost in dampers [W]."),
-        ];
+            Block::vector("dissipated", [rates.dissipated]).doc("Power lost in dampers [W]."),
+        ]
+    }
+
+    pub(super) fn rates(&self, rates: &StateRates<'g>) -> Function {
         let doc = "Rates of the coordinates, power in and power lost.";
+        let outputs = self.rate_blocks(rates, &self.drive).into();
         function(Entry::Rates, doc, self.state_inputs([self.drive_input()]), outputs)
+    }
+
+    pub(super) fn derivative(&self, solved: &Forward<'g>, rates: &StateRates<'g>) -> Function {
+        let [accelerations, multipliers, drive, pivots] = solution_blocks(solved);
+        let [q_dot, supplied, dissipated] = self.rate_blocks(rates, &solved.drive);
+        let outputs = vec![q_dot, accelerations, multipliers, drive, pivots, supplied, dissipated];
+        let doc =
+            "What a state does next: forward_dynamics and rates in one, after contacts at the same state.";
+        let inputs = self.state_inputs([self.contact_input()]);
+        Function { goes_on: true, ..function(Entry::Derivative, doc, inputs, outputs) }
     }
 
     pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
@@ -232,6 +264,24 @@ impl<'g> Deriver<'g> {
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
         function(Entry::EquationsOfMotion, doc, inputs, outputs)
     }
+}
+
+/// Accelerations, multipliers, drive forces, pivots.
+fn solution_blocks(solved: &Forward<'_>) -> [Block; 4] {
+    let Forward { solution, drive } = solved;
+    [
+        Block::vector("v_dot", solution.accelerations.iter().copied())
+            .doc("Accelerations of the free speeds [rad/s², m/s²].")
+            .cites("[CS (6)]"),
+        Block::vector("lambda", solution.multipliers.iter().copied())
+            .doc("Multipliers of the kept rows [N, N m], on the joint's child.")
+            .cites("[CS (6)]"),
+        Block::vector("drive", drive.iter().copied())
+            .doc("Generalised force of every driver on the child [N m, N]."),
+        Block::vector("pivots", solution.pivots.iter().copied()).doc(
+            "Pivots of the loop rows, positive; small next to their usual size near a singular position.",
+        ),
+    ]
 }
 
 /// `q̇` of one link from its speeds.

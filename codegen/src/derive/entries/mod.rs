@@ -68,26 +68,37 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let dynamic = deriver.instant(deriver.driven_state(&[]), false);
     let prescribed = deriver.prescribed();
     let (start, start_values) = deriver.start();
-    let forward_dynamics = match purpose {
-        Purpose::Everything => deriver.forward_dynamics(&dynamic, &masses),
-        Purpose::Analysis => function(Entry::ForwardDynamics, "", Vec::new(), Vec::new()),
+    let nothing = |entry| function(entry, "", Vec::new(), Vec::new());
+    let solved = match purpose {
+        Purpose::Everything => Some(deriver.solution(&dynamic, &masses)),
+        Purpose::Analysis => None,
     };
-    let rates = deriver.rates(&dynamic);
+    let solved = solved.as_ref();
+    let forward_dynamics =
+        solved.map_or_else(|| nothing(Entry::ForwardDynamics), |solved| deriver.forward_dynamics(solved));
+    let accelerations =
+        solved.map_or_else(|| nothing(Entry::Accelerations), |solved| deriver.accelerations(solved));
+    let state_rates = deriver.state_rates(&dynamic);
+    let rates = deriver.rates(&state_rates);
     let (closure, rows) = deriver.closure();
     let energy = deriver.energy(&dynamic, &masses);
     let (observe, channels) = deriver.observe(&masses);
     let equations_of_motion = deriver.equations_of_motion(&masses);
     let contacts = deriver.contacts(&dynamic);
+    let derivative =
+        solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
     let functions = vec![
         prescribed,
         start,
         forward_dynamics,
+        accelerations,
         rates,
         closure,
         energy,
         observe,
         equations_of_motion,
         contacts,
+        derivative,
     ];
     let in_order = functions.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name());
     debug_assert!(in_order);

@@ -1,0 +1,128 @@
+//! What a state does next, contacts in the middle: the system tells how journals move, the laws answer, the system goes on.
+//! In: states, laws. Out: rates, forces and powers where the system wrote them. Nothing is copied on the way, and nothing
+//! asked twice at the same state.
+
+use super::answers::{Forward, Rates};
+use super::questions::Questions;
+use crate::clearance_joint::Clearances;
+use crate::system::{CONTACT_MOTION, Entry, Sizes};
+
+/// The last answer of [`Entry::Derivative`] with its input.
+pub(super) struct Derivative {
+    sizes: Sizes,
+    /// Parameters, time, coordinates, speeds; wrenches; the answer of the contacts.
+    input: Vec<f64>,
+    /// Where time, coordinates, speeds end and wrenches begin, and where these end.
+    state_end: usize,
+    wrenches_end: usize,
+    output: Vec<f64>,
+    /// Whether the answer of the contacts is that at the state of the input.
+    has_contacts: bool,
+    /// Whether the output is the system's answer to the input.
+    has_answer: bool,
+}
+
+impl Derivative {
+    pub(super) fn new(sizes: Sizes, parameters: &[f64]) -> Self {
+        let mut input = vec![0.0; sizes.input(Entry::Derivative)];
+        input[..parameters.len()].copy_from_slice(parameters);
+        Self {
+            sizes,
+            input,
+            state_end: sizes.input(Entry::Contacts),
+            wrenches_end: sizes.input(Entry::ForwardDynamics),
+            output: vec![0.0; sizes.output(Entry::Derivative)],
+            has_contacts: false,
+            has_answer: false,
+        }
+    }
+
+    /// Evaluates the contacts at a state.
+    pub(super) fn contacts(
+        &mut self,
+        questions: &mut Questions<'_>,
+        clearances: &mut Clearances,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) {
+        if !self.is_at(t, q, v) {
+            self.move_to(t, q, v);
+        }
+        let (state, answers) = self.input.split_at_mut(self.state_end);
+        let (wrenches, contacts) = answers.split_at_mut(self.wrenches_end - self.state_end);
+        if !self.has_contacts {
+            let Questions { system, workspace, .. } = questions;
+            system.evaluate(Entry::Contacts, state, contacts, workspace);
+            self.has_contacts = true;
+        }
+        clearances.evaluate(&contacts[..CONTACT_MOTION * self.sizes.contacts]);
+        // What contacts remember, and how far they are worn, changes at the same state.
+        if self.has_answer && !same(wrenches, clearances.wrenches()) {
+            self.has_answer = false;
+        }
+        wrenches.copy_from_slice(clearances.wrenches());
+    }
+
+    /// Evaluates everything at a state.
+    pub(super) fn evaluate(
+        &mut self,
+        questions: &mut Questions<'_>,
+        clearances: &mut Clearances,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) {
+        if self.sizes.contacts > 0 {
+            self.contacts(questions, clearances, (t, q, v));
+        } else if !self.is_at(t, q, v) {
+            self.move_to(t, q, v);
+        }
+        if !self.has_answer {
+            let Questions { system, workspace, .. } = questions;
+            system.evaluate(Entry::Derivative, &self.input, &mut self.output, workspace);
+            self.has_answer = true;
+        }
+    }
+
+    fn is_at(&self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        let state = &self.input[self.sizes.parameters..self.state_end];
+        let known = self.has_contacts || self.has_answer;
+        known && state[0].to_bits() == t.to_bits() && {
+            let (coordinates, speeds) = state[1..].split_at(q.len());
+            same(coordinates, q) && same(speeds, v)
+        }
+    }
+
+    fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        let state = &mut self.input[self.sizes.parameters..self.state_end];
+        state[0] = t;
+        let (coordinates, speeds) = state[1..].split_at_mut(q.len());
+        coordinates.copy_from_slice(q);
+        speeds.copy_from_slice(v);
+        (self.has_contacts, self.has_answer) = (false, false);
+    }
+
+    /// Accelerations, multipliers, drive forces, pivots.
+    pub(super) fn forward(&self) -> Forward<'_> {
+        let (accelerations, rest) = self.output[self.sizes.coordinates..].split_at(self.sizes.speeds);
+        let (multipliers, rest) = rest.split_at(self.sizes.rows);
+        let (drives, rest) = rest.split_at(self.sizes.drivers);
+        Forward { accelerations, multipliers, drives, pivots: &rest[..self.sizes.rows] }
+    }
+
+    /// The same, to be written to: it is then no answer of the system any more.
+    pub(super) fn forward_mut(&mut self) -> &mut [f64] {
+        self.has_answer = false;
+        &mut self.output[self.sizes.coordinates..][..self.sizes.output(Entry::ForwardDynamics)]
+    }
+
+    /// Rates of the coordinates and powers; nothing where forces were put in place of the system's.
+    pub(super) fn rates(&self) -> Option<Rates<'_>> {
+        let powers = &self.output[self.output.len() - 2..];
+        let coordinates = &self.output[..self.sizes.coordinates];
+        let rates = Rates { coordinates, supplied: powers[0], dissipated: powers[1] };
+        self.has_answer.then_some(rates)
+    }
+}
+
+/// Whether all numbers agree in every bit.
+fn same(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+}

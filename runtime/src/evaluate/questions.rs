@@ -1,0 +1,45 @@
+//! One question at a time: a flat input put together from blocks, an output for every entry. In: a [`System`], values of its
+//! parameters. Out: slices. Allocates only when made.
+
+use crate::system::{Entry, Sizes, System};
+
+/// A system with the storage to ask it.
+pub(super) struct Questions<'a> {
+    pub(super) system: &'a dyn System<f64>,
+    pub(super) sizes: Sizes,
+    /// Parameters, then what is asked with them.
+    input: Vec<f64>,
+    pub(super) workspace: Vec<f64>,
+    outputs: [Vec<f64>; Entry::ALL.len()],
+}
+
+impl<'a> Questions<'a> {
+    pub(super) fn new(system: &'a dyn System<f64>, parameters: &[f64]) -> Self {
+        let sizes = system.sizes();
+        let longest = Entry::ALL.iter().map(|entry| sizes.input(*entry)).max().unwrap_or(0);
+        let mut input = vec![0.0; longest];
+        input[..parameters.len()].copy_from_slice(parameters);
+        let outputs = Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]);
+        Self { system, sizes, input, workspace: vec![0.0; sizes.workspace], outputs }
+    }
+
+    /// The answer at a time, for what follows the time in the input.
+    pub(super) fn ask(&mut self, entry: Entry, t: f64, blocks: &[&[f64]]) -> &[f64] {
+        let mut at = self.sizes.parameters;
+        self.input[at] = t;
+        at += 1;
+        for block in blocks {
+            self.input[at..at + block.len()].copy_from_slice(block);
+            at += block.len();
+        }
+        debug_assert_eq!(at, self.sizes.input(entry));
+        let output = &mut self.outputs[entry as usize];
+        self.system.evaluate(entry, &self.input[..at], output, &mut self.workspace);
+        output
+    }
+
+    /// The last answer.
+    pub(super) fn last(&self, entry: Entry) -> &[f64] {
+        &self.outputs[entry as usize]
+    }
+}
