@@ -15,6 +15,7 @@
 pub mod backend;
 pub mod builder;
 pub mod compile;
+mod decompose;
 pub mod derive;
 pub mod diagnostic;
 pub mod expr;

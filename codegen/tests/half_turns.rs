@@ -5,7 +5,9 @@ mod bars;
 use std::f64::consts::TAU;
 
 use bars::{compiled, four_bar_text};
-use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
+use linkwear_runtime::{
+    Integrator, Run, RunError, SINGULAR_PIVOT, Settings, Span, TurnRunner, Watch, simulate,
+};
 
 const METHODS: [Integrator; 3] = [
     Integrator::Dopri5 { tolerance: 1e-9, max_step: None },
@@ -13,15 +15,22 @@ const METHODS: [Integrator; 3] = [
     Integrator::GeneralizedAlpha { step: 1e-3, rho: 0.8 },
 ];
 
-/// One turn of a crank on a long ground; `own` is what the pin between crank and coupler does, `more` follows.
-fn turn(cut: &str, own: &str, more: &str, method: Integrator) -> Run {
+const SPRING: &str = ", spring = { stiffness = \"2 N m/rad\", rest = \"0 rad\" }";
+
+/// A crank on a long ground; `own` is what the pin between crank and coupler does, `more` follows.
+fn crank(cut: &str, own: &str, more: &str) -> String {
     // A crank of 0.1 m with a coupler and a rocker of 0.3 m: the crank turns against the coupler once in its turn.
     let corners = [[0.1, 0.0], [0.2, 0.08_f64.sqrt()], [0.3, 0.0]];
     let drive = ", drive = \"10 rad/s*t\"";
     let pin = "at = \"A\", axis = [0, 0, 1]";
     let text = four_bar_text(corners, drive, if cut == "R4" { ", cut = true" } else { "" }, more);
     let cut = if cut == "R2" { ", cut = true" } else { "" };
-    let compiled = compiled(text.replace(pin, &format!("{pin}{own}{cut}"))).expect("it is taken");
+    text.replace(pin, &format!("{pin}{own}{cut}"))
+}
+
+/// One turn of it.
+fn turn(cut: &str, own: &str, more: &str, method: Integrator) -> Run {
+    let compiled = compiled(crank(cut, own, more)).expect("it is taken");
     let settings = Settings::new(method, Span::Time(TAU / 10.0), 101);
     let system = compiled.interpreter();
     simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
@@ -30,11 +39,10 @@ fn turn(cut: &str, own: &str, more: &str, method: Integrator) -> Run {
 
 #[test]
 fn a_spring_on_the_angle_of_a_cut_joint_ends_the_run_at_half_a_turn() {
-    let spring = ", spring = { stiffness = \"2 N m/rad\", rest = \"0 rad\" }";
     for method in METHODS {
-        let in_the_tree = turn("R4", spring, "", method);
+        let in_the_tree = turn("R4", SPRING, "", method);
         assert_eq!(in_the_tree.stopped, None, "{method:?}");
-        let cut = turn("R2", spring, "", method);
+        let cut = turn("R2", SPRING, "", method);
         let Some(RunError::AngleJumps { t, angle }) = &cut.stopped else {
             panic!("{method:?}: {:?}", cut.stopped)
         };
@@ -60,4 +68,20 @@ fn a_force_that_repeats_every_turn_passes_half_a_turn() {
         assert!(matches!(grows, Some(RunError::AngleJumps { .. })), "{method:?}: {grows:?}");
         assert_eq!(turn("R2", "", "", method).stopped, None);
     }
+}
+
+#[test]
+fn a_turn_that_goes_on_where_the_first_one_ended_is_looked_at_too() {
+    // A wheel turns four times while the crank turns once: its second turn has the half turn of the pin.
+    let wheel = "[bodies]\nwheel = { mass = \"1 kg\", centre = \"O\", inertia = [\"1 kg m^2\", \"1 kg m^2\", \"1 kg m^2\"] }\n";
+    let joint = "[joints]\nW = { revolute = [\"ground\", \"wheel\"], at = \"O\", axis = [0, 0, 1], drive = \"40 rad/s*t\" }\n";
+    let text = crank("R2", SPRING, "").replace("[bodies]\n", wheel).replace("[joints]\n", joint);
+    let compiled = compiled(text).expect("it is taken");
+    let system = compiled.interpreter();
+    let (description, parameters) = (compiled.description(), compiled.parameters());
+    let mut runner =
+        TurnRunner::new(&system, description, &parameters, METHODS[0], SINGULAR_PIVOT).expect("it starts");
+    assert!(runner.measure(Watch::NONE).is_ok());
+    let second = runner.measure(Watch::NONE);
+    assert!(matches!(&second, Err(RunError::AngleJumps { angle, .. }) if angle == "R2.q"), "{second:?}");
 }

@@ -85,3 +85,27 @@ fn rows_on_a_singular_position_are_right_or_named() {
     // Five columns in the forces of each: twice in parallelogram and rhombus, once in the others, by each method.
     assert_eq!(named, 3 * 5 * 6);
 }
+
+#[test]
+fn at_rest_in_a_singular_position_forces_are_said_to_be_open() {
+    // The links of the last lie in line at half a turn only.
+    for (name, corners) in &foldable(1.0)[..3] {
+        // The crank swings back where the links lie in line, and the run ends there.
+        let compiled =
+            four_bar(*corners, ", drive = \"-1 rad*sin(10 rad/s*t)\"", "", "").expect("it is taken");
+        let settings = Settings::new(METHODS[0], Span::Time(FRAC_PI_2 / SPEED), 11);
+        let system = compiled.interpreter();
+        let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
+            .expect("it starts");
+        assert_eq!(run.stopped, None, "{name}");
+        let [RunWarning::ForcesUnknown { t, columns }] = &run.warnings[..] else {
+            panic!("{name}: {:?}", run.warnings)
+        };
+        // Steps come as near as their tolerance lets them: 1e-5 rad from where the crank turns round, at a thousandth of a turn.
+        assert!((t - FRAC_PI_2 / SPEED).abs() < 5e-3, "{name}: {t}");
+        assert!(columns.iter().any(|column| column == "R1.Fx"), "{name}: {columns:?}");
+        assert!(unbounded(&run).is_empty(), "{name}");
+        let told = run.warnings[0].to_string();
+        assert!(told.contains("at rest or at a dead point"), "{name}: {told}");
+    }
+}

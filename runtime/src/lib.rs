@@ -79,7 +79,7 @@ pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
 pub use {
     assemble::{
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
-        offset_columns, place,
+        offset_columns, place, resting_contacts,
     },
     column::Column,
     contact_frequency::contact_frequencies,

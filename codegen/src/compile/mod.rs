@@ -51,7 +51,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         mechanism.freeze();
     }
     let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
-    let Findings { analysis, mut guide, warnings: remarks } = analyse(source, &mechanism, &topology)?;
+    let Findings { analysis, mut guide, warnings: remarks, waypoints } =
+        analyse(source, &mechanism, &topology)?;
     if options.saddle {
         // Without numbers no accelerations count as fixed by the rows.
         guide.jacobians.clear();
@@ -76,7 +77,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let system = compiled.interpreter();
     preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
     let start = preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
-    let near = start.map(|start| preflight::contacts_near_modes(&compiled.mechanism, start));
+    let near = start.map(|start| preflight::contacts_near_modes(&compiled.mechanism, start, &waypoints));
     compiled.warnings.extend(near.unwrap_or_default());
     let allowed = &compiled.mechanism.allowed;
     compiled.warnings.retain(|warning| !allowed.contains(&warning.code));
@@ -91,7 +92,7 @@ fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> R
         let warnings = examine(source, &closed, topology, check)?;
         // What moves only thanks to its clearances turns by them too, however its ideal twin would jam.
         if warnings.iter().any(|warning| warning.code == Code::MovesByClearance) {
-            let of_ideal_turn = [Code::NoFullTurn, Code::PassesSingular];
+            let of_ideal_turn = [Code::NoFullTurn, Code::PassesSingular, Code::AngleJumps];
             findings.warnings.retain(|warning| !of_ideal_turn.contains(&warning.code));
         }
         findings.warnings.extend(warnings);

@@ -7,6 +7,8 @@
 
 use nalgebra::DMatrix;
 
+use crate::decompose::{is_finite, singular_values};
+
 /// What numbers say to the derivation.
 #[derive(Clone, Debug, Default)]
 pub struct Guide {
@@ -76,13 +78,9 @@ impl PlanBlock {
     fn is_regular(&self, numbers: &[DMatrix<f64>]) -> bool {
         let singular = numbers.iter().filter(|jacobian| {
             let rows = jacobian.select_rows(&self.rows);
-            // The search for singular values does not end for these.
-            if rows.iter().any(|value| !value.is_finite()) {
-                return true;
-            }
-            let values = rows.select_columns(&self.speeds).singular_values();
+            let values = singular_values(&rows.select_columns(&self.speeds));
             // Against all of its rows: an entry may be there symbolically and vanish wherever loops close.
-            values.min() <= SINGULAR * rows.amax()
+            values.is_none_or(|values| !is_finite(&rows) || values.min() <= SINGULAR * rows.amax())
         });
         // Without numbers nothing is known.
         !numbers.is_empty() && singular.count() as f64 <= PASSED * numbers.len() as f64

@@ -185,10 +185,12 @@ codes! {
     OddBearing = "W0114",
     /// A freedom of a driven mechanism that nothing drives, springs, brakes or starts.
     LooseBody = "W0115",
-    /// A crank that is driven round and round but cannot turn once.
+    /// Drivers that the loops do not let go on: a crank that cannot turn once round, a stroke that is too long.
     NoFullTurn = "W0116",
-    /// A crank driven round and round that passes a singular position of its loops.
+    /// A driven motion that passes a singular position of its loops.
     PassesSingular = "W0117",
+    /// A force that would jump where the angle of a cut joint passes half a turn.
+    AngleJumps = "W0118",
     /// A point that nothing says which body carries: it rests.
     UnplacedPoint = "W0120",
 }

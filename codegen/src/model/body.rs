@@ -54,6 +54,8 @@ pub struct Station {
 pub struct LeftOut {
     /// What moves: `y4`, `z4`, `axial`, `torsion`.
     pub name: String,
+    /// Whether it twists the body.
+    pub torsion: bool,
     /// [Hz].
     pub frequency: f64,
 }

@@ -112,11 +112,11 @@ impl Case<'_> {
         all
     }
 
-    /// What drives against every speed at t = 0, in own units: inertia forces at these speeds, gravity, springs, dampers
+    /// What drives against every speed at a time, in own units: inertia forces at these speeds, gravity, springs, dampers
     /// and forces by expression.
-    pub fn resistance(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+    pub fn resistance(&self, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
         let sizes = self.system.sizes();
-        let input = [&self.parameters(), &[0.0][..], q, v].concat();
+        let input = [&self.parameters(), &[t][..], q, v].concat();
         let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
         evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
         let n = sizes.all_speeds;

@@ -13,7 +13,7 @@ use super::subspace::{least_norm, nearly_null_space, null_space, singular_values
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
 pub const NEARLY: f64 = 1e-3;
 /// Openings below this part are rounding.
-const ROUNDING: f64 = 1e-10;
+pub const ROUNDING: f64 = 1e-10;
 /// Positions within this part of a step from the start are the start: what closes only there does not move.
 const AWAY: f64 = 0.2;
 /// Kept rows whose weakest direction falls below this part of the strongest pass a singular position nearby ...

@@ -8,7 +8,7 @@ use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
-use super::exactness::{NEARLY, Opening};
+use super::exactness::{NEARLY, Opening, ROUNDING};
 use super::rank::{Lost, Rows};
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
@@ -168,12 +168,22 @@ pub fn out_of_reach(
     diagnostic.at_each(joints.iter().map(|joint| joint.span), "driven here")
 }
 
-/// A start in a singular position; `held` are the joints of the speeds that were asked about.
+/// By how much the loops stay open [m, rad] where a start is out of reach.
+fn left_open(error: &AssemblyError) -> Option<(f64, f64)> {
+    match error {
+        AssemblyError::HeldPositions { residual_m, residual_rad, .. }
+        | AssemblyError::NoConvergence { residual_m, residual_rad, .. } => Some((*residual_m, *residual_rad)),
+        _ => None,
+    }
+}
+
+/// A start in a singular position, or one that assembly did not leave: `refusal`; `held` are the joints of the speeds that
+/// were asked about.
 pub fn singular_start(
     mechanism: &Mechanism,
     analysis: &Analysis,
     held: &[JointId],
-    lost: &Lost,
+    (lost, refusal): (&Lost, Option<&AssemblyError>),
 ) -> Diagnostic {
     let joints: Vec<&Joint> = match lost {
         Lost::Rows => analysis.cuts.iter().filter_map(|cut| named(mechanism, cut)).take(1).collect(),
@@ -197,8 +207,14 @@ pub fn singular_start(
             "held at its dead point",
         ),
     };
-    let diagnostic =
+    let mut diagnostic =
         Diagnostic::new(Code::SingularStart, message).at_each(joints.iter().map(|joint| joint.span), label);
+    if let Some((metres, radians)) = refusal.and_then(left_open) {
+        let open = gap(metres, radians);
+        diagnostic = diagnostic.help(format!(
+            "no position nearer to the start that is asked for was found: with its values the loops stay open by {open}"
+        ));
+    }
     diagnostic.help(match (driver, lost) {
         (Some(driver), Lost::Rows) => format!(
             "start a little beside it: let the law of `{}` begin 1 deg (or 1 % of its stroke) away, and say with \
@@ -308,7 +324,8 @@ pub fn conflicts(
             .help("keep as many drivers as there are freedoms to drive")
             .at_each(joints.iter().map(|joint| joint.span), "driven here");
         let nearly = group.first().filter(|_| group.len() == 1).map(|driver| misses(drivers[*driver].1));
-        if let Some(part) = nearly.filter(|part| *part < NEARLY) {
+        // What closes but for rounding is no matter of digits.
+        if let Some(part) = nearly.filter(|part| (ROUNDING..NEARLY).contains(part)) {
             error = error.help(format!(
                 "its loop misses that motion by {part:.1e} of its size only: correct lengths and axes, or give them more \
                  digits; {CLOSED_AT_START:e} is close enough"
@@ -317,4 +334,37 @@ pub fn conflicts(
         errors.push(error);
     }
     errors
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::super::samples::{ClosedPositions, Position};
+    use super::*;
+    use crate::input::Reach;
+    use crate::model::{Overrides, resolve};
+    use crate::source::SourceFile;
+    use crate::spec;
+
+    #[test]
+    fn a_loop_that_misses_by_nothing_is_not_told_to_be_made_more_exact() {
+        let text = "spec = 1\nname = \"bar\"\ngravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nA = [\"1 m\", 0, 0]\n[bodies]\n\
+                    bar = { rod = [\"O\", \"A\"], radius = \"8 mm\", mass = \"1 kg\" }\n[joints]\n\
+                    R = { revolute = [\"ground\", \"bar\"], at = \"O\", axis = [0, 0, 1], drive = \"1 rad/s*t\" }\n";
+        let source = SourceFile { name: "bar.toml".to_owned(), text: text.to_owned() };
+        let (mechanism, _) =
+            resolve(&spec::parse(&source).unwrap(), &Overrides::default(), Reach::Below).unwrap();
+        let drivers = [(mechanism.drives().next().unwrap().0, 0)];
+        // One row that holds the driven speed.
+        let held =
+            Position { q: Vec::new(), jacobian: DMatrix::identity(1, 1), mass: DMatrix::identity(1, 1) };
+        let positions = ClosedPositions { positions: vec![held], arm: 1.0, open: Vec::new() };
+        let helps = |part: f64| {
+            let errors = conflicts(&mechanism, &drivers, &Rows::new(&positions, vec![0]), &|_| part);
+            assert_eq!(errors.len(), 1);
+            errors[0].help.iter().any(|help| help.contains("misses that motion"))
+        };
+        assert_eq!([0.0, 1e-16, 1e-9, 1e-5, 0.1].map(helps), [false, false, true, true, false]);
+    }
 }

@@ -178,7 +178,7 @@ impl Effect {
         ANGLES.iter().any(|angle| {
             layout.advance(&mut q, (spin * (angle - turned)).as_slice());
             turned = *angle;
-            let forces = case.resistance(&q, &still);
+            let forces = case.resistance(0.0, &q, &still);
             let largest = forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
             let amounts = spin.iter().zip(&case.units.speeds).map(|(speed, unit)| speed / unit);
             let power: f64 = amounts.zip(&forces).map(|(amount, force)| amount * force).sum();

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
+use crate::decompose::symmetric_directions;
 use crate::derive::{Freedom, Link, row_count};
 use crate::id::JointId;
 use crate::model::Closure;
@@ -134,7 +135,7 @@ fn weightless(position: &Position, free: &[usize]) -> Option<usize> {
         return Some(zero);
     }
     let scaled = DMatrix::from_fn(n, n, |i, j| mass[(i, j)] / (mass[(i, i)] * mass[(j, j)]).sqrt());
-    let eigen = scaled.symmetric_eigen();
+    let eigen = symmetric_directions(scaled)?;
     let least = eigen.eigenvalues.imin();
     (eigen.eigenvalues[least] < NO_MASS).then(|| eigen.eigenvectors.column(least).icamax())
 }

@@ -4,9 +4,11 @@
 //! Never knows Rust syntax.
 
 mod analysis;
+mod angle_jumps;
 mod assemblies;
 mod case;
 mod contact_resonance;
+mod course;
 mod exactness;
 mod failures;
 mod idle;
@@ -31,12 +33,14 @@ pub use analysis::{Analysis, Redundant};
 pub use assemblies::{Assemblies, Coordinate, assemblies};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
+pub use course::Waypoint;
 pub use failures::beyond_numbers;
 pub use own_units::OwnUnits;
 pub use prescribed::check_prescribed;
 pub use start::check_start;
 pub use without_play::check_without_play;
 
+use course::Course;
 use rank::Rows;
 
 /// What is known after the analysis.
@@ -48,6 +52,8 @@ pub struct Findings {
     pub guide: Guide,
     /// Remarks.
     pub warnings: Vec<Diagnostic>,
+    /// Positions of the motion, the start first, if drivers alone tell it.
+    pub waypoints: Vec<Waypoint>,
 }
 
 /// Analyses a mechanism.
@@ -102,7 +108,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
             errors = opens(opening);
         } else if let Some(lost) = singular {
             // From there the walk may have gone where the drivers cannot.
-            errors = vec![failures::singular_start(mechanism, &analysis, &[], &lost)];
+            errors = vec![failures::singular_start(mechanism, &analysis, &[], (&lost, None))];
         }
     }
     if let Some((joint, body)) = immobile::massless(case, &positions).filter(|_| errors.is_empty()) {
@@ -118,9 +124,16 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
-    warnings.extend(turn::turn_remark(case, &positions));
+    let course = Course::follow(case, &positions, analysis.idle.len());
+    if let Some(course) = &course {
+        warnings.extend(turn::turn_remark(mechanism, course));
+    }
+    // Elsewhere forces decide where the mechanism is.
+    let told = course.filter(|course| course.determined);
+    warnings.extend(told.iter().flat_map(|course| angle_jumps::angle_jumps(case, course)));
+    let waypoints = told.map(|course| course.waypoints).unwrap_or_default();
     let jacobians = positions.positions.into_iter().map(|position| position.jacobian).collect();
-    Ok(Findings { analysis, guide: Guide { keep, jacobians }, warnings })
+    Ok(Findings { analysis, guide: Guide { keep, jacobians }, warnings, waypoints })
 }
 
 /// What is wrong with a start that loops as such allow: out of reach, or singular.
@@ -137,7 +150,9 @@ fn start_fault(
     }
     let (joints, speeds): (Vec<_>, Vec<_>) = held.into_iter().unzip();
     match (rows.lost_at_start(&speeds), refusal) {
-        (Some(lost), _) => Some(failures::singular_start(case.mechanism, analysis, &joints, &lost)),
+        (Some(lost), _) => {
+            Some(failures::singular_start(case.mechanism, analysis, &joints, (&lost, refusal)))
+        }
         (None, Some(error)) => Some(failures::out_of_reach(case.mechanism, &drivers, error)),
         (None, None) => None,
     }

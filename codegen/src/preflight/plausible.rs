@@ -55,11 +55,12 @@ fn shown(number: f64) -> f64 {
 }
 
 /// With the prefix that people write: 2.5 mm, 80 MPa.
-fn with_unit(value: f64, unit: &str) -> String {
+pub(super) fn with_unit(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 7] =
         [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n")];
-    let fits =
-        |(size, prefix): &&(f64, &str)| value >= *size && (unit != "m" || !matches!(*prefix, "G" | "M"));
+    let fits = |(size, prefix): &&(f64, &str)| {
+        value.abs() >= *size && (unit != "m" || !matches!(*prefix, "G" | "M"))
+    };
     let (size, prefix) = PREFIXES.iter().find(fits).unwrap_or(&(1.0, ""));
     format!("{} {prefix}{unit}", shown(value / size))
 }

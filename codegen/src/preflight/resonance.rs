@@ -20,7 +20,7 @@ pub fn near_resonance(mechanism: &Mechanism) -> Vec<Diagnostic> {
             for body in &mechanism.bodies {
                 let Some(flexible) = &body.flexible else { continue };
                 let mut told = Vec::new();
-                for (name, frequency) in frequencies(flexible) {
+                for (name, frequency) in frequencies(flexible, true) {
                     let Some(harmonic) = nearest_harmonic(turns, frequency) else { continue };
                     // Both planes of a round link share their frequencies.
                     if told.contains(&(harmonic, frequency.to_bits())) {
@@ -43,10 +43,10 @@ pub fn near_resonance(mechanism: &Mechanism) -> Vec<Diagnostic> {
     warnings
 }
 
-/// Names and frequencies [Hz] of a body's modes, kept and left out.
-pub(super) fn frequencies(flexible: &Flexible) -> impl Iterator<Item = (String, f64)> {
+/// Names and frequencies [Hz] of a body's modes, kept and left out; of these torsion only if the body is `twisted`.
+pub(super) fn frequencies(flexible: &Flexible, twisted: bool) -> impl Iterator<Item = (String, f64)> {
     let kept = flexible.data.modes.iter().map(|mode| (mode.name.clone(), mode.frequency));
-    let left_out = flexible.left_out.iter();
+    let left_out = flexible.left_out.iter().filter(move |mode| twisted || !mode.torsion);
     kept.chain(left_out.map(|mode| (format!("{}, left out", mode.name), mode.frequency)))
 }
 

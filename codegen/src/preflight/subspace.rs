@@ -1,10 +1,12 @@
 //! Rank, null space and shortest solution of constraint rows. In: matrices. Out: numbers. Never knows mechanics.
 //!
 //! A QR decomposition with pivots costs a tenth of the singular values. It answers where it leaves no doubt of the
-//! rank, and the singular values answer elsewhere. The search for singular values does not end for numbers that are
-//! infinite or none: such a matrix has no rank, no directions and no solution here.
+//! rank, and the singular values answer elsewhere. A matrix with numbers that are infinite or none has no rank, no
+//! directions and no solution here.
 
 use nalgebra::{DMatrix, DVector};
+
+use crate::decompose::{self, is_finite};
 
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
 /// meant to be special has none below 1e-4.
@@ -33,12 +35,8 @@ pub fn rank(matrix: &DMatrix<f64>) -> usize {
 /// The largest first, as many as the shorter side is long.
 pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
     let (rows, columns) = matrix.shape();
-    let matrix = without_zero_rows(matrix);
-    let mut values: Vec<f64> = if matrix.is_empty() || !is_finite(&matrix) {
-        Vec::new()
-    } else {
-        matrix.singular_values().iter().copied().collect()
-    };
+    let found = decompose::singular_values(&without_zero_rows(matrix));
+    let mut values: Vec<f64> = found.iter().flatten().copied().collect();
     values.resize(rows.min(columns), 0.0);
     values.sort_by(|a, b| b.total_cmp(a));
     values
@@ -66,16 +64,12 @@ pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> 
 
 /// As many singular values as there are columns, and all right singular vectors as rows.
 pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
-    if !is_finite(&matrix) {
-        let n = matrix.ncols();
-        return (DVector::repeat(n, f64::NAN), DMatrix::identity(n, n));
-    }
+    let n = matrix.ncols();
     // Zero rows below make the decomposition return all of them.
-    let height = matrix.nrows().max(matrix.ncols());
-    let svd = matrix.resize_vertically(height, 0.0).svd(false, true);
-    #[expect(clippy::expect_used, reason = "the second argument of `svd` asks for them")]
-    let v_t = svd.v_t.expect("right singular vectors");
-    (svd.singular_values, v_t)
+    let height = matrix.nrows().max(n);
+    let svd = decompose::singular_directions(matrix.resize_vertically(height, 0.0), false);
+    let found = svd.and_then(|svd| Some((svd.singular_values, svd.v_t?)));
+    found.unwrap_or_else(|| (DVector::repeat(n, f64::NAN), DMatrix::identity(n, n)))
 }
 
 /// Shortest solution of a rank-deficient system.
@@ -99,13 +93,9 @@ pub fn least_norm_within(
     if let Some(solution) = factor.and_then(|factor| factor.least_norm(matrix, right)) {
         return Some(solution);
     }
-    let svd = matrix.clone().svd(true, true);
+    let svd = decompose::singular_directions(matrix.clone(), true)?;
     let largest = svd.singular_values.amax();
     svd.solve(right, tolerance * largest).ok()
-}
-
-fn is_finite(matrix: &DMatrix<f64>) -> bool {
-    matrix.iter().all(|value| value.is_finite())
 }
 
 /// Rows of zeros, which planar mechanisms have many of, say nothing.
@@ -122,6 +112,8 @@ struct Factor {
     /// The rows that are not zero.
     rows: Vec<usize>,
     decomposition: nalgebra::ColPivQR<f64, nalgebra::Dyn, nalgebra::Dyn>,
+    /// Its triangle.
+    triangle: DMatrix<f64>,
     rank: usize,
     columns: usize,
 }
@@ -139,12 +131,12 @@ impl Factor {
             rows.get(j).map_or(0.0, |row| matrix[(*row, i)])
         });
         let decomposition = transposed.col_piv_qr();
-        let r = decomposition.r();
-        let pivots: Vec<f64> = (0..columns).map(|i| r[(i, i)].abs()).collect();
+        let triangle = decomposition.r();
+        let pivots: Vec<f64> = (0..columns).map(|i| triangle[(i, i)].abs()).collect();
         let largest = pivots.iter().copied().fold(0.0, f64::max);
         let rank = pivots.iter().take_while(|pivot| **pivot > CLEARLY_THERE * largest).count();
         let clear = pivots.iter().skip(rank).all(|pivot| *pivot < CLEARLY_NOTHING * largest);
-        (clear && largest.is_finite()).then_some(Self { rows, decomposition, rank, columns })
+        (clear && largest.is_finite()).then_some(Self { rows, decomposition, triangle, rank, columns })
     }
 
     fn null_space(&self) -> DMatrix<f64> {
@@ -160,8 +152,7 @@ impl Factor {
         let mut wanted = DVector::zeros(self.rows.len().max(self.columns));
         self.rows.iter().enumerate().for_each(|(place, row)| wanted[place] = right[*row]);
         self.decomposition.p().permute_rows(&mut wanted);
-        let r = self.decomposition.r();
-        let triangle = r.view((0, 0), (self.rank, self.rank));
+        let triangle = self.triangle.view((0, 0), (self.rank, self.rank));
         let along = triangle.tr_solve_upper_triangular(&wanted.rows(0, self.rank))?;
         let mut multipliers = wanted;
         multipliers.fill(0.0);

@@ -60,7 +60,7 @@ pub fn check_without_play(
         return Ok(if within(error) { by_clearance(MISSES) } else { Vec::new() });
     }
     if let Some(lost @ Lost::Held(_)) = rows.lost_at_start(&speeds) {
-        return fail(vec![failures::singular_start(mechanism, with_play, &joints, &lost)]);
+        return fail(vec![failures::singular_start(mechanism, with_play, &joints, (&lost, None))]);
     }
     let sizes = case.system.sizes();
     let rank = rows.rank();

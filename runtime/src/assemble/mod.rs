@@ -18,4 +18,4 @@ mod within_clearance;
 pub use consistent::{assemble, assemble_with, close_loops};
 pub use offset::offset_columns;
 pub use state::State;
-pub use static_contact::{assemble_static_contact, check_clearances, place};
+pub use static_contact::{assemble_static_contact, check_clearances, place, resting_contacts};

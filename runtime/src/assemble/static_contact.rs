@@ -42,20 +42,9 @@ pub fn assemble_static_contact(evaluator: &mut Evaluator<'_>, t: f64) -> Result<
         return Ok(state);
     }
     check_clearances(evaluator, t, &state)?;
-    let columns = offset_columns(evaluator, t, &state.q);
-    let placeable = free_contacts(evaluator, &columns);
-    let centred: Vec<Option<[f64; 3]>> = placeable.iter().map(|free| free.then_some([0.0; 3])).collect();
-    let mut middle = state.clone();
-    let mut rests = false;
-    if place(evaluator, t, &mut middle, &centred) {
-        let forces = ideal_reactions(evaluator, t, &middle, &placeable);
-        let targets: Vec<_> = (0..placeable.len())
-            .map(|index| placeable[index].then(|| resting_offset(evaluator, index, forces[index])))
-            .collect();
-        if place(evaluator, t, &mut middle, &targets) {
-            (state, rests) = (middle, true);
-        }
-    }
+    let (resting, placeable) = rest(evaluator, t, &state);
+    let rests = resting.is_some();
+    state = resting.unwrap_or(state);
     if !rests && within_clearance::check(evaluator, t, &state, (&placeable, 0.0)).is_err() {
         // It may close thanks to its clearances alone.
         within_clearance::pull_in(evaluator, t, &mut state)?;
@@ -66,6 +55,29 @@ pub fn assemble_static_contact(evaluator: &mut Evaluator<'_>, t: f64) -> Result<
     evaluator.evaluate_contacts(t, &state.q, &state.v);
     evaluator.clearances_mut().begin();
     Ok(state)
+}
+
+/// The state near a guess of coordinates and speeds at time `t` [s] in which the loops are closed and every journal rests
+/// where the reaction of an ideal joint presses it; nothing, if the mechanism does not close with centred journals.
+pub fn resting_contacts(evaluator: &mut Evaluator<'_>, t: f64, guess: &State) -> Option<State> {
+    rest(evaluator, t, guess).0
+}
+
+/// The same, with the contacts whose journals are free to rest.
+fn rest(evaluator: &mut Evaluator<'_>, t: f64, guess: &State) -> (Option<State>, Vec<bool>) {
+    let columns = offset_columns(evaluator, t, &guess.q);
+    let placeable = free_contacts(evaluator, &columns);
+    let centred: Vec<Option<[f64; 3]>> = placeable.iter().map(|free| free.then_some([0.0; 3])).collect();
+    let mut state = guess.clone();
+    if !place(evaluator, t, &mut state, &centred) {
+        return (None, placeable);
+    }
+    let forces = ideal_reactions(evaluator, t, &state, &placeable);
+    let targets: Vec<_> = (0..placeable.len())
+        .map(|index| placeable[index].then(|| resting_offset(evaluator, index, forces[index])))
+        .collect();
+    let rests = place(evaluator, t, &mut state, &targets);
+    (rests.then_some(state), placeable)
 }
 
 /// Whether every clearance is above zero and below the radius of its journal.

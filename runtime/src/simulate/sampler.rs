@@ -413,7 +413,7 @@ impl Sampler {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
             run.turns = follower.measures;
         }
-        run.warnings.extend(self.unbounded.warning(&run.channels));
+        run.warnings.extend(self.unbounded.warnings(&run.channels));
         run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
         if run.stopped.is_none() && self.guard.is_doubtful(&run.statistics) {
             let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;

@@ -1,6 +1,8 @@
 //! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
 //! In: a mechanism, a method, clearances. Out: [`ContactMeasure`]s. Never knows how wear follows from them.
 
+use std::f64::consts::PI;
+
 use super::motion::ConstrainedMotion;
 use super::run::Statistics;
 use super::sampler::Sampler;
@@ -10,17 +12,25 @@ use super::steps;
 use super::warning::RunWarning;
 use super::warning::step_limits;
 use crate::assemble::{State, assemble_static_contact, check_clearances, place};
-use crate::clearance_joint::ClearanceState;
+use crate::clearance_joint::{Clearance, ClearanceState};
 use crate::description::Description;
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
 use crate::evaluate::Evaluator;
+use crate::linear::largest;
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::{ContactMeasure, Profile};
 
 /// Turns that differ by no more of themselves last equally long: their ends are found to rounding.
 const EVEN: f64 = 1e-9;
+
+/// Parts of a turn at which laws that repeat themselves are compared: no harmonic has the same value at all of them.
+const PHASES: [f64; 4] = [0.0, 0.13, 0.37, 0.71];
+
+/// Turns are looked at again for forces that jump with an angle when a clearance has grown by this factor. An angle moves by
+/// the growth over a lever arm, thousands of times less than what it misses half a turn by in any but a chance design.
+const GROWN: f64 = 1.25;
 
 /// All that has to be kept to go on with a trajectory.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,8 +67,10 @@ pub struct TurnRunner<'a> {
     integrator: Integrator,
     t: f64,
     state: State,
-    /// Whether a turn was looked at for forces that jump with an angle.
-    angles_looked_at: bool,
+    /// Whether turns differ by their clearances alone, once that was asked.
+    alike: Option<bool>,
+    /// Clearances [m] of the last turn that was looked at for forces that jump with an angle.
+    looked_at: Vec<f64>,
 }
 
 impl<'a> TurnRunner<'a> {
@@ -82,7 +94,7 @@ impl<'a> TurnRunner<'a> {
         let state = assemble_static_contact(&mut evaluator, 0.0)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
         motion.learn_sizes(0.0, &state);
-        Ok(Self { motion, integrator, t: 0.0, state, angles_looked_at: false })
+        Ok(Self { motion, integrator, t: 0.0, state, alike: None, looked_at: Vec::new() })
     }
 
     /// Everything that has to be kept to go on from here.
@@ -184,6 +196,40 @@ impl<'a> TurnRunner<'a> {
         Ok(last)
     }
 
+    /// Whether a turn with these clearances [m] may differ from the last one that was looked at by more than angles notice.
+    fn may_differ(&mut self, clearances: &[f64]) -> bool {
+        let alike = match self.alike {
+            Some(known) => known,
+            None => self.turns_are_alike(),
+        };
+        self.alike = Some(alike);
+        let grown = |(now, then): (&f64, &f64)| *now > GROWN * then;
+        !alike || self.looked_at.is_empty() || clearances.iter().zip(&self.looked_at).any(grown)
+    }
+
+    /// Whether every turn is as the one before but for clearances: drivers leave no freedom open but play, and repeat
+    /// themselves with the turn.
+    fn turns_are_alike(&mut self) -> bool {
+        let Some(turn) = self.seconds_per_turn() else { return false };
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        let play: usize = evaluator.clearances().joints().iter().map(Clearance::freedoms).sum();
+        let sizes = evaluator.sizes();
+        if sizes.speeds - sizes.rows > play {
+            return false;
+        }
+        PHASES.iter().all(|phase| {
+            let laws = |evaluator: &mut Evaluator<'_>, t: f64| evaluator.prescribed(t).to_vec();
+            let (now, later) = (laws(evaluator, phase * turn), laws(evaluator, (phase + 1.0) * turn));
+            let laws = now.chunks_exact(3).zip(later.chunks_exact(3));
+            laws.zip(&*evaluator.description().drivers).all(|((now, later), driver)| {
+                let turns = if driver.angular { ((later[0] - now[0]) / (2.0 * PI)).round() } else { 0.0 };
+                let size = largest(now).max(1.0);
+                (later[0] - 2.0 * PI * turns - now[0]).abs() <= EVEN * size
+                    && now[1..].iter().zip(&later[1..]).all(|(a, b)| (a - b).abs() <= EVEN * size)
+            })
+        })
+    }
+
     /// Runs one turn and says what it did; `watch` hears the finished part of this turn.
     ///
     /// # Errors
@@ -195,15 +241,26 @@ impl<'a> TurnRunner<'a> {
         let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
         let mut state = self.motion.join(&self.state);
         let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
-        if !self.angles_looked_at {
-            // One turn tells for all: they hardly differ.
+        let clearances: Vec<f64> = self
+            .motion
+            .dynamics
+            .evaluator
+            .clearances()
+            .contacts()
+            .iter()
+            .map(|touch| touch.clearance)
+            .collect();
+        let looks = self.may_differ(&clearances);
+        if looks {
             sampler.watch_angles();
         }
         if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, watch) {
             self.restore(&kept)?;
             return Err(error);
         }
-        self.angles_looked_at = true;
+        if looks {
+            self.looked_at = clearances;
+        }
         let (q, v, _) = self.motion.split(&state);
         self.state = State { q: q.to_vec(), v: v.to_vec() };
         self.t = schedule.end;

@@ -1,5 +1,5 @@
 //! Columns at states where the loops have lost rank. In: columns as the rows give them. Out: as the motion passes through
-//! them, and which of them grow without bounds there. Never knows steps.
+//! them, which of them grow without bounds there, and which nothing tells. Never knows steps.
 
 use super::motion::ConstrainedMotion;
 use super::warning::RunWarning;
@@ -8,10 +8,35 @@ use crate::description::Channel;
 /// What a run met at such states.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Unbounded {
-    /// When it was there first [s].
+    /// Columns that were without bounds where the motion passes through.
+    growing: Met,
+    /// Columns that nothing tells where it does not: at a dead point, or at rest.
+    unknown: Met,
+}
+
+/// Columns that have shown something.
+#[derive(Clone, Debug, Default)]
+struct Met {
+    /// When one did first [s].
     first: f64,
-    /// For every generated column, whether it was without bounds.
+    /// For every generated column, whether it did.
     columns: Vec<bool>,
+}
+
+impl Met {
+    fn note(&mut self, t: f64, now: Vec<bool>) {
+        if self.columns.is_empty() && now.contains(&true) {
+            (self.first, self.columns) = (t, vec![false; now.len()]);
+        }
+        self.columns.iter_mut().zip(now).for_each(|(known, now)| *known |= now);
+    }
+
+    /// When, and the names, if there was one.
+    fn told(&self, channels: &[Channel]) -> Option<(f64, Vec<String>)> {
+        let met = channels.iter().zip(&self.columns).filter(|(_, met)| **met);
+        let names: Vec<_> = met.map(|(channel, _)| channel.name.to_string()).collect();
+        (!names.is_empty()).then_some((self.first, names))
+    }
 }
 
 impl Unbounded {
@@ -28,7 +53,7 @@ impl Unbounded {
             return;
         }
         let of_forces = columns_of_forces(motion, (t, q, v), columns);
-        let mut unbounded = vec![false; columns.len()];
+        let mut found = vec![false; columns.len()];
         match motion.dynamics.columns_beside(t, q, v) {
             Some(limit) => {
                 // Moments are compared with moments, forces with forces.
@@ -38,23 +63,24 @@ impl Unbounded {
                 };
                 for place in &of_forces {
                     columns[*place] = limit.column(*place);
-                    unbounded[*place] = limit.is_unbounded(*place, size(&channels[*place].unit));
+                    found[*place] = limit.is_unbounded(*place, size(&channels[*place].unit));
                 }
+                self.growing.note(t, found);
             }
-            // A dead point, or rest: nothing tells how the motion goes on.
-            None => of_forces.iter().for_each(|place| unbounded[*place] = true),
+            // A dead point, or rest: there are no states of the motion on both sides.
+            None => {
+                of_forces.iter().for_each(|place| found[*place] = true);
+                self.unknown.note(t, found);
+            }
         }
-        if self.columns.is_empty() && unbounded.contains(&true) {
-            (self.first, self.columns) = (t, vec![false; columns.len()]);
-        }
-        self.columns.iter_mut().zip(unbounded).for_each(|(known, now)| *known |= now);
     }
 
-    /// The warning of the run, if there is one.
-    pub(super) fn warning(&self, channels: &[Channel]) -> Option<RunWarning> {
-        let names = channels.iter().zip(&self.columns).filter(|(_, unbounded)| **unbounded);
-        let columns: Vec<_> = names.map(|(channel, _)| channel.name.to_string()).collect();
-        (!columns.is_empty()).then_some(RunWarning::ForcesUnbounded { t: self.first, columns })
+    /// The warnings of the run.
+    pub(super) fn warnings(&self, channels: &[Channel]) -> impl Iterator<Item = RunWarning> {
+        let growing = self.growing.told(channels);
+        let unknown = self.unknown.told(channels);
+        let growing = growing.map(|(t, columns)| RunWarning::ForcesUnbounded { t, columns });
+        growing.into_iter().chain(unknown.map(|(t, columns)| RunWarning::ForcesUnknown { t, columns }))
     }
 }
 

@@ -56,6 +56,13 @@ pub enum RunWarning {
         /// Columns that hold only what is left of such a force there.
         columns: Vec<String>,
     },
+    /// The mechanism is in a singular position that its motion does not pass through: at a dead point, or at rest.
+    ForcesUnknown {
+        /// When rows or steps met it first [s].
+        t: f64,
+        /// Columns that the loops leave open there.
+        columns: Vec<String>,
+    },
     /// The bodies were apart for most of a turn.
     ContactLost {
         /// The joint.
@@ -100,7 +107,13 @@ impl fmt::Display for RunWarning {
                 f,
                 "at t = {t:.6} s the mechanism is in a singular position, where {} without bounds: its rows leave that \
                  part out, and peaks depend on where steps fall; change a length, or add a link that holds the loop there",
-                grow(columns)
+                listed(columns, ["grows", "grow"])
+            ),
+            Self::ForcesUnknown { t, columns } => write!(
+                f,
+                "at t = {t:.6} s the mechanism stands in a singular position, at rest or at a dead point: the loops leave open \
+                 how large {} there, and rows hold the smallest forces that fit; let it stop a little beside it",
+                listed(columns, ["is", "are"])
             ),
             Self::ContactLost { joint, turn, touching_part } => write!(
                 f,
@@ -126,13 +139,13 @@ pub(super) fn rounded_angle<'a>(angles: impl Iterator<Item = (&'a str, f64)>) ->
 /// Names of columns are told up to this number.
 const TOLD: usize = 4;
 
-/// That columns grow.
-fn grow(columns: &[String]) -> String {
+/// Columns and their verb, for one and for several.
+fn listed(columns: &[String], [one, several]: [&str; 2]) -> String {
     let told = columns.iter().take(TOLD).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
     match columns.len().saturating_sub(TOLD) {
-        0 if columns.len() == 1 => format!("{told} grows"),
-        0 => format!("{told} grow"),
-        more => format!("{told} and {more} more columns grow"),
+        0 if columns.len() == 1 => format!("{told} {one}"),
+        0 => format!("{told} {several}"),
+        more => format!("{told} and {more} more columns {several}"),
     }
 }
 

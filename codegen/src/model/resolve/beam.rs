@@ -220,7 +220,13 @@ impl Resolver<'_> {
             nodes,
             stations,
             start: vec![[0.0; 2]; data.modes.len()],
-            left_out: left_out.map(|(name, frequency)| LeftOut { name: name.to_owned(), frequency }).to_vec(),
+            left_out: left_out
+                .map(|(name, frequency)| LeftOut {
+                    name: name.to_owned(),
+                    torsion: name == "torsion",
+                    frequency,
+                })
+                .to_vec(),
             data: data.with_equal_numbers(),
         })
     }
