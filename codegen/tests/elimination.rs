@@ -1,5 +1,5 @@
 //! Rows first and the saddle point are two ways to one solution: accelerations, multipliers and drives agree at closed
-//! states of driven mechanisms.
+//! states.
 
 use std::path::Path;
 
@@ -8,9 +8,20 @@ use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{Evaluator, State, assemble};
 
-fn compiled(name: &str, closure: Closure, saddle: bool) -> Compiled {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../mechanisms").join(format!("{name}.toml"));
-    let source = SourceFile { name: name.to_owned(), text: std::fs::read_to_string(path).expect("a file") };
+/// A file of the workspace, with some of its text exchanged.
+struct Case(&'static str, &'static [[&'static str; 2]]);
+
+const ROUND: &str = r#"coupler = { rod = ["A", "B"], radius = "r""#;
+const RECTANGLE: &str = r#"coupler = { box = ["A", "B"], width = ["8 mm", "12 mm"], width_axis = [0, 1, 0]"#;
+
+fn compiled(Case(path, edits): &Case, closure: Closure, saddle: bool) -> Compiled {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    let mut text = std::fs::read_to_string(file).expect("a file");
+    for [old, new] in *edits {
+        assert!(text.contains(old), "{path}: {old}");
+        text = text.replace(old, new);
+    }
+    let source = SourceFile { name: (*path).to_owned(), text };
     let options = Options { closure: Some(closure), saddle, ..Options::default() };
     compile(&source, &options).unwrap_or_else(|errors| panic!("{errors}"))
 }
@@ -32,18 +43,26 @@ fn solved(compiled: &Compiled, t: f64, state: &State) -> [Vec<f64>; 3] {
 
 #[test]
 fn both_ways_agree_and_rows_first_is_never_dearer() {
-    let driven = [
-        "four_bar",
-        "six_bar",
-        "slider_crank",
-        "spatial_slider_crank",
-        "bennett",
-        "rssr_rigid",
-        "rssr_flexible",
+    let cases = [
+        Case("mechanisms/four_bar.toml", &[]),
+        Case("mechanisms/six_bar.toml", &[]),
+        Case("mechanisms/slider_crank.toml", &[]),
+        Case("mechanisms/spatial_slider_crank.toml", &[]),
+        Case("mechanisms/bennett.toml", &[]),
+        Case("mechanisms/rssr_rigid.toml", &[]),
+        Case("mechanisms/rssr_flexible.toml", &[]),
+        Case("mechanisms/rssr_flexible.toml", &[[ROUND, RECTANGLE]]),
+        Case("mechanisms/rssr_flexible.toml", &[["modes = 6", "modes = 1"]]),
+        Case("mechanisms/rssr.toml", &[]),
+        Case("mechanisms/rssr.toml", &[[ROUND, RECTANGLE], ["modes = 6", "modes = 3"]]),
+        Case("mechanisms/rssr_ball_wear.toml", &[]),
+        // Without a driver, with modes that move joints and modes that move none.
+        Case("codegen/tests/data/joints_flexible.toml", &[]),
     ];
-    for name in driven {
+    for case in &cases {
+        let name = case.0;
         for closure in [Closure::Joint, Closure::Log] {
-            let [rows_first, saddle] = [false, true].map(|saddle| compiled(name, closure, saddle));
+            let [rows_first, saddle] = [false, true].map(|saddle| compiled(case, closure, saddle));
             assert!(forward_operations(&rows_first) <= forward_operations(&saddle), "{name} {closure:?}");
             let system = rows_first.interpreter();
             // From one start the loops are closed for the drivers' place at several times, as far as Newton comes.
@@ -62,7 +81,11 @@ fn both_ways_agree_and_rows_first_is_never_dearer() {
                     let size = b.iter().fold(1e-6, |size: f64, x| size.max(x.abs()));
                     let error = a.iter().zip(b).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
                     // The saddle point squares the condition of the loops, some 1e2, on roundings of 1e-16.
-                    assert!(error <= 1e-10 * size, "{name} {closure:?} at {t} s: {error:e} of {size:e}");
+                    assert!(
+                        error <= 1e-10 * size,
+                        "{name} {:?} {closure:?} at {t} s: {error:e} of {size:e}",
+                        case.1
+                    );
                 }
             }
         }
@@ -71,8 +94,14 @@ fn both_ways_agree_and_rows_first_is_never_dearer() {
 
 #[test]
 fn without_drivers_the_equations_do_not_change() {
-    for name in ["andrews", "bricard", "n_four_bar_2", "pendulum"] {
-        let [with, without] = [false, true].map(|saddle| compiled(name, Closure::Joint, saddle));
-        assert_eq!(with.rust_source(), without.rust_source(), "{name}");
+    let undriven = [
+        "mechanisms/andrews.toml",
+        "mechanisms/bricard.toml",
+        "mechanisms/n_four_bar_2.toml",
+        "mechanisms/pendulum.toml",
+    ];
+    for path in undriven {
+        let [with, without] = [false, true].map(|saddle| compiled(&Case(path, &[]), Closure::Joint, saddle));
+        assert_eq!(with.rust_source(), without.rust_source(), "{path}");
     }
 }

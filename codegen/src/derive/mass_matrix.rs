@@ -8,6 +8,7 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 use super::attachment::NodePose;
 use super::deformation::ModalMass;
+use super::frame_inertia::FrameInertia;
 use super::geometry::Geometry;
 use super::kinematics::{Pose, Poses};
 use super::link_mass::LinkMass;
@@ -20,10 +21,34 @@ struct Composite<'g> {
     mass: Expr<'g>,
     first: Vec3<'g>,
     inertia: Mat3<'g>,
+    /// What bodies whose modes are eliminated add.
+    uneven: Option<Uneven<'g>>,
+}
+
+/// Inertia that no rigid body has: force `translation a + couplingᵀ alpha`, moment `coupling a`.
+#[derive(Clone, Copy, Debug)]
+struct Uneven<'g> {
+    translation: Mat3<'g>,
+    coupling: Mat3<'g>,
+}
+
+/// A flexible body whose modes are eliminated: the link of its floating frame, and what that feels.
+pub struct Eliminated<'g> {
+    pub link: usize,
+    pub inertia: FrameInertia<'g>,
 }
 
 /// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
 pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>]) -> Vec<Vec<Expr<'g>>> {
+    reduced_mass_matrix(poses, masses, &[])
+}
+
+/// The same with the modes of some bodies eliminated: zero in their rows and columns.
+pub fn reduced_mass_matrix<'g>(
+    poses: &Poses<'g>,
+    masses: &[LinkMass<'g>],
+    eliminated: &[Eliminated<'g>],
+) -> Vec<Vec<Expr<'g>>> {
     let Geometry { g, linkage, .. } = poses.geometry;
     let n = linkage.speeds();
     let mut columns = Columns { poses, matrix: vec![vec![g.zero(); n]; n] };
@@ -33,10 +58,15 @@ pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>]) -> Vec<Vec<Ex
             mass: rigid.mass,
             first: rigid.first,
             inertia: rigid.inertia(),
+            uneven: None,
         })
         .collect();
     let mut modal: Vec<Option<ModalColumns<'g>>> =
         masses.iter().map(|mass| mass.modal.as_ref().map(|modal| ModalColumns::new(g, modal))).collect();
+    for body in eliminated {
+        composites[body.link] = Composite::of_frame(g, &body.inertia);
+        modal[body.link] = None;
+    }
     for at in (0..linkage.links.len()).rev() {
         let link = &linkage.links[at];
         let composite = composites[at];
@@ -46,6 +76,10 @@ pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>]) -> Vec<Vec<Ex
             sum.mass += passed.mass;
             sum.first += passed.first;
             sum.inertia += passed.inertia;
+            sum.uneven = match (sum.uneven, passed.uneven) {
+                (Some(one), Some(other)) => Some(one.and(other)),
+                (one, other) => one.or(other),
+            };
         }
         if let (Some(node), Some(parent)) = (&poses.nodes[at], link.parent) {
             if let Some(mut body) = modal[at].take() {
@@ -135,22 +169,62 @@ impl<'g> ModalColumns<'g> {
     }
 }
 
-impl<'g> Composite<'g> {
-    /// Momentum per unit of a twist.
+impl<'g> Uneven<'g> {
+    fn and(self, other: Self) -> Self {
+        let translation = self.translation + other.translation;
+        Self { translation, coupling: self.coupling + other.coupling }
+    }
+
+    /// In other axes: those that `turn` takes components to.
+    fn turned_by(self, turn: Mat3<'g>) -> Self {
+        Self { translation: self.translation.turned_by(turn), coupling: self.coupling.turned_by(turn) }
+    }
+
+    /// Seen from an origin from which this one's is at `p`; and the inertia that this adds there.
+    fn moved(self, p: Vec3<'g>) -> (Self, Mat3<'g>) {
+        let (lever, back) = (p.skew(), p.skew().transpose());
+        let across = lever * self.coupling.transpose();
+        let inertia = across + across.transpose() + lever * self.translation * back;
+        (Self { coupling: self.coupling + lever * self.translation, ..self }, inertia)
+    }
+
     fn momentum(&self, [omega, origin]: [Vec3<'g>; 2]) -> Wrench<'g> {
-        Wrench::momentum((self.mass, self.first, self.inertia), omega, origin)
+        let force = self.translation * origin + self.coupling.transpose() * omega;
+        Wrench { moment: self.coupling * origin, force }
+    }
+}
+
+impl<'g> Composite<'g> {
+    /// Of a body whose modes are eliminated.
+    fn of_frame(g: &'g Scope, inertia: &FrameInertia<'g>) -> Self {
+        let FrameInertia { even, translation, coupling, inertia } = *inertia;
+        Self { mass: even, first: g.zero_vector(), inertia, uneven: Some(Uneven { translation, coupling }) }
+    }
+
+    /// Momentum per unit of a twist.
+    fn momentum(&self, twist: [Vec3<'g>; 2]) -> Wrench<'g> {
+        let [omega, origin] = twist;
+        let even = Wrench::momentum((self.mass, self.first, self.inertia), omega, origin);
+        self.with_uneven(even, twist)
+    }
+
+    fn with_uneven(&self, even: Wrench<'g>, twist: [Vec3<'g>; 2]) -> Wrench<'g> {
+        self.uneven.map_or(even, |uneven| even + uneven.momentum(twist))
     }
 
     /// What of it the joint at `pose` passes to the parent link, in the parent's frame about its origin.
     fn passed_inwards(self, freedom: Freedom, pose: &Pose<'g>) -> Self {
         let g = self.mass.scope();
-        let (no_first, no_inertia) = (g.zero_vector(), g.matrix([[0.0; 3]; 3]));
-        let (mass, first, inertia) = match freedom {
-            Freedom::Free => (g.zero(), no_first, no_inertia),
-            Freedom::Ball => (self.mass, no_first, no_inertia),
+        let none = g.matrix([[0.0; 3]; 3]);
+        let (mass, first, inertia, uneven) = match freedom {
+            Freedom::Free => (g.zero(), g.zero_vector(), none, None),
+            Freedom::Ball => {
+                let uneven = self.uneven.map(|uneven| Uneven { coupling: none, ..uneven });
+                (self.mass, g.zero_vector(), none, uneven)
+            }
             _ => {
                 let inertia = self.inertia.turned_by(pose.rotation);
-                (self.mass, pose.rotation * self.first, inertia)
+                (self.mass, pose.rotation * self.first, inertia, self.uneven)
             }
         };
         let p = pose.offset;
@@ -164,7 +238,12 @@ impl<'g> Composite<'g> {
             moved[i][j] -= pairs[i][j];
             moved[j][i] = moved[i][j];
         }
-        Self { mass, first: shifted, inertia: moved }
+        let uneven = uneven.map(|uneven| {
+            let (uneven, inertia) = uneven.turned_by(pose.rotation).moved(p);
+            moved += inertia;
+            uneven
+        });
+        Self { mass, first: shifted, inertia: moved, uneven }
     }
 
     /// Momentum per unit of each speed of the link that carries it.
@@ -175,13 +254,14 @@ impl<'g> Composite<'g> {
             unit[axis] = g.number(1.0);
             unit
         };
-        let turn = |axis: usize| Wrench {
-            moment: Vec3::from_fn(|i| self.inertia[i][axis]),
-            force: unit(axis).cross(self.first),
+        let turn = |axis: usize| {
+            let moment = Vec3::from_fn(|i| self.inertia[i][axis]);
+            let even = Wrench { moment, force: unit(axis).cross(self.first) };
+            self.with_uneven(even, [unit(axis), g.zero_vector()])
         };
-        let slide = |direction: Vec3<'g>| Wrench {
-            moment: self.first.cross(direction),
-            force: self.mass * direction,
+        let slide = |direction: Vec3<'g>| {
+            let even = Wrench { moment: self.first.cross(direction), force: self.mass * direction };
+            self.with_uneven(even, [g.zero_vector(), direction])
         };
         match freedom {
             Freedom::Rotation { advance, .. } => vec![turn(2) + slide(advance * unit(2))],

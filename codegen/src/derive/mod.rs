@@ -2,7 +2,7 @@
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
-//! `plan`, `rows`, `dynamics`, `solve`, then `entries`, which asks them for what each entry point returns.
+//! `plan`, `rows`, `dynamics`, `solve`, `forward`, then `entries`, which asks them for what each entry point returns.
 
 mod attachment;
 mod closure;
@@ -11,19 +11,25 @@ mod deformation;
 mod dynamics;
 mod element;
 mod elements;
+mod elimination_cost;
 mod entries;
+mod fields;
 mod formula_to_expr;
+mod forward;
 mod frame;
+mod frame_inertia;
 mod geometry;
 mod joint_coordinates;
 mod joint_markers;
 mod joint_rows;
 mod joint_state;
+mod kept_rows;
 mod kinematics;
 mod link_mass;
 mod linkage;
 mod linkage_build;
 mod loads;
+mod local_modes;
 mod log_closure;
 mod mass_matrix;
 mod mass_properties;

@@ -43,6 +43,15 @@ impl<'g> Motion<'g> {
         motion
     }
 
+    /// What changes of the speeds' derivatives change of all links' accelerations.
+    pub fn changed(&self, v_dot: &[Expr<'g>]) -> Vec<Acceleration<'g>> {
+        let Geometry { g, linkage, .. } = self.poses.geometry;
+        g.begin_section("accelerations of the links");
+        let still = vec![g.zero(); v_dot.len()];
+        let twists = vec![Twist::none(g); linkage.links.len()];
+        accelerations(&self.poses, &twists, (&still, v_dot), g.zero_vector())
+    }
+
     fn twist(&self, link: LinkIndex) -> Twist<'g> {
         link.map_or_else(|| Twist::none(self.ground.scope()), |at| self.twists[at])
     }

@@ -6,9 +6,9 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{
-    Forward, Problem, bias_forces, forward, kept_rows, kinetic_energy, weight_energy,
-};
+use crate::derive::dynamics::{bias_forces, kinetic_energy, weight_energy};
+use crate::derive::forward::{Forward, Problem, forward};
+use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;

@@ -1,0 +1,381 @@
+//! Forward dynamics, [CS (6)].
+//! In: link motion, loads, closure rows, [`Plan`]. Out: accelerations, multipliers, drive forces.
+//! Never knows entry points or columns.
+//!
+//! There are several ways to one solution. All are made, and the one of fewest operations is kept, so that no rule makes a
+//! mechanism dearer.
+
+use nalgebra::DMatrix;
+
+use crate::expr::{Expr, Scope};
+
+use super::dynamics::{BodyFields, bias_forces_by};
+use super::fields::Shapes;
+use super::kept_rows::{KeptRow, Partition};
+use super::link_mass::LinkMass;
+use super::loads::Loads;
+use super::local_modes::{LocalModes, local_modes};
+use super::mass_matrix::{Eliminated, reduced_mass_matrix};
+use super::motion::Motion;
+use super::plan::{Plan, PlanBlock};
+use super::rows::Block;
+use super::solve::{Order, Saddle, Solution, solve};
+
+/// Accelerations of free speeds, multipliers of `rows`, and drive forces.
+pub struct Forward<'g> {
+    pub solution: Solution<'g>,
+    /// Generalised force of every driver.
+    pub drive: Vec<Expr<'g>>,
+}
+
+/// Everything that forward dynamics is made of.
+pub struct Problem<'a, 'g> {
+    /// Motion with the accelerations of the driven speeds, and none of the free ones.
+    pub motion: &'a Motion<'g>,
+    /// All speeds.
+    pub v: &'a [Expr<'g>],
+    /// The accelerations that `motion` has.
+    pub rates: &'a [Expr<'g>],
+    pub masses: &'a [LinkMass<'g>],
+    pub loads: &'a Loads<'g>,
+    pub rows: &'a [KeptRow<'a, 'g>],
+    pub partition: &'a Partition,
+}
+
+/// A way to the solution.
+#[derive(Clone, Copy)]
+struct Way<'s, 'g> {
+    /// Bodies that are taken by the accelerations of their shape functions, by link; none if empty.
+    shapes: &'s [Option<Shapes<'g>>],
+    /// Modes that are eliminated in their body.
+    local: &'s [LocalModes],
+    /// Their accelerations come from their equations once more, else from what the frame's acceleration adds.
+    again: bool,
+    /// Of what the equations of motion are left with.
+    order: Order<'s>,
+}
+
+/// Motion with these accelerations, and the fields of the bodies that are taken by them.
+struct Moving<'a, 'g> {
+    motion: Motion<'g>,
+    fields: Vec<Option<BodyFields<'a, 'g>>>,
+}
+
+impl<'g> Problem<'_, 'g> {
+    /// Loop Jacobian by the free speeds.
+    pub fn jacobian(&self) -> Vec<Vec<Expr<'g>>> {
+        self.rows.iter().map(|row| self.pick(&row.jacobian)).collect()
+    }
+
+    fn pick(&self, row: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.partition.free.iter().map(|j| row[*j]).collect()
+    }
+
+    /// gamma at any state.
+    fn target(&self) -> Vec<Expr<'g>> {
+        self.rows.iter().map(|kept| -kept.row.bias.whole).collect()
+    }
+
+    /// Motion with these accelerations of the free speeds.
+    fn moving<'s>(&self, accelerations: &[Expr<'g>], shapes: &'s [Option<Shapes<'g>>]) -> Moving<'s, 'g> {
+        let mut rates = self.rates.to_vec();
+        for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
+            rates[*speed] = *acceleration;
+        }
+        let motion = self.motion.accelerated(self.v, &rates);
+        let links = self.motion.poses.geometry.linkage.links.iter().enumerate();
+        let fields = shapes.iter().zip(links).map(|(shapes, (at, link))| {
+            let shapes = shapes.as_ref()?;
+            self.motion.poses.geometry.g.begin_section(format!("accelerations in {}", link.name));
+            let fields =
+                shapes.fields(motion.accelerations[at].spin, motion.twists[at].omega, &motion.modes[at]);
+            Some(BodyFields { shapes, fields })
+        });
+        Moving { fields: fields.collect(), motion }
+    }
+
+    /// What all speeds feel at given accelerations.
+    fn felt(&self, moving: &Moving<'_, 'g>) -> Vec<Expr<'g>> {
+        bias_forces_by(&moving.motion, self.masses, self.loads, &moving.fields)
+    }
+
+    /// By the structured elimination of [`solve`] alone.
+    fn saddle(&self, way: Way<'_, 'g>) -> Forward<'g> {
+        let partition = self.partition;
+        let g = self.motion.poses.geometry.g;
+        let h = self.felt(&self.moving(&vec![g.zero(); partition.free.len()], way.shapes));
+        g.begin_section("mass matrix by composite bodies");
+        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &[]);
+        let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| self.pick(&mass[*i])).collect();
+        let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
+        let (jacobian, target) = (self.jacobian(), self.target());
+        let saddle = Saddle { mass: &block, jacobian: &jacobian, force: &force, target: &target };
+        let solution = solve(g, &saddle, way.order);
+        g.begin_section("drive forces");
+        let drive = partition
+            .driven
+            .iter()
+            .map(|d| {
+                let mut sum = h[*d];
+                for (entry, acceleration) in self.pick(&mass[*d]).into_iter().zip(&solution.accelerations) {
+                    sum += entry * *acceleration;
+                }
+                sum - self.of_loops(*d, &solution.multipliers)
+            })
+            .collect();
+        Forward { solution, drive }
+    }
+
+    /// What a speed feels of the loops.
+    fn of_loops(&self, speed: usize, multipliers: &[Expr<'g>]) -> Expr<'g> {
+        let g = self.motion.poses.geometry.g;
+        g.sum(self.rows.iter().zip(multipliers).map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
+    }
+
+    /// Rows first, by a plan: the blocks from the rows, the rest by [`solve`], then multipliers and drives from
+    /// inverse dynamics with all accelerations known.
+    fn rows_first(&self, plan: &Plan, way: Way<'_, 'g>) -> Forward<'g> {
+        let g = self.motion.poses.geometry.g;
+        let (jacobian, mut target) = (self.jacobian(), self.target());
+        for row in plan.blocks.iter().flat_map(|block| &block.rows) {
+            target[*row] = -self.rows[*row].row.bias.closed;
+        }
+        g.begin_section("accelerations that the loops fix");
+        let blocks: Vec<Block<'_, 'g>> =
+            plan.blocks.iter().map(|block| Block::new(g, block, &jacobian)).collect();
+        let zero = g.zero();
+        let mut accelerations = vec![zero; self.partition.free.len()];
+        let right = |accelerations: &[Expr<'g>], row: usize| {
+            let known = jacobian[row].iter().zip(accelerations);
+            known.fold(target[row], |sum, (entry, acceleration)| sum - *entry * *acceleration)
+        };
+        for block in &blocks {
+            let rights: Vec<Expr<'g>> =
+                block.plan.rows.iter().map(|row| right(&accelerations, *row)).collect();
+            for (speed, acceleration) in block.plan.speeds.iter().zip(block.solve(&rights)) {
+                accelerations[*speed] = acceleration;
+            }
+        }
+        let (mut multipliers, mut pivots) = (vec![zero; self.rows.len()], vec![zero; self.rows.len()]);
+        let mut last = None;
+        if !plan.rest.speeds.is_empty() {
+            let rights: Vec<Expr<'g>> =
+                plan.rest.rows.iter().map(|row| right(&accelerations, *row)).collect();
+            let moving = self.with_local_modes(&mut accelerations, way);
+            let before = accelerations.clone();
+            let rest = self.rest(&plan.rest, &moving, way, &jacobian, &rights);
+            for (speed, acceleration) in rest.speeds.iter().zip(&rest.solution.accelerations) {
+                accelerations[*speed] = *acceleration;
+            }
+            let rows = plan.rest.rows.iter().zip(rest.solution.multipliers).zip(rest.solution.pivots);
+            for ((row, multiplier), pivot) in rows {
+                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
+            }
+            if way.again {
+                self.with_local_modes(&mut accelerations, way);
+            } else {
+                last = Some(self.followed(&mut accelerations, &before, moving, way));
+            }
+        }
+        // J^T lambda carries what inertia and loads leave over.
+        let felt = self.felt(&last.unwrap_or_else(|| self.moving(&accelerations, way.shapes)));
+        g.begin_section("multipliers");
+        for block in blocks.iter().rev() {
+            let rights: Vec<Expr<'g>> = block
+                .plan
+                .speeds
+                .iter()
+                .map(|speed| self.partition.free[*speed])
+                .map(|speed| felt[speed] - self.of_loops(speed, &multipliers))
+                .collect();
+            let pivot = block.pivot();
+            for (row, multiplier) in block.plan.rows.iter().zip(block.solve_transposed(&rights)) {
+                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
+            }
+        }
+        g.begin_section("drive forces");
+        let drive =
+            self.partition.driven.iter().map(|d| felt[*d] - self.of_loops(*d, &multipliers)).collect();
+        Forward { solution: Solution { accelerations, multipliers, pivots }, drive }
+    }
+
+    /// Puts in the accelerations that local modes have while all others are as they stand.
+    fn with_local_modes<'s>(
+        &self,
+        accelerations: &mut [Expr<'g>],
+        Way { shapes, local, .. }: Way<'s, 'g>,
+    ) -> Moving<'s, 'g> {
+        let g = self.motion.poses.geometry.g;
+        for speed in local.iter().flat_map(|body| &body.speeds) {
+            accelerations[*speed] = g.zero();
+        }
+        let moving = self.moving(accelerations, shapes);
+        if local.is_empty() {
+            return moving;
+        }
+        let felt = self.felt(&moving);
+        g.begin_section("accelerations of the modes");
+        for body in local {
+            let forces: Vec<Expr<'g>> =
+                body.speeds.iter().map(|speed| felt[self.partition.free[*speed]]).collect();
+            for (speed, row) in body.speeds.iter().zip(&body.reduced.inverse) {
+                accelerations[*speed] = -g.weighted(row.iter().copied(), &forces);
+            }
+        }
+        self.moving(accelerations, shapes)
+    }
+
+    /// What rows do not fix, local modes left out.
+    fn rest(
+        &self,
+        plan: &PlanBlock,
+        moving: &Moving<'_, 'g>,
+        Way { local, order, .. }: Way<'_, 'g>,
+        jacobian: &[Vec<Expr<'g>>],
+        rights: &[Expr<'g>],
+    ) -> Rest<'g> {
+        let g = self.motion.poses.geometry.g;
+        let is_local = |speed: &usize| local.iter().any(|body| body.speeds.contains(speed));
+        let speeds: Vec<usize> = plan.speeds.iter().copied().filter(|speed| !is_local(speed)).collect();
+        let h = self.felt(moving);
+        g.begin_section("mass matrix by composite bodies");
+        let eliminated: Vec<Eliminated<'g>> =
+            local.iter().map(|body| body.eliminated(g, &self.motion.modes[body.link].q)).collect();
+        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated);
+        let free = |speed: &usize| self.partition.free[*speed];
+        let of_rest = |row: &[Expr<'g>]| speeds.iter().map(|speed| row[*speed]).collect();
+        let block: Vec<Vec<Expr<'g>>> =
+            speeds.iter().map(|speed| of_rest(&self.pick(&mass[free(speed)]))).collect();
+        let entries: Vec<Vec<Expr<'g>>> = plan.rows.iter().map(|row| of_rest(&jacobian[*row])).collect();
+        let force: Vec<Expr<'g>> = speeds.iter().map(|speed| -h[free(speed)]).collect();
+        let of_plan = |list: &[Vec<bool>]| -> Vec<Vec<bool>> {
+            plan.rows.iter().map(|row| speeds.iter().map(|speed| list[*row][*speed]).collect()).collect()
+        };
+        let constant = if let Order::Cheapest(constant) = order { of_plan(constant) } else { Vec::new() };
+        let order = if let Order::Cheapest(_) = order { Order::Cheapest(&constant) } else { Order::Leaves };
+        let saddle = Saddle { mass: &block, jacobian: &entries, force: &force, target: rights };
+        let solution = solve(g, &saddle, order);
+        Rest { speeds, solution }
+    }
+
+    /// Local modes follow the change of their frames' accelerations since `before`, when the motion was `moving`.
+    fn followed<'s>(
+        &self,
+        accelerations: &mut [Expr<'g>],
+        before: &[Expr<'g>],
+        moving: Moving<'s, 'g>,
+        Way { shapes, local, .. }: Way<'s, 'g>,
+    ) -> Moving<'s, 'g> {
+        let g = self.motion.poses.geometry.g;
+        let mut change = vec![g.zero(); self.v.len()];
+        for (at, speed) in self.partition.free.iter().enumerate() {
+            change[*speed] = accelerations[at] - before[at];
+        }
+        let change = self.motion.changed(&change);
+        let mut followed = Vec::new();
+        for body in local {
+            g.begin_section("accelerations of the modes");
+            let moved = &change[body.link];
+            let columns = body.columns(&self.masses[body.link]);
+            let felt: Vec<Expr<'g>> =
+                columns.into_iter().map(|column| column.power(moved.alpha, moved.origin)).collect();
+            let own: Vec<Expr<'g>> =
+                body.reduced.inverse.iter().map(|row| -g.weighted(row.iter().copied(), &felt)).collect();
+            for (speed, own) in body.speeds.iter().zip(&own) {
+                accelerations[*speed] += *own;
+            }
+            if let Some(Some(by)) = moving.fields.get(body.link) {
+                followed.push((body.link, by.shapes.changed(&by.fields, moved.alpha, &own)));
+            }
+        }
+        let mut after = self.moving(accelerations, shapes);
+        for (link, changed) in followed {
+            if let Some(Some(by)) = after.fields.get_mut(link) {
+                by.fields = changed;
+            }
+        }
+        after
+    }
+}
+
+/// What is left to the equations of motion.
+struct Rest<'g> {
+    /// Speeds, by number among the free ones.
+    speeds: Vec<usize>,
+    solution: Solution<'g>,
+}
+
+impl<'g> Forward<'g> {
+    /// All that it consists of.
+    fn operations(&self, g: &'g Scope) -> usize {
+        let Solution { accelerations, multipliers, pivots } = &self.solution;
+        g.operations([accelerations, multipliers, pivots, &self.drive].into_iter().flatten().copied())
+    }
+}
+
+/// A pivot that other entries of its row exceed by more than this lets rounding grow.
+const SMALLEST_PIVOT: f64 = 0.1;
+
+/// More unknowns than this are eliminated from the leaves to the root: to look for a shorter order takes their cube.
+const MOST_TO_ORDER: usize = 60;
+
+/// By row and speed, whether the entry is among the largest of its row at all positions.
+fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<Vec<bool>> {
+    let large = |jacobian: &DMatrix<f64>, row: usize, speed: usize| {
+        jacobian[(row, speed)].abs() >= SMALLEST_PIVOT * jacobian.row(row).amax()
+    };
+    let always = |row: usize, speed: usize| jacobians.iter().all(|jacobian| large(jacobian, row, speed));
+    (0..rows).map(|row| (0..speeds).map(|speed| always(row, speed)).collect()).collect()
+}
+
+/// Forward dynamics by the way that takes the fewest operations, the first among equals: rows first where the loops fix
+/// accelerations, else, or where that is dearer, by elimination alone. Without `jacobians`, by elimination of everything.
+pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> Forward<'g> {
+    let (g, speeds) = (problem.motion.poses.geometry.g, problem.partition.free.len());
+    let pattern: Vec<Vec<bool>> = problem
+        .jacobian()
+        .into_iter()
+        .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
+        .collect();
+    let plain = Way { shapes: &[], local: &[], again: true, order: Order::Leaves };
+    let mut best = problem.saddle(plain);
+    if jacobians.is_empty() {
+        return best;
+    }
+    let plan = Plan::new(&pattern, speeds, jacobians);
+    let shapes: Vec<Option<Shapes<'g>>> = problem
+        .masses
+        .iter()
+        .map(|mass| mass.modal.as_ref().and_then(|modal| Shapes::new(modal.data)))
+        .collect();
+    let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
+    let constant = large_entries(problem.rows.len(), speeds, jacobians);
+    let mut orders = vec![Order::Leaves];
+    if plan.rest.speeds.len() + plan.rest.rows.len() <= MOST_TO_ORDER {
+        orders.push(Order::Cheapest(&constant));
+    }
+    let mut least = best.operations(g);
+    let mut offer = |next: Forward<'g>| {
+        let operations = next.operations(g);
+        if operations < least {
+            (best, least) = (next, operations);
+        }
+    };
+    let mut kinds = vec![&[][..]];
+    if shapes.iter().any(Option::is_some) {
+        kinds.push(&shapes[..]);
+    }
+    for (shapes, order) in kinds.iter().flat_map(|kind| orders.iter().map(move |order| (*kind, *order))) {
+        let way = Way { shapes, order, ..plain };
+        offer(problem.saddle(way));
+        if !plan.blocks.is_empty() {
+            offer(problem.rows_first(&plan, way));
+        }
+        if !local.is_empty() {
+            for again in [false, true] {
+                offer(problem.rows_first(&plan, Way { local: &local, again, ..way }));
+            }
+        }
+    }
+    best
+}
