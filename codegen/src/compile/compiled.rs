@@ -72,6 +72,9 @@ impl Compiled {
 
     /// How else the loops could close at the start.
     pub fn assemblies(&self) -> Assemblies {
+        if !preflight::are_looked_for(self.sizes) {
+            return Assemblies::default();
+        }
         preflight::assemblies(&self.description, &self.interpreter())
     }
 

@@ -7,11 +7,11 @@ use linkwear_runtime::Entry;
 
 use crate::backend::interp::Interpreted;
 use crate::derive::{self, Derived, Guide, Purpose};
-use crate::diagnostic::{Code, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::input::Reach;
 use crate::limits::{self, Limit};
 use crate::model::{self, Closure, Mechanism, Overrides, Topology};
-use crate::preflight::{self, Case, Findings, OwnUnits};
+use crate::preflight::{self, Case, Findings, OwnUnits, Waypoint};
 use crate::source::SourceFile;
 use crate::spec;
 use crate::tape;
@@ -74,14 +74,24 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         description: derived.description,
         sizes,
     };
-    let system = compiled.interpreter();
-    preflight::check_prescribed(source, &compiled.mechanism, &compiled.description, &system)?;
-    let start = preflight::check_start(source, &compiled.mechanism, &compiled.description, &system)?;
-    let near = start.map(|start| preflight::contacts_near_modes(&compiled.mechanism, start, &waypoints));
-    compiled.warnings.extend(near.unwrap_or_default());
+    let remarks = try_out(&compiled, &waypoints)?;
+    compiled.warnings.extend(remarks);
     let allowed = &compiled.mechanism.allowed;
     compiled.warnings.retain(|warning| !allowed.contains(&warning.code));
     Ok(compiled)
+}
+
+/// What a mechanism shows as it runs, with drivers and clearances.
+fn try_out(compiled: &Compiled, waypoints: &[Waypoint]) -> Result<Vec<Diagnostic>, Diagnostics> {
+    let Compiled { source, mechanism, description, .. } = compiled;
+    if description.drivers.is_empty() && description.contacts.is_empty() {
+        return Ok(Vec::new());
+    }
+    let system = compiled.interpreter();
+    preflight::check_prescribed(source, mechanism, description, &system)?;
+    let start = preflight::check_start(source, mechanism, description, &system)?;
+    let near = start.map(|start| preflight::contacts_near_modes(mechanism, start, waypoints));
+    Ok(near.unwrap_or_default())
 }
 
 fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkwear_runtime::{Description, Evaluator, Motion, System, assemble_with, close_loops};
+use linkwear_runtime::{Description, Evaluator, Motion, Sizes, System, assemble_with, close_loops};
 use nalgebra::DMatrix;
 
 use super::samples::random;
@@ -44,11 +44,15 @@ pub struct Assemblies {
     pub others: Vec<Vec<Coordinate>>,
 }
 
+/// Whether a mechanism of this size is tried.
+pub fn are_looked_for(sizes: Sizes) -> bool {
+    sizes.all_rows > 0 && sizes.all_speeds <= LARGEST
+}
+
 /// Looks for other branches; nothing for a mechanism without loops, too large, or whose start has none to choose.
 pub fn assemblies(description: &Description, system: &dyn System<f64>) -> Assemblies {
     let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
-    let sizes = system.sizes();
-    if sizes.all_rows == 0 || sizes.all_speeds > LARGEST {
+    if !are_looked_for(system.sizes()) {
         return Assemblies::default();
     }
     let search = Evaluator::new(system, description, &parameters).ok().and_then(Search::new);

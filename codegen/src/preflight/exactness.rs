@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
-use super::subspace::{least_norm, nearly_null_space, null_space, singular_values};
+use super::subspace::{least_norm, nearly_null_space, singular_values};
 
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
 pub const NEARLY: f64 = 1e-3;
@@ -20,6 +20,8 @@ const AWAY: f64 = 0.2;
 const WEAK: f64 = 0.1;
 /// ... as near as projection follows weak directions.
 const WEAKEST: f64 = 1e-4;
+/// Residuals that are below this even where they grow most are no opening, whatever the lever arms.
+const NOTHING: f64 = 1e-3 * CLOSED_AT_START;
 
 /// A row that opens along the motion.
 pub struct Opening {
@@ -34,7 +36,7 @@ pub fn opens(case: &Case<'_>, positions: &ClosedPositions, keep: &[bool]) -> Opt
     let walker = case.walker();
     let stuck = || {
         let start = &positions.positions[0];
-        let free = null_space(&start.jacobian.select_columns(&walker.joint_speeds)).ncols() > 0;
+        let free = start.freedoms(&walker.joint_speeds).ncols() > 0;
         let near = |position: &Position| distance(case, &start.q, &position.q) < AWAY * STEP;
         free && positions.positions.iter().all(near)
     };
@@ -52,8 +54,9 @@ pub fn opens(case: &Case<'_>, positions: &ClosedPositions, keep: &[bool]) -> Opt
 /// By how much the loops open where they would move, if lengths and axes were a little different: of a structure that is
 /// nearly none, or that would leave a `singular` start.
 pub fn nearly_moves(case: &Case<'_>, positions: &ClosedPositions, singular: bool) -> Option<Opening> {
-    let jacobian = positions.positions[0].jacobian.select_columns(&case.linkage.joint_speeds());
-    let more = nearly_null_space(&jacobian, NEARLY).ncols() > null_space(&jacobian).ncols();
+    let (start, joint_speeds) = (&positions.positions[0], case.linkage.joint_speeds());
+    let jacobian = start.jacobian.select_columns(&joint_speeds);
+    let more = nearly_null_space(&jacobian, NEARLY).ncols() > start.freedoms(&joint_speeds).ncols();
     if more || singular { beside(case, positions, ROUNDING..NEARLY) } else { None }
 }
 
@@ -102,11 +105,14 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
         .collect();
     let scaled = DMatrix::from_fn(rows.nrows(), rows.ncols(), |i, j| rows[(i, j)] / lengths[i]);
     let right = DVector::from_fn(kept.len(), |i, _| -residual[kept[i]] / lengths[i]);
+    let step = least_norm(&scaled, &right)?;
+    let opened = &residual + jacobian * step;
+    if residual.amax() + (&opened - &residual).amax() * (WEAK / WEAKEST) < NOTHING {
+        return Some(opened);
+    }
     let values = singular_values(&scaled);
     let [strongest, weakest] = [values.first(), values.last()].map(|value| value.copied().unwrap_or(0.0));
     let weak = weakest / strongest.max(f64::MIN_POSITIVE);
-    let step = least_norm(&scaled, &right)?;
-    let opened = &residual + jacobian * step;
     let growth = if weak < WEAK { (weak / WEAKEST).max(1.0) } else { 1.0 };
     // The least opening is that of the position; what the step adds grows.
     Some(&residual + (opened - &residual) * growth)

@@ -12,7 +12,6 @@ use crate::model::Closure;
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Position};
-use super::subspace::null_space;
 
 /// Shares of a unit motion below this are rest; rounding leaves 1e-12.
 const REST: f64 = 1e-7;
@@ -26,7 +25,7 @@ pub fn rigid_joints(case: &Case<'_>, positions: &ClosedPositions) -> Vec<JointId
     let mut moves = vec![false; case.system.sizes().all_speeds];
     let joint_speeds = case.linkage.joint_speeds();
     for position in &positions.positions {
-        let free = null_space(&position.jacobian.select_columns(&joint_speeds));
+        let free = position.freedoms(&joint_speeds);
         for (row, speed) in joint_speeds.iter().enumerate() {
             moves[*speed] |= free.row(row).amax() > REST;
         }
@@ -95,7 +94,7 @@ fn note_balls(
     if balls.iter().all(|ball| moves[ball.speeds.start]) {
         return;
     }
-    for amounts in null_space(&position.jacobian.select_columns(joint_speeds)).column_iter() {
+    for amounts in position.freedoms(joint_speeds).column_iter() {
         let v = case.speeds_of(joint_speeds, amounts.iter());
         let channels = case.observe(&position.q, &v, &vec![0.0; case.system.sizes().rows]);
         balls.iter().for_each(|ball| moves[ball.speeds.start] |= ball.turns(&channels));

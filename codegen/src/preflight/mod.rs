@@ -30,7 +30,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::Mechanism;
 
 pub use analysis::{Analysis, Redundant};
-pub use assemblies::{Assemblies, Coordinate, assemblies};
+pub use assemblies::{Assemblies, Coordinate, are_looked_for, assemblies};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
 pub use course::Waypoint;
@@ -84,7 +84,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
     let joint_speeds = case.linkage.joint_speeds();
     analysis.modes = analysis.speeds - joint_speeds.len();
-    analysis.mobility = joint_speeds.len() - Rows::of_speeds(&positions, &joint_speeds).rank();
+    let of_joints =
+        if analysis.modes == 0 { rows.rank() } else { Rows::of_speeds(&positions, &joint_speeds).rank() };
+    analysis.mobility = joint_speeds.len() - of_joints;
     for (info, _) in description.rows.iter().zip(&keep).filter(|(_, kept)| !**kept) {
         analysis.redundant.push(Redundant {
             joint: info.joint.to_string(),

@@ -1,10 +1,12 @@
 //! Generic rank of the constraint rows, a well-conditioned independent subset, drivers in conflict.
 //! In: Jacobians at closed positions. Out: which rows to keep. Never knows joints.
 
+use std::cell::OnceCell;
+
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::samples::ClosedPositions;
-use super::subspace::{RANK_TOLERANCE, rank, singular_values};
+use super::subspace::{RANK_TOLERANCE, Strength, rank, singular_values, strength};
 
 /// A start is singular below this share of the rank's weakest direction elsewhere. At a double root assembly ends within
 /// the square root of rounding, 1e-8; up to 1e-5 rad beside it a step of usual length goes wrong by tenths of a radian
@@ -15,6 +17,7 @@ const SINGULAR: f64 = 1e-4;
 pub struct Rows {
     samples: Vec<DMatrix<f64>>,
     driven: Vec<usize>,
+    strengths: OnceCell<Vec<Strength>>,
 }
 
 impl Rows {
@@ -34,7 +37,7 @@ impl Rows {
                 sample.row_mut(row).scale_mut(scale);
             }
         }
-        Self { samples, driven }
+        Self { samples, driven, strengths: OnceCell::new() }
     }
 
     /// The rows by some speeds only.
@@ -46,9 +49,13 @@ impl Rows {
         chosen
     }
 
+    fn strengths(&self) -> &[Strength] {
+        self.strengths.get_or_init(|| self.samples.iter().map(strength).collect())
+    }
+
     /// Generic rank.
     pub fn rank(&self) -> usize {
-        self.samples.iter().map(rank).max().unwrap_or(0)
+        self.strengths().iter().map(|strength| strength.rank).max().unwrap_or(0)
     }
 
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
@@ -83,21 +90,20 @@ impl Rows {
 
     /// Positions where the rank is highest.
     fn generic_samples(&self) -> Vec<usize> {
-        let ranks: Vec<usize> = self.samples.iter().map(rank).collect();
-        let highest = ranks.iter().copied().max().unwrap_or(0);
-        (0..ranks.len()).filter(|at| ranks[*at] == highest).collect()
+        let (strengths, highest) = (self.strengths(), self.rank());
+        (0..strengths.len()).filter(|at| strengths[*at].rank == highest).collect()
     }
 
     /// What the start lacks of the rank that other positions have: that of the rows, or of the rows together with what
     /// moves each of these speeds.
     pub fn lost_at_start(&self, held: &[usize]) -> Option<Lost> {
-        if singular_start(&self.samples) {
+        if singular_start(&self.samples, self.strengths()) {
             return Some(Lost::Rows);
         }
         let alone = |speed: usize| {
             let with: Vec<_> =
                 self.samples.iter().map(|sample| stack(sample, &units(sample.ncols(), &[speed]))).collect();
-            singular_start(&with)
+            singular_start(&with, &with.iter().map(strength).collect::<Vec<_>>())
         };
         let lost: Vec<usize> = (0..held.len()).filter(|at| alone(held[*at])).collect();
         (!lost.is_empty()).then_some(Lost::Held(lost))
@@ -106,6 +112,9 @@ impl Rows {
     /// Groups of drivers that the loops couple, each as small as one driver that breaks independence together
     /// with those it depends on.
     pub fn driver_conflicts(&self) -> Vec<Vec<usize>> {
+        if self.driven.is_empty() {
+            return Vec::new();
+        }
         // A driver at its dead point is coupled with nothing elsewhere.
         let with_drivers =
             |at: &usize| rank(&stack(&self.samples[*at], &units(self.samples[*at].ncols(), &self.driven)));
@@ -152,14 +161,26 @@ pub enum Lost {
 
 /// Whether the first of the matrices has a lower rank than others. Their weakest direction is compared, because
 /// what is weak everywhere is no singular position.
-fn singular_start(samples: &[DMatrix<f64>]) -> bool {
-    let rank = samples.iter().map(rank).max().unwrap_or(0);
+fn singular_start(samples: &[DMatrix<f64>], strengths: &[Strength]) -> bool {
+    let rank = strengths.iter().map(|strength| strength.rank).max().unwrap_or(0);
     if rank == 0 {
+        return false;
+    }
+    if clearly_regular(strengths, rank) {
         return false;
     }
     let weakest = |matrix: &DMatrix<f64>| singular_values(matrix)[rank - 1];
     let best = samples.iter().map(weakest).fold(0.0, f64::max);
     weakest(&samples[0]) < SINGULAR * best
+}
+
+/// Whether bounds of the weakest directions tell that the first is none of a singular position. Where the rank is lower,
+/// the direction in question is none.
+fn clearly_regular(strengths: &[Strength], rank: usize) -> bool {
+    let mut full = strengths.iter().filter(|strength| strength.rank == rank);
+    let best = full.try_fold(0.0_f64, |best, strength| Some(best.max(strength.weakest?.1)));
+    let (Some(first), Some(best)) = (strengths.first(), best) else { return false };
+    first.rank == rank && first.weakest.is_some_and(|(least, _)| least > SINGULAR * best)
 }
 
 /// A row for each of the speeds, that this one moves.
@@ -181,11 +202,8 @@ mod tests {
     #[test]
     fn a_row_of_rounding_errors_is_dropped() {
         let sample = |noise: f64| DMatrix::from_row_slice(2, 2, &[1.0, 2.0, noise, 3.0 * noise]);
-        let positions = [1e-16, -2e-16].map(|noise| Position {
-            q: Vec::new(),
-            jacobian: sample(noise),
-            mass: DMatrix::identity(2, 2),
-        });
+        let positions =
+            [1e-16, -2e-16].map(|noise| Position::new(Vec::new(), sample(noise), DMatrix::identity(2, 2)));
         let rows = Rows::new(
             &ClosedPositions { positions: positions.to_vec(), arm: 1.0, open: Vec::new() },
             vec![1],
@@ -197,7 +215,7 @@ mod tests {
     #[test]
     fn a_row_that_repeats_another_is_dropped_and_the_first_kept() {
         let sample = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0]);
-        let rows = Rows { samples: vec![sample], driven: vec![2] };
+        let rows = Rows { samples: vec![sample], driven: vec![2], strengths: OnceCell::new() };
         assert_eq!(rows.independent().iter().filter(|kept| **kept).count(), 2);
         // The third speed is held by the third row: driving it is a conflict of one.
         assert_eq!(rows.driver_conflicts(), vec![vec![0]]);

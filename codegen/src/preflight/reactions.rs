@@ -31,7 +31,7 @@ pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
         let own = |index: usize, values: &[f64]| values[index] / case.units.channels[index];
         // As large as the loads, for it must stand out of their rounding.
         let size = wrenches.iter().map(|i| own(*i, &unloaded).abs()).fold(1.0, f64::max);
-        for stress in mixtures(&null_space(&position.jacobian.transpose()), &mut generator) {
+        for stress in mixtures(&SelfStresses::new(&position.jacobian), &mut generator) {
             // A row in metres has a force as its multiplier, a row in radians a moment.
             let multipliers = stress.iter().zip(&case.units.rows);
             let multipliers: Vec<f64> =
@@ -46,13 +46,45 @@ pub fn non_unique(case: &Case<'_>, positions: &ClosedPositions) -> Vec<String> {
     names.filter(|(_, touched)| *touched).map(|(channel, _)| channel.name.to_string()).collect()
 }
 
-/// Unit stresses: all of them if they are few, else mixtures of all.
-fn mixtures(stresses: &DMatrix<f64>, generator: &mut u64) -> Vec<DVector<f64>> {
-    let count = stresses.ncols();
-    if count <= MIXTURES {
-        return stresses.column_iter().map(|stress| stress.into_owned()).collect();
+/// What can press the loops against themselves in a position.
+struct SelfStresses {
+    /// Rows that forbid nothing, as a planar mechanism's out of its plane: each alone is a self-stress.
+    idle: Vec<usize>,
+    /// The other rows, ...
+    rows: Vec<usize>,
+    /// ... and their self-stresses as columns.
+    among: DMatrix<f64>,
+}
+
+impl SelfStresses {
+    fn new(jacobian: &DMatrix<f64>) -> Self {
+        let says = |row: &usize| jacobian.row(*row).iter().any(|value| *value != 0.0);
+        let (rows, idle): (Vec<usize>, Vec<usize>) = (0..jacobian.nrows()).partition(says);
+        let among = null_space(&jacobian.select_rows(&rows).transpose());
+        Self { idle, rows, among }
     }
-    (0..MIXTURES).map(|_| stresses * DVector::from_fn(count, |_, _| random(generator))).collect()
+
+    fn count(&self) -> usize {
+        self.idle.len() + self.among.ncols()
+    }
+
+    /// These amounts of all.
+    fn mixed(&self, amount: &mut dyn FnMut(usize) -> f64) -> DVector<f64> {
+        let mut stress = DVector::zeros(self.idle.len() + self.rows.len());
+        let among = &self.among * DVector::from_fn(self.among.ncols(), |i, _| amount(i));
+        self.rows.iter().zip(among.iter()).for_each(|(row, part)| stress[*row] = *part);
+        self.idle.iter().enumerate().for_each(|(i, row)| stress[*row] = amount(self.among.ncols() + i));
+        stress
+    }
+}
+
+/// Unit stresses: all of them if they are few, else mixtures of all.
+fn mixtures(stresses: &SelfStresses, generator: &mut u64) -> Vec<DVector<f64>> {
+    let count = stresses.count();
+    if count <= MIXTURES {
+        return (0..count).map(|one| stresses.mixed(&mut |at| f64::from(u8::from(at == one)))).collect();
+    }
+    (0..MIXTURES).map(|_| stresses.mixed(&mut |_| random(generator))).collect()
 }
 
 fn is_wrench(name: &str) -> bool {

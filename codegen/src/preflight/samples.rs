@@ -1,6 +1,8 @@
 //! Closed positions of a mechanism without drivers, found by walking along its freedoms.
 //! In: the interpreter. Out: positions with their Jacobians. Never knows why they are wanted.
 
+use std::cell::OnceCell;
+
 use linkwear_runtime::{
     AssemblyError, CLOSED_AT_START, Description, Entry, Evaluator, Layout, System, assemble_with,
 };
@@ -35,6 +37,20 @@ pub struct Position {
     pub jacobian: DMatrix<f64>,
     /// Mass matrix of all speeds, in own units but for a common factor.
     pub mass: DMatrix<f64>,
+    freedoms: OnceCell<DMatrix<f64>>,
+}
+
+impl Position {
+    /// A position with what was evaluated there.
+    pub fn new(q: Vec<f64>, jacobian: DMatrix<f64>, mass: DMatrix<f64>) -> Self {
+        Self { q, jacobian, mass, freedoms: OnceCell::new() }
+    }
+
+    /// Motions of the joints that the loops allow, as columns; found once, so that the speeds of the joints have to be the same
+    /// in every call.
+    pub fn freedoms(&self, joint_speeds: &[usize]) -> &DMatrix<f64> {
+        self.freedoms.get_or_init(|| null_space(&self.jacobian.select_columns(joint_speeds)))
+    }
 }
 
 /// Closed positions, the assembled start first.
@@ -132,20 +148,20 @@ impl Walker<'_> {
 
     fn position(&self, q: Vec<f64>) -> Position {
         let (_, jacobian, mass) = self.equations(&q);
-        Position { q, jacobian, mass }
+        Position::new(q, jacobian, mass)
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
     fn step(&self, from: &Position, last: &mut Option<DVector<f64>>, generator: &mut u64) -> Option<Ended> {
-        let free = null_space(&from.jacobian.select_columns(&self.joint_speeds));
+        let free = from.freedoms(&self.joint_speeds);
         if free.ncols() == 0 {
             return None;
         }
         // Go on where the last step went as far as the loops let it, with some random motion mixed in.
         let weights = DVector::from_fn(free.ncols(), |_, _| random(generator));
-        let mut direction = &free * weights;
+        let mut direction = free * weights;
         if let Some(last) = last {
-            let onwards = &free * (free.transpose() * &*last);
+            let onwards = free * (free.transpose() * &*last);
             let size = direction.norm().max(f64::MIN_POSITIVE);
             direction =
                 onwards + direction * (0.3 * last.norm() / size) * f64::from(u8::from(free.ncols() > 1));
@@ -170,7 +186,7 @@ impl Walker<'_> {
             let size = phi.amax();
             let stalled = iteration == ITERATIONS && size > STALLED * before;
             if size < CLOSED || (stalled && size < CLOSED_AT_START) {
-                return Some(Ended::Closed(Position { q, jacobian, mass }));
+                return Some(Ended::Closed(Position::new(q, jacobian, mass)));
             }
             if iteration == ITERATIONS {
                 return stalled.then_some(Ended::Open(phi));

@@ -22,14 +22,36 @@ const CLEARLY_NOTHING: f64 = 1e-12;
 /// Tolerances that the two bounds leave no doubt about.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-11..=1e-3;
 
-/// Rank of a matrix.
-pub fn rank(matrix: &DMatrix<f64>) -> usize {
+/// The weakest singular value of the rank is below its last pivot by this factor at most; see [`CLEARLY_THERE`].
+const BELOW_PIVOT: f64 = 10.0;
+
+/// Rank of a matrix, and bounds of the weakest singular value of that rank.
+#[derive(Clone, Copy, Debug)]
+pub struct Strength {
+    /// Rank.
+    pub rank: usize,
+    /// The weakest singular value lies between these; nothing where pivots leave doubt.
+    pub weakest: Option<(f64, f64)>,
+}
+
+/// How strongly the rows of a matrix hold.
+pub fn strength(matrix: &DMatrix<f64>) -> Strength {
     if let Some(factor) = Factor::new(matrix, RANK_TOLERANCE) {
-        return factor.rank;
+        let weakest = factor.rank.checked_sub(1).map(|last| {
+            let pivot = factor.triangle[(last, last)].abs();
+            // What follows in its line of the triangle is no larger: one number a row at most.
+            (pivot / BELOW_PIVOT, pivot * (factor.rows.len() as f64).sqrt())
+        });
+        return Strength { rank: factor.rank, weakest };
     }
     let values = singular_values(matrix);
     let largest = values.iter().copied().fold(0.0, f64::max);
-    values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count()
+    Strength { rank: values.iter().filter(|value| **value > RANK_TOLERANCE * largest).count(), weakest: None }
+}
+
+/// Rank of a matrix.
+pub fn rank(matrix: &DMatrix<f64>) -> usize {
+    strength(matrix).rank
 }
 
 /// The largest first, as many as the shorter side is long.
