@@ -89,6 +89,10 @@ impl Drop for Held {
 
 /// Work shorter than this shows nothing.
 const QUIET: Duration = Duration::from_millis(500);
+/// The clock is looked at about so often: steps of a run are much shorter.
+const LOOK: Duration = Duration::from_millis(5);
+/// Calls without a look at the clock, at most.
+const MOST_CALLS: u32 = 16;
 /// Plain lines are no closer than this.
 const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
@@ -108,6 +112,10 @@ struct Progress {
     bar: Option<ProgressBar>,
     start: Instant,
     last_line: Instant,
+    last_look: Instant,
+    /// Calls without a look at the clock, and how many of them are left.
+    calls: u32,
+    left: u32,
 }
 
 impl Progress {
@@ -119,12 +127,20 @@ impl Progress {
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left  (Ctrl-C stops)");
             bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Self { bar, start: now, last_line: now }
+        Self { bar, start: now, last_line: now, last_look: now, calls: 0, left: 0 }
     }
 
     /// Shows how far it is, `fraction` in 0..1.
     fn set(&mut self, fraction: f64) {
-        if self.start.elapsed() < QUIET {
+        if self.left > 0 {
+            self.left -= 1;
+            return;
+        }
+        let now = Instant::now();
+        let seldom = now.duration_since(self.last_look) >= LOOK;
+        self.calls = if seldom { self.calls / 2 } else { (2 * self.calls + 1).min(MOST_CALLS) };
+        (self.last_look, self.left) = (now, self.calls);
+        if now.duration_since(self.start) < QUIET {
             return;
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 1000")]

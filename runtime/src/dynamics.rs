@@ -233,7 +233,7 @@ impl<'a> Dynamics<'a> {
 /// Keeps the largest value of each.
 fn note_pivots(pivots: &[f64], largest_pivots: &mut [f64]) {
     for (pivot, most) in pivots.iter().zip(largest_pivots) {
-        if pivot.is_finite() && *pivot > *most {
+        if *pivot > *most && pivot.is_finite() {
             *most = *pivot;
         }
     }
@@ -244,11 +244,13 @@ fn regularity(pivots: &[f64], largest_pivots: &[f64]) -> f64 {
     let noise = NOISE_PIVOT * largest(largest_pivots);
     let mut smallest = 1.0;
     for (pivot, most) in pivots.iter().zip(largest_pivots) {
-        if *pivot <= noise || pivot.is_nan() {
+        if *pivot > noise {
+            if *pivot < smallest * most {
+                smallest = pivot / most;
+            }
+        } else {
             // A pivot that is not a positive number counts as lost rank.
             smallest = 0.0;
-        } else if *pivot < smallest * most {
-            smallest = pivot / most;
         }
     }
     smallest

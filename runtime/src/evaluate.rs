@@ -191,10 +191,18 @@ impl<'a> Evaluator<'a> {
             let drives = self.derivative.forward().drives;
             self.questions.ask(Entry::Rates, t, &[q, v, drives]);
         }
-        self.derivative.rates().unwrap_or_else(|| {
-            let (coordinates, powers) = self.questions.last(Entry::Rates).split_at(self.sizes.coordinates);
-            Rates { coordinates, supplied: powers[0], dissipated: powers[1] }
-        })
+        let n = self.sizes.coordinates;
+        let (coordinates, [supplied, dissipated]) = self.derivative.rates().unwrap_or_else(|| {
+            let (coordinates, powers) = self.questions.last(Entry::Rates).split_at(n);
+            (coordinates, [powers[0], powers[1]])
+        });
+        Rates { coordinates: &coordinates[..n], supplied, dissipated }
+    }
+
+    /// Rates of the coordinates, then accelerations; power supplied and dissipated: at the state of the last forward dynamics,
+    /// unless other forces were put in their place.
+    pub(crate) fn last_derivative(&self) -> Option<(&[f64], [f64; 2])> {
+        self.derivative.rates()
     }
 
     /// Residuals of the loops and their Jacobian.

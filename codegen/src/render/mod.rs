@@ -7,6 +7,8 @@ mod formula;
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 
+use linkwear_runtime::Entry;
+
 use crate::derive::{Block, Equations, Function};
 use crate::expr::{ExprId, Graph, Node};
 use crate::tape::{Operations, Tape, unshared_operations};
@@ -57,11 +59,16 @@ pub fn is_meant(function: &str, output: &str, name: &str) -> bool {
 /// Formulas longer than this become a named step.
 const LONG: usize = 48;
 
-/// Writes the chosen outputs (all if `only` is empty).
+/// Entries that answer what others do, for machines: not written unless they are asked for by name.
+const REPEATING: [Entry; 2] = [Entry::Accelerations, Entry::Derivative];
+
+/// Writes the chosen outputs (if `only` is empty, all that do not repeat others).
 pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: TextFormat) -> String {
     let costs = outputs(equations, tapes);
     let mut text = String::new();
-    for function in &equations.functions {
+    let repeating = |function: &Function| REPEATING.iter().any(|entry| entry.name() == function.name);
+    let asked = |function: &Function| only.iter().any(|name| name.split('.').next() == Some(&function.name));
+    for function in equations.functions.iter().filter(|function| !repeating(function) || asked(function)) {
         let chosen: Vec<&Block> = function
             .outputs
             .iter()

@@ -162,6 +162,7 @@ impl Clearance {
     ///
     /// Stiffness and area go by the clearance plus the mean of the profile, which stays the same through a
     /// run: a stiffness that changed along the way would not give back the energy it took.
+    #[inline]
     pub fn evaluate(
         &self,
         motion: &[f64],
@@ -209,6 +210,7 @@ impl Clearance {
         touch
     }
 
+    #[inline]
     fn finish(&self, touch: &mut ContactState) {
         let depth = touch.penetration();
         let law = &self.laws.normal;

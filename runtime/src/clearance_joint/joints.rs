@@ -35,6 +35,8 @@ pub struct Clearances {
     states: Vec<ClearanceState>,
     contacts: Vec<ContactState>,
     wrenches: Vec<f64>,
+    /// Whether the states changed since the last evaluation.
+    changed: bool,
 }
 
 impl Clearances {
@@ -52,6 +54,7 @@ impl Clearances {
             states: vec![ClearanceState::unworn(); joints.len()],
             contacts: vec![ContactState::default(); joints.len()],
             wrenches: vec![0.0; CONTACT_WRENCH * joints.len()],
+            changed: true,
             joints,
         })
     }
@@ -73,6 +76,7 @@ impl Clearances {
 
     /// The same, to restore it or to change wear. As many as joints.
     pub fn states_mut(&mut self) -> &mut [ClearanceState] {
+        self.changed = true;
         &mut self.states
     }
 
@@ -99,8 +103,14 @@ impl Clearances {
         self.joints[index].distance(round, profile, direction, penetration)
     }
 
+    /// Whether the laws would answer otherwise to the motions of the last evaluation.
+    pub(crate) fn has_changed(&self) -> bool {
+        self.changed
+    }
+
     /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
     pub fn evaluate(&mut self, motions: &[f64]) {
+        self.changed = false;
         let each = self.joints.iter().zip(&self.states).zip(&mut self.contacts);
         for (((joint, state), touch), motion) in each.zip(motions.chunks_exact(CONTACT_MOTION)) {
             *touch = joint.evaluate(motion, state.worn, state.profile.as_ref(), &state.memory);
@@ -116,7 +126,9 @@ impl Clearances {
         for ((state, before), now) in self.states.iter_mut().zip(before).zip(&self.contacts) {
             let at = |touch: &ContactState| (touch.penetration(), touch.penetration_rate);
             let speed = crossing_speed(at(before), at(now));
-            state.memory = state.memory.updated(now.penetration(), speed);
+            let memory = state.memory.updated(now.penetration(), speed);
+            self.changed |= memory != state.memory;
+            state.memory = memory;
         }
     }
 
@@ -124,6 +136,7 @@ impl Clearances {
     pub fn close(&mut self, index: usize) {
         let speed = self.contacts[index].penetration_rate.max(0.0);
         self.states[index].memory = ImpactMemory::in_contact(speed);
+        self.changed = true;
     }
 
     /// Memories of contacts that nobody has followed so far: those that touch take their present rate.
@@ -131,5 +144,6 @@ impl Clearances {
         for (state, now) in self.states.iter_mut().zip(&self.contacts) {
             state.memory = ImpactMemory::apart().updated(now.penetration(), now.penetration_rate);
         }
+        self.changed = true;
     }
 }

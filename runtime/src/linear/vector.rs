@@ -23,7 +23,13 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 
 /// Largest magnitude; NaN if any entry is not a number.
 pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() + 0.0 * most })
+    // What is not a number stays: it is in the second term from there on.
+    let larger = |most: f64, x: f64| if x.abs() <= most { most } else { x.abs() + 0.0 * most };
+    let (blocks, rest) = values.as_chunks::<4>();
+    let most = blocks
+        .iter()
+        .fold([0.0; 4], |most: [f64; 4], block| [0, 1, 2, 3].map(|lane| larger(most[lane], block[lane])));
+    most.iter().chain(rest).fold(0.0, |most, x| larger(most, *x))
 }
 
 /// Whether all are numbers, and none is infinite.

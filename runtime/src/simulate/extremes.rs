@@ -43,7 +43,10 @@ pub(super) struct Collector {
     start: f64,
     span: f64,
     last: Option<(f64, Vec<f64>)>,
-    columns: Vec<Extremes>,
+    low: Vec<At>,
+    high: Vec<At>,
+    /// Of every piece, the smallest and the largest values of all columns.
+    pieces: Vec<[Vec<f64>; 2]>,
     peaks: Vec<(Peak, [Option<[usize; 3]>; 2])>,
 }
 
@@ -60,16 +63,16 @@ impl Collector {
             let places = ["F", "M"].map(|load| vector(&format!("{joint}.{load}")));
             (Peak { joint: joint.to_owned(), force: At::default(), moment: At::default() }, places)
         };
-        let nothing = Extremes {
-            low: At { value: f64::INFINITY, t: start },
-            high: At { value: f64::NEG_INFINITY, t: start },
-            envelope: vec![(f64::INFINITY, f64::NEG_INFINITY); ENVELOPE_PIECES],
-        };
+        let count = channels.len();
+        let none = |value: f64| vec![At { value, t: start }; count];
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(|value| vec![value; count]);
         Self {
             start,
             span: end - start,
             last: None,
-            columns: vec![nothing; channels.len()],
+            low: none(f64::INFINITY),
+            high: none(f64::NEG_INFINITY),
+            pieces: vec![nothing; ENVELOPE_PIECES],
             peaks: joints.map(peak).collect(),
         }
     }
@@ -79,13 +82,14 @@ impl Collector {
         if t < self.start {
             return;
         }
-        for (column, value) in self.columns.iter_mut().zip(values) {
-            let now = At { value: *value, t };
-            if now.value < column.low.value {
-                column.low = now;
+        for (low, value) in self.low.iter_mut().zip(values) {
+            if *value < low.value {
+                *low = At { value: *value, t };
             }
-            if now.value > column.high.value {
-                column.high = now;
+        }
+        for (high, value) in self.high.iter_mut().zip(values) {
+            if *value > high.value {
+                *high = At { value: *value, t };
             }
         }
         for (peak, places) in &mut self.peaks {
@@ -111,18 +115,15 @@ impl Collector {
     fn note_envelopes(&mut self, t: f64, values: &[f64]) {
         let place = |t: f64| (t - self.start) / self.span * ENVELOPE_PIECES as f64;
         let (to, now) = (place(t), self.piece(t));
-        for (column, value) in self.columns.iter_mut().zip(values) {
-            include(&mut column.envelope[now], *value);
-        }
+        include(&mut self.pieces[now], values);
         let Some((before, last)) = &self.last else { return };
         let (from, first) = (place(*before), self.piece(*before));
         for border in first + 1..=now {
             let part = (border as f64 - from) / (to - from);
-            for ((column, value), last) in self.columns.iter_mut().zip(values).zip(last) {
-                let value = last + part * (value - last);
-                include(&mut column.envelope[border - 1], value);
-                include(&mut column.envelope[border], value);
-            }
+            let at_border: Vec<f64> =
+                last.iter().zip(values).map(|(last, value)| last + part * (value - last)).collect();
+            include(&mut self.pieces[border - 1], &at_border);
+            include(&mut self.pieces[border], &at_border);
         }
     }
 
@@ -133,16 +134,25 @@ impl Collector {
 
     /// What was collected, if the run got to its start.
     pub(super) fn finish(self) -> (Vec<Extremes>, Vec<Peak>) {
-        match self.last {
-            Some(_) => (self.columns, self.peaks.into_iter().map(|(peak, _)| peak).collect()),
-            None => Default::default(),
+        if self.last.is_none() {
+            return Default::default();
         }
+        let envelope = |column: usize| {
+            self.pieces.iter().map(|[low, high]| (low[column], high[column])).collect::<Vec<_>>()
+        };
+        let ends = self.low.iter().zip(&self.high).enumerate();
+        let columns =
+            ends.map(|(column, (low, high))| Extremes { low: *low, high: *high, envelope: envelope(column) });
+        (columns.collect(), self.peaks.into_iter().map(|(peak, _)| peak).collect())
     }
 }
 
-fn include((low, high): &mut (f64, f64), value: f64) {
-    *low = low.min(value);
-    *high = high.max(value);
+/// Takes the values of all columns into their ranges.
+fn include([low, high]: &mut [Vec<f64>; 2], values: &[f64]) {
+    for ((low, high), value) in low.iter_mut().zip(high).zip(values) {
+        *low = if *value < *low { *value } else { *low };
+        *high = if *value > *high { *value } else { *high };
+    }
 }
 
 #[cfg(test)]

@@ -259,19 +259,29 @@ impl<'a> ConstrainedMotion<'a> {
         let rates = self.dynamics.evaluator.rates(t, q, v);
         coordinates.copy_from_slice(rates.coordinates);
         (powers[0], powers[1]) = (rates.supplied, rates.dissipated);
+        self.contact_powers(&mut powers[2..]);
+    }
+
+    fn contact_powers(&self, powers: &mut [f64]) {
         let touches = self.dynamics.evaluator.clearances().contacts();
-        for (powers, touch) in powers[2..].chunks_exact_mut(TOTALS).zip(touches) {
-            powers.copy_from_slice(&[touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss]);
+        for (powers, touch) in powers.as_chunks_mut::<TOTALS>().0.iter_mut().zip(touches) {
+            *powers = [touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss];
         }
     }
 
     /// Writes rates of coordinates, accelerations of the last forward dynamics, and powers.
     fn write_derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
-        let (q, v, _) = self.split(y);
-        let accelerations = self.dynamics.evaluator.last_forward().accelerations;
-        derivative[self.coordinates..][..self.speeds].copy_from_slice(accelerations);
-        let (coordinates, work) = derivative.split_at_mut(self.first_integral());
-        self.powers(t, q, v, &mut coordinates[..self.coordinates], work);
+        let (state, work) = derivative.split_at_mut(self.first_integral());
+        if let Some((rates, powers)) = self.dynamics.evaluator.last_derivative() {
+            state.copy_from_slice(rates);
+            work[..2].copy_from_slice(&powers);
+            self.contact_powers(&mut work[2..]);
+        } else {
+            let (q, v, _) = self.split(y);
+            let (coordinates, accelerations) = state.split_at_mut(self.coordinates);
+            accelerations.copy_from_slice(self.dynamics.evaluator.last_forward().accelerations);
+            self.powers(t, q, v, coordinates, work);
+        }
         if is_finite(work) {
             Ok(())
         } else {
