@@ -157,7 +157,7 @@ fn random_state(compiled: &Compiled, system: &Interpreted, random: &mut Random) 
         q[*first..first + 4].iter_mut().for_each(|x| *x /= norm);
     }
     let motion = evaluate(system, Entry::Contacts, &[&[0.0][..], &q, &vec![0.0; sizes.speeds]].concat());
-    assert_eq!(motion.len(), CONTACT_MOTION);
+    assert_eq!(motion.len(), CONTACT_MOTION + sizes.held);
     (q, [motion[0], motion[1], motion[2]])
 }
 

@@ -102,7 +102,7 @@ impl<'a> Dynamics<'a> {
 
     /// Sees how regular a state is; no part of what a run costs.
     pub(crate) fn see_nearness(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        let pivots = self.evaluator.forward(t, q, v).pivots;
+        let pivots = self.evaluator.pivots(t, q, v);
         note_pivots(pivots, &mut self.largest_pivots);
         self.nearness = regularity(pivots, &self.largest_pivots);
     }
@@ -212,10 +212,10 @@ impl<'a> Dynamics<'a> {
     }
 
     fn check(&self, t: f64) -> Result<(), RunError> {
-        let Forward { accelerations, multipliers, drives, .. } = self.evaluator.last_forward();
-        if [accelerations, multipliers, drives].into_iter().all(is_finite) {
+        if is_finite(self.evaluator.last_solution()) {
             return Ok(());
         }
+        let Forward { accelerations, multipliers, drives, .. } = self.evaluator.last_forward();
         let description = self.evaluator.description();
         let bad = |values: &[f64]| values.iter().position(|x| !x.is_finite());
         let what = if let Some(i) = bad(accelerations) {

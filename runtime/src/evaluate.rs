@@ -144,9 +144,19 @@ impl<'a> Evaluator<'a> {
     /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state. Asked again
     /// for the same state, as by a step that begins where one was looked at, it has the answer.
     pub fn forward(&mut self, t: f64, q: &[f64], v: &[f64]) -> Forward<'_> {
+        self.evaluate(t, q, v);
+        self.derivative.forward()
+    }
+
+    /// As [`Self::forward`]; the pivots alone.
+    pub(crate) fn pivots(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
+        self.evaluate(t, q, v);
+        self.derivative.pivots()
+    }
+
+    fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.multipliers.fill(0.0);
         self.derivative.evaluate(&mut self.questions, &mut self.clearances, (t, q, v));
-        self.derivative.forward()
     }
 
     /// Accelerations and pivots alone, with the forces of the contacts at this state. Leaves the forward dynamics as it is.
@@ -170,6 +180,11 @@ impl<'a> Evaluator<'a> {
     /// The last answer of [`Self::forward`] or the numbers put in its place.
     pub fn last_forward(&self) -> Forward<'_> {
         self.derivative.forward()
+    }
+
+    /// Accelerations, multipliers and drive forces of [`Self::last_forward`], one behind the other.
+    pub(crate) fn last_solution(&self) -> &[f64] {
+        self.derivative.solution()
     }
 
     /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.

@@ -123,11 +123,14 @@ impl Layout {
     pub fn expand(&self, state: (&[f64], &[f64]), prescribed: &[f64], all: (&mut [f64], &mut [f64])) {
         let ((q, v), (all_q, all_v)) = (state, all);
         for group in &self.groups {
-            let (coordinates, speeds) = group.motion.lengths();
-            if let Some(driver) = group.motion.driver() {
-                all_q[group.all_coordinate] = prescribed[3 * driver];
-                all_v[group.all_speed] = prescribed[3 * driver + 1];
+            if let Motion::Scalar { driver } = group.motion {
+                let (position, speed) = match driver {
+                    Some(driver) => (prescribed[3 * driver], prescribed[3 * driver + 1]),
+                    None => (q[group.coordinate], v[group.speed]),
+                };
+                (all_q[group.all_coordinate], all_v[group.all_speed]) = (position, speed);
             } else {
+                let (coordinates, speeds) = group.motion.lengths();
                 all_q[group.all_coordinate..][..coordinates]
                     .copy_from_slice(&q[group.coordinate..][..coordinates]);
                 all_v[group.all_speed..][..speeds].copy_from_slice(&v[group.speed..][..speeds]);

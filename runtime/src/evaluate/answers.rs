@@ -67,6 +67,23 @@ pub struct Equations<'a> {
 }
 
 impl Equations<'_> {
+    /// Writes the forces of inertia `M a`, for the accelerations `a` of all speeds.
+    pub fn inertia(&self, accelerations: &[f64], forces: &mut [f64]) {
+        forces.fill(0.0);
+        let mut rows = self.mass;
+        for i in 0..forces.len() {
+            let (row, below) = rows.split_at(forces.len() - i);
+            rows = below;
+            let (acceleration, mut force) = (accelerations[i], row[0] * accelerations[i]);
+            let (entries, later) = (&row[1..], &accelerations[i + 1..]);
+            for ((entry, other), carried) in entries.iter().zip(later).zip(&mut forces[i + 1..]) {
+                force += entry * other;
+                *carried += entry * acceleration;
+            }
+            forces[i] += force;
+        }
+    }
+
     /// Writes the full mass matrix, row major, `n` x `n`.
     pub fn unpack_mass(&self, n: usize, full: &mut [f64]) {
         let mut packed = self.mass.iter();

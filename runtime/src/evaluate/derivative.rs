@@ -5,6 +5,7 @@
 use super::answers::Forward;
 use super::questions::Questions;
 use crate::clearance_joint::Clearances;
+use crate::linear::same_bits;
 use crate::system::{CONTACT_MOTION, Entry, Sizes};
 
 /// The last answer of [`Entry::Derivative`] with its input.
@@ -60,7 +61,7 @@ impl Derivative {
         }
         clearances.evaluate(&contacts[..CONTACT_MOTION * self.sizes.contacts]);
         // What contacts remember, and how far they are worn, changes at the same state.
-        self.has_answer = self.has_answer && same(wrenches, clearances.wrenches());
+        self.has_answer = self.has_answer && same_bits(wrenches, clearances.wrenches());
         wrenches.copy_from_slice(clearances.wrenches());
     }
 
@@ -88,7 +89,7 @@ impl Derivative {
         let known = self.has_contacts || self.has_answer;
         known && state[0].to_bits() == t.to_bits() && {
             let (coordinates, speeds) = state[1..].split_at(q.len());
-            same(coordinates, q) && same(speeds, v)
+            same_bits(coordinates, q) && same_bits(speeds, v)
         }
     }
 
@@ -109,7 +110,19 @@ impl Derivative {
         Forward { accelerations, multipliers, drives, pivots: &rest[..self.sizes.rows] }
     }
 
-    /// The same, to be written to: it is then no answer of the system any more.
+    /// Accelerations, multipliers and drive forces, one behind the other.
+    pub(super) fn solution(&self) -> &[f64] {
+        let Sizes { coordinates, speeds, rows, drivers, .. } = self.sizes;
+        &self.output[coordinates..coordinates + speeds + rows + drivers]
+    }
+
+    /// Loop pivots.
+    pub(super) fn pivots(&self) -> &[f64] {
+        let Sizes { coordinates, speeds, rows, drivers, .. } = self.sizes;
+        &self.output[coordinates + speeds + rows + drivers..][..rows]
+    }
+
+    /// All of it, to be written to: it is then no answer of the system any more.
     pub(super) fn forward_mut(&mut self) -> &mut [f64] {
         self.has_answer = false;
         &mut self.output[self.sizes.coordinates..][..self.sizes.output(Entry::ForwardDynamics)]
@@ -122,11 +135,4 @@ impl Derivative {
         self.has_answer
             .then(|| (state, [self.output[self.output.len() - 2], self.output[self.output.len() - 1]]))
     }
-}
-
-/// Whether all numbers agree in every bit.
-fn same(a: &[f64], b: &[f64]) -> bool {
-    // Without a way out before the end compilers take several at once.
-    a.len() == b.len()
-        && a.iter().zip(b).fold(0, |differs, (a, b)| differs | (a.to_bits() ^ b.to_bits())) == 0
 }

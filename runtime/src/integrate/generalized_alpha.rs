@@ -9,7 +9,7 @@
 
 use crate::error::RunError;
 use crate::evaluate::Evaluator;
-use crate::linear::{Lu, Orthogonal, add_scaled, dot, largest};
+use crate::linear::{Lu, Orthogonal, add_scaled, is_finite, largest};
 
 const MAX_ITERATIONS: u32 = 40;
 /// Corrections no smaller than this part of the one before: the Newton matrix is out of date.
@@ -86,7 +86,6 @@ struct Trial {
     all_v: Vec<f64>,
     all_a: Vec<f64>,
     balance: Vec<f64>,
-    mass: Vec<f64>,
     free: Vec<usize>,
     driven: Vec<usize>,
 }
@@ -111,7 +110,6 @@ impl GeneralizedAlpha {
             all_v: vec![0.0; all],
             all_a: vec![0.0; all],
             balance: vec![0.0; all],
-            mass: vec![0.0; all * all],
             free,
             driven,
         };
@@ -187,7 +185,7 @@ impl GeneralizedAlpha {
             self.iterations += 1;
             self.evaluate(evaluator, t + h, h);
             core::mem::swap(&mut self.residual, &mut self.shifted);
-            if self.shifted.iter().any(|x| !x.is_finite()) {
+            if !is_finite(&self.shifted) {
                 return Err(RunError::NonFinite { t: t + h, what: "the equations of motion".to_owned() });
             }
             if self.factored_step != h {
@@ -196,7 +194,11 @@ impl GeneralizedAlpha {
             }
             let size = self.correct();
             let rounding = 2.0 * f64::EPSILON * largest(&self.now.q).max(1.0);
-            if size <= rounding || (size > 0.5 * before && size < ROUNDING) {
+            // What a steady rate leaves behind is a geometric series; a tenth of rounding is nothing.
+            let rate = if before.is_finite() { size / before } else { 1.0 };
+            let left = size * rate / (1.0 - rate);
+            let converged = size <= rounding || (rate < SLOW && left <= 0.1 * rounding);
+            if converged || (size > 0.5 * before && size < ROUNDING) {
                 return self.accept(evaluator, t + h, h);
             }
             if size > SLOW * before && !fresh {
@@ -232,8 +234,9 @@ impl GeneralizedAlpha {
         let (n, m) = (self.x.len(), self.scaled_multipliers.len());
         let (now, next, trial) = (&self.now, &mut self.next, &mut self.trial);
         let all = trial.all_a.len();
+        let scale = h * h * beta;
         for i in 0..n {
-            next.a[i] = (self.x[i] - h * now.v[i] - h * h * (0.5 - beta) * now.a[i]) / (h * h * beta);
+            next.a[i] = (self.x[i] - h * now.v[i] - h * h * (0.5 - beta) * now.a[i]) / scale;
             next.v[i] = now.v[i] + h * ((1.0 - gamma) * now.a[i] + gamma * next.a[i]);
             next.v_dot[i] =
                 ((1.0 - alpha_m) * next.a[i] + alpha_m * now.a[i] - alpha_f * now.v_dot[i]) / (1.0 - alpha_f);
@@ -249,9 +252,9 @@ impl GeneralizedAlpha {
         }
         evaluator.evaluate_contacts(t, &next.q, &next.v);
         let equations = evaluator.equations(t, &trial.all_q, &trial.all_v);
-        equations.unpack_mass(all, &mut trial.mass);
-        for (i, balance) in trial.balance.iter_mut().enumerate() {
-            *balance = h * h * (dot(&trial.mass[i * all..][..all], &trial.all_a) + equations.bias[i]);
+        equations.inertia(&trial.all_a, &mut trial.balance);
+        for (balance, bias) in trial.balance.iter_mut().zip(equations.bias) {
+            *balance = h * h * (*balance + bias);
         }
         for (k, index) in self.kept.iter().enumerate() {
             let row = &equations.jacobian[index * all..][..all];

@@ -23,17 +23,48 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 
 /// Largest magnitude; NaN if any entry is not a number.
 pub fn largest(values: &[f64]) -> f64 {
-    // What is not a number stays: it is in the second term from there on.
-    let larger = |most: f64, x: f64| if x.abs() <= most { most } else { x.abs() + 0.0 * most };
-    let (blocks, rest) = values.as_chunks::<4>();
-    let most = blocks
-        .iter()
-        .fold([0.0; 4], |most: [f64; 4], block| [0, 1, 2, 3].map(|lane| larger(most[lane], block[lane])));
-    most.iter().chain(rest).fold(0.0, |most, x| larger(most, *x))
+    // Magnitudes are ordered as their bits are, and what is not a number is above all: no branches.
+    f64::from_bits(values.iter().fold(0, |most, x| most.max(x.abs().to_bits())))
 }
 
 /// Whether all are numbers, and none is infinite.
 pub fn is_finite(values: &[f64]) -> bool {
-    // Without a way out before the end compilers take several at once.
-    values.iter().fold(true, |all, x| all & (x.abs() < f64::INFINITY))
+    largest(values).is_finite()
+}
+
+/// Whether both have the same bits throughout.
+pub fn same_bits(a: &[f64], b: &[f64]) -> bool {
+    let differ =
+        |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0, |bits, (a, b)| bits | (a.to_bits() ^ b.to_bits()));
+    let (a_blocks, a_rest) = a.as_chunks::<4>();
+    let (b_blocks, b_rest) = b.as_chunks::<4>();
+    let blocks = a_blocks.iter().zip(b_blocks).all(|(a, b)| differ(a, b) == 0);
+    a.len() == b.len() && blocks && differ(a_rest, b_rest) == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_a_number_is_the_largest() {
+        assert_eq!(largest(&[1.0, -3.0, 2.0]), 3.0);
+        assert_eq!(largest(&[]), 0.0);
+        assert!(largest(&[1.0, f64::NAN, f64::INFINITY]).is_nan());
+        assert!(
+            is_finite(&[f64::MAX, -0.0]) && !is_finite(&[0.0, f64::NEG_INFINITY]) && !is_finite(&[-f64::NAN])
+        );
+    }
+
+    #[test]
+    fn bits_are_compared_to_the_last_entry() {
+        let values = [1.0, 2.0, 3.0, 4.0, 0.0];
+        let mut other = values;
+        assert!(same_bits(&values, &other) && !same_bits(&values, &values[..4]));
+        other[4] = -0.0;
+        assert!(!same_bits(&values, &other));
+        other = values;
+        other[1] = 2.0 + 4.0 * f64::EPSILON;
+        assert!(!same_bits(&values, &other));
+    }
 }

@@ -36,6 +36,8 @@ pub(super) struct Guard {
     /// Largest speed of any coordinate so far, and of those that turn.
     fastest: f64,
     fastest_turning: f64,
+    /// Places of the free speeds that turn.
+    turning: Vec<usize>,
     /// Largest part of the energy so far [J].
     energy: f64,
     next_balance: f64,
@@ -47,7 +49,9 @@ impl Guard {
     /// Begins at a state, for a run from `begin` to `end` [s].
     pub(super) fn new(motion: &mut ConstrainedMotion<'_>, (begin, end): (f64, f64), state: &[f64]) -> Self {
         let span = end - begin;
+        let speeds = motion.dynamics.evaluator.description().speeds.iter().enumerate();
         let mut guard = Self {
+            turning: speeds.filter(|(_, info)| turns(&info.unit)).map(|(place, _)| place).collect(),
             end,
             span,
             fastest: 0.0,
@@ -113,9 +117,10 @@ impl Guard {
     fn note_speeds(&mut self, motion: &ConstrainedMotion<'_>, state: &[f64]) {
         let (_, v, _) = motion.split(state);
         self.fastest = self.fastest.max(largest(v));
-        for (speed, info) in v.iter().zip(&*motion.dynamics.evaluator.description().speeds) {
-            if speed.abs() > self.fastest_turning && turns(&info.unit) {
-                self.fastest_turning = speed.abs();
+        for place in &self.turning {
+            let speed = v[*place].abs();
+            if speed > self.fastest_turning {
+                self.fastest_turning = speed;
             }
         }
     }
