@@ -25,6 +25,47 @@ pub struct BodyFields<'a, 'g> {
     pub fields: Fields<'g>,
 }
 
+/// Shape functions of every flexible body that has such, by link; nothing if none has.
+pub fn shapes_of<'g>(masses: &[LinkMass<'g>]) -> Vec<Option<Shapes<'g>>> {
+    let of_link = |mass: &LinkMass<'g>| mass.modal.as_ref().and_then(|modal| Shapes::new(modal.data));
+    let shapes: Vec<_> = masses.iter().map(of_link).collect();
+    if shapes.iter().all(Option::is_none) { Vec::new() } else { shapes }
+}
+
+/// Fields of the bodies with `shapes` in a motion.
+pub fn fields_of<'s, 'g>(
+    motion: &Motion<'g>,
+    shapes: &'s [Option<Shapes<'g>>],
+) -> Vec<Option<BodyFields<'s, 'g>>> {
+    let Geometry { g, linkage, .. } = motion.poses.geometry;
+    let links = shapes.iter().zip(&linkage.links).enumerate();
+    let fields = links.map(|(at, (shapes, link))| {
+        let shapes = shapes.as_ref()?;
+        g.begin_section(format!("accelerations in {}", link.name));
+        let fields = shapes.fields(motion.accelerations[at].spin, motion.twists[at].omega, &motion.modes[at]);
+        Some(BodyFields { shapes, fields })
+    });
+    fields.collect()
+}
+
+/// The [`bias_forces`] given, or those by fields, if they take fewer operations `beside` what is computed anyway.
+pub fn shorter_bias_forces<'g>(
+    whole: Vec<Expr<'g>>,
+    beside: &[Expr<'g>],
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    loads: &Loads<'g>,
+) -> Vec<Expr<'g>> {
+    let g = motion.poses.geometry.g;
+    let shapes = shapes_of(masses);
+    if shapes.is_empty() {
+        return whole;
+    }
+    let by_fields = bias_forces_by(motion, masses, loads, &fields_of(motion, &shapes));
+    let operations = |forces: &[Expr<'g>]| g.operations(forces.iter().chain(beside).copied());
+    if operations(&by_fields) < operations(&whole) { by_fields } else { whole }
+}
+
 /// Inertial wrench of a link about its origin, in its frame.
 fn inertial_wrench<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
     let rigid = rigid_wrench(&masses[at].rigid, &motion.accelerations[at]);

@@ -2,19 +2,16 @@
 //! In: link motion, loads, closure rows, [`Plan`]. Out: accelerations, multipliers, drive forces.
 //! Never knows entry points or columns.
 //!
-//! There are several ways to one solution. All are made, and the one of fewest operations is kept, so that no rule makes a
-//! mechanism dearer.
-
-use nalgebra::DMatrix;
+//! There are several ways to one solution, of which `shortest_way` chooses.
 
 use crate::expr::{Expr, Scope};
 
-use super::dynamics::{BodyFields, bias_forces_by};
+use super::dynamics::{BodyFields, bias_forces_by, fields_of};
 use super::fields::Shapes;
 use super::kept_rows::{KeptRow, Partition};
 use super::link_mass::LinkMass;
 use super::loads::Loads;
-use super::local_modes::{LocalModes, local_modes};
+use super::local_modes::LocalModes;
 use super::mass_matrix::{Eliminated, reduced_mass_matrix};
 use super::motion::Motion;
 use super::plan::{Plan, PlanBlock};
@@ -44,15 +41,17 @@ pub struct Problem<'a, 'g> {
 
 /// A way to the solution.
 #[derive(Clone, Copy)]
-struct Way<'s, 'g> {
+pub struct Way<'s, 'g> {
+    /// What the rows fix comes from them.
+    pub rows_first: bool,
     /// Bodies that are taken by the accelerations of their shape functions, by link; none if empty.
-    shapes: &'s [Option<Shapes<'g>>],
+    pub shapes: &'s [Option<Shapes<'g>>],
     /// Modes that are eliminated in their body.
-    local: &'s [LocalModes],
+    pub local: &'s [LocalModes],
     /// Their accelerations come from their equations once more, else from what the frame's acceleration adds.
-    again: bool,
+    pub again: bool,
     /// Of what the equations of motion are left with.
-    order: Order<'s>,
+    pub order: Order<'s>,
 }
 
 /// Motion with these accelerations, and the fields of the bodies that are taken by them.
@@ -83,20 +82,17 @@ impl<'g> Problem<'_, 'g> {
             rates[*speed] = *acceleration;
         }
         let motion = self.motion.accelerated(self.v, &rates);
-        let links = self.motion.poses.geometry.linkage.links.iter().enumerate();
-        let fields = shapes.iter().zip(links).map(|(shapes, (at, link))| {
-            let shapes = shapes.as_ref()?;
-            self.motion.poses.geometry.g.begin_section(format!("accelerations in {}", link.name));
-            let fields =
-                shapes.fields(motion.accelerations[at].spin, motion.twists[at].omega, &motion.modes[at]);
-            Some(BodyFields { shapes, fields })
-        });
-        Moving { fields: fields.collect(), motion }
+        Moving { fields: fields_of(&motion, shapes), motion }
     }
 
     /// What all speeds feel at given accelerations.
     fn felt(&self, moving: &Moving<'_, 'g>) -> Vec<Expr<'g>> {
         bias_forces_by(&moving.motion, self.masses, self.loads, &moving.fields)
+    }
+
+    /// The solution by one way.
+    pub fn by(&self, plan: &Plan, way: Way<'_, 'g>) -> Forward<'g> {
+        if way.rows_first { self.rows_first(plan, way) } else { self.saddle(way) }
     }
 
     /// By the structured elimination of [`solve`] alone.
@@ -251,8 +247,18 @@ impl<'g> Problem<'_, 'g> {
         let of_plan = |list: &[Vec<bool>]| -> Vec<Vec<bool>> {
             plan.rows.iter().map(|row| speeds.iter().map(|speed| list[*row][*speed]).collect()).collect()
         };
-        let constant = if let Order::Cheapest(constant) = order { of_plan(constant) } else { Vec::new() };
-        let order = if let Order::Cheapest(_) = order { Order::Cheapest(&constant) } else { Order::Leaves };
+        let constant;
+        let order = match order {
+            Order::Leaves => order,
+            Order::Cheapest(all) => {
+                constant = of_plan(all);
+                Order::Cheapest(&constant)
+            }
+            Order::PairsFirst(all) => {
+                constant = of_plan(all);
+                Order::PairsFirst(&constant)
+            }
+        };
         let saddle = Saddle { mass: &block, jacobian: &entries, force: &force, target: rights };
         let solution = solve(g, &saddle, order);
         Rest { speeds, solution }
@@ -306,76 +312,9 @@ struct Rest<'g> {
 }
 
 impl<'g> Forward<'g> {
-    /// All that it consists of.
-    fn operations(&self, g: &'g Scope) -> usize {
+    /// Of all that it consists of.
+    pub fn operations(&self, g: &'g Scope) -> usize {
         let Solution { accelerations, multipliers, pivots } = &self.solution;
         g.operations([accelerations, multipliers, pivots, &self.drive].into_iter().flatten().copied())
     }
-}
-
-/// A pivot that other entries of its row exceed by more than this lets rounding grow.
-const SMALLEST_PIVOT: f64 = 0.1;
-
-/// More unknowns than this are eliminated from the leaves to the root: to look for a shorter order takes their cube.
-const MOST_TO_ORDER: usize = 60;
-
-/// By row and speed, whether the entry is among the largest of its row at all positions.
-fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<Vec<bool>> {
-    let large = |jacobian: &DMatrix<f64>, row: usize, speed: usize| {
-        jacobian[(row, speed)].abs() >= SMALLEST_PIVOT * jacobian.row(row).amax()
-    };
-    let always = |row: usize, speed: usize| jacobians.iter().all(|jacobian| large(jacobian, row, speed));
-    (0..rows).map(|row| (0..speeds).map(|speed| always(row, speed)).collect()).collect()
-}
-
-/// Forward dynamics by the way that takes the fewest operations, the first among equals: rows first where the loops fix
-/// accelerations, else, or where that is dearer, by elimination alone. Without `jacobians`, by elimination of everything.
-pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> Forward<'g> {
-    let (g, speeds) = (problem.motion.poses.geometry.g, problem.partition.free.len());
-    let pattern: Vec<Vec<bool>> = problem
-        .jacobian()
-        .into_iter()
-        .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
-        .collect();
-    let plain = Way { shapes: &[], local: &[], again: true, order: Order::Leaves };
-    let mut best = problem.saddle(plain);
-    if jacobians.is_empty() {
-        return best;
-    }
-    let plan = Plan::new(&pattern, speeds, jacobians);
-    let shapes: Vec<Option<Shapes<'g>>> = problem
-        .masses
-        .iter()
-        .map(|mass| mass.modal.as_ref().and_then(|modal| Shapes::new(modal.data)))
-        .collect();
-    let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
-    let constant = large_entries(problem.rows.len(), speeds, jacobians);
-    let mut orders = vec![Order::Leaves];
-    if plan.rest.speeds.len() + plan.rest.rows.len() <= MOST_TO_ORDER {
-        orders.push(Order::Cheapest(&constant));
-    }
-    let mut least = best.operations(g);
-    let mut offer = |next: Forward<'g>| {
-        let operations = next.operations(g);
-        if operations < least {
-            (best, least) = (next, operations);
-        }
-    };
-    let mut kinds = vec![&[][..]];
-    if shapes.iter().any(Option::is_some) {
-        kinds.push(&shapes[..]);
-    }
-    for (shapes, order) in kinds.iter().flat_map(|kind| orders.iter().map(move |order| (*kind, *order))) {
-        let way = Way { shapes, order, ..plain };
-        offer(problem.saddle(way));
-        if !plan.blocks.is_empty() {
-            offer(problem.rows_first(&plan, way));
-        }
-        if !local.is_empty() {
-            for again in [false, true] {
-                offer(problem.rows_first(&plan, Way { local: &local, again, ..way }));
-            }
-        }
-    }
-    best
 }

@@ -2,7 +2,7 @@
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
-//! `plan`, `rows`, `dynamics`, `solve`, `forward`, then `entries`, which asks them for what each entry point returns.
+//! `plan`, `rows`, `dynamics`, `solve`, `forward`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
 
 mod attachment;
 mod closure;
@@ -40,6 +40,7 @@ mod relative_motion;
 mod rigid_part;
 mod row;
 mod rows;
+mod shortest_way;
 mod solve;
 mod start;
 #[cfg(test)]

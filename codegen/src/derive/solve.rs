@@ -18,7 +18,7 @@ pub struct Solution<'g> {
     pub accelerations: Vec<Expr<'g>>,
     /// Multipliers, one per row.
     pub multipliers: Vec<Expr<'g>>,
-    /// Diagonal of D for the loop rows, of pairs the square of the constant: positive in regular positions.
+    /// Diagonal of D for the loop rows, as if each had been eliminated alone: positive in regular positions.
     pub pivots: Vec<Expr<'g>>,
 }
 
@@ -29,6 +29,8 @@ pub enum Order<'a> {
     Leaves,
     /// What takes the fewest operations next; by row and speed, whether a constant may serve as pivot of both.
     Cheapest(&'a [Vec<bool>]),
+    /// The same, but pairs before all others.
+    PairsFirst(&'a [Vec<bool>]),
 }
 
 /// The equations: `mass` and `jacobian` are over the same speeds, ordered root to leaves.
@@ -72,13 +74,19 @@ pub fn solve<'g>(g: &'g Scope, saddle: &Saddle<'_, 'g>, order: Order<'_>) -> Sol
     for step in &system.steps {
         match *step {
             Step::Alone { at, .. } if at >= n => pivots[at - n] = -system.matrix[at][at],
-            Step::Pair { speed, row, .. } => pivots[row - n] = system.matrix[row][speed].square(),
+            // What the row's diagonal would be if the speed were eliminated alone: of the size of the others.
+            Step::Pair { speed, row, .. } => {
+                pivots[row - n] = system.matrix[row][speed].square() / system.matrix[speed][speed];
+            }
             Step::Alone { .. } => {}
         }
     }
     let multipliers = solution[n..].iter().map(|x| -*x).collect();
     Solution { accelerations: solution[..n].to_vec(), multipliers, pivots }
 }
+
+/// More than a pair costs among as many unknowns as are ordered by cost.
+const PAIRS_FIRST: usize = 1_000_000;
 
 /// What is eliminated next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -181,7 +189,8 @@ impl<'g> Elimination<'g> {
     fn next(&self, order: Order<'_>) -> Option<Pivot> {
         match order {
             Order::Leaves => self.least_fill(),
-            Order::Cheapest(constant) => self.cheapest(constant),
+            Order::Cheapest(constant) => self.cheapest(constant, 1),
+            Order::PairsFirst(constant) => self.cheapest(constant, PAIRS_FIRST),
         }
     }
 
@@ -192,7 +201,8 @@ impl<'g> Elimination<'g> {
     }
 
     /// What takes the fewest operations; the fewest neighbours, then the last among equals, which is nearest to the leaves.
-    fn cheapest(&self, constant: &[Vec<bool>]) -> Option<Pivot> {
+    /// The cost of pairs counts for one part in `share`.
+    fn cheapest(&self, constant: &[Vec<bool>], share: usize) -> Option<Pivot> {
         let costs = Costs::new(&self.matrix);
         let is_row = |k: usize| k >= self.speeds;
         let mut best: Option<(Key, Pivot)> = None;
@@ -216,7 +226,7 @@ impl<'g> Elimination<'g> {
                     let both = self.left.iter().copied().filter(|i| {
                         *i != k && *i != r && !(self.matrix[*i][k].is_zero() && self.matrix[*i][r].is_zero())
                     });
-                    offer(costs.pair(k, r, &both.collect::<Vec<_>>()), Pivot::Pair(k, r));
+                    offer(costs.pair(k, r, &both.collect::<Vec<_>>()) / share, Pivot::Pair(k, r));
                 }
             }
         }
@@ -279,7 +289,7 @@ mod tests {
         };
         let mut constant = vec![vec![false; n]; m];
         (constant[0][4], constant[1][3]) = (true, true);
-        for order in [Order::Leaves, Order::Cheapest(&constant), Order::Cheapest(&vec![vec![true; n]; m])] {
+        for order in [Order::Leaves, Order::Cheapest(&constant), Order::PairsFirst(&constant)] {
             let found = solve(&g, &saddle, order);
             let both = found.accelerations.iter().copied().chain(found.multipliers.iter().map(|x| -*x));
             for (found, expected) in both.zip(&expected) {

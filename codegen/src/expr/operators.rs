@@ -34,7 +34,7 @@ impl Expr<'_> {
                 return self.at(a);
             }
         }
-        self.ordered(Binary::Add, other)
+        self.turned_back(other, false).unwrap_or_else(|| self.ordered(Binary::Add, other))
     }
 
     fn positive_difference(self, other: Self) -> Self {
@@ -47,6 +47,9 @@ impl Expr<'_> {
             (_, Node::Binary(Binary::Add, b, a)) if a == self.id() => return -self.at(b),
             (Node::Binary(Binary::Sub, a, b), _) if a == other.id() => return -self.at(b),
             _ => {}
+        }
+        if let Some(left) = self.turned_back(other, true) {
+            return left;
         }
         match self.id().cmp(&other.id()) {
             std::cmp::Ordering::Equal => self.scope().zero(),

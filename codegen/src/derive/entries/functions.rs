@@ -6,13 +6,14 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{bias_forces, kinetic_energy, weight_energy};
-use crate::derive::forward::{Forward, Problem, forward};
+use crate::derive::dynamics::{bias_forces, kinetic_energy, shorter_bias_forces, weight_energy};
+use crate::derive::forward::{Forward, Problem};
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
+use crate::derive::shortest_way::forward;
 use crate::derive::start::{StartValues, start_values};
 use crate::derive::{Block, Function};
 use crate::expr::{Expr, Vec3};
@@ -239,6 +240,10 @@ impl<'g> Deriver<'g> {
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let rows = kept_rows(motion, &instant.cuts, &vec![true; self.keep.len()]);
         let jacobian = rows.iter().flat_map(|row| row.jacobian.iter().copied());
+        let of_rows = rows.iter().flat_map(|kept| [kept.row.residual, kept.row.bias.whole]);
+        let beside: Vec<Expr<'g>> =
+            mass.iter().flatten().copied().chain(jacobian.clone()).chain(of_rows).collect();
+        let h = shorter_bias_forces(h, &beside, motion, masses, &instant.loads);
         let outputs = vec![
             Block::vector("mass", (0..n).flat_map(|i| mass[i][i..].to_vec()))
                 .doc("Upper triangle of M, row by row [kg m², kg m, kg].")
