@@ -71,7 +71,7 @@ impl Equations {
     /// # Errors
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
-        let system = Native::new(&mechanism.tapes, mechanism.sizes())?;
+        let system = Native::new(mechanism.tapes(), mechanism.sizes())?;
         Ok(Self { name: "native", make: Box::new(move || Box::new(system.clone())), refusal: None })
     }
 

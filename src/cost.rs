@@ -50,7 +50,7 @@ pub struct EntryCost {
 /// Counts and measures every entry, the parameters at their values, all else at small numbers: no operation takes more or
 /// less time for other ones, but that library functions have a few cases.
 pub fn entry_costs(mechanism: &Compiled, options: &Options) -> Vec<EntryCost> {
-    let (tapes, sizes) = (&mechanism.tapes, mechanism.sizes());
+    let (tapes, sizes) = (mechanism.tapes(), mechanism.sizes());
     let interpreter = mechanism.interpreter();
     let native = Native::new(tapes, sizes).ok();
     let compiled = Equations::choose(mechanism, options, Backend::Compiled).ok();

@@ -66,7 +66,7 @@ impl Mechanism {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
         let equations = Equations::choose(&compiled, options, backend)?;
         let warnings = located_warnings(&compiled);
-        let origin = [source.sha256(), sha256(&compiled.tapes)];
+        let origin = [source.sha256(), sha256(&compiled.tapes())];
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 

@@ -53,7 +53,7 @@ fn compiled_and_interpreted_entries_agree_bit_for_bit() {
 
 /// Machine code; none on processors that it is not written for.
 fn native(compiled: &Compiled) -> Option<Native> {
-    match Native::new(&compiled.tapes, compiled.sizes()) {
+    match Native::new(compiled.tapes(), compiled.sizes()) {
         Err(Refusal::Processor { .. }) => None,
         written => Some(written.expect("shipped mechanisms are written")),
     }
@@ -84,7 +84,7 @@ fn native_and_interpreted_entries_agree_bit_for_bit() {
 fn lanes_agree<const N: usize>() {
     for shipped in all() {
         let compiled = compiled(shipped.name);
-        let lanes = match Lanes::<N>::new(&compiled.tapes, compiled.sizes()) {
+        let lanes = match Lanes::<N>::new(compiled.tapes(), compiled.sizes()) {
             Err(Refusal::Processor { .. }) => return,
             written => written.expect("shipped mechanisms are written"),
         };

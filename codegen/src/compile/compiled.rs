@@ -1,7 +1,9 @@
 //! A mechanism, understood, and what can be asked of it.
 //! In: what the stages made. Out: [`Compiled`]. Never knows in which order they ran.
 
-use linkwear_runtime::{Description, Sizes};
+use std::sync::OnceLock;
+
+use linkwear_runtime::{Description, Entry, Sizes};
 
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
@@ -30,9 +32,10 @@ pub struct Compiled {
     pub warnings: Vec<Diagnostic>,
     /// Symbolic equations.
     pub equations: Equations,
-    /// One tape per function.
-    pub tapes: Vec<Tape>,
+    /// One tape per function, once somebody asks: half of the work on a large mechanism, which a check does not need.
+    pub(super) tapes: OnceLock<Vec<Tape>>,
     pub(super) description: Description,
+    /// Without what tapes hold between two calls.
     pub(super) sizes: Sizes,
 }
 
@@ -50,6 +53,11 @@ pub struct FunctionCount {
 }
 
 impl Compiled {
+    /// One tape per function, in as few operations as are found.
+    pub fn tapes(&self) -> &[Tape] {
+        self.tapes.get_or_init(|| tape::lower_short(&self.equations))
+    }
+
     /// Names, units, rows and channels.
     pub fn description(&self) -> &Description {
         &self.description
@@ -61,13 +69,14 @@ impl Compiled {
     }
 
     /// Lengths of inputs and outputs; each back end has a workspace of its own.
-    pub const fn sizes(&self) -> Sizes {
-        self.sizes
+    pub fn sizes(&self) -> Sizes {
+        let held = self.tapes()[Entry::Contacts as usize].output_len() - self.sizes.output(Entry::Contacts);
+        Sizes { held, ..self.sizes }
     }
 
     /// The mechanism as a runtime system, without a compiler.
     pub fn interpreter(&self) -> Interpreted {
-        Interpreted::new(&self.tapes, self.sizes, self.description.clone())
+        Interpreted::new(self.tapes(), self.sizes(), self.description.clone())
     }
 
     /// How else the loops could close at the start.
@@ -80,7 +89,7 @@ impl Compiled {
 
     /// Operations, statements and parts of every entry point.
     pub fn operations(&self) -> Vec<FunctionCount> {
-        self.tapes
+        self.tapes()
             .iter()
             .map(|tape| FunctionCount {
                 name: tape.name.clone(),
@@ -93,12 +102,12 @@ impl Compiled {
 
     /// All outputs with their costs before and after sharing.
     pub fn outputs(&self) -> Vec<OutputInfo> {
-        render::outputs(&self.equations, &self.tapes)
+        render::outputs(&self.equations, self.tapes())
     }
 
     /// The equations for people; all outputs if `only` is empty.
     pub fn equations_text(&self, only: &[String], format: TextFormat) -> String {
-        render::render(&self.equations, &self.tapes, only, format)
+        render::render(&self.equations, self.tapes(), only, format)
     }
 
     /// The specialised source, for inclusion as the contents of a module.
@@ -111,9 +120,9 @@ impl Compiled {
         emit(&EmitInput {
             source_name: &self.file_name(),
             source_sha256: &self.source.sha256(),
-            tapes: &self.tapes,
+            tapes: self.tapes(),
             description: &self.description,
-            sizes: self.sizes,
+            sizes: self.sizes(),
             runtime_path,
         })
     }

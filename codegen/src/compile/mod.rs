@@ -3,7 +3,7 @@
 
 mod compiled;
 
-use linkwear_runtime::Entry;
+use std::sync::OnceLock;
 
 use crate::backend::interp::Interpreted;
 use crate::derive::{self, Derived, Guide, Purpose};
@@ -59,9 +59,6 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     }
     warnings.extend(remarks);
     let derived = derived(source, &mechanism, &topology, Some(&guide), Purpose::Everything)?;
-    let tapes = tape::lower_short(&derived.equations);
-    let mut sizes = derived.sizes;
-    sizes.held = tapes[Entry::Contacts as usize].output_len() - sizes.output(Entry::Contacts);
     let mut compiled = Compiled {
         source: source.clone(),
         mechanism,
@@ -70,9 +67,9 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         analysis,
         warnings,
         equations: derived.equations,
-        tapes,
+        tapes: OnceLock::new(),
         description: derived.description,
-        sizes,
+        sizes: derived.sizes,
     };
     let remarks = try_out(&compiled, &waypoints)?;
     compiled.warnings.extend(remarks);
