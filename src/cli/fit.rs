@@ -92,6 +92,9 @@ fn cure(error: FitError) -> &'static str {
         FitError::NoScatter => {
             "no process is needed for wear that follows a line; if the gauge rounds, give its step by --resolution"
         }
+        FitError::ScatterBelowGauge => {
+            "read a finer gauge, or at longer intervals; no process is needed for wear that follows a line"
+        }
         FitError::BadResolution => "correct --resolution and --gauge",
         FitError::LargeError => "give a --resolution of a tenth of --gauge: a finer one is lost in the error",
         FitError::TooManyWindows { .. } => "fit fewer units, or every tenth reading of each",

@@ -9,6 +9,11 @@ pub enum FitError {
     /// Wear is an exact function of Lambda: alpha has no finite maximum.
     #[error("wear follows Lambda without any scatter, so alpha has no finite estimate")]
     NoScatter,
+    /// Less scatter than a gauge that rounds can tell from none.
+    #[error(
+        "the gauge rounds so coarsely that wear cannot be told from wear without scatter, so alpha has no finite estimate"
+    )]
+    ScatterBelowGauge,
     /// Newton's method has not found a maximum.
     #[error("the likelihood has no maximum inside; a parameter runs off, perhaps the exponent")]
     NotConverged,

@@ -71,6 +71,9 @@ pub fn maximise(
         if done {
             return Ok((phi, here));
         }
+        if model.has_no_scatter(&phi, increments) {
+            return Err(FitError::ScatterBelowGauge);
+        }
     }
     Err(FitError::NotConverged)
 }

@@ -5,7 +5,7 @@
 //! u_k = phi_k + power_k ln dLambda, with ln dLambda = ln(to^c - from^c) + sum b ln(covariate): the derivatives in phi follow
 //! from those in u.
 
-use super::rounded::{Laws, ln_likelihood};
+use super::rounded::{Laws, least_variance, ln_likelihood};
 use crate::data::{Increment, Rounding};
 use crate::process::{Gamma, Process, Term};
 
@@ -130,6 +130,14 @@ impl Model {
             }
         }
         point
+    }
+
+    /// Whether increments scatter by less than a gauge's readings tell: the likelihood has no maximum there, and its values get
+    /// dearer with every step towards no scatter.
+    pub fn has_no_scatter(&self, phi: &[f64], increments: &[Increment]) -> bool {
+        let Some(rounding) = self.resolution else { return false };
+        let least = least_variance(rounding);
+        increments.iter().all(|one| self.process.variance(self.logs(phi, one)) < least)
     }
 
     /// Value, gradient and information, but for a parameter that is held: its entries may be 0.

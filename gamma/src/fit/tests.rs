@@ -4,7 +4,7 @@ use super::bootstrap::draw;
 use super::estimate::estimate_increments;
 use super::maximise::maximise;
 use super::*;
-use crate::data::{Gauge, Observations, Reading, Rounding};
+use crate::data::{Gauge, Increment, Observations, Reading, Rounding};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
 const GAAS: &str = include_str!("../../tests/data/gaas_lasers.csv");
@@ -159,7 +159,7 @@ fn the_bootstrap_agrees_with_the_profile_and_repeats_its_bits() {
 
 /// Ten units with ten unequal spans of a process with alpha 3, beta 1.5.
 fn known() -> (Fit, Observations) {
-    let increments = (0..100).map(|at| crate::data::Increment {
+    let increments = (0..100).map(|at| Increment {
         unit: at / 10,
         from: 0.0,
         to: 0.5 + 0.1 * (at % 10) as f64,
@@ -234,7 +234,7 @@ fn data_of_the_fitted_process_pass_the_test_of_fit() {
 fn units_of_four(from: f64, alpha: f64, rounding: Rounding) -> (Fit, Observations) {
     let increments = (0..32).map(|at| {
         let before = from + (at % 4) as f64;
-        crate::data::Increment {
+        Increment {
             unit: at / 4,
             from: before,
             to: before + 1.0,
@@ -255,7 +255,7 @@ fn units_of_four(from: f64, alpha: f64, rounding: Rounding) -> (Fit, Observation
     )
 }
 
-/// How often likelihood-ratio intervals at 95 % hold both parameters, of the data sets that have a maximum.
+/// How often likelihood-ratio intervals at 95 % hold both parameters, and of how many data sets there are intervals.
 fn coverage_of_rounded(from: f64, alpha: f64, rounding: Rounding, replicates: u64) -> ([f64; 2], f64) {
     let (truth, like) = units_of_four(from, alpha, rounding);
     let (mut held, mut fitted) = ([0.0; 2], 0.0);
@@ -264,13 +264,18 @@ fn coverage_of_rounded(from: f64, alpha: f64, rounding: Rounding, replicates: u6
         let Ok(found) = estimate_increments(&increments, &truth.model, Some(&truth.phi)) else {
             continue;
         };
-        fitted += 1.0;
-        for (index, held) in held.iter_mut().enumerate() {
+        let is_held = |index: usize| {
             let mut from = found.phi.clone();
             from[index] = truth.phi[index];
-            let (_, point) = maximise(&truth.model, &increments, &from, Some(index)).unwrap();
+            let (_, point) = maximise(&truth.model, &increments, &from, Some(index)).ok()?;
             // chi-square at 95 %, 1 degree.
-            *held += f64::from(u8::from(2.0 * (found.log_likelihood - point.value) < 3.841_458_820_694_124));
+            Some(2.0 * (found.log_likelihood - point.value) < 3.841_458_820_694_124)
+        };
+        // Data that leave a likelihood without a maximum give no interval.
+        let [Some(first), Some(second)] = [0, 1].map(is_held) else { continue };
+        fitted += 1.0;
+        for (held, is_held) in held.iter_mut().zip([first, second]) {
+            *held += f64::from(u8::from(is_held));
         }
     }
     (held.map(|count| count / fitted), fitted / replicates as f64)
@@ -290,6 +295,24 @@ fn intervals_of_rounded_readings_hold_the_truth_however_coarse_the_gauge() {
             let allowed = 3.0 * (0.0475_f64 / samples as f64).sqrt() + 0.02;
             assert!((held - 0.95).abs() < allowed, "{from} {alpha} {step} {error}: {held}");
         }
+    }
+}
+
+#[test]
+fn a_line_read_by_a_coarse_gauge_is_refused_at_once() {
+    // Were the search to go on to ever less scatter, it would take minutes.
+    let one = |at: usize| {
+        let wear = |at: usize| libm::round(0.9 * at as f64 / 0.5) * 0.5;
+        let wear = wear(at + 1) - wear(at);
+        Increment { unit: 0, from: at as f64, to: at as f64 + 1.0, wear, ln_covariates: vec![], row: 0 }
+    };
+    let increments: Vec<Increment> = (0..300).map(one).collect();
+    for power_law in [false, true] {
+        let model = Model { power_law, resolution: Some(Rounding::to(0.5)), ..Model::default() };
+        let found = estimate_increments(&increments, &model, None);
+        // An exponent may run off before the scatter has gone.
+        let refused = [Err(FitError::ScatterBelowGauge), Err(FitError::NotConverged)];
+        assert!(refused[..1 + usize::from(power_law)].contains(&found), "{power_law}: {found:?}");
     }
 }
 

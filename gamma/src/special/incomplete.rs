@@ -14,7 +14,9 @@ use super::normal::normal_mills;
 const MOST_TERMS: u32 = 200_000;
 /// Shape from which on the uniform expansion holds to the last digits with the two terms it has here: the third is below
 /// 1e-3 / shape^2.5 of the whole. Series and fraction would take more terms than this allows from shape 4e8 on.
-const LARGE: f64 = 1e6;
+const LARGE: f64 = 3e4;
+/// The same for its slope.
+const LARGE_FOR_SLOPES: f64 = 1e6;
 /// How far x may be from the shape there, as a part of the shape: the coefficients below hold to 2e-17. Farther out series
 /// and fraction take some hundred terms.
 const NEAR: f64 = 0.29;
@@ -120,7 +122,16 @@ fn polynomial(coefficients: &[f64], at: f64) -> f64 {
 impl Uniform {
     /// None where the expansion is not for.
     pub(super) fn at(shape: f64, x: f64, ln_x: f64) -> Option<Self> {
-        if !(shape >= LARGE && (x - shape).abs() <= NEAR * shape) {
+        Self::from(LARGE, shape, x, ln_x)
+    }
+
+    /// None where its slope is not to be had from it.
+    pub(super) fn for_slope(shape: f64, x: f64, ln_x: f64) -> Option<Self> {
+        Self::from(LARGE_FOR_SLOPES, shape, x, ln_x)
+    }
+
+    fn from(least: f64, shape: f64, x: f64, ln_x: f64) -> Option<Self> {
+        if !(shape >= least && (x - shape).abs() <= NEAR * shape) {
             return None;
         }
         let mu = (x - shape) / shape;

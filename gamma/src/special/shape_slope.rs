@@ -17,7 +17,7 @@ const NO_SHAPE: f64 = 1e-8;
 /// sum goes both ways: nothing underflows however small P is. Where P is near 1 the differences cancel: there the change of
 /// ln Q, by a central difference, keeps the digits. Relative accuracy 1e-8.
 pub fn ln_gamma_p_slope(shape: f64, x: f64) -> f64 {
-    if let Some(expansion) = Uniform::at(shape, x, libm::log(x)) {
+    if let Some(expansion) = Uniform::for_slope(shape, x, libm::log(x)) {
         return expansion.slope();
     }
     let floored = shape.max(NO_SHAPE);

@@ -24,6 +24,7 @@ use crate::random::Stream;
 
 use self::kernel::Kernel;
 pub use self::kernel::Laws;
+pub use self::window::least_variance;
 use self::window::{Place, Window};
 
 /// Products of a mass and a chance that an integral of the law costs as much as: some 0.3 us.
