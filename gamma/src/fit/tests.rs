@@ -234,14 +234,7 @@ fn data_of_the_fitted_process_pass_the_test_of_fit() {
 fn units_of_four(from: f64, alpha: f64, rounding: Rounding) -> (Fit, Observations) {
     let increments = (0..32).map(|at| {
         let before = from + (at % 4) as f64;
-        Increment {
-            unit: at / 4,
-            from: before,
-            to: before + 1.0,
-            wear: 1.0,
-            ln_covariates: vec![],
-            row: 0,
-        }
+        Increment { unit: at / 4, from: before, to: before + 1.0, wear: 1.0, ln_covariates: vec![], row: 0 }
     });
     let model = Model { resolution: Some(rounding), ..Model::default() };
     let phi = vec![libm::log(alpha), libm::log(alpha)];
