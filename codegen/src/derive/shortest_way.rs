@@ -85,7 +85,9 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
     let way = best.way;
     let rest = plan.rest.speeds.len() + plan.rest.rows.len();
     let unknowns = if way.rows_first { rest } else { speeds + pattern.len() };
-    if unknowns <= MOST_TO_ORDER {
+    // What nothing drives passes singular positions, and pivots of pairs do not tell how near they are: their own are constant, and
+    // the others vary with the rest of the row.
+    if unknowns <= MOST_TO_ORDER && !problem.partition.driven.is_empty() {
         for order in [Order::Cheapest(&constant), Order::PairsFirst(&constant)] {
             best.offer(problem, &plan, Way { order, ..way });
         }
