@@ -6,8 +6,9 @@ mod support;
 use linkwear_codegen::backend::interp::Interpreted;
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{CONTACT_MOTION, Dual, Entry, Scalar, System};
-use support::compile_source;
+use linkwear_runtime::{CONTACT_MOTION, Dual, Entry, System};
+use support::random::Random;
+use support::{compile_source, evaluate};
 
 /// Both sides are exact; a few hundred operations on numbers of order one round to this.
 const ROUNDING: f64 = 1e-12;
@@ -50,26 +51,6 @@ restitution = 0.9
 "#
     );
     compile_source(&SourceFile { name: "bars.toml".to_owned(), text }, &[], None)
-}
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
-fn evaluate<T: Scalar>(system: &Interpreted, entry: Entry, input: &[T]) -> Vec<T> {
-    let sizes = System::<T>::sizes(system);
-    assert_eq!(input.len(), sizes.input(entry));
-    let mut output = vec![T::constant(0.0); sizes.output(entry)];
-    let mut workspace = vec![T::constant(0.0); sizes.workspace];
-    system.evaluate(entry, input, &mut output, &mut workspace);
-    output
 }
 
 /// Origin and axes (rows) of a body, `a0`..`a3` or `b0`..`b3`, and their rates along a motion.

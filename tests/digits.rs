@@ -1,14 +1,15 @@
 //! How many digits rounding costs: forward dynamics in double precision against the same operations in arithmetic of 31 digits.
 
+mod support;
 mod truth;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
-use std::path::Path;
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
+use linkwear_codegen::compile::Compiled;
 use linkwear_runtime::{CONTACT_WRENCH, Entry, Scalar, System, assemble};
 use nalgebra::DMatrix;
+use support::random::Random;
+use support::{compiled, evaluate};
 use truth::reached;
 
 /// An unevaluated sum of two doubles, 31 digits (T. J. Dekker, Numer. Math. 18 (1971) 224).
@@ -149,33 +150,6 @@ impl Scalar for Wide {
     }
 }
 
-/// A small generator (xorshift), so that states repeat: numbers between -1 and 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
-fn compiled(name: &str) -> Compiled {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms").join(format!("{name}.toml"));
-    let source = SourceFile { name: name.to_owned(), text: std::fs::read_to_string(path).expect("a file") };
-    compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn answer<T: Scalar>(system: &impl System<T>, entry: Entry, input: &[f64]) -> Vec<T> {
-    let sizes = system.sizes();
-    let zero = T::constant(0.0);
-    let (mut output, mut workspace) = (vec![zero; sizes.output(entry)], vec![zero; sizes.workspace]);
-    let input: Vec<T> = input.iter().map(|value| T::constant(*value)).collect();
-    system.evaluate(entry, &input, &mut output, &mut workspace);
-    output
-}
-
 /// Of the loop Jacobian, whose last columns of the closures' answer it is.
 fn condition(closure: &[f64], rows: usize, speeds: usize) -> f64 {
     if rows == 0 {
@@ -206,14 +180,15 @@ fn worst(compiled: &Compiled) -> (f64, usize) {
         state.v.iter_mut().for_each(|speed| *speed += push * random.next());
         let wrenches = (0..CONTACT_WRENCH * sizes.contacts).map(|_| 10.0 * random.next());
         let base = [parameters.as_slice(), &[t], &state.q, &state.v].concat();
-        let closure = answer::<f64>(&system, Entry::Closure, &base);
+        let closure = evaluate::<f64>(&system, Entry::Closure, &base);
         if condition(&closure, sizes.rows, sizes.speeds) > 1e6 {
             continue;
         }
         states += 1;
         let input: Vec<f64> = base.into_iter().chain(wrenches).collect();
-        let found = answer::<f64>(&system, Entry::ForwardDynamics, &input);
-        let exact = answer::<Wide>(&system, Entry::ForwardDynamics, &input);
+        let found = evaluate::<f64>(&system, Entry::ForwardDynamics, &input);
+        let wide: Vec<Wide> = input.iter().map(|value| Wide::constant(*value)).collect();
+        let exact = evaluate(&system, Entry::ForwardDynamics, &wide);
         let asked = sizes.speeds + sizes.rows + sizes.drivers;
         let (found, exact) = (&found[..asked], &exact[..asked]);
         let size = found.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
@@ -264,7 +239,7 @@ fn forward_dynamics_loses_few_digits() {
         "slider_crank_clearance",
         "spatial_slider_crank",
     ] {
-        let (error, states) = worst(&compiled(name));
+        let (error, states) = worst(&compiled(name, &[], None));
         assert_eq!(states, 20, "{name}");
         // A condition of 1e4 on roundings of 1e-16.
         reached(

@@ -6,30 +6,12 @@ mod support;
 use linkwear_codegen::backend::interp::Interpreted;
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::model::Closure;
-use linkwear_runtime::{Dual, Entry, Scalar, System, assemble};
-use support::compiled;
+use linkwear_runtime::{Dual, Entry, System, assemble};
+use support::random::Random;
+use support::{compiled, evaluate};
 
 /// Both sides are exact; residuals of a few hundred operations round to this.
 const ROUNDING: f64 = 1e-11;
-
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
-fn evaluate<T: Scalar>(system: &Interpreted, entry: Entry, input: &[T]) -> Vec<T> {
-    let sizes = System::<T>::sizes(system);
-    let mut output = vec![T::constant(0.0); sizes.output(entry)];
-    let mut workspace = vec![T::constant(0.0); sizes.workspace];
-    system.evaluate(entry, input, &mut output, &mut workspace);
-    output
-}
 
 /// A state near the assembled start but off the constraints, quaternions kept unit.
 fn open_state(compiled: &Compiled, system: &Interpreted, random: &mut Random) -> (Vec<f64>, Vec<f64>) {

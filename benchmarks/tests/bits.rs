@@ -1,10 +1,14 @@
 //! Compiled code, machine code written at run time and the interpreter run the same tape: every entry point of every shipped
 //! mechanism must agree in every bit.
 
+#[path = "../../tests/support/random.rs"]
+mod random;
+
 use linkwear::mechanisms::{SHIPPED, Shipped};
 use linkwear::native::{Lanes, Native, Refusal};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::{Entry, System};
+use random::Random;
 
 /// All that are compiled in, here or in linkwear itself.
 fn all() -> impl Iterator<Item = &'static Shipped> {
@@ -16,18 +20,6 @@ fn compiled(name: &str) -> Compiled {
     let text = std::fs::read_to_string(path).expect("a shipped mechanism");
     compile(&SourceFile { name: format!("mechanisms/{name}.toml"), text }, &Options::default())
         .expect("shipped mechanisms compile")
-}
-
-/// A small generator (xorshift), so that states repeat.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }
 
 #[test]

@@ -1,28 +1,20 @@
 //! The derivative is forward dynamics and rates in one, contacts in between; accelerations are the first block of forward
 //! dynamics. Each has operations of its own: they agree but for rounding.
 
+#[path = "../../tests/support/random.rs"]
+mod random;
+
 use std::path::Path;
 
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{CONTACT_WRENCH, Entry, System, assemble};
+use random::Random;
 
 fn compiled(path: &Path) -> Compiled {
     let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
     let source = SourceFile { name, text: std::fs::read_to_string(path).expect("a file") };
     compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-/// A small generator (xorshift), so that states repeat: numbers between -1 and 1.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }
 
 /// Largest difference, relative to the largest number. What is not a number wins.

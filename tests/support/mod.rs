@@ -1,12 +1,17 @@
 //! Shared by the cross-stage tests: compile a shipped mechanism, run it, read columns by name.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+pub mod random;
+
 use std::path::PathBuf;
 
+use linkwear_codegen::backend::interp::Interpreted;
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Description, Integrator, Run, Settings, Span, Watch, simulate};
+use linkwear_runtime::{
+    Description, Entry, Integrator, Run, Scalar, Settings, Span, System, Watch, simulate,
+};
 
 /// Text of a shipped mechanism.
 pub fn shipped(name: &str) -> SourceFile {
@@ -43,6 +48,16 @@ pub fn run_with(compiled: &Compiled, settings: &Settings) -> Recorded {
         panic!("the run stopped early: {stopped}");
     }
     Recorded { run, description: compiled.description().clone() }
+}
+
+/// The answer of an entry point, on scalars of any kind.
+pub fn evaluate<T: Scalar>(system: &Interpreted, entry: Entry, input: &[T]) -> Vec<T> {
+    let sizes = System::<T>::sizes(system);
+    assert_eq!(input.len(), sizes.input(entry));
+    let mut output = vec![T::constant(0.0); sizes.output(entry)];
+    let mut workspace = vec![T::constant(0.0); sizes.workspace];
+    system.evaluate(entry, input, &mut output, &mut workspace);
+    output
 }
 
 /// A run with named columns.

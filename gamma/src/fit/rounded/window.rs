@@ -10,6 +10,7 @@ const REACH: f64 = 5.0;
 /// of (R / PARTS)² / 12 to that of the rounding, R² / 12; at shape 0.3, where half of all wear lies near 0, it changes the chance
 /// of a reading by up to 2 %.
 const PARTS: usize = 16;
+
 /// Variance of wear below which the parts of a window do not tell it from none.
 pub fn least_variance(rounding: Rounding) -> f64 {
     let part = Window::new(rounding).part;
