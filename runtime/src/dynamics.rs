@@ -2,11 +2,14 @@
 //! are nearly singular. In: time and state. Out: accelerations, multipliers, drive forces.
 //! Never knows step sizes.
 
+mod pivots;
+
 use crate::error::RunError;
 use crate::evaluate::{Evaluator, Forward};
 use crate::linear::{is_finite, largest};
 use crate::passage::{Judge, Limit, Passage};
 use crate::singular_dynamics::SingularSolver;
+use pivots::LargestPivots;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
 /// has had makes the runtime leave the generated elimination. At 1e-7 (a singular value of 3e-4) rounding
@@ -27,9 +30,6 @@ const BESIDE: f64 = 100.0;
 /// value, and these show in its acceleration by one more.
 const NOISE: f64 = 10.0 * f64::EPSILON;
 
-/// Pivots below this part of the largest of all pivots are noise, whatever they were before.
-const NOISE_PIVOT: f64 = 1e-13;
-
 /// An acceleration noted further back than this [rad, m] along the motion says nothing about the present one.
 const REACH: f64 = 0.1;
 
@@ -42,7 +42,7 @@ pub struct Dynamics<'a> {
     /// Calls that needed the rank-revealing solve.
     pub rank_revealing_solves: u64,
     singular_pivot: f64,
-    largest_pivots: Vec<f64>,
+    largest_pivots: LargestPivots,
     nearness: f64,
     reference: Vec<f64>,
     reference_time: Option<f64>,
@@ -60,7 +60,6 @@ pub(crate) struct Aside {
     rank_revealing_solves: u64,
     nearness: f64,
     rank_lost: bool,
-    largest_pivots: Vec<f64>,
 }
 
 impl<'a> Dynamics<'a> {
@@ -74,7 +73,7 @@ impl<'a> Dynamics<'a> {
             evaluations: 0,
             rank_revealing_solves: 0,
             singular_pivot,
-            largest_pivots: vec![0.0; sizes.rows],
+            largest_pivots: LargestPivots::new(sizes.rows),
             nearness: 1.0,
             reference: vec![0.0; sizes.speeds],
             reference_time: None,
@@ -103,29 +102,27 @@ impl<'a> Dynamics<'a> {
     /// Sees how regular a state is; no part of what a run costs.
     pub(crate) fn see_nearness(&mut self, t: f64, q: &[f64], v: &[f64]) {
         let pivots = self.evaluator.pivots(t, q, v);
-        note_pivots(pivots, &mut self.largest_pivots);
-        self.nearness = regularity(pivots, &self.largest_pivots);
+        self.nearness = self.largest_pivots.note(pivots);
     }
 
     /// The same by accelerations alone: leaves the forward dynamics as it is.
     pub(crate) fn see_nearness_aside(&mut self, t: f64, q: &[f64], v: &[f64]) {
         let pivots = self.evaluator.accelerations(t, q, v).pivots;
-        note_pivots(pivots, &mut self.largest_pivots);
-        self.nearness = regularity(pivots, &self.largest_pivots);
+        self.nearness = self.largest_pivots.note(pivots);
     }
 
-    /// What to go on with after a look that is no part of the run.
-    pub(crate) fn aside(&self) -> Aside {
+    /// What to go on with after a look that is no part of the run; one at a time.
+    pub(crate) fn aside(&mut self) -> Aside {
         let Self { evaluations, rank_revealing_solves, nearness, rank_lost, .. } = *self;
-        let largest_pivots = self.largest_pivots.clone();
-        Aside { evaluations, rank_revealing_solves, nearness, rank_lost, largest_pivots }
+        self.largest_pivots.put_aside();
+        Aside { evaluations, rank_revealing_solves, nearness, rank_lost }
     }
 
     /// Goes on as if nothing had been evaluated since.
     pub(crate) fn resume(&mut self, aside: Aside) {
         (self.evaluations, self.rank_revealing_solves) = (aside.evaluations, aside.rank_revealing_solves);
         (self.nearness, self.rank_lost) = (aside.nearness, aside.rank_lost);
-        self.largest_pivots = aside.largest_pivots;
+        self.largest_pivots.resume();
     }
 
     /// Smallest pivot at the last state, each relative to the largest value it has had (1: as regular as
@@ -155,7 +152,7 @@ impl<'a> Dynamics<'a> {
     /// The generated columns at the last state, which lost rank, by the states beside it; leaves the forward dynamics as it is.
     pub(crate) fn columns_beside(&mut self, t: f64, q: &[f64], v: &[f64]) -> Option<&Limit> {
         self.direct.copy_from_slice(self.evaluator.forward_mut());
-        let regularity = |forward: &Forward<'_>| regularity(forward.pivots, &self.largest_pivots);
+        let regularity = |forward: &Forward<'_>| self.largest_pivots.regularity(forward.pivots);
         let judge: Judge<'_> = (&regularity, BESIDE * self.singular_pivot);
         let found = self.passage.limit(&mut self.evaluator, (t, q, v), judge, true).is_some();
         self.evaluations += std::mem::take(&mut self.passage.evaluations);
@@ -166,7 +163,7 @@ impl<'a> Dynamics<'a> {
     /// On the way through a singular position: by states beside it, if they explain what is here but for rounding.
     fn pass(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.direct.copy_from_slice(self.evaluator.forward_mut());
-        let regularity = |forward: &Forward<'_>| regularity(forward.pivots, &self.largest_pivots);
+        let regularity = |forward: &Forward<'_>| self.largest_pivots.regularity(forward.pivots);
         let judge: Judge<'_> = (&regularity, BESIDE * self.singular_pivot);
         let limit = self.passage.limit(&mut self.evaluator, (t, q, v), judge, false);
         if self.nearness < self.singular_pivot {
@@ -202,8 +199,8 @@ impl<'a> Dynamics<'a> {
     pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.evaluator.visit_memory(visit);
         self.solver.visit_memory(visit);
-        let numbers = self.largest_pivots.iter_mut().chain(&mut self.reference);
-        numbers.chain([&mut self.nearness]).for_each(&mut *visit);
+        self.largest_pivots.visit(visit);
+        self.reference.iter_mut().chain([&mut self.nearness]).for_each(&mut *visit);
         // No number of JSON says that there is none: a flag before the time.
         let (mut flag, mut time) = self.reference_time.map_or((0.0, 0.0), |time| (1.0, time));
         visit(&mut flag);
@@ -228,32 +225,6 @@ impl<'a> Dynamics<'a> {
         };
         Err(RunError::NonFinite { t, what })
     }
-}
-
-/// Keeps the largest value of each.
-fn note_pivots(pivots: &[f64], largest_pivots: &mut [f64]) {
-    for (pivot, most) in pivots.iter().zip(largest_pivots) {
-        if *pivot > *most && pivot.is_finite() {
-            *most = *pivot;
-        }
-    }
-}
-
-/// Smallest pivot relative to the largest value that it has had.
-fn regularity(pivots: &[f64], largest_pivots: &[f64]) -> f64 {
-    let noise = NOISE_PIVOT * largest(largest_pivots);
-    let mut smallest = 1.0;
-    for (pivot, most) in pivots.iter().zip(largest_pivots) {
-        if *pivot > noise {
-            if *pivot < smallest * most {
-                smallest = pivot / most;
-            }
-        } else {
-            // A pivot that is not a positive number counts as lost rank.
-            smallest = 0.0;
-        }
-    }
-    smallest
 }
 
 /// See [`NOISE`].

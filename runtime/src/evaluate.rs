@@ -31,6 +31,8 @@ pub struct Evaluator<'a> {
     row_scales: Vec<f64>,
     /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
     multipliers: Vec<f64>,
+    /// Whether any of them may be other than zero for dropped rows.
+    has_dropped: bool,
     clearances: Clearances,
     derivative: Derivative,
     questions: Questions<'a>,
@@ -82,6 +84,7 @@ impl<'a> Evaluator<'a> {
             row_lengths: vec![0.0; sizes.rows],
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
+            has_dropped: false,
             clearances: Clearances::new(&description.contacts)?,
             derivative: Derivative::new(sizes, parameters),
             questions: Questions::new(system, parameters),
@@ -155,7 +158,7 @@ impl<'a> Evaluator<'a> {
     }
 
     fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        self.multipliers.fill(0.0);
+        self.forget_dropped();
         self.derivative.evaluate(&mut self.questions, &mut self.clearances, (t, q, v));
     }
 
@@ -189,14 +192,21 @@ impl<'a> Evaluator<'a> {
 
     /// Writable storage of accelerations, multipliers and drive forces, for a solve done elsewhere.
     pub fn forward_mut(&mut self) -> &mut [f64] {
-        self.multipliers.fill(0.0);
+        self.forget_dropped();
         self.derivative.forward_mut()
     }
 
-    /// Writable multipliers of all rows, zero after [`Self::forward`] and [`Self::forward_mut`]: a solve done
-    /// elsewhere puts those of dropped rows here.
+    /// Writable multipliers of all rows, those of dropped rows zero after [`Self::forward`] and [`Self::forward_mut`]: a solve
+    /// done elsewhere puts them here.
     pub fn multipliers_mut(&mut self) -> &mut [f64] {
+        self.has_dropped = true;
         &mut self.multipliers
+    }
+
+    fn forget_dropped(&mut self) {
+        if std::mem::take(&mut self.has_dropped) {
+            self.multipliers.fill(0.0);
+        }
     }
 
     /// Rates of the coordinates and powers at the state of the last forward dynamics, with its drive forces or those put in

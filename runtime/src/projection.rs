@@ -68,6 +68,8 @@ pub struct Projector {
     arm: f64,
     /// What the last projection moved: positions (as speeds would) and speeds.
     moved: [Vec<f64>; 2],
+    /// Whether these may be other than zero.
+    has_moved: bool,
     /// Factor on the tolerances.
     strictness: f64,
     /// Whether speeds in nearly lost directions stay untouched.
@@ -96,6 +98,7 @@ impl Projector {
             error: LoopError::default(),
             arm: 1.0,
             moved: [vec![0.0; n], vec![0.0; n]],
+            has_moved: false,
             strictness: 1.0,
             keep_lost: false,
             scales: vec![0.0; m],
@@ -121,6 +124,7 @@ impl Projector {
 
     /// All that the last projection moved: positions, as speeds would in unit time, and speeds.
     pub(crate) fn moved(&mut self) -> &mut [Vec<f64>; 2] {
+        self.has_moved = true;
         &mut self.moved
     }
 
@@ -145,7 +149,9 @@ impl Projector {
         evaluator.layout().normalize(q);
         self.factored = Factored::No;
         self.error = LoopError::default();
-        self.moved.iter_mut().for_each(|moved| moved.fill(0.0));
+        if std::mem::take(&mut self.has_moved) {
+            self.moved.iter_mut().for_each(|moved| moved.fill(0.0));
+        }
         if evaluator.sizes().all_rows == 0 {
             return Ok(correction);
         }
@@ -162,13 +168,23 @@ impl Projector {
         v: &[f64],
         correction: &mut Correction,
     ) -> Result<(), NotClosed> {
+        self.load(evaluator, t, q, v);
+        // Most steps end so close, and need no tolerance.
+        if largest(&self.residual) <= POSITION_TOLERANCE * self.strictness {
+            self.error = evaluator.loop_error();
+            if self.error.part(self.arm) <= CLOSED {
+                return Ok(());
+            }
+        }
         // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
         let rounding = f64::EPSILON * largest(q).max(1.0);
         let tolerance =
             (POSITION_TOLERANCE * self.strictness).max(0.5 * rounding) + rounding * self.strictness;
         let mut before = f64::INFINITY;
         for iteration in 0..=MAX_ITERATIONS {
-            self.load(evaluator, t, q, v);
+            if iteration > 0 {
+                self.load(evaluator, t, q, v);
+            }
             let size = largest(&self.residual);
             let stalled = size > 0.25 * before;
             if size <= tolerance || (stalled && size <= SETTLED) {
@@ -186,6 +202,7 @@ impl Projector {
                 (_, false) => {}
             }
             before = size;
+            self.has_moved = true;
             self.solve();
             evaluator.layout().advance(q, &self.delta);
             add_scaled(&mut self.moved[0], 1.0, &self.delta);
@@ -208,7 +225,11 @@ impl Projector {
         v: &mut [f64],
         correction: &mut Correction,
     ) {
-        let tolerance = (SPEED_TOLERANCE * self.strictness).max(0.5 * f64::EPSILON) * largest(v).max(1.0);
+        let least = (SPEED_TOLERANCE * self.strictness).max(0.5 * f64::EPSILON);
+        if largest(evaluator.last_closure().speeds) <= least {
+            return;
+        }
+        let tolerance = least * largest(v).max(1.0);
         for _ in 0..=LEVELS.len() {
             self.residual.copy_from_slice(evaluator.last_closure().speeds);
             if largest(&self.residual) <= tolerance {
@@ -219,6 +240,7 @@ impl Projector {
                 Factored::Orthogonal { level } if correction.speed > 0.0 => self.factor(evaluator, level + 1),
                 _ => {}
             }
+            self.has_moved = true;
             self.solve();
             add_scaled(v, 1.0, &self.delta);
             add_scaled(&mut self.moved[1], 1.0, &self.delta);

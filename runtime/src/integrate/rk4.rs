@@ -37,18 +37,26 @@ impl Rk4 {
         problem.derivative(t + 0.5 * step, stage, k3)?;
         combine(stage, y, step, k3);
         problem.derivative(t + step, stage, k4)?;
-        let slopes = k1.iter().zip(&*k2).zip(k3.iter().zip(&*k4));
-        for ((next, now), ((a, b), (c, d))) in stage.iter_mut().zip(&*y).zip(slopes) {
-            *next = now + step / 6.0 * ((a + d) + 2.0 * (b + c));
-        }
+        advance(stage, y, step / 6.0, [k1, k2, k3, k4]);
         problem.project(t + step, y, stage)?;
         y.copy_from_slice(stage);
         Ok(())
     }
 }
 
+/// Of slices cut to one length compilers make loops without checks, several numbers at a time.
 fn combine(stage: &mut [f64], y: &[f64], factor: f64, slope: &[f64]) {
-    for ((stage, y), slope) in stage.iter_mut().zip(y).zip(slope) {
-        *stage = y + factor * slope;
+    let n = stage.len();
+    let (y, slope) = (&y[..n], &slope[..n]);
+    for i in 0..n {
+        stage[i] = y[i] + factor * slope[i];
+    }
+}
+
+fn advance(next: &mut [f64], y: &[f64], sixth: f64, slopes: [&[f64]; 4]) {
+    let n = next.len();
+    let (y, [a, b, c, d]) = (&y[..n], slopes.map(|slope| &slope[..n]));
+    for i in 0..n {
+        next[i] = y[i] + sixth * ((a[i] + d[i]) + 2.0 * (b[i] + c[i]));
     }
 }

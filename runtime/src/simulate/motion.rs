@@ -2,6 +2,8 @@
 //! supplied, work dissipated, and per joint with clearance the [`Totals`]. In: states. Out: derivatives,
 //! projected states. Never knows samples.
 
+use std::ops::Range;
+
 use crate::assemble::{State, offset_columns};
 use crate::description::Motion;
 use crate::dynamics::Dynamics;
@@ -269,6 +271,31 @@ impl<'a> ConstrainedMotion<'a> {
         }
     }
 
+    /// Whether what a projection did to the end of a step, kept in `stage` as it was, is as small as errors of a step are.
+    fn check_correction(&self, t: f64, before: &[f64], correction: &Correction) -> Result<(), RunError> {
+        let moved = |range: Range<usize>| {
+            let ends = before[range.clone()].iter().zip(&self.stage[range]);
+            ends.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+        };
+        let q_range = 0..self.coordinates;
+        let v_range = self.coordinates..self.coordinates + self.speeds;
+        let limit = |own: f64, values: &[f64]| (BRANCH_PART * own).max(JUMP_FLOOR * largest(values).max(1.0));
+        let q_limit = limit(moved(q_range.clone()), &before[q_range]);
+        // Speeds may stand still while the mechanism moves on: they count by their size as well.
+        let v_size = largest(&before[v_range.clone()]);
+        let v_limit = limit(moved(v_range.clone()).max(v_size), &before[v_range]);
+        let name = |index| self.dynamics.evaluator.speed_name(index);
+        if correction.position > q_limit {
+            let variable = name(correction.worst);
+            return Err(RunError::BranchChange { t, variable, jump: correction.position });
+        }
+        if correction.speed > v_limit {
+            let variable = format!("speed {}", name(correction.worst_speed));
+            return Err(RunError::BranchChange { t, variable, jump: correction.speed });
+        }
+        Ok(())
+    }
+
     /// Writes rates of coordinates, accelerations of the last forward dynamics, and powers.
     fn write_derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (state, work) = derivative.split_at_mut(self.first_integral());
@@ -310,30 +337,11 @@ impl Problem for ConstrainedMotion<'_> {
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
-        let moved = |range: std::ops::Range<usize>, y: &[f64]| {
-            let ends = before[range.clone()].iter().zip(&y[range]);
-            ends.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
-        };
-        let q_range = 0..self.coordinates;
-        let v_range = self.coordinates..self.coordinates + self.speeds;
-        let limit = |own: f64, values: &[f64]| (BRANCH_PART * own).max(JUMP_FLOOR * largest(values).max(1.0));
-        let q_limit = limit(moved(q_range.clone(), y), &before[q_range]);
-        // Speeds may stand still while the mechanism moves on: they count by their size as well.
-        let v_size = largest(&before[v_range.clone()]);
-        let v_limit = limit(moved(v_range.clone(), y).max(v_size), &before[v_range]);
+        self.stage.copy_from_slice(y);
         let near_singular = self.dynamics.nearness() < PROJECTED_STAGES;
         let correction = self.put_on(t, y)?;
-        let name = |index| self.dynamics.evaluator.speed_name(index);
-        if correction.position > q_limit {
-            return Err(RunError::BranchChange {
-                t,
-                variable: name(correction.worst),
-                jump: correction.position,
-            });
-        }
-        if correction.speed > v_limit {
-            let variable = format!("speed {}", name(correction.worst_speed));
-            return Err(RunError::BranchChange { t, variable, jump: correction.speed });
+        if correction.position.max(correction.speed) > JUMP_FLOOR {
+            self.check_correction(t, before, &correction)?;
         }
         if near_singular && correction.moved() { self.keep_momentum(t, y) } else { Ok(()) }
     }
