@@ -39,7 +39,7 @@ fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) -> f64 {
     let oracle = Oracle::with_defaults(&compiled.mechanism).expect("the oracle reads what we read");
     let rows = run.times.iter().copied().zip(run.rows.iter().map(Vec::as_slice));
     let ledger = compare(&oracle, rows, &|name| run.index(name).ok());
-    let (name, error) = ledger.worst().expect("at least the start");
+    let (name, error) = ledger.worst(0.0).expect("at least the start");
     assert!(error < AGREEMENT, "{} {closure:?}: {name} ({error:.1e})\n{}", source.name, source.text);
     error
 }

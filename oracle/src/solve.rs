@@ -46,6 +46,9 @@ pub struct Solution {
     pub smallest_kept: f64,
     /// Largest singular value taken for zero.
     pub largest_dropped: f64,
+    /// Largest acceleration that the loads alone would give a body [m/s² or rad/s²]: constraints cancel it, and leave last places
+    /// of it.
+    pub unconstrained: f64,
 }
 
 /// Body coordinates in which kinetic energy is half the sum of squares: `twist = whiten * y`.
@@ -140,6 +143,9 @@ impl Oracle {
         };
         let correction = factors.solve(&rhs);
         let lambda = factors.multipliers(&correction);
+        let largest = |(angular, linear): (Vector3<f64>, Vector3<f64>)| angular.amax().max(linear.amax());
+        let unconstrained = (0..states.len()).map(|body| largest(metric.twist(body, &free)));
+        let unconstrained = unconstrained.fold(0.0, f64::max);
         let y = free + correction;
         let (alpha, acceleration) = (0..states.len()).map(|body| metric.twist(body, &y)).unzip();
         let (wrenches, drives) = self.joint_forces(states, &rows, &lambda, &applied.passive, &factors);
@@ -155,6 +161,7 @@ impl Oracle {
             rank: factors.rank(),
             smallest_kept: factors.smallest(),
             largest_dropped: factors.dropped,
+            unconstrained,
         }
     }
 

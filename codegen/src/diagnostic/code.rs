@@ -191,6 +191,8 @@ codes! {
     PassesSingular = "W0117",
     /// A force that would jump where the angle of a cut joint passes half a turn.
     AngleJumps = "W0118",
+    /// A body far heavier than the others, or a gravity that nothing has.
+    MassesApart = "W0119",
     /// A point that nothing says which body carries: it rests.
     UnplacedPoint = "W0120",
 }

@@ -22,6 +22,11 @@ const TOO_THICK: f64 = 20.0;
 const TOO_THIN: f64 = 1e4;
 /// A radius of gyration is too large if it exceeds the size of the whole mechanism by more than this.
 const TOO_FAR_OUT: f64 = 10.0;
+/// A body is too heavy if it is heavier than every other, were these solid, by more than this: an aircraft on the smallest link
+/// of its gear is below.
+const TOO_HEAVY: f64 = 1e8;
+/// Gravity [m/s^2] up to that in the fastest centrifuges, of a million times the earth's.
+const GRAVITY: f64 = 1e7;
 /// Densities [kg/m^3] from foams to just above osmium.
 const DENSITIES: [f64; 2] = [10.0, 25_000.0];
 /// Moduli of bearing pairs [Pa], from soft rubber on anything to diamond on diamond.
@@ -39,6 +44,8 @@ const DEEP: f64 = 0.25;
 /// Remarks on what is odd.
 pub fn remarks(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Diagnostic> {
     let mut remarks = sizes(mechanism);
+    remarks.extend(masses(mechanism));
+    remarks.extend(gravity(mechanism));
     remarks.extend(mechanism.bodies.iter().filter_map(|body| density(mechanism, body)));
     for joint in &mechanism.joints {
         if let Some(clearance) = &joint.clearance {
@@ -135,6 +142,44 @@ fn sizes(mechanism: &Mechanism) -> Vec<Diagnostic> {
         remarks.push(odd(Code::SizesApart, body.span, message, "check the units of its numbers"));
     }
     remarks
+}
+
+/// The body that is far heavier than all others. Of a body given by its density the mass of a cube is taken, which it has at most.
+fn masses(mechanism: &Mechanism) -> Option<Diagnostic> {
+    let values = mechanism.parameter_values();
+    let mass = |(index, body): (usize, &Body)| match &body.inertia {
+        Inertia::Given { mass, .. }
+        | Inertia::Rod { amount: Amount::Mass(mass), .. }
+        | Inertia::Box { amount: Amount::Mass(mass), .. } => mass.value(&values),
+        Inertia::Rod { amount: Amount::Density(density), .. }
+        | Inertia::Box { amount: Amount::Density(density), .. } => {
+            density.value(&values).map(|density| density * length(mechanism, index).powi(3))
+        }
+    };
+    let bodies = mechanism.bodies.iter().enumerate();
+    let mut masses: Vec<(&Body, f64)> = bodies.filter_map(|body| Some((body.1, mass(body)?))).collect();
+    masses.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let [.., (next, others), (heaviest, own)] = masses[..] else { return None };
+    (own > TOO_HEAVY * others).then(|| {
+        let message = format!(
+            "`{}` has {} kg, `{}` {} kg at most",
+            heaviest.name,
+            shown(own),
+            next.name,
+            shown(others)
+        );
+        odd(Code::MassesApart, heaviest.span, message, "check the units: g for kg is a factor of 1000")
+    })
+}
+
+fn gravity(mechanism: &Mechanism) -> Option<Diagnostic> {
+    let values = mechanism.parameter_values();
+    let sizes = mechanism.gravity.iter().filter_map(|part| Some((part, part.value(&values)?.abs())));
+    let (part, size) = sizes.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (size > GRAVITY).then(|| {
+        let message = format!("gravity is {} m/s^2", shown(size));
+        odd(Code::MassesApart, part.span, message, "the earth's is 9.81 m/s^2")
+    })
 }
 
 fn density(mechanism: &Mechanism, body: &Body) -> Option<Diagnostic> {
