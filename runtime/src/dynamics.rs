@@ -105,12 +105,6 @@ impl<'a> Dynamics<'a> {
         self.nearness = self.largest_pivots.note(pivots);
     }
 
-    /// The same by accelerations alone: leaves the forward dynamics as it is.
-    pub(crate) fn see_nearness_aside(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        let pivots = self.evaluator.accelerations(t, q, v).pivots;
-        self.nearness = self.largest_pivots.note(pivots);
-    }
-
     /// What to go on with after a look that is no part of the run; one at a time.
     pub(crate) fn aside(&mut self) -> Aside {
         let Self { evaluations, rank_revealing_solves, nearness, rank_lost, .. } = *self;

@@ -7,13 +7,21 @@
 //! free coordinates (in speed space; quaternions and poses move along their group) and the multipliers
 //! times `h²`, which keeps the Newton matrix well scaled at every step size (Bottasso et al. 2007).
 
+use super::expected::{Coefficients, Expected, Point};
 use crate::error::RunError;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{CLOSED, Evaluator};
 use crate::linear::{Lu, Orthogonal, add_scaled, is_finite, largest};
 
 const MAX_ITERATIONS: u32 = 40;
-/// Corrections no smaller than this part of the one before: the Newton matrix is out of date.
-const SLOW: f64 = 0.2;
+/// Corrections no smaller than this part of the one before: the Newton matrix is out of date. The second correction says
+/// nothing yet: what has little inertia, as a rod's spin, follows what the first one did to all else.
+const SLOW: f64 = 0.05;
+/// Below this the rate of two corrections tells how far the last one was from the solution.
+const STEADY: f64 = 0.2;
+/// A step's equations are solved to this part of its own error, which goes with the change of the accelerations...
+const SOLVED: f64 = 1e-5;
+/// ...and better than this [rad, m]: loops stay closed.
+const CLOSED_BY_A_STEP: f64 = 1e-2 * CLOSED;
 /// A correction this small [rad, m] that does not shrink further is rounding.
 const ROUNDING: f64 = 1e-10;
 /// Width of the difference quotients of the Newton matrix: truncation and rounding both near 1e-8.
@@ -21,36 +29,23 @@ const DIFFERENCE: f64 = 1e-7;
 /// Pivots below this part of the largest: rank is lost, and a minimum-norm correction is used.
 const LOST_PIVOT: f64 = 1e-13;
 
-/// Coefficients for one spectral radius.
-#[derive(Clone, Copy, Debug)]
-struct Coefficients {
-    alpha_m: f64,
-    alpha_f: f64,
-    beta: f64,
-    gamma: f64,
-}
-
-impl Coefficients {
-    fn new(rho: f64) -> Self {
-        let alpha_m = (2.0 * rho - 1.0) / (rho + 1.0);
-        let alpha_f = rho / (rho + 1.0);
-        let gamma = 0.5 + alpha_f - alpha_m;
-        let beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
-        Self { alpha_m, alpha_f, beta, gamma }
-    }
-}
-
 /// State and storage of the method.
 #[must_use]
 pub struct GeneralizedAlpha {
-    coefficients: Coefficients,
     now: Point,
+    /// Where the step is expected to end.
+    expected: Expected,
     /// Trial values at the end of a step.
     next: Point,
     trial: Trial,
+    /// What is added to the expected increments.
     x: Vec<f64>,
     /// Multipliers times `h²`.
     scaled_multipliers: Vec<f64>,
+    /// The same one step before.
+    multipliers_before: Vec<f64>,
+    /// Step of the last steps, and how many there were.
+    last_steps: (f64, u64),
     /// For every kept row, its row in the description.
     kept: Vec<usize>,
     residual: Vec<f64>,
@@ -67,17 +62,6 @@ pub struct GeneralizedAlpha {
     rank_lost: bool,
     iterations: u64,
     evaluations: u64,
-}
-
-/// What the method carries from step to step.
-#[derive(Clone)]
-struct Point {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    /// Accelerations.
-    v_dot: Vec<f64>,
-    /// The method's own accelerations, which belong to a shifted time.
-    a: Vec<f64>,
 }
 
 /// Equations of motion at a trial, of all coordinates.
@@ -114,12 +98,14 @@ impl GeneralizedAlpha {
             driven,
         };
         Self {
-            coefficients: Coefficients::new(rho),
+            expected: Expected::new(rho, &now),
             next: now.clone(),
             now,
             trial,
             x: vec![0.0; n],
             scaled_multipliers: vec![0.0; m],
+            multipliers_before: vec![0.0; m],
+            last_steps: (0.0, 0),
             kept: evaluator.kept().to_vec(),
             residual: vec![0.0; n + m],
             shifted: vec![0.0; n + m],
@@ -144,7 +130,7 @@ impl GeneralizedAlpha {
 
     /// Time to which the method's own accelerations belong, in steps after the state's time.
     pub fn shift(rho: f64) -> f64 {
-        (rho - 1.0) / (rho + 1.0)
+        Coefficients::new(rho).shift()
     }
 
     /// Coordinates reached.
@@ -167,28 +153,27 @@ impl GeneralizedAlpha {
         self.evaluations
     }
 
-    /// Advances by `h` from `t`. Leaves accelerations, multipliers and drive forces in the evaluator's
-    /// last forward dynamics.
+    /// Advances by `h` from `t`.
     ///
     /// # Errors
     /// [`RunError::NewtonFailed`] or [`RunError::NonFinite`].
     pub fn step(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> Result<(), RunError> {
-        // Multipliers keep their size, so the scaled ones change with the step.
-        let rescale = if self.factored_step > 0.0 { (h / self.factored_step).powi(2) } else { 1.0 };
-        self.scaled_multipliers.iter_mut().for_each(|x| *x *= rescale);
-        for i in 0..self.x.len() {
-            self.x[i] = h * (self.now.v[i] + 0.5 * h * self.now.a[i]);
+        self.expect(h);
+        let laws = evaluator.prescribed(t + h).chunks_exact(3);
+        for (place, law) in self.trial.driven.iter().zip(laws) {
+            self.trial.all_a[*place] = law[2];
         }
         let mut before = f64::INFINITY;
         let mut fresh = false;
-        for _ in 0..MAX_ITERATIONS {
+        for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
+            let renewed = self.factored_step != h;
             self.evaluate(evaluator, t + h, h);
             core::mem::swap(&mut self.residual, &mut self.shifted);
             if !is_finite(&self.shifted) {
                 return Err(RunError::NonFinite { t: t + h, what: "the equations of motion".to_owned() });
             }
-            if self.factored_step != h {
+            if renewed {
                 self.refresh(evaluator, t + h, h);
                 fresh = true;
             }
@@ -197,11 +182,14 @@ impl GeneralizedAlpha {
             // What a steady rate leaves behind is a geometric series; a tenth of rounding is nothing.
             let rate = if before.is_finite() { size / before } else { 1.0 };
             let left = size * rate / (1.0 - rate);
-            let converged = size <= rounding || (rate < SLOW && left <= 0.1 * rounding);
+            let enough = (SOLVED * self.expected.moved(&self.now, &self.x, &self.sizes))
+                .min(CLOSED_BY_A_STEP)
+                .max(0.1 * rounding);
+            let converged = size <= rounding || (rate < STEADY && left <= enough);
             if converged || (size > 0.5 * before && size < ROUNDING) {
-                return self.accept(evaluator, t + h, h);
+                return self.accept(evaluator, t + h);
             }
-            if size > SLOW * before && !fresh {
+            if iteration > 2 && size > SLOW * before && !fresh {
                 self.factored_step = 0.0;
             }
             fresh = false;
@@ -209,6 +197,22 @@ impl GeneralizedAlpha {
         }
         self.factored_step = 0.0;
         Err(RunError::NewtonFailed { t, step: h, correction: before })
+    }
+
+    /// Begins a step of `h` where accelerations and multipliers go on as they did over the last one.
+    fn expect(&mut self, h: f64) {
+        let (last, count) = self.last_steps;
+        // The first step knows nothing before it, and its start is not the method's own.
+        let goes_on = count > 1;
+        // Multipliers keep their size, so the scaled ones change with the step.
+        let rescale = if last > 0.0 { (h / last) * (h / last) } else { 1.0 };
+        for (scaled, before) in self.scaled_multipliers.iter_mut().zip(&mut self.multipliers_before) {
+            let expected = if goes_on { 2.0 * *scaled - *before } else { *scaled };
+            (*scaled, *before) = (rescale * expected, rescale * *scaled);
+        }
+        self.expected.begin(&self.now, h, goes_on);
+        self.x.fill(0.0);
+        self.last_steps = (h, count + 1);
     }
 
     /// Applies the Newton correction for the residual in `shifted`; returns its largest increment.
@@ -227,26 +231,24 @@ impl GeneralizedAlpha {
         relative.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
     }
 
+    /// Moves the trial to the present unknowns.
+    fn advance(&mut self, evaluator: &Evaluator<'_>) {
+        // The increments go where the residual comes next.
+        let increments = &mut self.residual[..self.x.len()];
+        self.expected.corrected(&self.x, &mut self.next, increments);
+        self.next.q.copy_from_slice(&self.now.q);
+        evaluator.layout().advance(&mut self.next.q, increments);
+    }
+
     /// Residual of the balance of forces (times `h²`) and of the constraints, for the present unknowns.
     fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) {
         self.evaluations += 1;
-        let Coefficients { alpha_m, alpha_f, beta, gamma } = self.coefficients;
+        self.advance(evaluator);
         let (n, m) = (self.x.len(), self.scaled_multipliers.len());
-        let (now, next, trial) = (&self.now, &mut self.next, &mut self.trial);
+        let (next, trial) = (&self.next, &mut self.trial);
         let all = trial.all_a.len();
-        let scale = h * h * beta;
-        for i in 0..n {
-            next.a[i] = (self.x[i] - h * now.v[i] - h * h * (0.5 - beta) * now.a[i]) / scale;
-            next.v[i] = now.v[i] + h * ((1.0 - gamma) * now.a[i] + gamma * next.a[i]);
-            next.v_dot[i] =
-                ((1.0 - alpha_m) * next.a[i] + alpha_m * now.a[i] - alpha_f * now.v_dot[i]) / (1.0 - alpha_f);
-        }
-        next.q.copy_from_slice(&now.q);
-        evaluator.layout().advance(&mut next.q, &self.x);
-        evaluator.expand(t, &next.q, &next.v, &mut trial.all_q, &mut trial.all_v);
-        for (place, law) in trial.driven.iter().zip(evaluator.last_prescribed().chunks_exact(3)) {
-            trial.all_a[*place] = law[2];
-        }
+        let prescribed = evaluator.last_prescribed();
+        evaluator.layout().expand((&next.q, &next.v), prescribed, (&mut trial.all_q, &mut trial.all_v));
         for (place, a) in trial.free.iter().zip(&next.v_dot) {
             trial.all_a[*place] = *a;
         }
@@ -259,8 +261,11 @@ impl GeneralizedAlpha {
         for (k, index) in self.kept.iter().enumerate() {
             let row = &equations.jacobian[index * all..][..all];
             add_scaled(&mut trial.balance, -self.scaled_multipliers[k], row);
-            for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&trial.free) {
-                *entry = row[*place];
+            // Only a new Newton matrix asks for the rows themselves.
+            if self.factored_step != h {
+                for (entry, place) in self.free_rows[k * n..].iter_mut().zip(&trial.free) {
+                    *entry = row[*place];
+                }
             }
         }
         for (residual, place) in self.residual.iter_mut().zip(&self.trial.free) {
@@ -275,6 +280,7 @@ impl GeneralizedAlpha {
     fn refresh(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) {
         let (n, m) = (self.x.len(), self.scaled_multipliers.len());
         let size = n + m;
+        self.factored_step = h;
         self.matrix.fill(0.0);
         for k in 0..m {
             for i in 0..n {
@@ -296,23 +302,13 @@ impl GeneralizedAlpha {
         if self.rank_lost {
             self.orthogonal.factor(&self.matrix, size, size, LOST_PIVOT);
         }
-        self.factored_step = h;
     }
 
     /// Takes the converged unknowns over.
-    fn accept(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> Result<(), RunError> {
-        self.evaluate(evaluator, t, h);
-        let (n, m) = (self.x.len(), self.scaled_multipliers.len());
+    fn accept(&mut self, evaluator: &Evaluator<'_>, t: f64) -> Result<(), RunError> {
+        self.advance(evaluator);
         evaluator.layout().normalize(&mut self.next.q);
-        let output = evaluator.forward_mut();
-        output[..n].copy_from_slice(&self.next.v_dot);
-        for (value, scaled) in output[n..n + m].iter_mut().zip(&self.scaled_multipliers) {
-            *value = scaled / (h * h);
-        }
-        for (value, place) in output[n + m..].iter_mut().zip(&self.trial.driven) {
-            *value = self.trial.balance[*place] / (h * h);
-        }
-        if output.iter().take(n + m + self.trial.driven.len()).any(|x| !x.is_finite()) {
+        if !is_finite(&self.next.v_dot) || !is_finite(&self.scaled_multipliers) {
             return Err(RunError::NonFinite { t, what: "the result of the implicit step".to_owned() });
         }
         core::mem::swap(&mut self.now, &mut self.next);

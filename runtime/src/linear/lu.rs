@@ -1,82 +1,140 @@
 //! LU with partial pivoting of a square matrix: Newton systems of implicit integrators.
 //! In: a row-major matrix. Out: solutions, and whether the matrix is singular to working precision.
 
-use super::vector::{add_scaled, dot};
+use super::vector::add_scaled;
+
+/// Rows that are solved for at once: matrices are filled up with zeros to a multiple.
+type Lanes = [f64; 4];
 
 /// LU factors of a square matrix of fixed size.
 #[derive(Clone, Debug)]
 pub struct Lu {
     size: usize,
+    /// Column by column: eliminating then adds multiples of whole columns.
     factors: Vec<f64>,
+    /// The same below the diagonal alone, and above it, zero elsewhere: four rows by four, column by column.
+    lower: Vec<Lanes>,
+    upper: Vec<Lanes>,
+    reciprocal_pivots: Vec<f64>,
     order: Vec<usize>,
-    work: Vec<f64>,
+    work: Vec<Lanes>,
 }
 
 impl Lu {
     /// Storage for matrices of `size` rows.
     pub fn new(size: usize) -> Self {
-        Self { size, factors: vec![0.0; size * size], order: vec![0; size], work: vec![0.0; size] }
+        let blocks = size.div_ceil(4);
+        let triangle = vec![[0.0; 4]; 4 * blocks * blocks];
+        Self {
+            size,
+            factors: vec![0.0; size * size],
+            lower: triangle.clone(),
+            upper: triangle,
+            reciprocal_pivots: vec![0.0; 4 * blocks],
+            order: vec![0; size],
+            work: vec![[0.0; 4]; blocks],
+        }
     }
 
     /// Factors a row-major matrix. Returns the smallest pivot over the largest (0 or NaN: singular).
     pub fn factor(&mut self, matrix: &[f64]) -> f64 {
         let n = self.size;
-        self.factors.copy_from_slice(&matrix[..n * n]);
-        let (mut smallest, mut most) = (f64::INFINITY, 0.0_f64);
-        for (i, place) in self.order.iter_mut().enumerate() {
-            *place = i;
+        if n == 0 {
+            return 1.0;
         }
+        for (i, row) in matrix.chunks_exact(n).enumerate() {
+            self.order[i] = i;
+            for (place, value) in self.factors[i..].iter_mut().step_by(n).zip(row) {
+                *place = *value;
+            }
+        }
+        let (mut smallest, mut most) = (f64::INFINITY, 0.0_f64);
         for k in 0..n {
+            let (before, after) = self.factors.split_at_mut((k + 1) * n);
+            let (before, column) = before.split_at_mut(k * n);
             let mut best = k;
             for i in k + 1..n {
-                if self.factors[i * n + k].abs() > self.factors[best * n + k].abs() {
+                if column[i].abs() > column[best].abs() {
                     best = i;
                 }
             }
-            if best != k {
-                self.order.swap(best, k);
-                for j in 0..n {
-                    self.factors.swap(best * n + j, k * n + j);
-                }
-            }
-            let pivot = self.factors[k * n + k];
+            let pivot = column[best];
             if pivot == 0.0 || pivot.is_nan() {
                 return pivot;
             }
             smallest = smallest.min(pivot.abs());
             most = most.max(pivot.abs());
-            let (above, below) = self.factors.split_at_mut((k + 1) * n);
-            let pivot_row = &above[k * n..];
-            for row in below.chunks_exact_mut(n) {
-                let factor = row[k] / pivot;
-                row[k] = factor;
-                if factor != 0.0 {
-                    add_scaled(&mut row[k + 1..], -factor, &pivot_row[k + 1..]);
+            let reciprocal = 1.0 / pivot;
+            self.reciprocal_pivots[k] = reciprocal;
+            self.order.swap(best, k);
+            before.chunks_exact_mut(n).for_each(|column| column.swap(best, k));
+            column.swap(best, k);
+            column[k + 1..].iter_mut().for_each(|factor| *factor *= reciprocal);
+            for later in after.chunks_exact_mut(n) {
+                later.swap(best, k);
+                let value = later[k];
+                if value != 0.0 {
+                    add_scaled(&mut later[k + 1..], -value, &column[k + 1..]);
                 }
             }
         }
-        if n == 0 { 1.0 } else { smallest / most }
+        self.split();
+        smallest / most
+    }
+
+    fn split(&mut self) {
+        let width = 4 * self.work.len();
+        for (k, column) in self.factors.chunks_exact(self.size).enumerate() {
+            for (i, value) in column.iter().enumerate() {
+                let place = i / 4 * width + k;
+                self.lower[place][i % 4] = if i > k { *value } else { 0.0 };
+                self.upper[place][i % 4] = if i < k { *value } else { 0.0 };
+            }
+        }
     }
 
     /// Solves in place.
     pub fn solve(&mut self, b: &mut [f64]) {
-        let n = self.size;
-        for (value, place) in self.work.iter_mut().zip(&self.order) {
+        let width = 4 * self.work.len();
+        if width == 0 {
+            return;
+        }
+        for (value, place) in self.work.as_flattened_mut().iter_mut().zip(&self.order) {
             *value = b[*place];
         }
-        for i in 0..n {
-            self.work[i] -= dot(&self.factors[i * n..][..i], &self.work[..i]);
+        for (block, rows) in self.lower.chunks_exact(width).enumerate() {
+            let (solved, rest) = self.work.split_at_mut(block);
+            let mut values = subtract(rest[0], rows, solved.as_flattened());
+            for (i, column) in rows[4 * block..].iter().take(4).enumerate() {
+                values = without(values, column, values[i]);
+            }
+            rest[0] = values;
         }
-        for i in (0..n).rev() {
-            let row = &self.factors[i * n..][..n];
-            self.work[i] = (self.work[i] - dot(&row[i + 1..], &self.work[i + 1..])) / row[i];
+        for (block, rows) in self.upper.chunks_exact(width).enumerate().rev() {
+            let (rest, solved) = self.work.split_at_mut(block + 1);
+            let mut values = subtract(rest[block], &rows[4 * block + 4..], solved.as_flattened());
+            for (i, column) in rows[4 * block..].iter().take(4).enumerate().rev() {
+                values[i] *= self.reciprocal_pivots[4 * block + i];
+                values = without(values, column, values[i]);
+            }
+            rest[block] = values;
         }
-        b[..n].copy_from_slice(&self.work);
+        b[..self.size].copy_from_slice(&self.work.as_flattened()[..self.size]);
     }
+}
+
+/// `values` less the columns of some rows times what is known.
+fn subtract(values: Lanes, columns: &[Lanes], known: &[f64]) -> Lanes {
+    columns.iter().zip(known).fold(values, |values, (column, known)| without(values, column, *known))
+}
+
+fn without(values: Lanes, column: &Lanes, factor: f64) -> Lanes {
+    core::array::from_fn(|i| values[i] - column[i] * factor)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::vector::dot;
     use super::*;
 
     #[test]

@@ -69,14 +69,9 @@ fn take_over(
 ) -> Result<(), RunError> {
     let (q, v) = (method.q(), method.v());
     let n = q.len() + v.len();
-    if motion.dynamics.evaluator.sizes().rows > 0 {
-        motion.dynamics.see_nearness_aside(t, q, v);
-        if motion.is_rough() {
-            // Where the rows nearly lose rank rounding decides the method's own multipliers, and with them the power of
-            // drivers; those of its state are right.
-            motion.dynamics.accelerate(t, q, v)?;
-        }
-    }
+    // Drivers work by the forces of the state that was reached, which are those that samples show; where the rows nearly lose
+    // rank, rounding would decide the method's own.
+    motion.dynamics.accelerate(t, q, v)?;
     // The rates of the coordinates go where the coordinates come next.
     motion.powers(t, q, v, &mut state[..q.len()], now);
     state[..q.len()].copy_from_slice(q);
