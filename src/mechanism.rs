@@ -6,6 +6,7 @@ use std::{fmt, io};
 
 use hmac_sha256::Hash;
 use linkwear_codegen::input::read_text;
+use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::Refusal;
 use linkwear_runtime::{Description, System};
@@ -44,13 +45,21 @@ pub struct Mechanism {
     pub parameters: Vec<f64>,
     /// Remarks on the file, with their places.
     pub warnings: Diagnostics,
-    /// What its equations are from: hashes of the file and of its tapes, where it was compiled from one.
-    origin: [String; 2],
+    origin: Origin,
     equations: Equations,
 }
 
+/// What equations are from, where they were compiled from a file.
+#[derive(Debug, Default)]
+struct Origin {
+    /// Hash of the file.
+    file: String,
+    /// Their tapes: hashing them takes longer than writing their machine code, and few ask.
+    tapes: Option<Vec<Tape>>,
+}
+
 impl Mechanism {
-    /// From a file: compiled code if it is a shipped mechanism, byte for byte, else machine code or the interpreter.
+    /// From a file, on the fastest back end that there is: see [`Backend::Auto`].
     ///
     /// # Errors
     /// [`LoadError::Read`], [`LoadError::Mechanism`].
@@ -66,7 +75,7 @@ impl Mechanism {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
         let equations = Equations::choose(&compiled, options, backend)?;
         let warnings = located_warnings(&compiled);
-        let origin = [source.sha256(), sha256(&compiled.tapes())];
+        let origin = Origin { file: source.sha256(), tapes: Some(compiled.tapes().to_vec()) };
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 
@@ -74,14 +83,15 @@ impl Mechanism {
     pub fn shipped(name: &str) -> Option<Self> {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name)?;
         let mechanism = Self::new((shipped.description)().clone(), Equations::compiled(shipped.system));
-        Some(Self { origin: [shipped.source_sha256.to_owned(), String::new()], ..mechanism })
+        let origin = Origin { file: shipped.source_sha256.to_owned(), tapes: None };
+        Some(Self { origin, ..mechanism })
     }
 
     /// A mechanism that a program compiled in, every parameter at its default.
     pub fn new(description: Description, equations: Equations) -> Self {
         let parameters = description.parameters.iter().map(|parameter| parameter.default).collect();
-        let origin = [const { String::new() }; 2];
-        Self { description, parameters, warnings: Diagnostics::default(), origin, equations }
+        let (warnings, origin) = (Diagnostics::default(), Origin::default());
+        Self { description, parameters, warnings, origin, equations }
     }
 
     /// What the version is called in [`Self::identity`].
@@ -89,7 +99,8 @@ impl Mechanism {
 
     /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
     pub(crate) fn identity(&self) -> Map<String, Value> {
-        let [file, tapes] = &self.origin;
+        let Origin { file, tapes } = &self.origin;
+        let tapes = tapes.as_ref().map(sha256).unwrap_or_default();
         let parameters = self.description.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
         let mut entries = Map::new();

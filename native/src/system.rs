@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use linkwear_codegen::tape::Tape;
-use linkwear_runtime::{Entry, Sizes, System};
+use linkwear_runtime::{Entry, STATES, SideBySide, Sizes, System};
 
 use crate::refusal::Refusal;
 #[cfg(not(target_arch = "x86_64"))]
@@ -14,7 +14,14 @@ use crate::x86::Functions;
 
 /// A mechanism as machine code of this processor. Clones share the code.
 #[derive(Clone)]
-pub struct Native(Lanes<1>);
+pub struct Native {
+    alone: Lanes<1>,
+    observer: Observer,
+}
+
+/// The columns of several states side by side.
+#[derive(Clone)]
+struct Observer(Arc<Functions>);
 
 /// A mechanism as machine code that evaluates `N` states side by side, 4 or 8: every one with the bits that it would have
 /// alone. Clones share the code.
@@ -26,7 +33,7 @@ pub struct Lanes<const N: usize> {
 
 impl fmt::Debug for Native {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Native").field(&self.0.sizes).finish()
+        f.debug_tuple("Native").field(&self.alone.sizes).finish()
     }
 }
 
@@ -79,16 +86,38 @@ impl Native {
     /// # Errors
     /// If this processor or this system cannot run it, or a tape makes no sense.
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
-        Lanes::new(tapes, sizes).map(Self)
+        let alone = Lanes::new(tapes, sizes)?;
+        let observer = Functions::new::<STATES>(&tapes[Entry::Observe as usize..][..1])?;
+        Ok(Self { alone, observer: Observer(Arc::new(observer)) })
     }
 }
 
 impl System<f64> for Native {
     fn sizes(&self) -> Sizes {
-        self.0.sizes
+        self.alone.sizes
     }
 
     fn evaluate(&self, entry: Entry, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        self.0.functions.run(entry as usize, input, output, workspace);
+        self.alone.functions.run(entry as usize, input, output, workspace);
+    }
+
+    fn side_by_side(&self) -> Option<&dyn SideBySide<f64>> {
+        Some(&self.observer)
+    }
+}
+
+impl SideBySide<f64> for Observer {
+    fn workspace(&self) -> usize {
+        self.0.workspace().div_ceil(STATES)
+    }
+
+    fn observe(
+        &self,
+        input: &[[f64; STATES]],
+        output: &mut [[f64; STATES]],
+        workspace: &mut [[f64; STATES]],
+    ) {
+        let (input, output) = (input.as_flattened(), output.as_flattened_mut());
+        self.0.run(0, input, output, workspace.as_flattened_mut());
     }
 }

@@ -15,7 +15,7 @@ use crate::description::Description;
 use crate::error::SetupError;
 use crate::layout::Layout;
 use crate::linear::dot;
-use crate::system::{CONTACT_MOTION, Entry, Sizes, System};
+use crate::system::{CONTACT_MOTION, Entry, STATES, SideBySide, Sizes, System};
 use derivative::Derivative;
 use questions::Questions;
 
@@ -316,6 +316,33 @@ impl<'a> Evaluator<'a> {
         }
         let wrenches = self.clearances.wrenches();
         self.questions.ask(Entry::Observe, t, &[q, v, accelerations, &self.multipliers, drives, wrenches])
+    }
+
+    /// What answers [`Self::observe`] for several states at once, if the system has it.
+    pub(crate) fn side_by_side(&self) -> Option<&'a dyn SideBySide<f64>> {
+        self.questions.system.side_by_side()
+    }
+
+    /// Writes the question of [`Self::observe`] as that of one of several states.
+    pub(crate) fn write_question(
+        &mut self,
+        (t, q, v): (f64, &[f64], &[f64]),
+        state: usize,
+        question: &mut [[f64; STATES]],
+    ) {
+        let Forward { accelerations, multipliers, drives, .. } = self.derivative.forward();
+        for (row, multiplier) in self.kept.iter().zip(multipliers) {
+            self.multipliers[*row] = *multiplier;
+        }
+        let (time, wrenches) = ([t], self.clearances.wrenches());
+        let parts =
+            [self.questions.parameters(), &time, q, v, accelerations, &self.multipliers, drives, wrenches];
+        let mut left = question;
+        for part in parts {
+            let (places, rest) = left.split_at_mut(part.len());
+            places.iter_mut().zip(part).for_each(|(place, value)| place[state] = *value);
+            left = rest;
+        }
     }
 
     /// Fills the slices of all coordinates and speeds from the free ones and the drivers; leaves the

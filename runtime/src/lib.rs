@@ -73,7 +73,7 @@ pub use dual::Dual;
 pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
-pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, System};
+pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System};
 
 #[cfg(feature = "std")]
 pub use {

@@ -162,4 +162,25 @@ pub trait System<T: Scalar> {
     /// # Panics
     /// If a slice is shorter than [`Sizes`] says.
     fn evaluate(&self, entry: Entry, input: &[T], output: &mut [T], workspace: &mut [T]);
+
+    /// What observes several states at once, if that takes less time than one after the other.
+    fn side_by_side(&self) -> Option<&dyn SideBySide<T>> {
+        None
+    }
+}
+
+/// States that [`SideBySide`] observes at once.
+pub const STATES: usize = 4;
+
+/// Answers [`Entry::Observe`] at several states at once, each with the bits that it has alone. Every value is that of all
+/// states.
+pub trait SideBySide<T: Scalar> {
+    /// Length of the scratch slice that [`Self::observe`] wants.
+    fn workspace(&self) -> usize;
+
+    /// Evaluates [`Entry::Observe`]. Does not allocate.
+    ///
+    /// # Panics
+    /// If a slice is shorter than [`Sizes`] says, or the scratch slice than [`Self::workspace`].
+    fn observe(&self, input: &[[T; STATES]], output: &mut [[T; STATES]], workspace: &mut [[T; STATES]]);
 }

@@ -170,7 +170,7 @@ pub struct SimulateArguments {
     /// Error tolerance of dopri5 [default: 1e-9].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
-    /// What runs the equations, with the same results: code that was compiled in, machine code written now, the
+    /// What runs the equations, with the same results: machine code written now, code that was compiled in, the
     /// interpreter; `auto` takes the first that there is.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
@@ -227,7 +227,7 @@ pub struct LifeArguments {
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
-    /// What runs the equations, with the same results: code that was compiled in, machine code written now, the
+    /// What runs the equations, with the same results: machine code written now, code that was compiled in, the
     /// interpreter; `auto` takes the first that there is.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,

@@ -1,6 +1,6 @@
 //! Legendre polynomials on [-1, 1], their integrals, and Gauss's quadrature.
 
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 /// P_0 to P_n at `s`.
 pub fn legendre(n: usize, s: f64) -> Vec<f64> {
@@ -40,35 +40,71 @@ const MOST_POINTS: usize = 32;
 /// Points and weights on [-1, 1] of the rule with n points (1 to [`MOST_POINTS`]), exact for polynomials up to degree
 /// 2n - 1; exactly symmetric.
 pub fn gauss(n: usize) -> &'static [(f64, f64)] {
-    static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(rules);
-    &RULES[n - 1]
+    &rule(n).points
 }
 
-/// All rules. Bisection between the roots of the polynomial before: plain arithmetic, the same bits on every machine.
-fn rules() -> Vec<Vec<(f64, f64)>> {
-    let mut roots: Vec<f64> = vec![];
-    let mut rules = vec![];
-    for degree in 1..=MOST_POINTS {
-        let mut ends = vec![-1.0];
-        ends.extend_from_slice(&roots);
-        ends.push(1.0);
-        roots = ends.windows(2).map(|pair| root(degree, pair[0], pair[1])).collect();
-        let symmetric = |i: usize| (roots[i] - roots[degree - 1 - i]) / 2.0;
-        rules.push((0..degree).map(symmetric).map(|s| (s, weight(degree, s))).collect());
-    }
-    rules
+struct Rule {
+    /// As they were found, for the next rule.
+    roots: Vec<f64>,
+    /// Points and weights.
+    points: Vec<(f64, f64)>,
 }
+
+fn rule(degree: usize) -> &'static Rule {
+    static RULES: [OnceLock<Rule>; MOST_POINTS] = [const { OnceLock::new() }; MOST_POINTS];
+    RULES[degree - 1].get_or_init(|| Rule::new(degree))
+}
+
+impl Rule {
+    /// By bisection between the roots of the polynomial before: plain arithmetic, the same bits on every machine.
+    fn new(degree: usize) -> Self {
+        let before: &[f64] = if degree > 1 { &rule(degree - 1).roots } else { &[] };
+        let ends = [&[-1.0], before, &[1.0]].concat();
+        let of = |(i, pair): (usize, &[f64])| {
+            // In the middle bisection would go through all small numbers there are.
+            if 2 * i + 1 == degree { 0.0 } else { root(degree, pair[0], pair[1]) }
+        };
+        let roots: Vec<f64> = ends.windows(2).enumerate().map(of).collect();
+        let symmetric = |i: usize| (roots[i] - roots[degree - 1 - i]) / 2.0;
+        let points = (0..degree).map(symmetric).map(|s| (s, weight(degree, s))).collect();
+        Self { roots, points }
+    }
+}
+
+/// P_{n-1} and P_n at `s`, by the recurrence of [`legendre`].
+fn last_two(n: usize, s: f64) -> [f64; 2] {
+    (2..=n).fold([1.0, s], |[before, now], j| {
+        let k = j as f64;
+        [now, ((2.0 * k - 1.0) * s * now - (k - 1.0) * before) / k]
+    })
+}
+
+/// Half the width of what is left when [`root`] begins to ask for every value.
+const NEAR: f64 = 1e-13;
 
 fn root(degree: usize, mut low: f64, mut high: f64) -> f64 {
-    let value = |s: f64| legendre(degree, s)[degree];
+    let value = |s: f64| last_two(degree, s)[1];
     let rising = value(high) > 0.0;
+    let is_above = |s: f64| (value(s) > 0.0) == rising;
+    let near = newton(degree, low, high);
+    // Further from it than rounding reaches, the sign is known: it is the only root here.
+    let is_known = !is_above(near - NEAR) && is_above(near + NEAR);
     loop {
         let middle = f64::midpoint(low, high);
         if middle <= low || middle >= high {
             return middle;
         }
-        if (value(middle) > 0.0) == rising { high = middle } else { low = middle }
+        let above = if is_known && (middle - near).abs() > NEAR { middle > near } else { is_above(middle) };
+        if above { high = middle } else { low = middle }
     }
+}
+
+/// The root between two numbers, good to some last places, or anything.
+fn newton(degree: usize, low: f64, high: f64) -> f64 {
+    (0..6).fold(f64::midpoint(low, high), |s, _| {
+        let [before, now] = last_two(degree, s);
+        (s - now * (1.0 - s * s) / (degree as f64 * (before - s * now))).clamp(low, high)
+    })
 }
 
 fn weight(n: usize, s: f64) -> f64 {

@@ -157,8 +157,10 @@ impl Line {
         self.over_mass(|[inertia, rotary], _, [value, rotation]| {
             for column in 0..self.size {
                 let (factor, turn) = (inertia * value[column], rotary * rotation[column]);
-                for row in column..self.size {
-                    mass[(row, column)] += factor * value[row] + turn * rotation[row];
+                let below = [&value, &rotation].map(|rows| &rows.as_slice()[column..]);
+                let entries = &mut mass.as_mut_slice()[column * self.size..][column..self.size];
+                for (entry, (value, rotation)) in entries.iter_mut().zip(below[0].iter().zip(below[1])) {
+                    *entry += factor * value + turn * rotation;
                 }
             }
         });

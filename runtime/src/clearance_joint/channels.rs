@@ -55,8 +55,13 @@ impl Channels {
 
     /// Writes the values of the columns that contacts add.
     pub(crate) fn write(&self, contacts: &[ContactState], values: &mut [f64]) {
-        for ((joint, of), value) in self.sources.iter().zip(values) {
-            *value = of(&contacts[*joint]);
+        for (value, new) in values.iter_mut().zip(self.values(contacts)) {
+            *value = new;
         }
+    }
+
+    /// The values of the columns that contacts add.
+    pub(crate) fn values<'c>(&'c self, contacts: &'c [ContactState]) -> impl Iterator<Item = f64> + 'c {
+        self.sources.iter().map(|(joint, of)| of(&contacts[*joint]))
     }
 }

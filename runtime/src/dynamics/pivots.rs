@@ -23,17 +23,21 @@ impl LargestPivots {
 
     /// Keeps the largest value of each and says how regular they are.
     pub(super) fn note(&mut self, pivots: &[f64]) -> f64 {
-        let grown =
-            pivots.iter().zip(&self.values).fold(false, |grown, (pivot, most)| grown | (pivot > most));
-        if grown {
-            for (pivot, most) in pivots.iter().zip(&mut self.values) {
-                if *pivot > *most && pivot.is_finite() {
-                    *most = *pivot;
-                }
-            }
-            self.find_noise();
+        let grown = |(pivot, most): (&f64, &f64)| pivot > most;
+        if pivots.iter().zip(&self.values).any(grown) {
+            self.grow(pivots);
         }
         self.regularity(pivots)
+    }
+
+    #[cold]
+    fn grow(&mut self, pivots: &[f64]) {
+        for (pivot, most) in pivots.iter().zip(&mut self.values) {
+            if *pivot > *most && pivot.is_finite() {
+                *most = *pivot;
+            }
+        }
+        self.find_noise();
     }
 
     /// Smallest pivot relative to the largest value that it has had.

@@ -23,6 +23,11 @@ impl<'a> Questions<'a> {
         Self { system, sizes, input, workspace: vec![0.0; sizes.workspace], outputs }
     }
 
+    /// Values of the parameters.
+    pub(super) fn parameters(&self) -> &[f64] {
+        &self.input[..self.sizes.parameters]
+    }
+
     /// The answer at a time, for what follows the time in the input.
     pub(super) fn ask(&mut self, entry: Entry, t: f64, blocks: &[&[f64]]) -> &[f64] {
         let mut at = self.sizes.parameters;

@@ -20,6 +20,8 @@ pub(super) struct Angles {
     places: Vec<usize>,
     /// Where turns are known along the last step, in the order of time.
     knots: Vec<Knot>,
+    /// Storage of knots that have gone.
+    spare: Vec<Vec<(f64, f64)>>,
 }
 
 struct Knot {
@@ -43,7 +45,7 @@ impl Angles {
     /// For these columns; turns are counted from the first time that is noted.
     pub(super) fn new(channels: &[Channel]) -> Self {
         let places = (0..channels.len()).filter(|place| channels[*place].wraps).collect();
-        Self { places, knots: Vec::new() }
+        Self { places, knots: Vec::new(), spare: Vec::new() }
     }
 
     /// Whether there is nothing to follow.
@@ -53,7 +55,8 @@ impl Angles {
 
     /// Begins a step where the last one ended.
     pub(super) fn begin_step(&mut self) {
-        self.knots.drain(..self.knots.len().saturating_sub(1));
+        let gone = self.knots.len().saturating_sub(1);
+        self.spare.extend(self.knots.drain(..gone).map(|knot| knot.values));
     }
 
     /// Latest time at which turns are known.
@@ -81,7 +84,9 @@ impl Angles {
             let predicted = last.map_or(columns[*place], |knot| knot.predict(at, t, rate).0);
             (unwrap(columns[*place], predicted), rate)
         };
-        let values = self.places.iter().enumerate().map(now).collect();
+        let mut values = self.spare.pop().unwrap_or_default();
+        values.clear();
+        values.extend(self.places.iter().enumerate().map(now));
         self.knots.push(Knot { t, values });
         Ok(())
     }

@@ -28,7 +28,7 @@ struct Event {
 /// Ends the last step of `method` where the first gap closes within it.
 pub(super) fn stop_at_contact(
     motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler,
+    sampler: &mut Sampler<'_>,
     method: &mut Dopri5,
     between: &mut [f64],
 ) -> Result<(), RunError> {

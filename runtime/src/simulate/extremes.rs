@@ -3,6 +3,7 @@
 //! Rows have no part in it: the same run asked for two rows or for twenty thousand has the same extremes.
 
 use crate::description::Channel;
+use crate::system::STATES;
 
 /// Pieces of equal length that the envelope of a curve has.
 pub const ENVELOPE_PIECES: usize = 48;
@@ -38,19 +39,17 @@ pub struct Peak {
     pub moment: At,
 }
 
-/// Looks that are collected before they are judged: column by column then, many of one column in a row.
-const LOOKS: usize = 16;
-/// Columns that are judged side by side, as many as registers hold.
-const SIDE_BY_SIDE: usize = 8;
+/// Groups of looks that are collected before they are judged: column by column then, many of one column in a row.
+const GROUPS: usize = 4;
 
 /// Collects extremes along a run.
 pub(super) struct Collector {
     start: f64,
     span: f64,
     columns: usize,
-    /// Times and columns of looks that are not judged yet, all in one piece; rows of whole groups of [`SIDE_BY_SIDE`].
+    /// Times of the looks that are not judged yet, and their columns, group by group.
     times: Vec<f64>,
-    looks: Vec<f64>,
+    looks: Vec<[f64; STATES]>,
     /// The piece of the looks that are not judged yet.
     piece: usize,
     /// Time and columns of the look judged last.
@@ -90,8 +89,8 @@ impl Collector {
             start,
             span: end - start,
             columns,
-            times: Vec::with_capacity(LOOKS),
-            looks: vec![0.0; LOOKS * columns.next_multiple_of(SIDE_BY_SIDE)],
+            times: Vec::with_capacity(GROUPS * STATES),
+            looks: vec![[0.0; STATES]; GROUPS * columns],
             piece: 0,
             last: None,
             last_columns: vec![0.0; columns],
@@ -107,70 +106,115 @@ impl Collector {
         if t < self.start {
             return;
         }
-        let piece = self.piece(t);
-        if self.times.len() == LOOKS || piece != self.piece {
-            self.judge();
-        }
-        if piece != self.piece {
-            self.cross_borders(t, values, piece);
-            self.piece = piece;
-        }
-        let row = self.times.len() * self.width();
-        self.looks[row..row + self.columns].copy_from_slice(values);
+        self.make_room(t, |column| values[column]);
+        let (looks, state) = self.next_look();
+        looks.iter_mut().zip(values).for_each(|(look, value)| look[state] = *value);
         self.times.push(t);
     }
 
-    /// Length of a row of looks.
-    fn width(&self) -> usize {
-        self.columns.next_multiple_of(SIDE_BY_SIDE)
+    /// Notes all columns at several times, four at most.
+    pub(super) fn note_several(&mut self, times: &[f64], looks: &[[f64; STATES]]) {
+        let (Some(first), Some(last)) = (times.first(), times.last()) else { return };
+        let is_whole = times.len() == STATES && *first >= self.start;
+        if !is_whole || self.piece(*first) != self.piece(*last) {
+            for (state, t) in times.iter().enumerate() {
+                if *t < self.start {
+                    continue;
+                }
+                self.make_room(*t, |column| looks[column][state]);
+                let (places, place) = self.next_look();
+                places.iter_mut().zip(looks).for_each(|(look, known)| look[place] = known[state]);
+                self.times.push(*t);
+            }
+            return;
+        }
+        if !self.times.len().is_multiple_of(STATES) {
+            self.judge();
+        }
+        self.make_room(*first, |column| looks[column][0]);
+        let group = self.times.len() / STATES;
+        self.looks[group * self.columns..][..self.columns].copy_from_slice(looks);
+        self.times.extend_from_slice(times);
     }
 
-    /// Takes the looks of one piece that were not judged yet into everything.
+    /// The group with the next look, and its place there.
+    fn next_look(&mut self) -> (&mut [[f64; STATES]], usize) {
+        let (group, state) = (self.times.len() / STATES, self.times.len() % STATES);
+        (&mut self.looks[group * self.columns..][..self.columns], state)
+    }
+
+    /// Before a look at a time: what was noted is of the same piece, and there is room behind it.
+    fn make_room(&mut self, t: f64, value: impl Fn(usize) -> f64) {
+        let piece = self.piece(t);
+        if self.times.len() == GROUPS * STATES || piece != self.piece {
+            self.judge();
+        }
+        if piece != self.piece {
+            self.cross_borders(t, value, piece);
+            self.piece = piece;
+        }
+    }
+
+    /// Takes the looks that were not judged yet into everything.
     fn judge(&mut self) {
         let Some(last) = self.times.last() else { return };
         self.last = Some(*last);
-        let (width, count) = (self.width(), self.times.len());
-        let looks = &self.looks[..count * width];
-        for (peak, loads) in &mut self.peaks {
+        self.repeat_last();
+        let Self { columns, times, looks, last_columns, low, high, pieces, peaks, .. } = self;
+        let groups: [&[[f64; STATES]]; GROUPS] =
+            std::array::from_fn(|group| &looks[group * *columns..][..*columns]);
+        for (peak, loads) in peaks {
             for (most, load) in [&mut peak.force, &mut peak.moment].into_iter().zip(loads) {
                 let Some(load) = load else { continue };
-                load.judge(most, &self.times, looks.chunks_exact(width));
+                groups.iter().zip(times.chunks(STATES)).for_each(|(group, t)| load.judge(most, t, group));
             }
         }
-        let [lowest, highest] = &mut self.pieces[self.piece];
-        for first in (0..self.columns).step_by(SIDE_BY_SIDE) {
-            let (low, high) = ends(looks, width, first);
-            let at = |column: usize, value: f64| {
-                let met = looks[column..].iter().step_by(width).position(|look| *look == value);
-                At { value, t: self.times[met.unwrap_or(0)] }
+        let [lowest, highest] = &mut pieces[self.piece];
+        let pieces = lowest.iter_mut().zip(highest);
+        let all = low.iter_mut().zip(high).zip(pieces);
+        for (column, ((low, high), (lowest, highest))) in all.enumerate() {
+            let of_column = groups.map(|group| group[column]);
+            let (least, most) = ends(&of_column);
+            let first = |value: f64| {
+                let mut met = of_column.as_flattened().iter().zip(&*times);
+                met.find(|(look, _)| **look == value).map(|(look, t)| At { value: *look, t: *t })
             };
-            let columns = first..(first + SIDE_BY_SIDE).min(self.columns);
-            take_in(&mut lowest[columns.clone()], &low, |value, least| value < least);
-            take_in(&mut highest[columns.clone()], &high, |value, most| value > most);
-            for (at_column, (least, most)) in
-                self.low[columns.clone()].iter_mut().zip(&mut self.high[columns]).enumerate()
-            {
-                if low[at_column] < least.value {
-                    *least = at(first + at_column, low[at_column]);
-                }
-                if high[at_column] > most.value {
-                    *most = at(first + at_column, high[at_column]);
-                }
+            *lowest = smaller(least, *lowest);
+            *highest = larger(most, *highest);
+            if least < low.value {
+                *low = first(least).unwrap_or(*low);
             }
+            if most > high.value {
+                *high = first(most).unwrap_or(*high);
+            }
+            last_columns[column] = of_column[GROUPS - 1][STATES - 1];
         }
-        self.last_columns.copy_from_slice(&looks[(count - 1) * width..][..self.columns]);
         self.times.clear();
     }
 
+    /// Fills the groups up: the last look once more changes nothing.
+    fn repeat_last(&mut self) {
+        let (columns, count) = (self.columns, self.times.len());
+        for place in count..GROUPS * STATES {
+            let (group, state) = (place / STATES, place % STATES);
+            let (before, looks) = self.looks.split_at_mut(group * columns);
+            let known = (count - 1) / STATES * columns;
+            for (column, look) in looks[..columns].iter_mut().enumerate() {
+                let last = before.get(known + column).unwrap_or(look);
+                look[state] = last[(count - 1) % STATES];
+            }
+        }
+    }
+
     /// Between two times curves are taken as straight lines: what they are at the borders of pieces belongs to both.
-    fn cross_borders(&mut self, t: f64, values: &[f64], now: usize) {
+    fn cross_borders(&mut self, t: f64, value: impl Fn(usize) -> f64, now: usize) {
         let Some(before) = self.last else { return };
         let place = |t: f64| (t - self.start) / self.span * ENVELOPE_PIECES as f64;
         let (from, to) = (place(before), place(t));
         for border in self.piece + 1..=now {
             let part = (border as f64 - from) / (to - from);
-            for (column, (last, value)) in self.last_columns.iter().zip(values).enumerate() {
-                let value = last + part * (value - last);
+            for (column, last) in self.last_columns.iter().enumerate() {
+                let value = last + part * (value(column) - last);
                 for [low, high] in &mut self.pieces[border - 1..=border] {
                     low[column] = if value < low[column] { value } else { low[column] };
                     high[column] = if value > high[column] { value } else { high[column] };
@@ -201,10 +245,15 @@ impl Collector {
 }
 
 impl Load {
-    /// Takes looks in; roots are taken of new maxima only.
-    fn judge<'l>(&mut self, most: &mut At, times: &[f64], looks: impl Iterator<Item = &'l [f64]>) {
-        for (t, values) in times.iter().zip(looks) {
-            let square = self.places.map(|place| values[place] * values[place]).iter().sum::<f64>();
+    /// Takes a group of looks in; roots are taken of new maxima only.
+    fn judge(&mut self, most: &mut At, times: &[f64], looks: &[[f64; STATES]]) {
+        let [x, y, z] = self.places.map(|place| looks[place]);
+        let squares: [f64; STATES] =
+            std::array::from_fn(|state| x[state] * x[state] + y[state] * y[state] + z[state] * z[state]);
+        if !squares.iter().fold(false, |any, square| any | (*square > self.square)) {
+            return;
+        }
+        for (square, t) in squares.into_iter().zip(times) {
             if square > self.square {
                 self.square = square;
                 let value = square.sqrt();
@@ -216,26 +265,31 @@ impl Load {
     }
 }
 
-fn take_in(ends: &mut [f64], values: &[f64; SIDE_BY_SIDE], beyond: impl Fn(f64, f64) -> bool) {
-    for (end, value) in ends.iter_mut().zip(values) {
-        *end = if beyond(*value, *end) { *value } else { *end };
+/// Smallest and largest value of groups of looks at a column.
+#[inline]
+fn ends(groups: &[[f64; STATES]; GROUPS]) -> (f64, f64) {
+    let (mut low, mut high) = ([f64::INFINITY; STATES], [f64::NEG_INFINITY; STATES]);
+    for group in groups {
+        for state in 0..STATES {
+            low[state] = smaller(group[state], low[state]);
+        }
+        for state in 0..STATES {
+            high[state] = larger(group[state], high[state]);
+        }
     }
+    (low.into_iter().fold(f64::INFINITY, smaller), high.into_iter().fold(f64::NEG_INFINITY, larger))
 }
 
-/// Smallest and largest values of columns side by side, from the column `first` on.
-#[inline]
-fn ends(looks: &[f64], width: usize, first: usize) -> ([f64; SIDE_BY_SIDE], [f64; SIDE_BY_SIDE]) {
-    let (mut low, mut high) = ([f64::INFINITY; SIDE_BY_SIDE], [f64::NEG_INFINITY; SIDE_BY_SIDE]);
-    for row in looks.chunks_exact(width) {
-        let Some(values) = row[first..].first_chunk::<SIDE_BY_SIDE>() else { continue };
-        for at in 0..SIDE_BY_SIDE {
-            low[at] = if values[at] < low[at] { values[at] } else { low[at] };
-        }
-        for at in 0..SIDE_BY_SIDE {
-            high[at] = if values[at] > high[at] { values[at] } else { high[at] };
-        }
-    }
-    (low, high)
+/// The smaller of both; `b` where `a` is not a number.
+#[inline(always)]
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger of both; `b` where `a` is not a number.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]

@@ -116,7 +116,12 @@ impl Guard {
 
     fn note_speeds(&mut self, motion: &ConstrainedMotion<'_>, state: &[f64]) {
         let (_, v, _) = motion.split(state);
-        self.fastest = self.fastest.max(largest(v));
+        let most = largest(v);
+        self.fastest = self.fastest.max(most);
+        // Mostly nothing is faster than something was before.
+        if most <= self.fastest_turning {
+            return;
+        }
         for place in &self.turning {
             let speed = v[*place].abs();
             if speed > self.fastest_turning {

@@ -10,7 +10,7 @@ use crate::watch::Watch;
 
 pub(super) fn run_generalized_alpha(
     motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler,
+    sampler: &mut Sampler<'_>,
     state: &mut [f64],
     (longest, rho): (f64, f64),
     watch: Watch<'_>,

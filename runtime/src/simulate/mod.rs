@@ -11,6 +11,7 @@ mod guard;
 mod half_turn;
 mod ideal;
 mod implicit;
+mod looks;
 mod motion;
 mod run;
 mod sampler;
@@ -63,7 +64,7 @@ pub fn simulate(
     motion.learn_sizes(0.0, &start);
     let mut state = motion.join(&start);
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
-    sampler.collect_extremes();
+    sampler.collect_extremes(&motion);
     let stopped = steps::run(&mut motion, &mut sampler, &mut state, settings.integrator, watch);
     Ok(sampler.finish(&motion, warning::step_limits(settings.integrator), stopped.err()))
 }

@@ -9,6 +9,7 @@ use super::contacts::Follower;
 use super::extremes::Collector;
 use super::guard::Guard;
 use super::half_turn;
+use super::looks::Looks;
 use super::motion::{ConstrainedMotion, PROJECTED_STAGES};
 use super::run::{Run, Statistics};
 use super::schedule::Schedule;
@@ -34,7 +35,7 @@ const MOST_HALVINGS: usize = 30;
 type Between<'a> = &'a dyn Fn(f64, &mut [f64]);
 
 /// Recorder of one run.
-pub(super) struct Sampler {
+pub(super) struct Sampler<'a> {
     pub(super) schedule: Schedule,
     pub(super) statistics: Statistics,
     times: Vec<f64>,
@@ -43,6 +44,8 @@ pub(super) struct Sampler {
     /// Columns at the state observed last.
     values: Vec<f64>,
     angles: Angles,
+    /// A state within a step.
+    inner: Vec<f64>,
     start_energy: f64,
     kinetic: f64,
     work: (f64, f64),
@@ -52,6 +55,8 @@ pub(super) struct Sampler {
     pub(super) passages: Passages,
     /// Where the extremes of a run go, if anybody asks for them.
     extremes: Option<Collector>,
+    /// Looks for them that wait for others.
+    looks: Option<Looks<'a>>,
     /// Time and state at the end of the last good step.
     pub(super) reached: (f64, Vec<f64>),
     /// Joints with clearance, where there are any.
@@ -62,8 +67,8 @@ pub(super) struct Sampler {
     pub(super) closing: Option<usize>,
 }
 
-impl Sampler {
-    pub(super) fn new(motion: &mut ConstrainedMotion<'_>, schedule: Schedule, state: &[f64]) -> Self {
+impl<'a> Sampler<'a> {
+    pub(super) fn new(motion: &mut ConstrainedMotion<'a>, schedule: Schedule, state: &[f64]) -> Self {
         let description = motion.dynamics.evaluator.description();
         let columns = Channels::new(description);
         let begin = schedule.begin;
@@ -82,6 +87,7 @@ impl Sampler {
             // Without rows nobody asks for turns.
             angles: Angles::new(if schedule.samples > 0 { &columns.channels } else { &[] }),
             columns,
+            inner: Vec::new(),
             start_energy: kinetic + potential + elastic,
             kinetic,
             work,
@@ -90,6 +96,7 @@ impl Sampler {
             unbounded: Unbounded::default(),
             passages: Passages::default(),
             extremes: None,
+            looks: None,
             reached: (begin, state.to_vec()),
             follower,
             turn_end: None,
@@ -186,7 +193,9 @@ impl Sampler {
     ) -> Result<(), RunError> {
         motion.put_sample_on(t, state)?;
         self.note_loop_error(motion, t, motion.projector.loop_error())?;
-        self.note_energy(motion, t, state);
+        let (q, v, _) = motion.split(state);
+        let elastic = motion.elastic_energy(t, q, v);
+        self.note_energy(motion, t, state, elastic);
         self.observe(motion, t, state)?;
         if let Some(i) = self.values.iter().position(|x| !x.is_finite()) {
             return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
@@ -206,7 +215,9 @@ impl Sampler {
     ) -> Result<(), RunError> {
         self.statistics.steps += 1;
         self.follow(motion, t, state)?;
-        let kinetic = self.note_energy(motion, t, state);
+        // Whoever follows contacts has evaluated them here.
+        let elastic = motion.dynamics.evaluator.clearances().elastic_energy();
+        let kinetic = self.note_energy(motion, t, state, elastic);
         let regularity = (motion.is_rough(), motion.dynamics.nearness());
         self.passages.note(t, regularity, self.statistics.energy_error_J);
         let (_, _, work) = motion.split(state);
@@ -241,9 +252,11 @@ impl Sampler {
             return Ok(());
         }
         self.angles.begin_step();
-        let mut inner = Vec::new();
-        let mut pending = vec![t];
-        while let Some(&next) = pending.last() {
+        let mut inner = std::mem::take(&mut self.inner);
+        // The step's end, and the times that have to be looked at before it.
+        let (mut pending, mut last) = ([t; MOST_HALVINGS + 1], 0);
+        loop {
+            let next = pending[last];
             match between {
                 Some(interpolate) if next < t => {
                     inner.resize(state.len(), 0.0);
@@ -252,18 +265,21 @@ impl Sampler {
                 }
                 _ => self.observe_aside(motion, next, state)?,
             }
-            let Err(angle) = self.angles.note(next, &self.values) else {
-                pending.pop();
-                continue;
-            };
-            let from = self.angles.known_until().unwrap_or(next);
-            let middle = 0.5 * (from + next);
-            if between.is_none() || pending.len() > MOST_HALVINGS {
-                let angle = self.columns.channels[angle].name.to_string();
-                return Err(RunError::TurnsUnclear { t, step: next - from, angle });
+            if let Err(angle) = self.angles.note(next, &self.values) {
+                let from = self.angles.known_until().unwrap_or(next);
+                if between.is_none() || last == MOST_HALVINGS {
+                    let angle = self.columns.channels[angle].name.to_string();
+                    return Err(RunError::TurnsUnclear { t, step: next - from, angle });
+                }
+                last += 1;
+                pending[last] = 0.5 * (from + next);
+            } else if last > 0 {
+                last -= 1;
+            } else {
+                break;
             }
-            pending.push(middle);
         }
+        self.inner = inner;
         let begin = &self.reached;
         let straight = |time: f64, mixed: &mut [f64]| {
             let part = (time - begin.0) / (t - begin.0);
@@ -285,7 +301,11 @@ impl Sampler {
     }
 
     /// Collects the extremes of all columns along the way.
-    pub(super) fn collect_extremes(&mut self) {
+    pub(super) fn collect_extremes(&mut self, motion: &ConstrainedMotion<'a>) {
+        // Angles are put on their turns at once, while these are known.
+        if self.angles.is_empty() {
+            self.looks = Looks::new(&motion.dynamics.evaluator, self.values.len());
+        }
         let span = (self.schedule.start, self.schedule.end);
         self.extremes = Some(Collector::new(&self.columns.channels, span));
     }
@@ -313,8 +333,21 @@ impl Sampler {
         t: f64,
         state: &[f64],
     ) -> Result<(), RunError> {
-        if self.extremes.is_none() {
-            return Ok(());
+        let Some(extremes) = &mut self.extremes else { return Ok(()) };
+        if let Some(looks) = &mut self.looks {
+            let (q, v, _) = motion.split(state);
+            let aside = motion.dynamics.aside();
+            let seen = motion.dynamics.accelerate(t, q, v);
+            let waits = seen.is_ok() && !motion.dynamics.is_rank_lost();
+            if waits {
+                looks.look(&mut motion.dynamics.evaluator, (t, q, v), &self.columns, extremes);
+            }
+            motion.dynamics.resume(aside);
+            seen?;
+            if waits {
+                return Ok(());
+            }
+            looks.finish(extremes);
         }
         self.observe_aside(motion, t, state)?;
         self.angles.unwrap(t, &mut self.values);
@@ -374,13 +407,19 @@ impl Sampler {
         self.guard.check_loops(motion, t, error)
     }
 
-    /// Notes the balance and returns the kinetic energy [J].
-    fn note_energy(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) -> f64 {
+    /// Notes the balance with the energy stored in contacts [J] and returns the kinetic energy [J].
+    fn note_energy(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+        elastic: f64,
+    ) -> f64 {
         let (q, v, (supplied, dissipated)) = motion.split(state);
         let (kinetic, potential) = motion.dynamics.evaluator.energy(t, q, v);
         let mut error = kinetic + potential - self.start_energy - supplied + dissipated;
         if self.follower.is_some() {
-            error += motion.elastic_energy(t, q, v) + motion.contact_loss(state);
+            error += elastic + motion.contact_loss(state);
         }
         self.guard.note_energy(largest(&[kinetic, potential, supplied, dissipated]));
         let error = error.abs();
@@ -398,6 +437,9 @@ impl Sampler {
         self.statistics.evaluations += motion.dynamics.evaluations;
         self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
         self.statistics.projections = motion.projections;
+        if let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes) {
+            looks.finish(extremes);
+        }
         let (extremes, peaks) = self.extremes.take().map(Collector::finish).unwrap_or_default();
         let mut run = Run {
             extremes,

@@ -12,7 +12,7 @@ use crate::watch::Watch;
 /// Runs a schedule to its end with a method; `state` is then where it got.
 pub(super) fn run(
     motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler,
+    sampler: &mut Sampler<'_>,
     state: &mut [f64],
     integrator: Integrator,
     watch: Watch<'_>,
@@ -37,7 +37,7 @@ pub(super) fn run(
 /// Equal steps no longer than asked for, that land on every sample.
 fn run_rk4(
     motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler,
+    sampler: &mut Sampler<'_>,
     state: &mut [f64],
     longest: f64,
     watch: Watch<'_>,
@@ -65,7 +65,7 @@ fn run_rk4(
 
 fn run_dopri5(
     motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler,
+    sampler: &mut Sampler<'_>,
     state: &mut [f64],
     (tolerance, longest): (f64, f64),
     watch: Watch<'_>,
