@@ -50,9 +50,14 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     if options.rigid {
         mechanism.freeze();
     }
-    let topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
-    let Findings { analysis, mut guide, warnings: remarks, waypoints } =
-        analyse(source, &mechanism, &topology)?;
+    let mut topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
+    topology.rows_in_ground = derive::shorter_in_ground(&mechanism, &topology);
+    let mut findings = analyse(source, &mechanism, &topology)?;
+    if derive::splits_plane_rows(&mechanism, &topology, &findings.guide.keep) {
+        topology.rows_in_ground = false;
+        findings = analyse(source, &mechanism, &topology)?;
+    }
+    let Findings { analysis, mut guide, warnings: remarks, waypoints } = findings;
     if options.saddle {
         // Without numbers no accelerations count as fixed by the rows.
         guide.jacobians.clear();

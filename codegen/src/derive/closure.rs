@@ -16,7 +16,7 @@ use super::kinematics::Poses;
 use super::linkage::{Cut, Freedom, LinkIndex};
 use super::log_closure::log_rows;
 use super::motion::Motion;
-use super::relative_motion::{Place, RelativeMotion};
+use super::relative_motion::{Place, RelativeMotion, Side, Sums};
 use super::row::Row;
 use super::wrench::Wrench;
 
@@ -39,11 +39,11 @@ pub fn row_count(joint: &JointModel, closure: Closure) -> usize {
 }
 
 /// Derives the rows of every cut. With `exact` the Jacobian is exact off the closed positions too.
-pub fn cut_rows<'g>(motion: &Motion<'g>, exact: bool) -> Vec<CutRows<'g>> {
-    motion.poses.geometry.linkage.cuts.iter().map(|cut| rows_of(motion, *cut, exact)).collect()
+pub fn cut_rows<'g>(motion: &Motion<'g>, exact: bool, sums: Sums) -> Vec<CutRows<'g>> {
+    motion.poses.geometry.linkage.cuts.iter().map(|cut| rows_of(motion, *cut, exact, sums)).collect()
 }
 
-fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool) -> CutRows<'g> {
+fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool, sums: Sums) -> CutRows<'g> {
     let geometry = &motion.poses.geometry;
     let g = geometry.g;
     let data = geometry.mechanism.joint(cut.joint);
@@ -52,20 +52,25 @@ fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool) -> CutRows<'g> {
     if cut.closure == Closure::Log {
         let markers = split_body_markers(geometry, cut.joint, links);
         let place = if exact { Place::Child } else { Place::Own };
-        let motion = RelativeMotion::between(motion, markers, true, place);
+        let motion = RelativeMotion::between(motion, markers, Side::Child, (place, sums));
         let rows = log_rows(&motion, exact);
         return CutRows { cut, motion, rows };
     }
     let slides = data.model.rows() > 0 && data.model.slides();
     let in_child = joint_in_child(geometry, cut.joint, links);
-    let place = match (exact, slides) {
+    let side = match in_child {
+        _ if cut.plane && geometry.linkage.rows_in_ground => Side::Ground,
+        true => Side::Child,
+        false => Side::Parent,
+    };
+    let place = match (exact && side != Side::Ground, slides) {
         (false, false) => Place::Own,
         // Directions that turn with the child measure its distance exactly at the parent's point.
         (true, _) if in_child => Place::Parent,
         _ => Place::Child,
     };
     let markers = joint_markers(geometry, cut.joint, links, in_child);
-    let motion = RelativeMotion::between(motion, markers, in_child, place);
+    let motion = RelativeMotion::between(motion, markers, side, (place, sums));
     let rows = RowMaker::new(&motion, exact).joint(geometry, &data.model);
     CutRows { cut, motion, rows }
 }

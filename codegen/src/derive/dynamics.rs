@@ -17,6 +17,7 @@ use super::linkage::Freedom;
 use super::loads::Loads;
 use super::mass_properties::MassProperties;
 use super::motion::Motion;
+use super::turned::Axes;
 use super::wrench::Wrench;
 
 /// A flexible body by the accelerations of its shape functions.
@@ -48,9 +49,8 @@ pub fn fields_of<'s, 'g>(
     fields.collect()
 }
 
-/// The [`bias_forces`] given, or those by fields, if they take fewer operations `beside` what is computed anyway.
-pub fn shorter_bias_forces<'g>(
-    whole: Vec<Expr<'g>>,
+/// Those [`bias_forces_by`] any way, that take the fewest operations `beside` what is computed anyway.
+pub fn shortest_bias_forces<'g>(
     beside: &[Expr<'g>],
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
@@ -58,12 +58,17 @@ pub fn shorter_bias_forces<'g>(
 ) -> Vec<Expr<'g>> {
     let g = motion.poses.geometry.g;
     let shapes = shapes_of(masses);
-    if shapes.is_empty() {
-        return whole;
+    let mut kinds = vec![&[][..]];
+    if !shapes.is_empty() {
+        kinds.push(&shapes[..]);
     }
-    let by_fields = bias_forces_by(motion, masses, loads, &fields_of(motion, &shapes));
-    let operations = |forces: &[Expr<'g>]| g.operations(forces.iter().chain(beside).copied());
-    if operations(&by_fields) < operations(&whole) { by_fields } else { whole }
+    let ways = kinds.into_iter().flat_map(|shapes| Axes::ALL.map(|axes| (shapes, axes)));
+    let forces = ways.map(|(shapes, axes)| {
+        let motion = motion.along(axes);
+        bias_forces_by(&motion, masses, loads, (&fields_of(&motion, shapes), axes))
+    });
+    let counted = forces.map(|forces| (g.operations(forces.iter().chain(beside).copied()), forces));
+    counted.min_by_key(|(operations, _)| *operations).map_or_else(Vec::new, |(_, forces)| forces)
 }
 
 /// Inertial wrench of a link about its origin, in its frame.
@@ -84,21 +89,20 @@ fn rigid_wrench<'g>(mass: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wre
 }
 
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
-/// and loads. Left side of [CS (6)].
-pub fn bias_forces<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], loads: &Loads<'g>) -> Vec<Expr<'g>> {
-    bias_forces_by(motion, masses, loads, &[])
-}
-
-/// The same; links that have `fields` are taken by these in the place of their mass properties.
+/// and loads. Left side of [CS (6)]. Links that have `fields` are taken by these in the place of their mass
+/// properties, and forces are passed inwards along the given axes.
 pub fn bias_forces_by<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
-    fields: &[Option<BodyFields<'_, 'g>>],
+    (fields, axes): (&[Option<BodyFields<'_, 'g>>], Axes),
 ) -> Vec<Expr<'g>> {
     let Geometry { g, linkage, .. } = motion.poses.geometry;
+    let poses = &motion.poses;
     let mut forces = vec![g.zero(); linkage.speeds()];
     let mut carried = vec![Wrench::zero(g); linkage.links.len()];
+    // Force of a link and all outboard of it, along the axes of W.
+    let mut in_ground = vec![g.zero_vector(); linkage.links.len()];
     for (at, link) in linkage.links.iter().enumerate().rev() {
         g.begin_section(format!("inertia, weight and loads of {}", link.name));
         let (frame, modes) = (&motion.accelerations[at], &motion.modes[at]);
@@ -107,8 +111,23 @@ pub fn bias_forces_by<'g>(
             Some(BodyFields { shapes, fields }) => shapes.wrench(fields, frame),
             None => inertial_wrench(motion, masses, at),
         };
-        let total = inertial + -(loads.external[at] + loads.reactions[at]) + carried[at];
-        let mut felt = total.generalised(link.freedom, motion.poses.nodes[at].as_ref());
+        let applied = loads.external[at] + loads.reactions[at];
+        let mut total = inertial + -applied + carried[at];
+        if axes.forces_in_ground {
+            let turn = poses.world[at].rotation;
+            let own = match (by_fields, &masses[at].modal) {
+                (None, None) => {
+                    let MassProperties { mass, first, .. } = masses[at].rigid;
+                    let [ground, own] = frame.turned.parts();
+                    mass * (ground + motion.ground) + turn * (mass * own + frame.spin * first)
+                }
+                _ => turn * inertial.force,
+            };
+            let sum = in_ground[at] + (own - turn * applied.force);
+            in_ground[at] = sum;
+            total.force = turn.transpose() * sum;
+        }
+        let mut felt = total.generalised(link.freedom, poses.nodes[at].as_ref());
         if let Some(modal) = &masses[at].modal {
             let deforming = match by_fields {
                 Some(BodyFields { shapes, fields }) => shapes.forces(fields, frame, &modes.v_dot),
@@ -120,7 +139,16 @@ pub fn bias_forces_by<'g>(
             forces[speed] += force;
         }
         if let Some(parent) = link.parent {
-            carried[parent] += total.passed_inwards(link.freedom, &motion.poses.relative[at]);
+            let pose = &poses.relative[at];
+            if axes.forces_in_ground && link.freedom != Freedom::Free {
+                in_ground[parent] = in_ground[parent] + in_ground[at];
+                let moment = if link.freedom == Freedom::Ball { g.zero_vector() } else { total.moment };
+                let force = poses.world[parent].inwards(in_ground[at]);
+                let moment = pose.rotation * moment + pose.offset.cross(force);
+                carried[parent] += Wrench { moment, force: g.zero_vector() };
+            } else {
+                carried[parent] += total.passed_inwards(link.freedom, pose);
+            }
         }
     }
     forces.into_iter().zip(&loads.joint).map(|(force, joint)| force - *joint).collect()

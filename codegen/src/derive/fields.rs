@@ -260,6 +260,7 @@ impl<'g> Shapes<'g> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::derive::turned::Turned;
     use crate::flexible::cloud::{Cloud, numbers};
 
     type V = [f64; 3];
@@ -326,6 +327,7 @@ mod tests {
                 spin: spin(alpha),
                 alpha: g.vector(alpha),
                 origin: g.vector(origin),
+                turned: Turned::own(g.vector(origin)),
             };
             let all = |x: &[f64]| -> Vec<Expr<'_>> { x.iter().map(|x| g.number(*x)).collect() };
             let modes = |v_dot: &[f64]| ModalState { q: all(&q), v: all(&v), v_dot: all(v_dot) };

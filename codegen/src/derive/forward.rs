@@ -17,6 +17,7 @@ use super::motion::Motion;
 use super::plan::{Plan, PlanBlock};
 use super::rows::Block;
 use super::solve::{Order, Saddle, Solution, solve};
+use super::turned::Axes;
 
 /// Accelerations of free speeds, multipliers of `rows`, and drive forces.
 pub struct Forward<'g> {
@@ -52,12 +53,15 @@ pub struct Way<'s, 'g> {
     pub again: bool,
     /// Of what the equations of motion are left with.
     pub order: Order<'s>,
+    /// Of accelerations and forces.
+    pub axes: Axes,
 }
 
 /// Motion with these accelerations, and the fields of the bodies that are taken by them.
 struct Moving<'a, 'g> {
     motion: Motion<'g>,
     fields: Vec<Option<BodyFields<'a, 'g>>>,
+    axes: Axes,
 }
 
 impl<'g> Problem<'_, 'g> {
@@ -76,18 +80,22 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// Motion with these accelerations of the free speeds.
-    fn moving<'s>(&self, accelerations: &[Expr<'g>], shapes: &'s [Option<Shapes<'g>>]) -> Moving<'s, 'g> {
+    fn moving<'s>(
+        &self,
+        accelerations: &[Expr<'g>],
+        Way { shapes, axes, .. }: Way<'s, 'g>,
+    ) -> Moving<'s, 'g> {
         let mut rates = self.rates.to_vec();
         for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
             rates[*speed] = *acceleration;
         }
-        let motion = self.motion.accelerated(self.v, &rates);
-        Moving { fields: fields_of(&motion, shapes), motion }
+        let motion = self.motion.accelerated(self.v, &rates).along(axes);
+        Moving { fields: fields_of(&motion, shapes), motion, axes }
     }
 
     /// What all speeds feel at given accelerations.
     fn felt(&self, moving: &Moving<'_, 'g>) -> Vec<Expr<'g>> {
-        bias_forces_by(&moving.motion, self.masses, self.loads, &moving.fields)
+        bias_forces_by(&moving.motion, self.masses, self.loads, (&moving.fields, moving.axes))
     }
 
     /// The solution by one way.
@@ -99,7 +107,7 @@ impl<'g> Problem<'_, 'g> {
     fn saddle(&self, way: Way<'_, 'g>) -> Forward<'g> {
         let partition = self.partition;
         let g = self.motion.poses.geometry.g;
-        let h = self.felt(&self.moving(&vec![g.zero(); partition.free.len()], way.shapes));
+        let h = self.felt(&self.moving(&vec![g.zero(); partition.free.len()], way));
         g.begin_section("mass matrix by composite bodies");
         let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &[]);
         let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| self.pick(&mass[*i])).collect();
@@ -174,7 +182,7 @@ impl<'g> Problem<'_, 'g> {
             }
         }
         // J^T lambda carries what inertia and loads leave over.
-        let felt = self.felt(&last.unwrap_or_else(|| self.moving(&accelerations, way.shapes)));
+        let felt = self.felt(&last.unwrap_or_else(|| self.moving(&accelerations, way)));
         g.begin_section("multipliers");
         for block in blocks.iter().rev() {
             let rights: Vec<Expr<'g>> = block
@@ -196,16 +204,13 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// Puts in the accelerations that local modes have while all others are as they stand.
-    fn with_local_modes<'s>(
-        &self,
-        accelerations: &mut [Expr<'g>],
-        Way { shapes, local, .. }: Way<'s, 'g>,
-    ) -> Moving<'s, 'g> {
+    fn with_local_modes<'s>(&self, accelerations: &mut [Expr<'g>], way: Way<'s, 'g>) -> Moving<'s, 'g> {
         let g = self.motion.poses.geometry.g;
+        let local = way.local;
         for speed in local.iter().flat_map(|body| &body.speeds) {
             accelerations[*speed] = g.zero();
         }
-        let moving = self.moving(accelerations, shapes);
+        let moving = self.moving(accelerations, way);
         if local.is_empty() {
             return moving;
         }
@@ -218,7 +223,7 @@ impl<'g> Problem<'_, 'g> {
                 accelerations[*speed] = -g.weighted(row.iter().copied(), &forces);
             }
         }
-        self.moving(accelerations, shapes)
+        self.moving(accelerations, way)
     }
 
     /// What rows do not fix, local modes left out.
@@ -270,7 +275,7 @@ impl<'g> Problem<'_, 'g> {
         accelerations: &mut [Expr<'g>],
         before: &[Expr<'g>],
         moving: Moving<'s, 'g>,
-        Way { shapes, local, .. }: Way<'s, 'g>,
+        way: Way<'s, 'g>,
     ) -> Moving<'s, 'g> {
         let g = self.motion.poses.geometry.g;
         let mut change = vec![g.zero(); self.v.len()];
@@ -279,7 +284,7 @@ impl<'g> Problem<'_, 'g> {
         }
         let change = self.motion.changed(&change);
         let mut followed = Vec::new();
-        for body in local {
+        for body in way.local {
             g.begin_section("accelerations of the modes");
             let moved = &change[body.link];
             let columns = body.columns(&self.masses[body.link]);
@@ -294,7 +299,7 @@ impl<'g> Problem<'_, 'g> {
                 followed.push((body.link, by.shapes.changed(&by.fields, moved.alpha, &own)));
             }
         }
-        let mut after = self.moving(accelerations, shapes);
+        let mut after = self.moving(accelerations, way);
         for (link, changed) in followed {
             if let Some(Some(by)) = after.fields.get_mut(link) {
                 by.fields = changed;

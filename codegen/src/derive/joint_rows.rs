@@ -4,8 +4,9 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::model::JointModel;
 
+use super::frame::canonical_frame;
 use super::geometry::Geometry;
-use super::relative_motion::RelativeMotion;
+use super::relative_motion::{RelativeMotion, Side};
 use super::row::{Bias, Row};
 
 /// Makes the rows of one cut.
@@ -27,6 +28,13 @@ struct FreePart<'g> {
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
+/// Axes of which the last is a number in W: those of W, put so that it is the last.
+fn plane_axes<'g>(g: &'g Scope, last: Vec3<'g>) -> [Vec3<'g>; 3] {
+    let numbers = last.map(|x| x).0.map(|x| x.as_number().unwrap_or(0.0));
+    let frame = canonical_frame(numbers, |_| None).0;
+    [0, 1, 2].map(|j| g.vector(frame.axis(j)))
+}
+
 impl<'a, 'g> RowMaker<'a, 'g> {
     /// For the cut with this motion; with `exact` the moments hold off the closed positions too.
     pub fn new(motion: &'a RelativeMotion<'g>, exact: bool) -> Self {
@@ -40,7 +48,9 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         let own = self.own_axes();
         self.free = self.free_part(joint, own);
         let frame = match (joint.axes.is_empty(), self.motion.beside()) {
-            (false, _) => "the joint",
+            (false, Some(_)) => "the joint",
+            (false, None) if self.motion.side != Side::Ground => "the joint",
+            (false, None) => "ground",
             (true, None) => "ground",
             (true, Some(at)) => &geometry.mechanism.body(geometry.linkage.links[at].body).name,
         };
@@ -57,14 +67,22 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         self.rows
     }
 
-    /// Joint axes of the side that lends its frame: constants.
+    /// Joint axes of the side that lends its frame, constants; in W, whose own axes serve as well.
     fn own_axes(&self) -> [Vec3<'g>; 3] {
-        let side = if self.motion.in_child { &self.motion.child } else { &self.motion.parent };
+        let side = match self.motion.side {
+            Side::Parent => &self.motion.parent,
+            Side::Child => &self.motion.child,
+            Side::Ground => return plane_axes(self.g, self.motion.child_axis(2)),
+        };
         [0, 1, 2].map(|j| self.g.vector(side.frame.axis(j)))
     }
 
     fn beside_omega(&self) -> Vec3<'g> {
-        if self.motion.in_child { self.motion.child_omega } else { self.motion.parent_omega }
+        match self.motion.side {
+            Side::Parent => self.motion.parent_omega,
+            Side::Child => self.motion.child_omega,
+            Side::Ground => self.g.zero_vector(),
+        }
     }
 
     fn translations(&mut self, which: &[usize], axes: [Vec3<'g>; 3], frame: &str) {
@@ -105,6 +123,9 @@ impl<'a, 'g> RowMaker<'a, 'g> {
 
     /// u . (a_C - a_P) - u . ((omega_beside + omega_P) x slide).
     fn translation_bias(&self, u: Vec3<'g>, relative: &FreePart<'g>) -> Expr<'g> {
+        if self.motion.side == Side::Ground {
+            return u.dot(self.motion.acceleration);
+        }
         let turning = self.beside_omega() + self.motion.parent_omega;
         u.dot(self.motion.acceleration - turning.cross(relative.slide))
     }
@@ -122,7 +143,7 @@ impl<'a, 'g> RowMaker<'a, 'g> {
 
     /// The joint axis of the other side stays on that of this side: two rows.
     fn tilts(&mut self, own: [Vec3<'g>; 3]) {
-        let in_child = self.motion.in_child;
+        let in_child = self.motion.side != Side::Parent;
         let other = if in_child { self.motion.parent_axis(2) } else { self.motion.child_axis(2) };
         let (about_y, about_x) = (other.dot(own[0]), other.dot(own[1]));
         let [x, y] = if in_child { [about_x, -about_y] } else { [-about_x, about_y] };

@@ -9,7 +9,7 @@ use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 use super::joint_markers::{joint_in_child, joint_links, joint_markers};
 use super::motion::Motion;
-use super::relative_motion::{Place, RelativeMotion};
+use super::relative_motion::{Place, RelativeMotion, Side, Sums};
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {
@@ -19,6 +19,8 @@ pub struct JointStates<'g> {
     pub v: Vec<Expr<'g>>,
     /// All speed derivatives (zero where they are not asked for).
     pub v_dot: Vec<Expr<'g>>,
+    /// Whether velocities of points are summed up in W, else in the frames of their links.
+    pub points_in_ground: bool,
 }
 
 impl<'g> JointStates<'g> {
@@ -49,7 +51,8 @@ impl<'g> JointStates<'g> {
         let links = joint_links(&self.geometry, joint);
         let in_child = joint_in_child(&self.geometry, joint, links);
         let markers = joint_markers(&self.geometry, joint, links, in_child);
-        RelativeMotion::between(&self.motion, markers, in_child, Place::Child)
+        let side = if in_child { Side::Child } else { Side::Parent };
+        RelativeMotion::between(&self.motion, markers, side, (Place::Child, Sums::Links))
     }
 
     /// Position of a named point in W [m].
@@ -63,9 +66,14 @@ impl<'g> JointStates<'g> {
     /// Velocity of a named point in W [m/s].
     pub fn point_velocity(&self, point: PointId) -> Vec3<'g> {
         let carrier = self.geometry.mechanism.point(point).carrier;
-        let link = self.geometry.linkage.link_at(carrier, point, false);
+        let linkage = self.geometry.linkage;
+        let link = linkage.link_at(carrier, point, false);
         let local = self.geometry.local(link, point);
-        self.motion.point_velocity_w(link, local)
+        if self.points_in_ground {
+            return self.motion.velocity_in_ground(link, local);
+        }
+        let rotation = self.motion.poses.world_of(self.geometry.g, link).rotation;
+        self.motion.velocity(link, local, rotation)[1]
     }
 
     /// A formula over the state.

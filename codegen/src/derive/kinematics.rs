@@ -4,11 +4,12 @@
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
-use super::attachment::{NodeMotion, NodePose};
+use super::attachment::NodePose;
 use super::frame::Frame;
 use super::geometry::Geometry;
 use super::linkage::{Freedom, LinkIndex};
 use super::orientation::rotation_of_quaternion;
+use super::turned::{Lever, Turned};
 
 /// Pose of a link relative to its parent link or to W.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +25,8 @@ pub struct Pose<'g> {
 pub struct Twist<'g> {
     pub omega: Vec3<'g>,
     pub origin: Vec3<'g>,
+    /// Velocity of the origin summed from the ground outwards: parts that branches share are one.
+    pub turned: Turned<'g>,
 }
 
 /// Inertial acceleration of a link, in its own frame [rad/s², m/s²].
@@ -33,6 +36,8 @@ pub struct Acceleration<'g> {
     pub spin: Mat3<'g>,
     pub alpha: Vec3<'g>,
     pub origin: Vec3<'g>,
+    /// Acceleration of the origin without the ground's, summed from the ground outwards.
+    pub turned: Turned<'g>,
 }
 
 /// Poses of all links for given coordinates.
@@ -67,7 +72,7 @@ impl<'g> Pose<'g> {
 
 impl<'g> Twist<'g> {
     pub fn none(g: &'g Scope) -> Self {
-        Self { omega: g.zero_vector(), origin: g.zero_vector() }
+        Self { omega: g.zero_vector(), origin: g.zero_vector(), turned: Turned::zero(g) }
     }
 
     /// Velocity of a point of the link, in the link's frame.
@@ -128,6 +133,26 @@ impl<'g> Poses<'g> {
         let outer = self.world[parent];
         let relative = Pose { rotation: outer.rotation.transpose() * rotation, offset: mount };
         (relative, Pose { rotation, offset: outer.position(mount) })
+    }
+
+    /// Rate of a link's origin, in which `origin` is the whole along its own axes: its parent's with what turning the parent
+    /// adds, and the link's own slide. Where it moves otherwise, the whole is turned.
+    pub fn passed_on(
+        &self,
+        at: usize,
+        origin: Vec3<'g>,
+        (parent, lever, slide): (Turned<'g>, &Lever<'g>, Vec3<'g>),
+    ) -> Turned<'g> {
+        let link = &self.geometry.linkage.links[at];
+        if link.freedom == Freedom::Free || self.nodes[at].is_some() {
+            return Turned::own(origin);
+        }
+        let (place, turn) = (self.relative[at].offset, self.world_of(slide.scope(), link.parent).rotation);
+        let carried = match link.freedom {
+            Freedom::Translation { .. } => parent.at_parallel(lever, place),
+            _ => parent.at(turn, lever, place).left(turn),
+        };
+        carried.plus(slide)
     }
 
     /// World pose; identity for the ground.
@@ -200,20 +225,22 @@ pub fn twists<'g>(poses: &Poses<'g>, v: &[Expr<'g>]) -> Vec<Twist<'g>> {
         let v = &v[link.speeds()];
         let parent = link.parent.map_or_else(|| Twist::none(g), |parent| twists[parent]);
         let carried = || carried_twist(parent, &poses.relative[at]);
-        let twist = match link.freedom {
-            Freedom::Free => Twist { omega: Vec3::first_of(v), origin: Vec3::first_of(&v[3..]) },
-            Freedom::Ball => Twist { omega: Vec3::first_of(v), origin: carried().origin },
+        let slide = link.freedom.screw().map_or_else(|| g.zero_vector(), |[_, slide]| v[0] * g.vector(slide));
+        let [omega, origin] = match link.freedom {
+            Freedom::Free => [Vec3::first_of(v), Vec3::first_of(&v[3..])],
+            Freedom::Ball => [Vec3::first_of(v), carried().origin],
             _ => match (&poses.nodes[at], link.freedom.screw()) {
                 (Some(node), _) => deformed_twist(link.freedom, carried(), node, v),
-                (None, Some(screw)) => {
+                (None, Some([turn, _])) => {
                     let carried = carried();
-                    let [turn, slide] = screw.map(|axis| v[0] * g.vector(axis));
-                    Twist { omega: carried.omega + turn, origin: carried.origin + slide }
+                    [carried.omega + v[0] * g.vector(turn), carried.origin + slide]
                 }
-                (None, None) => carried(),
+                (None, None) => [carried().omega, carried().origin],
             },
         };
-        twists.push(twist);
+        let lever = Lever::of_velocity(poses.world_of(g, link.parent).rotation, parent.omega);
+        let turned = poses.passed_on(at, origin, (parent.turned, &lever, slide));
+        twists.push(Twist { omega, origin, turned });
     }
     twists
 }
@@ -221,130 +248,27 @@ pub fn twists<'g>(poses: &Poses<'g>, v: &[Expr<'g>]) -> Vec<Twist<'g>> {
 /// Twist of a node, or of a floating frame behind its inboard node, from what it would be without modal speeds.
 fn deformed_twist<'g>(
     freedom: Freedom,
-    carried: Twist<'g>,
+    carried: Carried<'g>,
     node: &NodePose<'g>,
     v: &[Expr<'g>],
-) -> Twist<'g> {
+) -> [Vec3<'g>; 2] {
     let rate = node.velocity(v);
     if freedom == Freedom::Node {
         let (turn, slide) = (node.to_section(rate.turn), node.to_section(rate.slide));
-        return Twist { omega: carried.omega + turn, origin: carried.origin + slide };
+        return [carried.omega + turn, carried.origin + slide];
     }
     let moved = rate.turn.cross(node.place) - rate.slide;
-    Twist { omega: carried.omega - rate.turn, origin: carried.origin + moved }
+    [carried.omega - rate.turn, carried.origin + moved]
 }
 
-/// Twist that a link would have if it were fixed to its parent.
-pub fn carried_twist<'g>(parent: Twist<'g>, pose: &Pose<'g>) -> Twist<'g> {
+/// Angular velocity, and velocity of the origin, that a link would have if it were fixed to its parent.
+pub struct Carried<'g> {
+    pub omega: Vec3<'g>,
+    origin: Vec3<'g>,
+}
+
+/// Twist that a link would have if it were fixed to its parent, in its frame.
+pub fn carried_twist<'g>(parent: Twist<'g>, pose: &Pose<'g>) -> Carried<'g> {
     let at_joint = parent.at(pose.offset);
-    Twist { omega: pose.inwards(parent.omega), origin: pose.inwards(at_joint) }
-}
-
-/// `skew(alpha) + skew(omega)²`.
-fn spin<'g>(omega: Vec3<'g>, alpha: Vec3<'g>) -> Mat3<'g> {
-    let squares = omega.map(Expr::square);
-    let mut matrix = omega.scope().matrix([[0.0; 3]; 3]);
-    for i in 0..3 {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        matrix[i][i] = -(squares[j] + squares[k]);
-        let product = omega[i] * omega[j];
-        matrix[i][j] = product - alpha[k];
-        matrix[j][i] = product + alpha[k];
-    }
-    matrix
-}
-
-/// Accelerations of all links for given speeds and speed derivatives. `ground` is the acceleration of
-/// the ground: minus gravity, so that weight is carried along.
-pub fn accelerations<'g>(
-    poses: &Poses<'g>,
-    twists: &[Twist<'g>],
-    (v, v_dot): (&[Expr<'g>], &[Expr<'g>]),
-    ground: Vec3<'g>,
-) -> Vec<Acceleration<'g>> {
-    let g = poses.geometry.g;
-    let still = Acceleration { spin: g.matrix([[0.0; 3]; 3]), alpha: g.zero_vector(), origin: ground };
-    let mut list: Vec<Acceleration<'g>> = Vec::new();
-    for (at, link) in poses.geometry.linkage.links.iter().enumerate() {
-        let (speed, rate) = (&v[link.speeds()], &v_dot[link.speeds()]);
-        let (twist, pose) = (twists[at], &poses.relative[at]);
-        let (outer, parent) = match link.parent {
-            Some(parent) => (twists[parent], list[parent]),
-            None => (Twist::none(g), still),
-        };
-        let (alpha, origin) = if let (Some(node), Some(shape)) = (&poses.nodes[at], &link.node) {
-            let moved = node.acceleration(shape, speed, rate);
-            let velocity = node.velocity(speed);
-            if link.freedom == Freedom::Node {
-                node_acceleration(node, (outer, parent), velocity, moved)
-            } else {
-                floating_acceleration(node, (pose, twist), parent, velocity, moved)
-            }
-        } else if link.freedom == Freedom::Free {
-            let turned = twist.omega.cross(twist.origin);
-            // Speeds are true velocities; the ground's share of gravity is added in this frame.
-            let weight = poses.world[at].inwards(ground);
-            (Vec3::first_of(rate), Vec3::first_of(&rate[3..]) + turned + weight)
-        } else {
-            relative_acceleration(link.freedom, pose, (outer, parent), (speed, rate))
-        };
-        list.push(Acceleration { spin: spin(twist.omega, alpha), alpha, origin });
-    }
-    list
-}
-
-/// Angular acceleration of a section and acceleration of its node, in the section's frame.
-fn node_acceleration<'g>(
-    node: &NodePose<'g>,
-    (twist, floating): (Twist<'g>, Acceleration<'g>),
-    velocity: NodeMotion<'g>,
-    moved: NodeMotion<'g>,
-) -> (Vec3<'g>, Vec3<'g>) {
-    let origin = floating.at(node.place) + coriolis(twist.omega, velocity.slide) + moved.slide;
-    let alpha = floating.alpha + (twist.omega.cross(velocity.turn) + moved.turn);
-    (node.to_section(alpha), node.to_section(origin))
-}
-
-/// Angular acceleration of a floating frame and acceleration of its origin, in its frame, from those of the
-/// link that holds its inboard node.
-fn floating_acceleration<'g>(
-    node: &NodePose<'g>,
-    (pose, twist): (&Pose<'g>, Twist<'g>),
-    holder: Acceleration<'g>,
-    velocity: NodeMotion<'g>,
-    moved: NodeMotion<'g>,
-) -> (Vec3<'g>, Vec3<'g>) {
-    let alpha = pose.inwards(holder.alpha) - (twist.omega.cross(velocity.turn) + moved.turn);
-    let at_node = pose.inwards(holder.origin);
-    let turned = spin(twist.omega, alpha) * node.place;
-    (alpha, at_node - (turned + coriolis(twist.omega, velocity.slide) + moved.slide))
-}
-
-/// Angular acceleration and acceleration of the origin of a jointed link, in its frame.
-fn relative_acceleration<'g>(
-    freedom: Freedom,
-    pose: &Pose<'g>,
-    (twist, parent): (Twist<'g>, Acceleration<'g>),
-    (speed, rate): (&[Expr<'g>], &[Expr<'g>]),
-) -> (Vec3<'g>, Vec3<'g>) {
-    let g = twist.omega.scope();
-    let at_joint = parent.at(pose.offset);
-    let (omega, alpha) = (pose.inwards(twist.omega), pose.inwards(parent.alpha));
-    let carried = pose.inwards(at_joint);
-    match (freedom, freedom.screw()) {
-        (Freedom::Ball, _) => (Vec3::first_of(rate), carried),
-        (_, Some(screw)) => {
-            let [turn, slide] = screw.map(|axis| g.vector(axis));
-            let turned = alpha + omega.cross(speed[0] * turn) + rate[0] * turn;
-            let moved = carried + coriolis(omega, speed[0] * slide) + rate[0] * slide;
-            (turned, moved)
-        }
-        (_, None) => (alpha, carried),
-    }
-}
-
-/// Coriolis acceleration of a relative velocity `slide` in a frame that turns with `omega`.
-fn coriolis<'g>(omega: Vec3<'g>, slide: Vec3<'g>) -> Vec3<'g> {
-    let two = omega.scope().number(2.0);
-    two * omega.cross(slide)
+    Carried { omega: pose.inwards(parent.omega), origin: pose.inwards(at_joint) }
 }

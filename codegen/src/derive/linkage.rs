@@ -151,6 +151,9 @@ pub struct Cut {
     pub parent: LinkIndex,
     /// Link of the joint's child body (for `Log`: its copy at the cut joint).
     pub child: LinkIndex,
+    /// Whether the joint holds a point and both links turn about lines of one direction alone, those of their joints to the
+    /// ground and its own: rows are then as simple along the axes of W as along those of the links.
+    pub plane: bool,
 }
 
 /// All links, parents before children, and all cuts.
@@ -160,6 +163,8 @@ pub struct Linkage {
     pub links: Vec<Link>,
     /// Loop closures.
     pub cuts: Vec<Cut>,
+    /// Whether rows of plane cuts are along the axes of W.
+    pub rows_in_ground: bool,
     /// Link that carries each body on its own branch.
     pub link_of_body: Vec<usize>,
     /// Last link of each joint's chain, for joints in the tree.

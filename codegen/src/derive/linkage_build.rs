@@ -16,6 +16,7 @@ pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -
         linkage: Linkage {
             links: Vec::new(),
             cuts: Vec::new(),
+            rows_in_ground: topology.rows_in_ground,
             link_of_body: vec![usize::MAX; mechanism.bodies.len()],
             link_of_joint: vec![None; mechanism.joints.len()],
             reversed: vec![false; mechanism.joints.len()],
@@ -35,6 +36,9 @@ pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -
     builder.share_masses();
     builder.linkage
 }
+
+/// Unit vectors are parallel up to a few roundings.
+const PARALLEL: f64 = 1e-14;
 
 struct Builder<'a> {
     mechanism: &'a Mechanism,
@@ -233,7 +237,8 @@ impl Builder<'_> {
         let (parent_link, child_link) = (self.held(joint, parent), self.held(joint, child));
         let cut = match (self.mechanism.closure, self.end_body(parent, child)) {
             (Closure::Joint, _) | (_, None) => {
-                Cut { joint, closure: Closure::Joint, parent: parent_link, child: child_link }
+                let plane = self.is_plane(joint, [parent_link, child_link]);
+                Cut { joint, closure: Closure::Joint, parent: parent_link, child: child_link, plane }
             }
             (Closure::Log, Some((body, inboard, reversed))) => {
                 let step = TreeJoint { joint, inboard, outboard: body, reversed };
@@ -242,10 +247,26 @@ impl Builder<'_> {
                 self.linkage.link_of_joint[joint.index()] = Some(copy);
                 self.linkage.reversed[joint.index()] = reversed;
                 let own = self.linkage.link_of_body[body.index()];
-                Cut { joint, closure: Closure::Log, parent: Some(own), child: Some(copy) }
+                Cut { joint, closure: Closure::Log, parent: Some(own), child: Some(copy), plane: false }
             }
         };
         self.linkage.cuts.push(cut);
+    }
+
+    /// See [`Cut::plane`].
+    fn is_plane(&self, joint: JointId, links: [LinkIndex; 2]) -> bool {
+        let model = &self.mechanism.joint(joint).model;
+        let [axis] = model.axes[..] else { return false };
+        let along = |direction: [f64; 3]| 1.0 - dot(direction, axis.child).abs() < PARALLEL;
+        let parallel = |at: usize| match self.linkage.links[at].freedom {
+            Freedom::Rotation { .. } => along(self.linkage.links[at].frame.axis(2)),
+            Freedom::Translation { .. } | Freedom::Weld => true,
+            _ => false,
+        };
+        let holds_point = model.held_axes().len() == 3;
+        holds_point
+            && along(axis.parent)
+            && links.into_iter().all(|link| self.linkage.path(link).all(parallel))
     }
 
     /// The end body of [CS (2)], which is reached twice: on its own branch and through the cut joint; with its

@@ -4,6 +4,7 @@
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
 //! `plan`, `rows`, `dynamics`, `solve`, `forward`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
 
+mod accelerations;
 mod attachment;
 mod closure;
 mod contacts;
@@ -45,10 +46,11 @@ mod solve;
 mod start;
 #[cfg(test)]
 mod tests;
+mod turned;
 mod wrench;
 
 pub use closure::row_count;
-pub use entries::{Derived, Purpose, derive};
+pub use entries::{Derived, Purpose, derive, shorter_in_ground, splits_plane_rows};
 pub use linkage::{Freedom, Link, Linkage};
 pub use plan::Guide;
 

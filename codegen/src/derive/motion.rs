@@ -3,9 +3,11 @@
 
 use crate::expr::{Expr, Mat3, Vec3};
 
+use super::accelerations::accelerations;
 use super::geometry::Geometry;
-use super::kinematics::{Acceleration, Poses, Twist, accelerations, carried_twist};
+use super::kinematics::{Acceleration, Poses, Twist, carried_twist};
 use super::linkage::{LinkIndex, Linkage};
+use super::turned::{Axes, Lever};
 
 /// Kinematics of all links at one instant.
 #[derive(Clone)]
@@ -43,6 +45,18 @@ impl<'g> Motion<'g> {
         motion
     }
 
+    /// The same motion with accelerations of origins made along the given axes.
+    pub fn along(&self, axes: Axes) -> Self {
+        let mut motion = self.clone();
+        if axes.accelerations_in_ground {
+            for (acceleration, pose) in motion.accelerations.iter_mut().zip(&self.poses.world) {
+                let [ground, own] = acceleration.turned.parts();
+                acceleration.origin = own + pose.inwards(ground + self.ground);
+            }
+        }
+        motion
+    }
+
     /// What changes of the speeds' derivatives change of all links' accelerations.
     pub fn changed(&self, v_dot: &[Expr<'g>]) -> Vec<Acceleration<'g>> {
         let Geometry { g, linkage, .. } = self.poses.geometry;
@@ -72,10 +86,48 @@ impl<'g> Motion<'g> {
         [alpha, of_point].map(|v| rotation * v)
     }
 
-    /// Velocity in W of a point of a link.
-    pub fn point_velocity_w(&self, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
-        let rotation = self.poses.world_of(self.ground.scope(), link).rotation;
-        self.velocity(link, point, rotation)[1]
+    /// Place of a point of a link, along the axes of W and along the link's own: if the `whole` is asked for, all along those
+    /// of W.
+    pub fn place(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> [Vec3<'g>; 2] {
+        let g = self.ground.scope();
+        if whole {
+            return [self.poses.position(link, point), g.zero_vector()];
+        }
+        [self.poses.world_of(g, link).offset, point]
+    }
+
+    /// The same of its velocity.
+    pub fn turned_velocity(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> [Vec3<'g>; 2] {
+        if whole {
+            return [self.velocity_in_ground(link, point), self.ground.scope().zero_vector()];
+        }
+        let twist = self.twist(link);
+        twist.turned.plus(twist.omega.cross(point)).parts()
+    }
+
+    /// The same of its acceleration, without the ground's.
+    pub fn turned_acceleration(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> [Vec3<'g>; 2] {
+        let Some(at) = link.filter(|_| !whole) else {
+            return [self.acceleration_in_ground(link, point), self.ground.scope().zero_vector()];
+        };
+        let acceleration = &self.accelerations[at];
+        acceleration.turned.plus(acceleration.spin * point).parts()
+    }
+
+    /// Velocity of a point of a link along the axes of W.
+    pub fn velocity_in_ground(&self, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
+        let turn = self.poses.world_of(self.ground.scope(), link).rotation;
+        let twist = self.twist(link);
+        twist.turned.at(turn, &Lever::of_velocity(turn, twist.omega), point).in_ground(turn)
+    }
+
+    /// Acceleration of a point of a link along the axes of W, without the ground's.
+    pub fn acceleration_in_ground(&self, link: LinkIndex, point: Vec3<'g>) -> Vec3<'g> {
+        let Some(at) = link else { return self.ground.scope().zero_vector() };
+        let acceleration = &self.accelerations[at];
+        let turn = self.poses.world[at].rotation;
+        let lever = Lever::of_acceleration(turn, self.twists[at].omega, acceleration.alpha);
+        acceleration.turned.at(turn, &lever, point).in_ground(turn)
     }
 
     /// Angular velocity of a ball link relative to its parent, in the ball link's frame.

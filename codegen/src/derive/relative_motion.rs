@@ -31,14 +31,35 @@ pub enum Place {
     Parent,
 }
 
+/// Whose axes vectors are along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Those of the parent's link.
+    Parent,
+    /// Those of the child's link.
+    Child,
+    /// Those of W.
+    Ground,
+}
+
+/// Along whose axes distance, velocity and acceleration are summed up before they are turned to the common ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sums {
+    /// From link to link.
+    Links,
+    /// Those of W: turned once. Where branches part outboard of a link, what they share would be there twice: from link to
+    /// link there.
+    Ground,
+}
+
 /// Motion of one marker, the child, relative to another, the parent; all in the frame of [`Self::beside`].
 pub struct RelativeMotion<'g> {
     /// The parent, its origin moved to the chosen place.
     pub parent: Marker<'g>,
     /// The child, its origin moved to the chosen place.
     pub child: Marker<'g>,
-    /// Whether vectors are expressed in the frame of the child's link (else of the parent's).
-    pub in_child: bool,
+    /// Along whose axes vectors are.
+    pub side: Side,
     /// Takes components in the frame of the parent's link to the common frame.
     pub from_parent: Mat3<'g>,
     /// Takes components in the frame of the child's link to the common frame.
@@ -85,17 +106,25 @@ impl<'g> RelativeMotion<'g> {
     pub fn between(
         motion: &Motion<'g>,
         [mut parent, mut child]: [Marker<'g>; 2],
-        in_child: bool,
-        place: Place,
+        side: Side,
+        (place, sums): (Place, Sums),
     ) -> Self {
-        let g = motion.poses.geometry.g;
-        let (from_parent, from_child) = if in_child {
-            (motion.poses.rotation_between(parent.link, child.link), g.identity())
-        } else {
-            (g.identity(), motion.poses.rotation_between(child.link, parent.link))
+        let beside = match side {
+            Side::Parent => parent.link,
+            Side::Child => child.link,
+            Side::Ground => None,
         };
-        let beside = if in_child { child.link } else { parent.link };
-        let distance = distance(&motion.poses, [&parent, &child], beside);
+        let [from_parent, from_child] =
+            [parent.link, child.link].map(|link| motion.poses.rotation_between(link, beside));
+        let apart = motion.poses.geometry.linkage.common_ancestor(parent.link, child.link).is_none();
+        let in_ground = side == Side::Ground || (sums == Sums::Ground && apart);
+        let turned = Turning { turn: motion.poses.world_of(motion.poses.geometry.g, beside).rotation, side };
+        let distance = if in_ground {
+            turned
+                .difference([&parent, &child], |marker, whole| motion.place(marker.link, marker.point, whole))
+        } else {
+            distance(&motion.poses, [&parent, &child], beside)
+        };
         match place {
             Place::Own => {}
             Place::Child => parent.point += from_parent.transpose() * distance,
@@ -105,25 +134,39 @@ impl<'g> RelativeMotion<'g> {
         let [child_omega, child_velocity] = motion.velocity(child.link, child.point, from_child);
         let [parent_alpha, parent_acceleration] = motion.acceleration(parent.link, parent.point, from_parent);
         let [child_alpha, child_acceleration] = motion.acceleration(child.link, child.point, from_child);
+        let (mut slide, mut acceleration) =
+            (child_velocity - parent_velocity, child_acceleration - parent_acceleration);
+        if in_ground {
+            let ends = [&parent, &child];
+            slide = turned
+                .difference(ends, |marker, whole| motion.turned_velocity(marker.link, marker.point, whole));
+            acceleration = turned.difference(ends, |marker, whole| {
+                motion.turned_acceleration(marker.link, marker.point, whole)
+            });
+        }
         Self {
             parent,
             child,
-            in_child,
+            side,
             from_parent,
             from_child,
             distance,
             omega: child_omega - parent_omega,
-            slide: child_velocity - parent_velocity,
+            slide,
             parent_omega,
             child_omega,
             alpha: child_alpha - parent_alpha,
-            acceleration: child_acceleration - parent_acceleration,
+            acceleration,
         }
     }
 
     /// The link whose frame is used.
     pub fn beside(&self) -> LinkIndex {
-        if self.in_child { self.child.link } else { self.parent.link }
+        match self.side {
+            Side::Parent => self.parent.link,
+            Side::Child => self.child.link,
+            Side::Ground => None,
+        }
     }
 
     /// Axis of the parent in the common frame.
@@ -153,6 +196,32 @@ impl<'g> RelativeMotion<'g> {
         let child = side(self.from_child, self.child.point);
         let parent = side(self.from_parent, self.parent.point);
         [-parent, child]
+    }
+}
+
+/// How a difference is turned from the axes of W to those of one side.
+struct Turning<'g> {
+    /// Takes components along the axes of that side to those of W.
+    turn: Mat3<'g>,
+    side: Side,
+}
+
+impl<'g> Turning<'g> {
+    /// Of the child's minus that of the parent. `of` gives what is along the axes of W and what is along the link's own: all
+    /// of it along those of W where the whole is asked for.
+    fn difference(
+        &self,
+        [parent, child]: [&Marker<'g>; 2],
+        of: impl Fn(&Marker<'g>, bool) -> [Vec3<'g>; 2],
+    ) -> Vec3<'g> {
+        let [parent, child] = [(parent, Side::Parent), (child, Side::Child)]
+            .map(|(marker, side)| of(marker, side != self.side));
+        let apart = self.turn.transpose() * (child[0] - parent[0]);
+        match self.side {
+            Side::Parent => apart - parent[1],
+            Side::Child => apart + child[1],
+            Side::Ground => apart,
+        }
     }
 }
 

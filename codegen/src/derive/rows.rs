@@ -56,8 +56,13 @@ impl<'a, 'g> Block<'a, 'g> {
         (0..right.len()).map(sum).collect()
     }
 
-    /// `1 / |B⁻¹|²`: about the square of the smallest singular value.
+    /// About the square of the smallest singular value: `1 / |B⁻¹|²`; of two rows with the usual size of the adjugate, by
+    /// which the pivot is only measured.
     pub fn pivot(&self) -> Expr<'g> {
+        if self.plan.rows.len() == 2 {
+            let size: f64 = self.adjugate.iter().flatten().map(|entry| entry.size().powi(2)).sum();
+            return (size.sqrt().recip() * self.determinant).square();
+        }
         let entries = self.adjugate.iter().flatten();
         self.determinant.square() / self.g.sum(entries.map(|entry| entry.square()))
     }

@@ -10,6 +10,7 @@ use super::forward::{Forward, Problem, Way};
 use super::local_modes::local_modes;
 use super::plan::Plan;
 use super::solve::Order;
+use super::turned::Axes;
 
 /// A pivot that other entries of its row exceed by more than this lets rounding grow.
 const SMALLEST_PIVOT: f64 = 0.1;
@@ -57,7 +58,8 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
         .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
         .collect();
     let plan = Plan::new(&pattern, speeds, jacobians);
-    let plain = Way { rows_first: false, shapes: &[], local: &[], again: true, order: Order::Leaves };
+    let axes = Axes::default();
+    let plain = Way { rows_first: false, shapes: &[], local: &[], again: true, order: Order::Leaves, axes };
     let shapes = shapes_of(problem.masses);
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
     let constant = large_entries(problem.rows.len(), speeds, jacobians);
@@ -80,6 +82,10 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
                 best.offer(problem, &plan, Way { local: &local, again, ..first });
             }
         }
+    }
+    let way = best.way;
+    for axes in &Axes::ALL[1..] {
+        best.offer(problem, &plan, Way { axes: *axes, ..way });
     }
     // The order changes little of what else a way takes: it is looked for on the best one alone.
     let way = best.way;

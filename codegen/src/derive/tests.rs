@@ -95,6 +95,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
     let topology = Topology {
         tree: vec![tree(0, Carrier::Ground, 0), tree(2, Carrier::Ground, 2), tree(1, body(0), 1)],
         cuts: vec![JointId::new(3)],
+        rows_in_ground: false,
     };
     (mechanism, topology)
 }
@@ -231,7 +232,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         starts: Vec::new(),
         attached: Vec::new(),
     };
-    (mechanism, Topology { tree, cuts })
+    (mechanism, Topology { tree, cuts, rows_in_ground: false })
 }
 
 fn live_operations(derived: &Derived, entry: Entry) -> usize {

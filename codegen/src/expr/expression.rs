@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use rustc_hash::FxHashMap;
+
 use super::scope::Scope;
 use super::{Binary, ExprId, Node, Unary};
 
@@ -77,6 +79,27 @@ impl<'g> Expr<'g> {
     /// The number, if it is one.
     pub fn as_number(self) -> Option<f64> {
         self.scope.make(|g| g.as_constant(self.id))
+    }
+
+    /// About how large it gets while symbols and functions are of the order of one: what numbers in it make of it.
+    pub fn size(self) -> f64 {
+        self.size_by(&mut FxHashMap::default())
+    }
+
+    fn size_by(self, known: &mut FxHashMap<ExprId, f64>) -> f64 {
+        if let Some(size) = known.get(&self.id) {
+            return *size;
+        }
+        let mut of = |id| self.at(id).size_by(known);
+        let size = match self.node() {
+            Node::Constant(bits) => f64::from_bits(bits).abs(),
+            Node::Unary(Unary::Neg, a) => of(a),
+            Node::Binary(Binary::Mul, a, b) => of(a) * of(b),
+            Node::Binary(Binary::Add | Binary::Sub, a, b) => of(a).max(of(b)),
+            _ => 1.0,
+        };
+        known.insert(self.id, size);
+        size
     }
 
     /// Whether it is the number zero.

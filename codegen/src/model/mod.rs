@@ -214,6 +214,8 @@ pub struct Topology {
     pub tree: Vec<TreeJoint>,
     /// Joints that close loops, in file order.
     pub cuts: Vec<JointId>,
+    /// Whether rows of plane loops are along the axes of W, else along those of the links: what is shorter.
+    pub rows_in_ground: bool,
 }
 
 /// One step outwards in the spanning tree.

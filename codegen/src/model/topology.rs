@@ -31,7 +31,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
     let cuts: Vec<JointId> =
         (0..mechanism.joints.len()).map(JointId::new).filter(|joint| !carries(joint)).collect();
-    let topology = Topology { tree, cuts };
+    let topology = Topology { tree, cuts, rows_in_ground: false };
     faults.extend(unreached(mechanism, &depths));
     if faults.is_empty() {
         faults.extend(driven_loops(mechanism, &topology));

@@ -6,7 +6,7 @@ use crate::derive::joint_state::JointStates;
 use crate::derive::linkage::LinkIndex;
 use crate::derive::loads::Loads;
 use crate::derive::log_closure::Logarithm;
-use crate::derive::relative_motion::{Marker, Place, RelativeMotion};
+use crate::derive::relative_motion::{Marker, Place, RelativeMotion, Side, Sums};
 use crate::derive::wrench::Wrench;
 use crate::expr::{Scope, Vec3};
 use crate::model::Force;
@@ -34,7 +34,7 @@ fn spring<'g>(element: &Force, loads: &mut Loads<'g>, g: &'g Scope, state: &Join
     let links = [0, 1].map(|i| geometry.linkage.link_at(element.bodies[i], element.at[i], false));
     let points = [0, 1].map(|i| geometry.local(links[i], element.at[i]));
     let places = [0, 1].map(|i| motion.poses.position(links[i], points[i]));
-    let velocities = [0, 1].map(|i| motion.point_velocity_w(links[i], points[i]));
+    let velocities = [0, 1].map(|i| motion.velocity_in_ground(links[i], points[i]));
     let (apart, rate) = (places[1] - places[0], velocities[1] - velocities[0]);
     let length = apart.dot(apart).sqrt();
     let direction = length.recip() * apart;
@@ -67,7 +67,7 @@ fn bushing<'g>(element: &Force, loads: &mut Loads<'g>, g: &'g Scope, state: &Joi
         let frame = outer.transposed().times(&axes).snapped();
         Marker { link, point: geometry.local(link, at), frame }
     });
-    let motion = RelativeMotion::between(&state.motion, markers, true, Place::Child);
+    let motion = RelativeMotion::between(&state.motion, markers, Side::Child, (Place::Child, Sums::Links));
     let rotation = motion.rotation();
     let logarithm = Logarithm::new(g, rotation, motion.distance);
     let [stiffness, damping, turning_stiffness, turning_damping] =

@@ -8,6 +8,7 @@ use crate::id::JointId;
 use crate::model::Mechanism;
 
 use super::names::variable_names;
+use crate::derive::accelerations::accelerations;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
 use crate::derive::elements::loads;
@@ -15,12 +16,13 @@ use crate::derive::formula_to_expr::Inputs;
 use crate::derive::geometry::Geometry;
 use crate::derive::joint_state::JointStates;
 use crate::derive::kept_rows::Partition;
-use crate::derive::kinematics::{Poses, accelerations, twists};
+use crate::derive::kinematics::{Poses, twists};
 use crate::derive::link_mass::{LinkMass, link_masses};
 use crate::derive::linkage::{Freedom, Link};
 use crate::derive::loads::Loads;
 use crate::derive::motion::{ModalState, Motion};
 use crate::derive::plan::Guide;
+use crate::derive::relative_motion::Sums;
 
 /// Symbols of tunable parameters and time, numbers for the other parameters; and the tunable ones alone.
 pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<'g>>) {
@@ -81,6 +83,15 @@ pub struct Instant<'g> {
     pub state: JointStates<'g>,
     pub loads: Loads<'g>,
     pub cuts: Vec<CutRows<'g>>,
+}
+
+impl<'g> Instant<'g> {
+    /// The rows of the cuts with what they are made of summed up along the axes of W; nothing if that makes no difference.
+    pub fn cuts_in_ground(&self, exact: bool) -> Option<Vec<CutRows<'g>>> {
+        let linkage = self.state.geometry.linkage;
+        let changes = linkage.cuts.iter().any(|cut| !(cut.plane && linkage.rows_in_ground));
+        changes.then(|| cut_rows(&self.state.motion, exact, Sums::Ground))
+    }
 }
 
 fn modal_state<'g>(link: &Link, q: &[Expr<'g>], v: &[Expr<'g>], v_dot: &[Expr<'g>]) -> ModalState<'g> {
@@ -221,9 +232,9 @@ impl<'g> Deriver<'g> {
         }
         let modes = linkage.links.iter().map(|link| modal_state(link, &q, &v, &v_dot)).collect();
         let motion = Motion { poses, twists, accelerations, ground, modes };
-        let state = JointStates { geometry, motion, q, v, v_dot };
+        let state = JointStates { geometry, motion, q, v, v_dot, points_in_ground: true };
         let loads = loads(g, &state, &self.contacts);
-        let cuts = cut_rows(&state.motion, exact);
+        let cuts = cut_rows(&state.motion, exact, Sums::Links);
         Instant { state, loads, cuts }
     }
 

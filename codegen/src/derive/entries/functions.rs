@@ -5,8 +5,9 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
+use crate::derive::closure::CutRows;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{bias_forces, kinetic_energy, shorter_bias_forces, weight_energy};
+use crate::derive::dynamics::{kinetic_energy, shortest_bias_forces, weight_energy};
 use crate::derive::forward::{Forward, Problem};
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
@@ -85,18 +86,22 @@ impl<'g> Deriver<'g> {
     /// Accelerations, multipliers and drive forces as expressions of the state.
     pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Forward<'g> {
         let motion = &instant.state.motion;
-        self.geometry.g.begin_section("loop Jacobian");
-        let rows = kept_rows(motion, &instant.cuts, &self.keep);
-        let problem = Problem {
-            motion,
-            v: &instant.state.v,
-            rates: &instant.state.v_dot,
-            masses,
-            loads: &instant.loads,
-            rows: &rows,
-            partition: &self.partition,
+        let by = |cuts: &[CutRows<'g>]| {
+            self.geometry.g.begin_section("loop Jacobian");
+            let problem = Problem {
+                motion,
+                v: &instant.state.v,
+                rates: &instant.state.v_dot,
+                masses,
+                loads: &instant.loads,
+                rows: &kept_rows(motion, cuts, &self.keep),
+                partition: &self.partition,
+            };
+            let forward = forward(&problem, &self.jacobians);
+            (forward.operations(self.geometry.g), forward)
         };
-        forward(&problem, &self.jacobians)
+        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(false).map(|cuts| by(&cuts)));
+        ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
     }
 
     pub(super) fn forward_dynamics(&self, solved: &Forward<'g>) -> Function {
@@ -159,24 +164,33 @@ impl<'g> Deriver<'g> {
     }
 
     pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
-        let Instant { state, cuts, .. } = self.instant(self.driven_state(&[]), true);
-        let rows = kept_rows(&state.motion, &cuts, &self.keep);
-        let all = cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual));
+        let g = self.geometry.g;
+        let instant = self.instant(self.driven_state(&[]), true);
         let free = &self.partition.free;
-        let jacobian = rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]));
+        let by = |cuts: &[CutRows<'g>]| {
+            let all: Vec<Expr<'g>> =
+                cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual)).collect();
+            let rows = kept_rows(&instant.state.motion, cuts, &self.keep);
+            let rates: Vec<Expr<'g>> = rows.iter().map(|kept| kept.row.rate).collect();
+            let jacobian: Vec<Expr<'g>> =
+                rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
+            (g.operations([&all, &rates, &jacobian].into_iter().flatten().copied()), [all, rates, jacobian])
+        };
+        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(true).map(|cuts| by(&cuts)));
+        let [all, rates, jacobian] = ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1;
         let outputs = vec![
             Block::vector("phi", all)
                 .doc("Position residuals of all rows, dropped ones included [rad, m].")
                 .cites("[CS (3)]"),
-            Block::vector("phi_dot", rows.iter().map(|kept| kept.row.rate))
+            Block::vector("phi_dot", rates.iter().copied())
                 .doc("Velocity residuals of the kept rows [rad/s, m/s].")
                 .cites("[CS (3)]"),
-            Block::matrix("phi_q", (rows.len(), free.len()), jacobian)
+            Block::matrix("phi_q", (rates.len(), free.len()), jacobian)
                 .doc("Jacobian of the kept rows by the free speeds.")
                 .cites("[CS (3)]"),
         ];
         let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&cuts))
+        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&instant.cuts))
     }
 
     fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
@@ -197,8 +211,16 @@ impl<'g> Deriver<'g> {
     }
 
     pub(super) fn observe(&self, masses: &[LinkMass<'g>]) -> (Function, Vec<Channel>) {
-        let instant = self.instant(self.driven_state(&self.v_dot), false);
-        let list = Channels::new(self, &instant, masses, self.energies(&instant, masses));
+        let g = self.geometry.g;
+        let mut instant = self.instant(self.driven_state(&self.v_dot), false);
+        let list = |instant: &Instant<'g>| {
+            let list = Channels::new(self, instant, masses, self.energies(instant, masses));
+            (g.operations(list.values.iter().copied()), (list.channels, list.values))
+        };
+        let in_ground = list(&instant);
+        instant.state.points_in_ground = false;
+        let in_links = list(&instant);
+        let (channels, values) = if in_links.0 < in_ground.0 { in_links.1 } else { in_ground.1 };
         let inputs = self.state_inputs([
             Block::vector("v_dot", self.v_dot.iter().copied()).doc("Accelerations from forward_dynamics."),
             Block::vector("lambda", self.lambda.iter().copied()).doc(
@@ -207,11 +229,11 @@ impl<'g> Deriver<'g> {
             self.drive_input(),
             self.contact_input(),
         ]);
-        let names = list.channels.iter().map(|channel| channel.name.to_string()).collect();
+        let names = channels.iter().map(|channel| channel.name.to_string()).collect();
         let values =
-            Block::vector("channels", list.values).doc("One value per output column, SI, components in W.");
+            Block::vector("channels", values).doc("One value per output column, SI, components in W.");
         let doc = "Everything a user may want to see or record.";
-        (function(Entry::Observe, doc, inputs, vec![Block { names, ..values }]), list.channels)
+        (function(Entry::Observe, doc, inputs, vec![Block { names, ..values }]), channels)
     }
 
     pub(super) fn contacts(&self, instant: &Instant<'g>) -> Function {
@@ -233,17 +255,25 @@ impl<'g> Deriver<'g> {
         let n = self.v_all.len();
         let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
         let motion = &instant.state.motion;
-        let h = bias_forces(motion, masses, &instant.loads);
         g.begin_section("mass matrix by composite bodies");
         let mass = mass_matrix(&motion.poses, masses);
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
-        let rows = kept_rows(motion, &instant.cuts, &vec![true; self.keep.len()]);
-        let jacobian = rows.iter().flat_map(|row| row.jacobian.iter().copied());
-        let of_rows = rows.iter().flat_map(|kept| [kept.row.residual, kept.row.bias.whole]);
-        let beside: Vec<Expr<'g>> =
-            mass.iter().flatten().copied().chain(jacobian.clone()).chain(of_rows).collect();
-        let h = shorter_bias_forces(h, &beside, motion, masses, &instant.loads);
+        let all = vec![true; self.keep.len()];
+        let by = |cuts: &[CutRows<'g>]| {
+            let rows: Vec<_> = kept_rows(motion, cuts, &all)
+                .into_iter()
+                .map(|kept| (kept.row.residual, kept.jacobian, -kept.row.bias.whole))
+                .collect();
+            let of_rows =
+                rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
+            let beside: Vec<Expr<'g>> = mass.iter().flatten().copied().chain(of_rows).collect();
+            let h = shortest_bias_forces(&beside, motion, masses, &instant.loads);
+            (g.operations(beside.into_iter().chain(h.iter().copied())), (rows, h))
+        };
+        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(false).map(|cuts| by(&cuts)));
+        let (rows, h) = ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1;
+        let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied());
         let outputs = vec![
             Block::vector("mass", (0..n).flat_map(|i| mass[i][i..].to_vec()))
                 .doc("Upper triangle of M, row by row [kg m², kg m, kg].")
@@ -251,13 +281,13 @@ impl<'g> Deriver<'g> {
             Block::vector("h", h)
                 .doc("Left side besides M v̇: inertia, weight, springs, damping.")
                 .cites("[CS (6)]"),
-            Block::vector("phi", rows.iter().map(|kept| kept.row.residual))
+            Block::vector("phi", rows.iter().map(|(phi, ..)| *phi))
                 .doc("Position residuals of all rows [rad, m].")
                 .cites("[CS (3)]"),
             Block::matrix("phi_q", (rows.len(), n), jacobian)
                 .doc("Jacobian of all rows by all speeds.")
                 .cites("[CS (3)]"),
-            Block::vector("gamma", rows.iter().map(|kept| -kept.row.bias.whole))
+            Block::vector("gamma", rows.iter().map(|(.., gamma)| *gamma))
                 .doc("Right side of phi_q v̇ = gamma.")
                 .cites("[CS (6)]"),
         ];

@@ -7,6 +7,7 @@ mod description;
 mod functions;
 mod names;
 mod observe;
+mod row_axes;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 
@@ -20,6 +21,7 @@ use super::plan::Guide;
 use super::{Equations, Function};
 use deriver::{Deriver, inputs};
 use functions::function;
+pub use row_axes::{shorter_in_ground, splits_plane_rows};
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]

@@ -13,6 +13,7 @@ use crate::derive::joint_markers::joint_links;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::orientation::{conjugate, link_displacement, quaternion_product};
+use crate::derive::relative_motion::RelativeMotion;
 use crate::derive::wrench::Wrench;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
@@ -242,15 +243,26 @@ impl<'a, 'g> Channels<'a, 'g> {
     }
 
     fn cut_wrench(&self, cut: &CutRows<'g>, [mut moment, mut force]: [Vec3<'g>; 2]) -> [Vec3<'g>; 2] {
+        let (g, state) = (self.deriver.geometry.g, &self.instant.state);
+        let rotation = |motion: &RelativeMotion<'g>| state.motion.poses.world_of(g, motion.beside()).rotation;
+        let own = state.relative_motion(cut.cut.joint);
+        let same = cut.motion.beside() == own.beside();
+        let mut apart = [g.zero_vector(); 2];
         for (joint, own_moment, own_force) in &self.instant.loads.in_cuts {
             if *joint == cut.cut.joint {
-                moment += *own_moment;
-                force += *own_force;
+                let [m, f] = if same {
+                    [&mut moment, &mut force]
+                } else {
+                    let [m, f] = &mut apart;
+                    [m, f]
+                };
+                *m += *own_moment;
+                *f += *own_force;
             }
         }
-        let poses = &self.instant.state.motion.poses;
-        let rotation = poses.world_of(self.deriver.geometry.g, cut.motion.beside()).rotation;
-        [moment, force].map(|part| rotation * part)
+        let turned = [moment, force].map(|part| rotation(&cut.motion) * part);
+        let apart = apart.map(|part| rotation(&own) * part);
+        [turned[0] + apart[0], turned[1] + apart[1]]
     }
 }
 

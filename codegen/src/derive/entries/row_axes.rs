@@ -1,0 +1,89 @@
+//! Along which axes the rows of plane loops are shortest.
+//! In: [`Mechanism`], [`Topology`]. Out: a choice, the same for all entry points. Never knows positions.
+
+use nalgebra::DMatrix;
+
+use crate::expr::{Expr, Scope};
+use crate::model::{Mechanism, Topology};
+
+use super::deriver::{Deriver, inputs};
+use crate::derive::closure::row_count;
+use crate::derive::forward::Problem;
+use crate::derive::geometry::Geometry;
+use crate::derive::kept_rows::kept_rows;
+use crate::derive::linkage::Linkage;
+use crate::derive::linkage_build::linkage;
+use crate::derive::shortest_way::forward;
+
+/// Rows and free speeds at most: to derive the forward dynamics twice more would be felt.
+const MOST_TO_COMPARE: usize = 200;
+
+/// Whether the forward dynamics of a mechanism with plane loops is no longer with their rows along the axes of W than with
+/// them along those of the links.
+pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
+    let by = |rows_in_ground: bool| operations(mechanism, &Topology { rows_in_ground, ..topology.clone() });
+    by(true).is_some_and(|ground| by(false).is_some_and(|links| ground <= links))
+}
+
+/// Whether of a plane loop's two rows along axes of W one alone is kept. Which of them the other rows make redundant changes
+/// as the links turn; rows along the links' axes turn with them.
+pub fn splits_plane_rows(mechanism: &Mechanism, topology: &Topology, keep: &[bool]) -> bool {
+    let mut first = 0;
+    topology.rows_in_ground
+        && tree(mechanism, topology).cuts.iter().any(|cut| {
+            let rows = first..first + row_count(&mechanism.joint(cut.joint).model, cut.closure);
+            first = rows.end;
+            let kept = &keep[rows];
+            cut.plane && kept[0] != kept[1]
+        })
+}
+
+fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
+    let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
+    linkage(mechanism, topology, &defaults)
+}
+
+/// Operations of the forward dynamics, before positions say more than the pattern of the loop Jacobian does; nothing where
+/// there is no choice.
+fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
+    let linkage = tree(mechanism, topology);
+    if !linkage.cuts.iter().any(|cut| cut.plane) {
+        return None;
+    }
+    let scope = Scope::new();
+    let (inputs, parameters) = inputs(&scope, mechanism);
+    let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
+    let deriver = Deriver::new(geometry, parameters, None);
+    let masses = deriver.masses();
+    let instant = deriver.instant(deriver.driven_state(&[]), false);
+    let (motion, partition) = (&instant.state.motion, &deriver.partition);
+    let mut rows = kept_rows(motion, &instant.cuts, &deriver.keep);
+    // In a plane, rows out of it say nothing.
+    rows.retain(|kept| partition.free.iter().any(|speed| !kept.jacobian[*speed].is_zero()));
+    if rows.len() + partition.free.len() > MOST_TO_COMPARE {
+        return None;
+    }
+    let entry = |row: usize, speed: usize| rows[row].jacobian[partition.free[speed]];
+    let numbers = DMatrix::from_fn(rows.len(), partition.free.len(), |row, speed| {
+        any_number(entry(row, speed), row, speed)
+    });
+    let problem = Problem {
+        motion,
+        v: &instant.state.v,
+        rates: &instant.state.v_dot,
+        masses: &masses,
+        loads: &instant.loads,
+        rows: &rows,
+        partition,
+    };
+    Some(forward(&problem, &[numbers]).operations(&scope))
+}
+
+/// A number for an entry, such that blocks of them are regular wherever their pattern lets them.
+fn any_number(entry: Expr<'_>, row: usize, speed: usize) -> f64 {
+    if entry.is_zero() {
+        0.0
+    } else {
+        1.0 + (1.0 + 3.7 * row as f64 + 1.3 * (speed * speed) as f64).sin() / 2.0
+    }
+}
