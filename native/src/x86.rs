@@ -18,6 +18,10 @@ mod tests;
 mod uses;
 mod write;
 
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use linkwear_codegen::tape::Tape;
 
 use crate::refusal::Refusal;
@@ -25,6 +29,42 @@ use crate::refusal::Refusal;
 use code::Code;
 use instruction::Lanes;
 use write::write;
+
+/// From so many operations on, tapes are written on several threads: below, these take longer to begin.
+const SEVERAL_THREADS: usize = 1000;
+/// Threads at most: the longest of the tapes takes a fifth of the time of all.
+const MOST_THREADS: usize = 4;
+
+/// Writes each, on several threads if that is worth it; in the order of the tapes.
+fn side_by_side<W: Send>(tapes: &[Tape], write: impl Fn(&Tape) -> W + Sync) -> Vec<W> {
+    let operations: usize = tapes.iter().map(|tape| tape.statements.len()).sum();
+    let threads = if operations < SEVERAL_THREADS {
+        1
+    } else {
+        thread::available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
+    };
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut written = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(tape) = tapes.get(place) else { return written };
+            written.push((place, write(tape)));
+        }
+    };
+    let mut written = thread::scope(|scope| {
+        // Where the system gives no thread, this one does it all.
+        let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
+        let others: Vec<_> = (1..threads).filter_map(spawn).collect();
+        let mut written = work();
+        for other in others {
+            written.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+        written
+    });
+    written.sort_unstable_by_key(|(place, _)| *place);
+    written.into_iter().map(|(_, written)| written).collect()
+}
 
 /// Functions of one mechanism, in the order of their tapes.
 pub(crate) struct Functions(Code);
@@ -42,8 +82,8 @@ impl Functions {
         };
         let needed = if lanes == Lanes::Eight { "AVX-512 (F, DQ, VL)" } else { "AVX" };
         let target = processor::target(lanes).ok_or(Refusal::Processor { needed })?;
-        let written = tapes.iter().map(|tape| write(tape, target, &functions::address::<LANES>));
-        Code::new(written.collect::<Result<_, _>>()?).map(Self)
+        let written = side_by_side(tapes, |tape| write(tape, target, &functions::address::<LANES>));
+        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 
     /// Length of the scratch slice that every function is content with, in numbers.
