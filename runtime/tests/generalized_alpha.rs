@@ -85,6 +85,30 @@ fn loops_stay_closed_and_quaternions_unit() {
 }
 
 #[test]
+fn a_step_takes_few_iterations_and_keeps_its_matrix() {
+    let Run { statistics, .. } = run(&damped_four_bar(), implicit(2e-3, 0.8), 2.0, 21);
+    let (steps, iterations) = (statistics.steps, statistics.newton_iterations);
+    // Two corrections tell the rate; a third where a matrix has become old.
+    assert!(2 * steps <= iterations && iterations < 3 * steps, "{statistics:?}");
+    // One evaluation an iteration and one of the state reached, and less than one for new matrices.
+    assert!(statistics.evaluations < iterations + 2 * steps, "{statistics:?}");
+}
+
+#[test]
+fn equations_are_solved_far_beyond_the_error_of_the_step() {
+    // What is left open goes by the step's error, and that by its cube: two steps of one motion differ by their errors alone.
+    let exact = run(&damped_four_bar(), EXACT, 1.0, 11);
+    let [coarse, fine] = [2e-3, 1e-3].map(|step| {
+        let run = run(&damped_four_bar(), implicit(step, 0.8), 1.0, 11);
+        (difference(&run, &exact), run.statistics.max_loop_error_m)
+    });
+    // A thousandth of the error of the columns, among them accelerations; and a hundredth of what counts as closed.
+    for (error, open) in [coarse, fine] {
+        assert!(open < 1e-3 * error && open < 1e-2 * CLOSED, "{error:e} {open:e}");
+    }
+}
+
+#[test]
 fn energy_balance_includes_drive_and_damping_to_second_order() {
     let law = |t: f64| [4.0 * PI * t, 4.0 * PI, 0.0];
     let bars = vec![

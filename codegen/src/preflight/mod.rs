@@ -14,6 +14,7 @@ mod failures;
 mod idle;
 mod immobile;
 mod own_units;
+mod pivoted_qr;
 mod plausible;
 mod prescribed;
 mod rank;

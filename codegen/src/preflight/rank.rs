@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::DMatrix;
 
 use super::samples::ClosedPositions;
 use super::subspace::{RANK_TOLERANCE, Strength, rank, singular_values, strength};
@@ -12,6 +12,38 @@ use super::subspace::{RANK_TOLERANCE, Strength, rank, singular_values, strength}
 /// the square root of rounding, 1e-8; up to 1e-5 rad beside it a step of usual length goes wrong by tenths of a radian
 /// while its energy is off by a part in a thousand only; and a drawing of four digits is 1e-4 away.
 const SINGULAR: f64 = 1e-4;
+
+/// What is left of the rows of a position without the directions of those that are kept.
+struct Rests {
+    rows: Vec<Vec<f64>>,
+    lengths: Vec<f64>,
+}
+
+impl Rests {
+    fn new(rows: &DMatrix<f64>) -> Self {
+        let rows: Vec<Vec<f64>> = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let lengths = rows.iter().map(|row| size(row)).collect();
+        Self { rows, lengths }
+    }
+
+    /// Takes the direction of a row out of all. Few rows have a speed in common with it.
+    fn take_out(&mut self, kept: usize) {
+        let length = self.lengths[kept];
+        let entries = self.rows[kept].iter().enumerate().filter(|(_, entry)| **entry != 0.0);
+        let direction: Vec<(usize, f64)> = entries.map(|(at, entry)| (at, entry / length)).collect();
+        for (row, length) in self.rows.iter_mut().zip(&mut self.lengths) {
+            let along: f64 = direction.iter().map(|(at, part)| row[*at] * part).sum();
+            if along != 0.0 {
+                direction.iter().for_each(|(at, part)| row[*at] -= along * part);
+                *length = size(row);
+            }
+        }
+    }
+}
+
+fn size(row: &[f64]) -> f64 {
+    row.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
 
 /// Normalised rows at every position tried.
 pub struct Rows {
@@ -66,11 +98,11 @@ impl Rows {
         // Rows of zeros, which planar mechanisms have many of, are never kept.
         let rows: Vec<usize> =
             (0..m).filter(|row| generic.iter().any(|at| self.samples[*at].row(*row).amax() > 0.0)).collect();
-        let mut rests: Vec<DMatrix<f64>> =
-            generic.iter().map(|at| self.samples[*at].select_rows(&rows)).collect();
+        let mut rests: Vec<Rests> =
+            generic.iter().map(|at| Rests::new(&self.samples[*at].select_rows(&rows))).collect();
         let mut keep = vec![false; m];
         loop {
-            let gain = |at: usize| rests.iter().map(|rest| rest.row(at).norm()).fold(f64::INFINITY, f64::min);
+            let gain = |at: usize| rests.iter().map(|rest| rest.lengths[at]).fold(f64::INFINITY, f64::min);
             // Rows within a tenth of the best count as equal: the first in the file's order wins.
             let gains: Vec<f64> =
                 (0..rows.len()).map(|at| if keep[rows[at]] { 0.0 } else { gain(at) }).collect();
@@ -80,11 +112,7 @@ impl Rows {
                 _ => return keep,
             };
             keep[rows[next]] = true;
-            for rest in &mut rests {
-                let direction: RowDVector<f64> = rest.row(next).normalize();
-                let along: DVector<f64> = &*rest * direction.transpose();
-                *rest -= along * direction;
-            }
+            rests.iter_mut().for_each(|rest| rest.take_out(next));
         }
     }
 

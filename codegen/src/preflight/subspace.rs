@@ -6,6 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::pivoted_qr::PivotedQr;
 use crate::decompose::{self, is_finite};
 
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
@@ -38,7 +39,7 @@ pub struct Strength {
 pub fn strength(matrix: &DMatrix<f64>) -> Strength {
     if let Some(factor) = Factor::new(matrix, RANK_TOLERANCE) {
         let weakest = factor.rank.checked_sub(1).map(|last| {
-            let pivot = factor.triangle[(last, last)].abs();
+            let pivot = factor.decomposition.pivots()[last].abs();
             // What follows in its line of the triangle is no larger: one number a row at most.
             (pivot / BELOW_PIVOT, pivot * (factor.rows.len() as f64).sqrt())
         });
@@ -133,11 +134,8 @@ fn rows_that_say_something(matrix: &DMatrix<f64>) -> Vec<usize> {
 struct Factor {
     /// The rows that are not zero.
     rows: Vec<usize>,
-    decomposition: nalgebra::ColPivQR<f64, nalgebra::Dyn, nalgebra::Dyn>,
-    /// Its triangle.
-    triangle: DMatrix<f64>,
+    decomposition: PivotedQr,
     rank: usize,
-    columns: usize,
 }
 
 impl Factor {
@@ -148,21 +146,17 @@ impl Factor {
         if rows.is_empty() || columns == 0 || !TOLERANCES.contains(&tolerance) {
             return None;
         }
-        // Columns of zeros beside them make the decomposition return the directions that no row asks for.
-        let transposed = DMatrix::from_fn(columns, rows.len().max(columns), |i, j| {
-            rows.get(j).map_or(0.0, |row| matrix[(*row, i)])
-        });
-        let decomposition = transposed.col_piv_qr();
-        let triangle = decomposition.r();
-        let pivots: Vec<f64> = (0..columns).map(|i| triangle[(i, i)].abs()).collect();
-        let largest = pivots.iter().copied().fold(0.0, f64::max);
-        let rank = pivots.iter().take_while(|pivot| **pivot > CLEARLY_THERE * largest).count();
-        let clear = pivots.iter().skip(rank).all(|pivot| *pivot < CLEARLY_NOTHING * largest);
-        (clear && largest.is_finite()).then_some(Self { rows, decomposition, triangle, rank, columns })
+        let given = rows.iter().map(|row| matrix.row(*row).iter().copied().collect()).collect();
+        let decomposition = PivotedQr::new(columns, given);
+        let pivots = decomposition.pivots();
+        let largest = pivots.iter().map(|pivot| pivot.abs()).fold(0.0, f64::max);
+        let rank = pivots.iter().take_while(|pivot| pivot.abs() > CLEARLY_THERE * largest).count();
+        let clear = pivots.iter().skip(rank).all(|pivot| pivot.abs() < CLEARLY_NOTHING * largest);
+        (clear && largest.is_finite()).then_some(Self { rows, decomposition, rank })
     }
 
     fn null_space(&self) -> DMatrix<f64> {
-        self.decomposition.q().columns(self.rank, self.columns - self.rank).into_owned()
+        self.decomposition.beyond(self.rank)
     }
 
     /// Of independent rows; others ask for a compromise. `matrix' multipliers` with `R' R multipliers = right`, which needs no
@@ -171,18 +165,12 @@ impl Factor {
         if self.rank < self.rows.len() {
             return None;
         }
-        let mut wanted = DVector::zeros(self.rows.len().max(self.columns));
-        self.rows.iter().enumerate().for_each(|(place, row)| wanted[place] = right[*row]);
-        self.decomposition.p().permute_rows(&mut wanted);
-        let triangle = self.triangle.view((0, 0), (self.rank, self.rank));
-        let along = triangle.tr_solve_upper_triangular(&wanted.rows(0, self.rank))?;
-        let mut multipliers = wanted;
-        multipliers.fill(0.0);
-        multipliers.rows_mut(0, self.rank).copy_from(&triangle.solve_upper_triangular(&along)?);
-        self.decomposition.p().inv_permute_rows(&mut multipliers);
-        let mut all = DVector::zeros(matrix.nrows());
-        self.rows.iter().enumerate().for_each(|(place, row)| all[*row] = multipliers[place]);
-        Some(matrix.tr_mul(&all))
+        let wanted: Vec<f64> = self.rows.iter().map(|row| right[*row]).collect();
+        let mut multipliers = DVector::zeros(matrix.nrows());
+        for (row, multiplier) in self.rows.iter().zip(self.decomposition.solve_normal(&wanted)) {
+            multipliers[*row] = multiplier;
+        }
+        Some(matrix.tr_mul(&multipliers))
     }
 }
 

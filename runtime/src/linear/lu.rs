@@ -150,6 +150,31 @@ mod tests {
         }
     }
 
+    /// Blocks of four rows: full, begun, and none.
+    #[test]
+    fn systems_of_all_sizes_are_solved() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for size in 0..14 {
+            let mut factors = Lu::new(size);
+            // Twice with one storage: nothing is left of the first matrix.
+            for _ in 0..2 {
+                let a: Vec<f64> = (0..size * size).map(|_| random()).collect();
+                let b: Vec<f64> = (0..size).map(|_| random()).collect();
+                assert!(factors.factor(&a) > 1e-4, "{size}");
+                let mut x = b.clone();
+                factors.solve(&mut x);
+                for (row, wanted) in a.chunks_exact(size.max(1)).zip(b) {
+                    // Rounding of numbers of order 1, up to the condition of some hundred.
+                    assert!((dot(row, &x) - wanted).abs() < 1e-12, "{size}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn singular_matrix_is_told() {
         assert_eq!(Lu::new(2).factor(&[1.0, 2.0, 2.0, 4.0]), 0.0);
