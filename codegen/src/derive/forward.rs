@@ -24,6 +24,8 @@ pub struct Forward<'g> {
     pub solution: Solution<'g>,
     /// Generalised force of every driver.
     pub drive: Vec<Expr<'g>>,
+    /// Whether all rows were solved for accelerations that they alone fix: what their biases are at closed states is enough.
+    pub rows_fix_all: bool,
 }
 
 /// Everything that forward dynamics is made of.
@@ -127,7 +129,7 @@ impl<'g> Problem<'_, 'g> {
                 sum - self.of_loops(*d, &solution.multipliers)
             })
             .collect();
-        Forward { solution, drive }
+        Forward { solution, drive, rows_fix_all: false }
     }
 
     /// What a speed feels of the loops.
@@ -200,7 +202,8 @@ impl<'g> Problem<'_, 'g> {
         g.begin_section("drive forces");
         let drive =
             self.partition.driven.iter().map(|d| felt[*d] - self.of_loops(*d, &multipliers)).collect();
-        Forward { solution: Solution { accelerations, multipliers, pivots }, drive }
+        let solution = Solution { accelerations, multipliers, pivots };
+        Forward { solution, drive, rows_fix_all: plan.rest.rows.is_empty() }
     }
 
     /// Puts in the accelerations that local modes have while all others are as they stand.

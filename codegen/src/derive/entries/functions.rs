@@ -14,6 +14,7 @@ use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
+use crate::derive::row::Bias;
 use crate::derive::shortest_way::forward;
 use crate::derive::start::{StartValues, start_values};
 use crate::derive::{Block, Function};
@@ -250,7 +251,12 @@ impl<'g> Deriver<'g> {
         function(Entry::Contacts, doc, self.state_inputs([]), vec![outputs])
     }
 
-    pub(super) fn equations_of_motion(&self, masses: &[LinkMass<'g>]) -> Function {
+    /// `solved`: the forward dynamics, whose rows these are.
+    pub(super) fn equations_of_motion(
+        &self,
+        masses: &[LinkMass<'g>],
+        solved: Option<&Forward<'g>>,
+    ) -> Function {
         let g = self.geometry.g;
         let n = self.v_all.len();
         let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
@@ -260,10 +266,14 @@ impl<'g> Deriver<'g> {
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let all = vec![true; self.keep.len()];
+        let fixed = solved.is_some_and(|solved| solved.rows_fix_all);
         let by = |cuts: &[CutRows<'g>]| {
             let rows: Vec<_> = kept_rows(motion, cuts, &all)
                 .into_iter()
-                .map(|kept| (kept.row.residual, kept.jacobian, -kept.row.bias.whole))
+                .map(|kept| {
+                    let Bias { whole, closed } = kept.row.bias;
+                    (kept.row.residual, kept.jacobian, -if fixed { closed } else { whole })
+                })
                 .collect();
             let of_rows =
                 rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
@@ -288,7 +298,7 @@ impl<'g> Deriver<'g> {
                 .doc("Jacobian of all rows by all speeds.")
                 .cites("[CS (3)]"),
             Block::vector("gamma", rows.iter().map(|(.., gamma)| *gamma))
-                .doc("Right side of phi_q v̇ = gamma.")
+                .doc("Right side of phi_q v̇ = gamma; of rows that alone fix all motion, at closed states.")
                 .cites("[CS (6)]"),
         ];
         let mut inputs = self.base_inputs();
@@ -303,7 +313,7 @@ impl<'g> Deriver<'g> {
 
 /// Accelerations, multipliers, drive forces, pivots.
 fn solution_blocks(solved: &Forward<'_>) -> [Block; 4] {
-    let Forward { solution, drive } = solved;
+    let Forward { solution, drive, .. } = solved;
     [
         Block::vector("v_dot", solution.accelerations.iter().copied())
             .doc("Accelerations of the free speeds [rad/s², m/s²].")

@@ -85,7 +85,7 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let (closure, rows) = deriver.closure();
     let energy = deriver.energy(&dynamic, &masses);
     let (observe, channels) = deriver.observe(&masses);
-    let equations_of_motion = deriver.equations_of_motion(&masses);
+    let equations_of_motion = deriver.equations_of_motion(&masses, solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
