@@ -15,8 +15,12 @@ use crate::derive::linkage::Linkage;
 use crate::derive::linkage_build::linkage;
 use crate::derive::shortest_way::forward;
 
-/// Rows and free speeds at most: to derive the forward dynamics twice more would be felt.
-const MOST_TO_COMPARE: usize = 200;
+/// Speeds and rows of plane cuts at most: to derive the forward dynamics of a longer chain twice more takes longer than all
+/// the rest of a check.
+const MOST_TO_COMPARE: usize = 60;
+
+/// Of a cut in a plane, the others say nothing.
+const ROWS_IN_PLANE: usize = 2;
 
 /// Whether the forward dynamics of a mechanism with plane loops is no longer with their rows along the axes of W than with
 /// them along those of the links.
@@ -47,7 +51,8 @@ fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
 /// there is no choice.
 fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let linkage = tree(mechanism, topology);
-    if !linkage.cuts.iter().any(|cut| cut.plane) {
+    let rows = ROWS_IN_PLANE * linkage.cuts.iter().filter(|cut| cut.plane).count();
+    if rows == 0 || linkage.speeds() + rows > MOST_TO_COMPARE {
         return None;
     }
     let scope = Scope::new();
@@ -60,9 +65,6 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let mut rows = kept_rows(motion, &instant.cuts, &deriver.keep);
     // In a plane, rows out of it say nothing.
     rows.retain(|kept| partition.free.iter().any(|speed| !kept.jacobian[*speed].is_zero()));
-    if rows.len() + partition.free.len() > MOST_TO_COMPARE {
-        return None;
-    }
     let entry = |row: usize, speed: usize| rows[row].jacobian[partition.free[speed]];
     let numbers = DMatrix::from_fn(rows.len(), partition.free.len(), |row, speed| {
         any_number(entry(row, speed), row, speed)
