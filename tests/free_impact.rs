@@ -114,7 +114,7 @@ fn every_law_returns_what_is_known_of_it() {
             (restitution(&law(kind, e, exponent), STEEL) - returned[place]).abs()
         };
         let errors = RETURNED.into_iter().flat_map(|row| [error(row, 1.0), error(row, 1.5)]);
-        let what = format!("restitution of {kind:?}");
+        let what = format!("{kind:?}, restitution");
         reached("free impact", &what, errors.fold(0.0, f64::max), BOUND);
     }
 }
@@ -122,7 +122,7 @@ fn every_law_returns_what_is_known_of_it() {
 #[test]
 fn the_exact_law_returns_what_it_is_given() {
     let errors = RETURNED.map(|(e, _)| (restitution(&law(Restitution::Exact, e, 1.5), STEEL) - e).abs());
-    reached("free impact", "restitution of Exact", errors.into_iter().fold(0.0, f64::max), BOUND);
+    reached("free impact", "Exact, restitution", errors.into_iter().fold(0.0, f64::max), BOUND);
     // Without damping all of it.
     let elastic = restitution(&law(Restitution::Exact, 1.0, 1.5), STEEL);
     assert!((elastic - 1.0).abs() < 1e-9, "{elastic}");

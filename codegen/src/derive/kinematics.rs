@@ -46,7 +46,13 @@ pub struct Poses<'g> {
     /// The links and the places of their joints.
     pub geometry: Geometry<'g>,
     pub relative: Vec<Pose<'g>>,
+    /// Constant part of the relative offsets: where the joints are mounted [m].
+    pub mounts: Vec<Vec3<'g>>,
+    /// What the coordinates add to it [m].
+    pub moved: Vec<Vec3<'g>>,
     pub world: Vec<Pose<'g>>,
+    /// World offsets from where the link's chain is mounted on the ground [m].
+    from_mount: Vec<Vec3<'g>>,
     /// Of floating frames and node links: the node's motion relative to the floating frame.
     pub nodes: Vec<Option<NodePose<'g>>>,
 }
@@ -98,21 +104,40 @@ fn rotation_about_z(angle: Expr<'_>) -> Mat3<'_> {
 impl<'g> Poses<'g> {
     pub fn new(geometry: Geometry<'g>, q: &[Expr<'g>]) -> Self {
         let Geometry { g, linkage, .. } = geometry;
-        let mounts: Vec<Vec3<'g>> = (0..linkage.links.len()).map(|at| geometry.mount(at)).collect();
-        let mut poses = Self { geometry, relative: Vec::new(), world: Vec::new(), nodes: Vec::new() };
+        let mut poses = Self {
+            geometry,
+            relative: Vec::new(),
+            mounts: Vec::new(),
+            moved: Vec::new(),
+            world: Vec::new(),
+            from_mount: Vec::new(),
+            nodes: Vec::new(),
+        };
         for (at, link) in linkage.links.iter().enumerate() {
             let q = &q[link.coordinates()];
             let node = link.node.as_ref().map(|shape| NodePose::new(g, shape, q));
-            let (relative, world) = if let Freedom::Ball | Freedom::Free = link.freedom {
-                poses.absolute(link.parent, mounts[at], q)
+            // A free link's coordinates are its place in W.
+            let mount = if link.freedom == Freedom::Free { g.zero_vector() } else { geometry.mount(at) };
+            let (moved, relative, world) = if let Freedom::Ball | Freedom::Free = link.freedom {
+                let moved = if q.len() == 7 { Vec3::first_of(&q[4..]) } else { g.zero_vector() };
+                let (relative, world) = poses.absolute(link.parent, mount + moved, q);
+                (moved, relative, world)
             } else {
-                let relative = match &node {
+                let local = match &node {
                     Some(node) => node_pose(g, link.freedom, &link.mount, node),
-                    None => local_pose(g, link.freedom, &link.mount, mounts[at], q),
+                    None => local_pose(g, link.freedom, &link.mount, q),
                 };
-                (relative, link.parent.map_or(relative, |parent| poses.world[parent].then(relative)))
+                let relative = Pose { offset: mount + local.offset, ..local };
+                let world = link.parent.map_or(relative, |parent| poses.world[parent].then(relative));
+                (local.offset, relative, world)
             };
             poses.relative.push(relative);
+            poses.from_mount.push(link.parent.map_or(moved, |parent| {
+                let carried = poses.world[parent].rotation * relative.offset;
+                poses.from_mount[parent] + carried
+            }));
+            poses.mounts.push(mount);
+            poses.moved.push(moved);
             poses.world.push(world);
             poses.nodes.push(node);
         }
@@ -120,19 +145,15 @@ impl<'g> Poses<'g> {
     }
 
     /// A ball or free link: its orientation (and position) is a coordinate itself.
-    fn absolute(&self, parent: LinkIndex, mount: Vec3<'g>, q: &[Expr<'g>]) -> (Pose<'g>, Pose<'g>) {
+    fn absolute(&self, parent: LinkIndex, offset: Vec3<'g>, q: &[Expr<'g>]) -> (Pose<'g>, Pose<'g>) {
         let rotation = rotation_of_quaternion([q[0], q[1], q[2], q[3]]);
-        if q.len() == 7 {
-            let pose = Pose { rotation, offset: Vec3::first_of(&q[4..]) };
-            return (pose, pose);
-        }
         let Some(parent) = parent else {
-            let pose = Pose { rotation, offset: mount };
+            let pose = Pose { rotation, offset };
             return (pose, pose);
         };
         let outer = self.world[parent];
-        let relative = Pose { rotation: outer.rotation.transpose() * rotation, offset: mount };
-        (relative, Pose { rotation, offset: outer.position(mount) })
+        let relative = Pose { rotation: outer.rotation.transpose() * rotation, offset };
+        (relative, Pose { rotation, offset: outer.position(offset) })
     }
 
     /// Rate of a link's origin, in which `origin` is the whole along its own axes: its parent's with what turning the parent
@@ -163,6 +184,13 @@ impl<'g> Poses<'g> {
         }
     }
 
+    /// Where the chain of a link is mounted on the ground, and the offset of the link's origin from there, both in W [m].
+    pub fn mount_and_offset(&self, at: usize) -> [Vec3<'g>; 2] {
+        let linkage = self.geometry.linkage;
+        let root = linkage.between(Some(at), None).last().unwrap_or(at);
+        [self.mounts[root], self.from_mount[at]]
+    }
+
     /// Takes components in the frame of `from` to the frame of `to`, along the tree.
     pub fn rotation_between(&self, from: LinkIndex, to: LinkIndex) -> Mat3<'g> {
         let top = self.geometry.linkage.common_ancestor(from, to);
@@ -185,25 +213,20 @@ impl<'g> Poses<'g> {
     }
 }
 
-fn local_pose<'g>(
-    g: &'g Scope,
-    freedom: Freedom,
-    mount: &Frame,
-    origin: Vec3<'g>,
-    q: &[Expr<'g>],
-) -> Pose<'g> {
+/// Pose relative to the place where the joint is mounted.
+fn local_pose<'g>(g: &'g Scope, freedom: Freedom, mount: &Frame, q: &[Expr<'g>]) -> Pose<'g> {
     match freedom {
         Freedom::Rotation { offset, advance } => {
             let turn = rotation_about_z(q[0] + offset);
             let rotation = g.matrix(mount.0) * turn;
             let moved = (advance * q[0]) * g.vector(mount.axis(2));
-            Pose { rotation, offset: origin + moved }
+            Pose { rotation, offset: moved }
         }
         Freedom::Translation { axis } => {
             let moved = q[0] * g.vector(axis);
-            Pose { rotation: g.identity(), offset: origin + moved }
+            Pose { rotation: g.identity(), offset: moved }
         }
-        _ => Pose { rotation: g.matrix(mount.0), offset: origin },
+        _ => Pose { rotation: g.matrix(mount.0), offset: g.zero_vector() },
     }
 }
 

@@ -87,16 +87,19 @@ impl<'g> Motion<'g> {
     }
 
     /// Place of a point of a link, along the axes of W and along the link's own: if the `whole` is asked for, all along those
-    /// of W.
-    pub fn place(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> [Vec3<'g>; 2] {
-        let g = self.ground.scope();
-        if whole {
-            return [self.poses.position(link, point), g.zero_vector()];
+    /// of W. In front of both what is constant along those of W.
+    pub fn place(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> (Vec3<'g>, [Vec3<'g>; 2]) {
+        let zero = self.ground.scope().zero_vector();
+        let Some(at) = link else { return if whole { (point, [zero, zero]) } else { (zero, [zero, point]) } };
+        let [mount, offset] = self.poses.mount_and_offset(at);
+        if !whole {
+            return (mount, [offset, point]);
         }
-        [self.poses.world_of(g, link).offset, point]
+        let carried = self.poses.world[at].rotation * point;
+        (mount, [offset + carried, zero])
     }
 
-    /// The same of its velocity.
+    /// Velocity of a point of a link in the same two parts.
     pub fn turned_velocity(&self, link: LinkIndex, point: Vec3<'g>, whole: bool) -> [Vec3<'g>; 2] {
         if whole {
             return [self.velocity_in_ground(link, point), self.ground.scope().zero_vector()];

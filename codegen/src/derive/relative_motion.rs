@@ -4,6 +4,7 @@
 use crate::expr::{Mat3, Vec3};
 
 use super::frame::Frame;
+use super::geometry::Geometry;
 use super::kinematics::Poses;
 use super::linkage::{Freedom, LinkIndex, Linkage};
 use super::motion::Motion;
@@ -120,8 +121,7 @@ impl<'g> RelativeMotion<'g> {
         let in_ground = side == Side::Ground || (sums == Sums::Ground && apart);
         let turned = Turning { turn: motion.poses.world_of(motion.poses.geometry.g, beside).rotation, side };
         let distance = if in_ground {
-            turned
-                .difference([&parent, &child], |marker, whole| motion.place(marker.link, marker.point, whole))
+            turned.place([&parent, &child], |marker, whole| motion.place(marker.link, marker.point, whole))
         } else {
             distance(&motion.poses, [&parent, &child], beside)
         };
@@ -211,12 +211,24 @@ impl<'g> Turning<'g> {
     /// of it along those of W where the whole is asked for.
     fn difference(
         &self,
-        [parent, child]: [&Marker<'g>; 2],
+        ends: [&Marker<'g>; 2],
         of: impl Fn(&Marker<'g>, bool) -> [Vec3<'g>; 2],
     ) -> Vec3<'g> {
-        let [parent, child] = [(parent, Side::Parent), (child, Side::Child)]
+        let none = self.turn[0][0].scope().zero_vector();
+        self.place(ends, |marker, whole| (none, of(marker, whole)))
+    }
+
+    /// The same of what is constant in part, which is subtracted first: a mechanism that is drawn a kilometre off keeps the
+    /// digits of its loops.
+    fn place(
+        &self,
+        [parent, child]: [&Marker<'g>; 2],
+        of: impl Fn(&Marker<'g>, bool) -> (Vec3<'g>, [Vec3<'g>; 2]),
+    ) -> Vec3<'g> {
+        let [(parent_mount, parent), (child_mount, child)] = [(parent, Side::Parent), (child, Side::Child)]
             .map(|(marker, side)| of(marker, side != self.side));
-        let apart = self.turn.transpose() * (child[0] - parent[0]);
+        let mounts = child_mount - parent_mount;
+        let apart = self.turn.transpose() * (mounts + (child[0] - parent[0]));
         match self.side {
             Side::Parent => apart - parent[1],
             Side::Child => apart + child[1],
@@ -227,14 +239,20 @@ impl<'g> Turning<'g> {
 
 /// From the parent's origin to the child's, in the frame of `beside`, along the tree from the common ancestor, so
 /// that motion that both share cancels.
+///
+/// What is constant there is subtracted first, as in [`Turning::place`].
 fn distance<'g>(poses: &Poses<'g>, [parent, child]: [&Marker<'g>; 2], beside: LinkIndex) -> Vec3<'g> {
-    let linkage = poses.geometry.linkage;
+    let Geometry { g, linkage, .. } = poses.geometry;
     let top = linkage.common_ancestor(parent.link, child.link);
     let place = |marker: &Marker<'g>| {
         let path = linkage.between(marker.link, top);
-        path.fold(marker.point, |place, at| poses.relative[at].position(place))
+        path.fold((marker.point, g.zero_vector()), |(mount, moved), at| {
+            let carried = poses.relative[at].rotation * (mount + moved);
+            (poses.mounts[at], poses.moved[at] + carried)
+        })
     };
-    let (child, parent) = (place(child), place(parent));
-    let apart = child - parent;
+    let ((child_mount, child_moved), (parent_mount, parent_moved)) = (place(child), place(parent));
+    let mounts = child_mount - parent_mount;
+    let apart = mounts + (child_moved - parent_moved);
     poses.rotation_between(top, beside) * apart
 }
