@@ -21,8 +21,9 @@ pub const SINGULAR_PIVOT: f64 = 1e-7;
 /// Below this multiple of it, rounding of the generated elimination already shows more than the error of the means that
 /// [`crate::passage`] takes, ...
 const ROUNDED: f64 = 10.0;
-/// ... and above this multiple rounding is less than that error: there they are taken.
-const BESIDE: f64 = 100.0;
+/// ... and above this multiple rounding is less than that error: there they are taken. With forty loops in a row a third of it
+/// leaves five times as much of the rounding.
+const BESIDE: f64 = 300.0;
 
 /// Rounding of accelerations at nearness 1, relative to the square of the largest speed: ten last places.
 ///

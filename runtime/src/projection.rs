@@ -22,6 +22,11 @@ const SETTLED: f64 = 1e-11;
 const TRUSTED_PIVOT: f64 = 1e-8;
 /// Singular values, relative to the largest, down to which directions are corrected, one after the other.
 const LEVELS: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
+/// The first of them where nearly lost directions are to stay as they are: that of [`crate::SINGULAR_PIVOT`], its root. A residual
+/// of 1e-14 m, met by a singular value of 2e-4, would turn speeds by 1e-7.
+const LOST: f64 = 3e-4;
+/// What is left of [`POSITION_TOLERANCE`] and [`SPEED_TOLERANCE`] there: last places.
+const STRICT: f64 = 1e-2;
 const MAX_ITERATIONS: usize = 25;
 
 /// How far a projection moved the state: largest component of each.
@@ -72,7 +77,7 @@ pub struct Projector {
     has_moved: bool,
     /// Factor on the tolerances.
     strictness: f64,
-    /// Whether speeds in nearly lost directions stay untouched.
+    /// Whether nearly lost directions stay untouched.
     keep_lost: bool,
 }
 
@@ -143,7 +148,7 @@ impl Projector {
         (q, v): (&mut [f64], &mut [f64]),
         regularity: f64,
     ) -> Result<Correction, NotClosed> {
-        self.strictness = if regularity > 0.0 { regularity } else { 1.0 };
+        self.strictness = if regularity > 0.0 { regularity } else { STRICT };
         self.keep_lost = regularity <= 0.0;
         let mut correction = Correction::default();
         evaluator.layout().normalize(q);
@@ -274,12 +279,13 @@ impl Projector {
         for (scale, row) in self.scales.iter().zip(self.jacobian.chunks_exact_mut(n.max(1))) {
             row.iter_mut().zip(&self.sizes).for_each(|(x, size)| *x *= *scale * size);
         }
-        if level == 0 && self.gram.factor_gram(&self.jacobian, n) > TRUSTED_PIVOT {
+        if level == 0 && !self.keep_lost && self.gram.factor_gram(&self.jacobian, n) > TRUSTED_PIVOT {
             self.factored = Factored::Gram;
             return;
         }
         let level = level.min(LEVELS.len() - 1);
-        self.orthogonal.factor(&self.jacobian, self.residual.len(), n, LEVELS[level]);
+        let least = if level == 0 && self.keep_lost { LOST } else { LEVELS[level] };
+        self.orthogonal.factor(&self.jacobian, self.residual.len(), n, least);
         self.factored = Factored::Orthogonal { level };
     }
 
