@@ -5,6 +5,7 @@ use linkwear_runtime::{Channel, Entry, RowInfo};
 
 use super::deriver::{Deriver, Instant};
 use super::observe::Channels;
+use super::row_axes::MOST_TO_COMPARE;
 use crate::derive::closure::CutRows;
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{kinetic_energy, shortest_bias_forces, weight_energy};
@@ -101,7 +102,9 @@ impl<'g> Deriver<'g> {
             let forward = forward(&problem, &self.jacobians);
             (forward.operations(self.geometry.g), forward)
         };
-        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(false).map(|cuts| by(&cuts)));
+        let links = by(&instant.cuts);
+        let is_short = self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE;
+        let ground = is_short.then(|| instant.cuts_in_ground(false)).flatten().map(|cuts| by(&cuts));
         ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
     }
 

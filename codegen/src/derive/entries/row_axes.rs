@@ -15,9 +15,9 @@ use crate::derive::linkage::Linkage;
 use crate::derive::linkage_build::linkage;
 use crate::derive::shortest_way::forward;
 
-/// Speeds and rows of plane cuts at most: to derive the forward dynamics of a longer chain twice more takes longer than all
-/// the rest of a check.
-const MOST_TO_COMPARE: usize = 60;
+/// Speeds and rows at most: to derive the forward dynamics of a longer chain more than once takes longer than all the rest of
+/// a check.
+pub(super) const MOST_TO_COMPARE: usize = 60;
 
 /// Of a cut in a plane, the others say nothing.
 const ROWS_IN_PLANE: usize = 2;
