@@ -241,7 +241,7 @@ impl Journal {
     pub(super) fn begin(&self, run: Map<String, Value>) -> Result<(), JournalError> {
         let mut known = self.run.lock().unwrap_or_else(PoisonError::into_inner);
         let Some(before) = &*known else {
-            self.write(&Record::Run(run.clone()));
+            self.write([Record::Run(run.clone())]);
             *known = Some(run);
             return self.failure().map_or(Ok(()), Err);
         };
@@ -284,13 +284,14 @@ impl Journal {
             self.writer().is_blind = true;
             return;
         }
-        self.write(&Record::Measurement(measurement));
+        self.write([Record::Measurement(measurement)]);
         self.sync();
     }
 
-    /// Keeps a life.
-    pub(super) fn keep_life(&self, batch: Batch, number: u64, end: FailureEvent) {
-        self.write(&Record::Life { batch, number, end });
+    /// Keeps lives that are finished, those of one call together on the disk.
+    pub(super) fn keep_lives(&self, batch: Batch, ends: &[(u64, FailureEvent)]) {
+        let records = ends.iter().map(|(number, end)| Record::Life { batch, number: *number, end: *end });
+        self.write(records);
         if self.writer().synced.elapsed() > SYNC_EVERY {
             self.sync();
         }
@@ -310,9 +311,9 @@ impl Journal {
         self.writer.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn write(&self, record: &Record) {
+    fn write(&self, records: impl IntoIterator<Item = Record>) {
         let mut writer = self.writer();
-        if let Err(error) = writer.append(record) {
+        if let Err(error) = writer.append(records) {
             // Half a line is not left; the disk may be full, and shorter is always possible.
             let _ = writer.file.set_len(writer.length);
             writer.failure.get_or_insert(WriteError::of(&self.path)(error).into());
@@ -329,16 +330,23 @@ impl Journal {
 }
 
 impl Writer {
-    fn append(&mut self, record: &Record) -> io::Result<()> {
+    fn append(&mut self, records: impl IntoIterator<Item = Record>) -> io::Result<()> {
         if self.failure.is_some() {
             return Ok(());
         }
-        let json = serde_json::to_vec(record)?;
-        let checksum = chained(&self.checksum, &json);
-        let line = [hexadecimal(&checksum[..CHECKSUM]).as_bytes(), b" ", &json, b"\n"].concat();
-        self.file.write_all(&line)?;
-        (self.checksum, self.length) = (checksum, self.length + line.len() as u64);
-        self.records += u64::from(!matches!(record, Record::Run(_)));
+        let (mut lines, mut checksum, mut count) = (Vec::new(), self.checksum, 0);
+        for record in records {
+            let json = serde_json::to_vec(&record)?;
+            checksum = chained(&checksum, &json);
+            lines.extend_from_slice(hexadecimal(&checksum[..CHECKSUM]).as_bytes());
+            lines.push(b' ');
+            lines.extend_from_slice(&json);
+            lines.push(b'\n');
+            count += u64::from(!matches!(record, Record::Run(_)));
+        }
+        self.file.write_all(&lines)?;
+        (self.checksum, self.length) = (checksum, self.length + lines.len() as u64);
+        self.records += count;
         Ok(())
     }
 }
@@ -398,7 +406,7 @@ mod tests {
     fn written(folder: &Path) -> Vec<u8> {
         let journal = Journal::create(folder).expect("a free folder");
         journal.begin(run(7)).expect("a new run");
-        (0..6).for_each(|number| journal.keep_life(0, number, end(number)));
+        (0..6).for_each(|number| journal.keep_lives(0, &[(number, end(number))]));
         drop(journal);
         fs::read(folder.join(NAME)).expect("a journal")
     }
@@ -434,7 +442,7 @@ mod tests {
             journal.begin(run(7)).expect("the same run");
             let known = journal.lives(0).cloned().unwrap_or_default();
             (0..6).filter(|number| !known.contains_key(number)).for_each(|number| {
-                journal.keep_life(0, number, end(number));
+                journal.keep_lives(0, &[(number, end(number))]);
             });
             assert!(known.iter().all(|(number, found)| *found == end(*number)));
             drop(journal);

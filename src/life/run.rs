@@ -294,9 +294,9 @@ impl<'s> Plan<'s> {
         let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
         let none = KnownLives::new();
         let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
-        let keep = |number, end| {
+        let keep = |ends: &[(u64, FailureEvent)]| {
             if let Some(journal) = self.journal {
-                journal.keep_life(batch, number, end);
+                journal.keep_lives(batch, ends);
             }
         };
         let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);

@@ -5,10 +5,10 @@
 use rand::RngExt;
 
 use linkwear_runtime::GammaRates;
-use linkwear_runtime::life::IncrementModel;
+use linkwear_runtime::life::{IncrementModel, LANES, Lanes};
 
 use crate::error::LifeError;
-use crate::random::{LnGamma, Stream};
+use crate::random::{LnGamma, Stream, gamma_draws};
 use crate::series::SharedFactor;
 
 /// A micrometre in metres: wear of the processes is counted in it.
@@ -45,6 +45,19 @@ impl GammaDraw {
         Ok(Self { shared: Some(factor), ..self })
     }
 
+    /// An increment in a cycle of a trajectory whose factor is known.
+    fn draw_with(&self, joint: usize, (trajectory, cycle): (u64, u64), mean: f64, factor: f64) -> f64 {
+        let Some((alpha, ln_beta)) = self.joints.get(joint) else { return mean };
+        let shape = alpha * (mean / MICRO) * factor;
+        if shape <= 0.0 {
+            return 0.0;
+        }
+        let mut stream = Stream::new(self.seed, trajectory, joint as u64);
+        stream.at(cycle);
+        // Wear too small for a number is no wear: only here, where it is added to micrometres.
+        libm::exp(stream.sample(LnGamma(shape)) - ln_beta) * MICRO
+    }
+
     /// ln of the factor of a trajectory: 0 if joints share none.
     fn ln_factor(&self, trajectory: u64) -> f64 {
         let drawn =
@@ -55,18 +68,23 @@ impl GammaDraw {
 
 impl IncrementModel for GammaDraw {
     fn draw(&self, joint: usize, trajectory: u64, cycle: u64, mean: f64) -> f64 {
-        let Some((alpha, ln_beta)) = self.joints.get(joint) else { return mean };
-        let mut shape = alpha * (mean / MICRO);
-        if self.shared.is_some() {
-            shape *= libm::exp(self.ln_factor(trajectory));
-        }
-        if shape <= 0.0 {
-            return 0.0;
-        }
-        let mut stream = Stream::new(self.seed, trajectory, joint as u64);
-        stream.at(cycle);
-        // Wear too small for a number is no wear: only here, where it is added to micrometres.
-        libm::exp(stream.sample(LnGamma(shape)) - ln_beta) * MICRO
+        self.draw_with(joint, (trajectory, cycle), mean, self.of_trajectory(trajectory))
+    }
+
+    fn of_trajectory(&self, trajectory: u64) -> f64 {
+        if self.shared.is_some() { libm::exp(self.ln_factor(trajectory)) } else { 1.0 }
+    }
+
+    fn draw_lanes(&self, joint: usize, lanes: &Lanes, means: &[f64; LANES]) -> [f64; LANES] {
+        let Some((alpha, ln_beta)) = self.joints.get(joint) else { return *means };
+        let shapes = std::array::from_fn(|lane| alpha * (means[lane] / MICRO) * lanes.own[lane]);
+        let streams = (self.seed, joint as u64);
+        let (drawn, holds) = gamma_draws(streams, &lanes.trajectories, &lanes.cycles, &shapes, *ln_beta);
+        let one = |lane: usize| {
+            let place = (lanes.trajectories[lane], lanes.cycles[lane]);
+            self.draw_with(joint, place, means[lane], lanes.own[lane])
+        };
+        std::array::from_fn(|lane| if holds[lane] { drawn[lane] * MICRO } else { one(lane) })
     }
 }
 

@@ -2,7 +2,8 @@
 //! rates of the Gamma process. Out: lives of trajectories. Never knows equations, files or terminals.
 
 mod draw;
+mod side_by_side;
 mod trajectories;
 
 pub use draw::{GammaDraw, GammaMean, MICRO, PER_METRE};
-pub use trajectories::{Ended, Lives, MonteCarlo, Scale};
+pub use trajectories::{Ended, Keep, Lives, MonteCarlo, Scale};

@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
+use super::side_by_side::SideBySide;
 use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
     FailureEvent, IncrementModel, LifeError, LifeOutcome, LifeSettings, LifeState, WearSource, run_life,
@@ -27,6 +28,9 @@ pub struct MonteCarlo<'a> {
     /// Threads that share the work.
     pub threads: NonZero<usize>,
 }
+
+/// Lives that a thread takes at a time where they are lived side by side: some milliseconds.
+const BLOCK: usize = 512;
 
 /// Why there are no more lives.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,6 +77,9 @@ pub type Scale<'a, S, E> = &'a (
         dyn Fn(&mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>)) -> std::result::Result<(), E> + Sync
     );
 
+/// Hears of lives, each with its number.
+pub type Keep<'a> = &'a (dyn Fn(&[(u64, FailureEvent)]) + Sync);
+
 /// How one trajectory ended.
 type Result<E> = std::result::Result<FailureEvent, Ended<E>>;
 
@@ -80,57 +87,88 @@ impl MonteCarlo<'_> {
     /// Lives all trajectories. Every thread asks `scale` for a fine scale of its own; `watch` hears which part of
     /// the lives is done, from whichever thread, and may end the run.
     pub fn run<S: Clone + Default, E: Send>(&self, scale: Scale<'_, S, E>, watch: Watch<'_>) -> Lives<E> {
-        self.go_on(&BTreeMap::new(), &|_, _| (), scale, watch)
+        self.go_on(&BTreeMap::new(), &|_| (), scale, watch)
     }
 
-    /// As [`Self::run`], after some lives are known already. `keep` hears of every further one as soon as it is
-    /// finished, from whichever thread.
+    /// As [`Self::run`], after some lives are known already. `keep` hears of all further ones as soon as they are
+    /// finished, from whichever thread: one by one, or some hundred together where each takes microseconds.
     pub fn go_on<S: Clone + Default, E: Send>(
         &self,
         known: &BTreeMap<u64, FailureEvent>,
-        keep: &(dyn Fn(u64, FailureEvent) + Sync),
+        keep: Keep<'_>,
         scale: Scale<'_, S, E>,
         watch: Watch<'_>,
     ) -> Lives<E> {
-        let known = known.range(self.trajectories.clone()).map(|(number, end)| (*number, Ok(*end)));
-        let known: Vec<(u64, Result<E>)> = known.collect();
+        let known: Vec<(u64, FailureEvent)> =
+            known.range(self.trajectories.clone()).map(|(number, end)| (*number, *end)).collect();
         let is_known: Vec<u64> = known.iter().map(|(number, _)| *number).collect();
-        let left = (self.trajectories.end - self.trajectories.start).saturating_sub(known.len() as u64);
+        let all = self.trajectories.end.saturating_sub(self.trajectories.start);
+        let left = all.saturating_sub(known.len() as u64);
         let next = AtomicU64::new(self.trajectories.start);
         let done = AtomicU64::new(known.len() as u64);
         let halt = AtomicBool::new(false);
-        let results = Mutex::new(known);
-        let ended = |trajectory, result: Result<E>| {
-            if let Ok(end) = &result {
-                keep(trajectory, *end);
-            }
-            halt.fetch_or(result.is_err(), Ordering::Relaxed);
-            done.fetch_add(1, Ordering::Relaxed);
-            results.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, result));
+        let mut failures = known;
+        failures.reserve_exact(usize::try_from(left).unwrap_or(0));
+        let (failures, stops) = (Mutex::new(failures), Mutex::new(Vec::new()));
+        let failed = |ends: &[(u64, FailureEvent)]| {
+            keep(ends);
+            done.fetch_add(ends.len() as u64, Ordering::Relaxed);
+            failures.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(ends);
         };
-        let count = (self.trajectories.end - self.trajectories.start) as f64;
+        let stopped = |trajectory: u64, why: Ended<E>| {
+            halt.store(true, Ordering::Relaxed);
+            stops.lock().unwrap_or_else(PoisonError::into_inner).push((trajectory, why));
+        };
+        let count = all as f64;
         let go_on = |_: f64| {
             let part = done.load(Ordering::Relaxed) as f64 / count;
             let stop = watch.report(part).is_break() || halt.load(Ordering::Relaxed);
             if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
+        // The next numbers, without those that are known.
+        let take = |most: u64| {
+            let from = next.fetch_add(most, Ordering::Relaxed);
+            let numbers = from..from.saturating_add(most).min(self.trajectories.end);
+            let is_new = |number: &u64| is_known.binary_search(number).is_err();
+            (!numbers.is_empty()).then(|| numbers.filter(is_new))
+        };
         let live_all = |at: &Cell<u64>| {
             let made = scale(&mut |mut fine| {
-                while !halt.load(Ordering::Relaxed) {
-                    let trajectory = next.fetch_add(1, Ordering::Relaxed);
-                    if trajectory >= self.trajectories.end {
-                        break;
+                let one = |fine: &mut _, trajectory| match self.live(fine, trajectory, Watch::new(&go_on)) {
+                    Ok(end) => failed(&[(trajectory, end)]),
+                    Err(why) => stopped(trajectory, why),
+                };
+                let Some(flow) = fine.flow(self.settings) else {
+                    while !halt.load(Ordering::Relaxed) {
+                        let Some(numbers) = take(1) else { break };
+                        numbers.for_each(|trajectory| {
+                            at.set(trajectory);
+                            one(&mut fine, trajectory);
+                        });
                     }
-                    at.set(trajectory);
-                    if is_known.binary_search(&trajectory).is_err() {
-                        ended(trajectory, self.live(&mut fine, trajectory, Watch::new(&go_on)));
+                    return;
+                };
+                let mut lanes = SideBySide::new(self.settings, flow, self.draw);
+                let (mut ends, mut others) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
+                while let Some(numbers) = take(BLOCK as u64) {
+                    if go_on(0.0).is_break() {
+                        let first = numbers.min().unwrap_or(self.trajectories.start);
+                        return stopped(first, Ended::Cancelled);
                     }
+                    lanes.live(numbers.inspect(|number| at.set(*number)), |number, end| match end {
+                        Some(end) => ends.push((number, end)),
+                        None => others.push(number),
+                    });
+                    failed(&ends);
+                    others.iter().for_each(|trajectory| one(&mut fine, *trajectory));
+                    ends.clear();
+                    others.clear();
                 }
             });
             if let Err(error) = made {
                 let trajectory = self.trajectories.start;
                 let stop = LifeError::Fine { cycle: 1, error };
-                ended(trajectory, Err(Ended::Stopped { trajectory, stop }));
+                stopped(trajectory, Ended::Stopped { trajectory, stop });
             }
         };
         let work = || {
@@ -138,7 +176,7 @@ impl MonteCarlo<'_> {
             // What a panic leaves is not looked at again: the results are those of whole lives.
             if let Err(panic) = catch_unwind(AssertUnwindSafe(|| live_all(&at))) {
                 let (trajectory, message) = (at.get(), said(&*panic));
-                ended(trajectory, Err(Ended::Panicked { trajectory, message }));
+                stopped(trajectory, Ended::Panicked { trajectory, message });
             }
         };
         let wanted = self.threads.get().min(usize::try_from(left).unwrap_or(usize::MAX)).max(1);
@@ -149,7 +187,9 @@ impl MonteCarlo<'_> {
             work();
             wanted - 1 - spawned
         });
-        let (failures, ended) = collect(results.into_inner().unwrap_or_else(PoisonError::into_inner));
+        let mut failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failures.sort_unstable_by_key(|(trajectory, _)| *trajectory);
+        let ended = first(stops.into_inner().unwrap_or_else(PoisonError::into_inner));
         Lives { failures, ended, missing_threads }
     }
 
@@ -166,18 +206,10 @@ impl MonteCarlo<'_> {
     }
 }
 
-/// In the order of the trajectories; the first that stopped for a reason of its own says why.
-fn collect<E>(mut results: Vec<(u64, Result<E>)>) -> (Vec<(u64, FailureEvent)>, Ended<E>) {
-    results.sort_by_key(|(trajectory, _)| *trajectory);
-    let (mut failures, mut ended) = (Vec::with_capacity(results.len()), Ended::Complete);
-    for (trajectory, result) in results {
-        match (result, &ended) {
-            (Ok(failure), _) => failures.push((trajectory, failure)),
-            (Err(why), Ended::Complete | Ended::Cancelled) => ended = why,
-            (Err(_), _) => {}
-        }
-    }
-    (failures, ended)
+/// The first that stopped for a reason of its own says why.
+fn first<E>(mut stops: Vec<(u64, Ended<E>)>) -> Ended<E> {
+    stops.sort_by_key(|(trajectory, why)| (matches!(why, Ended::Cancelled), *trajectory));
+    stops.into_iter().next().map_or(Ended::Complete, |(_, why)| why)
 }
 
 /// What a panic says.

@@ -12,6 +12,7 @@
 mod calibrate;
 mod cycle;
 mod error;
+mod flow;
 mod increment;
 mod interpolate;
 mod path;
@@ -24,7 +25,8 @@ mod worn;
 pub use calibrate::{Calibration, CalibrationError, calibrate};
 pub use cycle::{LifeOutcome, run_life};
 pub use error::LifeError;
-pub use increment::{IncrementModel, MeanIncrement};
+pub use flow::{ERROR as FLOW_ERROR, WearFlow};
+pub use increment::{IncrementModel, LANES, Lanes, MeanIncrement};
 pub use settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf, WearStep};
 pub use source::{JointWear, WearSource};
 pub use state::{Control, CycleJoint, CycleRecord, FailureEvent, JointWarning, LifeState};

@@ -1,6 +1,8 @@
 //! Where the coarse scale meets the fine one. Out: the trait and what passes through it.
 //! Never knows how a revolution is computed.
 
+use super::flow::WearFlow;
+use super::settings::LifeSettings;
 use crate::wear::{ContactMeasure, Profile};
 
 /// The fine scale: what one settled revolution wears at a given state of wear.
@@ -22,6 +24,13 @@ pub trait WearSource {
         joints: &[JointWear],
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, Self::Error>;
+
+    /// The mean paths of the joints, solved beforehand. Nothing unless what a joint wears depends on its own W alone and nothing
+    /// can stop a life before its threshold; lives then go cycle by cycle through [`run_life`](super::run_life).
+    fn flow(&self, settings: &LifeSettings) -> Option<WearFlow> {
+        let _ = settings;
+        None
+    }
 }
 
 impl<F: WearSource + ?Sized> WearSource for &mut F {
@@ -34,6 +43,10 @@ impl<F: WearSource + ?Sized> WearSource for &mut F {
         state: &mut F::State,
     ) -> Result<Vec<ContactMeasure>, F::Error> {
         (**self).measure(joints, state)
+    }
+
+    fn flow(&self, settings: &LifeSettings) -> Option<WearFlow> {
+        (**self).flow(settings)
     }
 }
 

@@ -11,13 +11,14 @@
 use core::convert::Infallible;
 
 use super::error::LifeError;
+use super::flow::{JointFlow, WearFlow};
 use super::interpolate::{Curve, find};
 use super::path::measure;
-use super::settings::{Feedback, JointLife, LifeSettings, SettingsError};
+use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf, WearStep};
 use super::source::{JointWear, WearSource};
 use crate::contact::OutOfRange;
 use crate::watch::Watch;
-use crate::wear::{ContactMeasure, Observed, Profile};
+use crate::wear::{ContactMeasure, Measure, Observed, Profile};
 
 /// Points of a table unless told otherwise.
 pub const DEFAULT_POINTS: usize = 17;
@@ -115,6 +116,15 @@ impl WearSource for WearTable {
     fn measure(&mut self, joints: &[JointWear], (): &mut ()) -> Result<Vec<ContactMeasure>, Infallible> {
         Ok(self.joints.iter().zip(joints).map(|(table, joint)| table.at(joint.wear)).collect())
     }
+
+    fn flow(&self, settings: &LifeSettings) -> Option<WearFlow> {
+        let is_whole = settings.check().is_ok() && settings.joints.len() == self.joints.len();
+        if !is_whole || settings.step == WearStep::Cycle {
+            return None;
+        }
+        let each = self.joints.iter().zip(&settings.joints);
+        WearFlow::new(each.map(|(table, joint)| table.flow(joint, settings)).collect::<Option<_>>()?)
+    }
 }
 
 /// Wear that doubles the clearance [m]; without feedback only the others' wear counts, and any scale does.
@@ -156,6 +166,33 @@ impl JointTable {
             observed: points.iter().map(|point| point.observed).collect(),
             places,
         }
+    }
+
+    /// The mean path, where nothing but W decides it and nothing stops it before the threshold.
+    fn flow(&self, joint: &JointLife, settings: &LifeSettings) -> Option<JointFlow> {
+        // The deepest place is not always the same one: it takes the whole profile.
+        let is_linear = matches!(joint.wear, WearOf::Depth | WearOf::Profile(Measure::Mean));
+        let knots: Vec<f64> = self.places.iter().map(|place| self.scale * libm::expm1(*place)).collect();
+        // Between points all curves are monotone.
+        let holds = |wear: &f64| {
+            let measured = self.at(*wear);
+            measured.flaw().is_none() && measured.touching >= settings.least_touching
+        };
+        if !is_linear || self.scale != scale(joint) || !knots.iter().chain([&joint.threshold]).all(holds) {
+            return None;
+        }
+        let rate = |wear: f64| {
+            let cell = find(&self.places, libm::log1p(wear / self.scale));
+            let value = |curve: &Curve| curve.at(cell).max(0.0);
+            let depth = match joint.wear {
+                WearOf::Depth => value(&self.depth),
+                WearOf::Profile(_) => self.bins.iter().map(value).sum::<f64>() / self.bins.len() as f64,
+            };
+            joint.revolutions_per_cycle * depth
+        };
+        // A first cycle that reaches the threshold is a fault of the settings, which is told elsewhere.
+        let flow = JointFlow::new(joint, self.scale, &knots, &rate)?;
+        (flow.first() < joint.threshold).then_some(flow)
     }
 
     fn at(&self, wear: f64) -> ContactMeasure {

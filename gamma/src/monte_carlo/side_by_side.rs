@@ -1,0 +1,112 @@
+//! Lives side by side on mean paths that are solved already. In: paths, a draw, numbers of trajectories. Out: their ends,
+//! each by its number alone, whatever is beside it. Never knows threads.
+
+use linkwear_runtime::life::{FailureEvent, IncrementModel, LANES, Lanes, LifeSettings, WearFlow};
+
+/// Lives at hand, one in each lane. Nothing is allocated for a life or a cycle.
+pub(super) struct SideBySide<'a> {
+    settings: &'a LifeSettings,
+    flow: WearFlow,
+    draw: &'a (dyn IncrementModel + Sync),
+    lanes: Lanes,
+    is_busy: [bool; LANES],
+    /// W [m] of each joint in each lane, and after the cycle at hand.
+    wear: Vec<[f64; LANES]>,
+    gains: Vec<[f64; LANES]>,
+    next: Vec<[f64; LANES]>,
+}
+
+impl<'a> SideBySide<'a> {
+    pub(super) fn new(
+        settings: &'a LifeSettings,
+        flow: WearFlow,
+        draw: &'a (dyn IncrementModel + Sync),
+    ) -> Self {
+        let zeros = || vec![[0.0; LANES]; flow.joints()];
+        let (wear, gains, next) = (zeros(), zeros(), zeros());
+        Self { settings, draw, lanes: Lanes::default(), is_busy: [false; LANES], wear, gains, next, flow }
+    }
+
+    /// Lives these trajectories; `ended` hears of each, in the order in which they end. Nothing as its end: the life is one that
+    /// has to go cycle by cycle, because it does not fail or a draw is no number.
+    pub(super) fn live(
+        &mut self,
+        mut trajectories: impl Iterator<Item = u64>,
+        mut ended: impl FnMut(u64, Option<FailureEvent>),
+    ) {
+        (0..LANES).for_each(|lane| self.begin(lane, trajectories.next()));
+        while self.is_busy.contains(&true) {
+            self.cycle();
+            for lane in 0..LANES {
+                if !self.is_busy[lane] {
+                    continue;
+                }
+                let end = match self.end(lane) {
+                    Ok(None) => {
+                        self.lanes.cycles[lane] += 1;
+                        if self.lanes.cycles[lane] < self.settings.most_cycles {
+                            self.wear.iter_mut().zip(&self.next).for_each(|(wear, to)| wear[lane] = to[lane]);
+                            continue;
+                        }
+                        None
+                    }
+                    Ok(Some(end)) => Some(end),
+                    Err(NoNumber) => None,
+                };
+                ended(self.lanes.trajectories[lane], end);
+                self.begin(lane, trajectories.next());
+            }
+        }
+    }
+
+    fn begin(&mut self, lane: usize, trajectory: Option<u64>) {
+        // An idle lane lives the life it had once more, unheard.
+        self.is_busy[lane] = trajectory.is_some();
+        if let Some(trajectory) = trajectory {
+            self.lanes.trajectories[lane] = trajectory;
+            self.lanes.own[lane] = self.draw.of_trajectory(trajectory);
+        }
+        self.lanes.cycles[lane] = 0;
+        self.wear.iter_mut().for_each(|wear| wear[lane] = 0.0);
+    }
+
+    /// Draws a cycle in all lanes.
+    fn cycle(&mut self) {
+        for joint in 0..self.wear.len() {
+            let wear = &self.wear[joint];
+            let gains = wear.map(|wear| self.flow.gain(joint, wear));
+            let drawn = self.draw.draw_lanes(joint, &self.lanes, &gains);
+            self.gains[joint] = gains;
+            self.next[joint] = std::array::from_fn(|lane| wear[lane] + drawn[lane]);
+        }
+    }
+
+    /// Whether a life ends in the cycle, and when the first of its joints does.
+    fn end(&self, lane: usize) -> Result<Option<FailureEvent>, NoNumber> {
+        let mut first: Option<FailureEvent> = None;
+        let done = self.lanes.cycles[lane];
+        for (joint, lives) in self.settings.joints.iter().enumerate() {
+            let [from, to] = [self.wear[joint][lane], self.next[joint][lane]];
+            if !(to >= from && to.is_finite()) {
+                return Err(NoNumber);
+            }
+            if to >= lives.threshold {
+                // Within the cycle all increments of the mean path are drawn by one factor.
+                let part = (lives.threshold - from) / (to - from);
+                let time = self.flow.time(joint, from, from + part * self.gains[joint][lane]);
+                let end = FailureEvent {
+                    joint,
+                    cycles: done as f64 + time.clamp(0.0, 1.0),
+                    whole_cycles: done + 1,
+                };
+                if first.is_none_or(|first| end.cycles < first.cycles) {
+                    first = Some(end);
+                }
+            }
+        }
+        Ok(first)
+    }
+}
+
+/// A draw that is none.
+struct NoNumber;
