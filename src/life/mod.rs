@@ -6,6 +6,7 @@
 //! [`LifeStudy::run`].
 
 mod cost;
+mod counted;
 mod error;
 mod fit;
 mod journal;
@@ -17,6 +18,7 @@ mod steady;
 mod study;
 
 pub use cost::Cost;
+pub use counted::{CountedEnds, LISTED_LIVES};
 pub use error::{Cause, LifeError};
 pub use fit::{JointFit, UnfitForLife};
 pub use journal::{Journal, JournalError};

@@ -4,6 +4,7 @@
 use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics};
 use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
 
+use super::counted::CountedEnds;
 use super::process::JointProcess;
 use super::steady::TurnErrors;
 use super::study::Coupling;
@@ -21,8 +22,11 @@ pub struct LifeResult {
     pub cycles: Vec<CycleRecord>,
     /// Estimated error of the mean path by its wear steps [cycles].
     pub step_error: f64,
-    /// Ends of the random lives, in the order of their numbers; none of them if only the mean path was lived.
+    /// Ends of the random lives, in the order of their numbers; none of them if only the mean path was lived, or if they are
+    /// counted.
     pub lives: Vec<FailureEvent>,
+    /// The random lives, if they are more than [`LifeStudy::listed`](super::LifeStudy::listed).
+    pub counted: Option<CountedEnds>,
     /// Gamma process of each wearing joint, if all have one.
     pub process: Option<Vec<JointProcess>>,
     /// The table of wear per revolution and its errors, if there is one.
@@ -47,8 +51,16 @@ impl LifeResult {
 
     /// Statistics of the random lives with their standard errors [cycles]; none with fewer than two lives.
     pub fn statistics(&self) -> Option<LifeStatistics> {
+        if let Some(counted) = &self.counted {
+            return LifeStatistics::counted(counted.cycles()).ok();
+        }
         let cycles: Vec<f64> = self.lives.iter().map(|end| end.cycles).collect();
         LifeStatistics::of(&cycles).ok()
+    }
+
+    /// Number of random lives.
+    pub fn random_lives(&self) -> u64 {
+        self.counted.as_ref().map_or(self.lives.len() as u64, |counted| counted.cycles().count())
     }
 
     /// Ends of the random lives, or that of the mean path alone.
@@ -58,16 +70,22 @@ impl LifeResult {
 
     /// Mean life [cycles]; that of the mean path where no random lives were drawn.
     pub fn mean(&self) -> f64 {
-        self.ends().iter().map(|end| end.cycles).sum::<f64>() / self.ends().len() as f64
+        let listed = || self.ends().iter().map(|end| end.cycles).sum::<f64>() / self.ends().len() as f64;
+        self.counted.as_ref().map_or_else(listed, |counted| counted.cycles().mean())
     }
 
     /// Mean life as inspections after whole cycles see it.
     pub fn mean_whole_cycles(&self) -> f64 {
-        self.ends().iter().map(|end| end.whole_cycles as f64).sum::<f64>() / self.ends().len() as f64
+        let whole = |end: &FailureEvent| end.whole_cycles as f64;
+        let listed = || self.ends().iter().map(whole).sum::<f64>() / self.ends().len() as f64;
+        self.counted.as_ref().map_or_else(listed, CountedEnds::mean_whole_cycles)
     }
 
     /// Part of the lives that each joint ended.
     pub fn failed_first(&self) -> Vec<f64> {
+        if let Some(counted) = &self.counted {
+            return (0..self.joints.len()).map(|joint| counted.failed_first(joint)).collect();
+        }
         let count = self.ends().len() as f64;
         let ended_by = |joint| self.ends().iter().filter(|end| end.joint == joint).count() as f64;
         (0..self.joints.len()).map(|joint| ended_by(joint) / count).collect()

@@ -4,7 +4,7 @@
 use std::convert::Infallible;
 use std::error::Error as StdError;
 use std::num::NonZero;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
@@ -16,6 +16,7 @@ use linkwear_runtime::life::{
 };
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
+use super::counted::{CountedEnds, parts};
 use super::error::{Cause, LifeError};
 use super::journal::{Batch, Journal, KnownLives};
 use super::process::Process;
@@ -31,6 +32,13 @@ const SHIFTED_BY_DYNAMICS: u64 = 4;
 
 /// Ends of lives by their numbers.
 type Numbered = Vec<(u64, FailureEvent)>;
+
+/// Lives to draw: which of them, of how many in all.
+struct Part {
+    batch: Batch,
+    lives: Range<u64>,
+    of: u64,
+}
 
 /// Runs with a source of wear that was made for it.
 type Body<'b> = &'b mut dyn FnMut(&mut dyn WearSource<State = Option<TurnState>, Error = RunError>);
@@ -234,6 +242,7 @@ impl<'s> Plan<'s> {
             step_error: state.joints[end.joint].error,
             cycles: state.cycles,
             lives: Vec::new(),
+            counted: None,
             process: self.process.as_ref().map(|process| process.joints.clone()),
             table: None,
             measurements: state.measurements,
@@ -253,7 +262,21 @@ impl<'s> Plan<'s> {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
         let failed =
             |(cause, lives): (Cause, Numbered)| LifeError { lives, ..self.error(cause, &result.cycles) };
-        let lives = self.draw_by(scale, &process.draw(), (0, count), self.watch).map_err(failed)?;
+        let is_listed = count <= self.study.listed;
+        let (mut counted, mut lives) = (CountedEnds::default(), Vec::new());
+        // More than are listed go in parts of as many, which are counted and forgotten.
+        for part in parts(count, self.study.listed) {
+            let [start, length] =
+                [part.start, part.end - part.start].map(|lives| lives as f64 / count as f64);
+            let watch = |done: f64| self.watch.report(start + length * done);
+            let part = Part { batch: 0, lives: part, of: count };
+            lives = self.draw_by(scale, &process.draw(), part, Watch::new(&watch)).map_err(failed)?;
+            if !is_listed {
+                let all = lives.drain(..).try_for_each(|(_, end)| counted.add(&end));
+                let cause = |error| Cause::Wear { trajectory: None, error: Box::new(error) };
+                all.map_err(|error| self.error(cause(error), &result.cycles))?;
+            }
+        }
         let few = match self.coupling {
             Coupling::Table => SHIFTED_BY_TABLE,
             Coupling::Full => SHIFTED_BY_DYNAMICS,
@@ -261,14 +284,17 @@ impl<'s> Plan<'s> {
         let mut batch = 0;
         let by_fits = process.uncertainty(&mut |shifted| {
             batch += 1;
-            let lives = self.draw_by(scale, shifted, (batch, count.min(few)), self.between)?;
+            let few = count.min(few);
+            let part = Part { batch, lives: 0..few, of: few };
+            let lives = self.draw_by(scale, shifted, part, self.between)?;
             Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
         });
         let by_fits = by_fits.map_err(|(cause, _)| failed((cause, lives.clone())))?;
         // One life has no statistics: the budget stays that of the mean path.
-        if lives.len() > 1 {
+        if count > 1 {
             result.parameter_error = by_fits;
         }
+        result.counted = (!is_listed).then_some(counted);
         result.lives = lives.into_iter().map(|(_, end)| end).collect();
         let missing = self.missing_threads.load(Ordering::Relaxed);
         if missing > 0 {
@@ -286,22 +312,24 @@ impl<'s> Plan<'s> {
         &self,
         scale: Scale<'_, S, E>,
         draw: &GammaDraw,
-        (batch, count): (Batch, u64),
+        Part { batch, lives, of }: Part,
         watch: Watch<'_>,
     ) -> Result<Numbered, (Cause, Numbered)> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
-        let run = MonteCarlo { settings: &settings, draw, trajectories: 0..count, threads: self.threads };
+        let done = lives.start;
+        let run = MonteCarlo { settings: &settings, draw, trajectories: lives, threads: self.threads };
         let none = KnownLives::new();
         let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
         let keep = |ends: &[(u64, FailureEvent)]| {
-            if let Some(journal) = self.journal {
+            // Lives that are not listed are as fast lived again as read.
+            if let Some(journal) = self.journal.filter(|_| of <= self.study.listed) {
                 journal.keep_lives(batch, ends);
             }
         };
         let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);
         self.missing_threads.fetch_max(missing_threads, Ordering::Relaxed);
-        let lives = Some((failures.len(), count));
+        let lives = Some((failures.len() + usize::try_from(done).unwrap_or(0), of));
         let cause = match ended {
             Ended::Complete => return Ok(failures),
             Ended::Cancelled => Cause::Interrupted { trajectory: None, lives },

@@ -5,6 +5,7 @@ use std::num::NonZero;
 use linkwear_runtime::RevolutionSettings;
 use serde_json::{Map, Value, json};
 
+use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
 use crate::mechanism::Mechanism;
 
@@ -55,6 +56,8 @@ pub struct LifeStudy<'m> {
     pub feedback: bool,
     /// Random lives beside the mean path.
     pub trajectories: Trajectories,
+    /// Lives up to which each is kept and told; more are counted in bins, the same on any number of threads.
+    pub listed: u64,
     /// Seed of the random numbers: the same seed gives the same bits on any number of threads.
     pub seed: u64,
     /// Threads that share the random lives. None: one per core.
@@ -76,6 +79,7 @@ impl<'m> LifeStudy<'m> {
             coupling: None,
             feedback: true,
             trajectories: Trajectories::Default,
+            listed: LISTED_LIVES,
             seed: 1,
             threads: None,
             fits: Vec::new(),

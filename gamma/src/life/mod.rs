@@ -8,11 +8,13 @@
 mod band;
 mod budget;
 mod clock;
+mod counted;
 mod estimate;
 mod first_passage;
 mod law;
 mod lifetime;
 mod mixture;
+mod ordered;
 mod state;
 mod statistics;
 
@@ -20,6 +22,7 @@ pub use crate::error::LifeError;
 pub use band::{Band, Bands, Method};
 pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
+pub use counted::CountedLives;
 pub use estimate::{Estimate, ParameterSet, Sample};
 pub use first_passage::FirstPassage;
 pub use law::Law;

@@ -1,8 +1,9 @@
 //! Statistics of simulated lives with their Monte-Carlo standard errors. In: lives. Out: mean, spread, quantiles.
 //! Never knows where lives come from.
 
+use super::counted::CountedLives;
+use super::ordered::Ordered;
 use crate::error::{LifeError, probability};
-use crate::order::sorted_quantile;
 use crate::special::{gamma_quantile, ln_gamma, student_bound};
 
 /// Probability outside of an interval, on each side.
@@ -20,7 +21,7 @@ pub struct WithError {
 /// Statistics of independent lives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LifeStatistics {
-    sorted: Vec<f64>,
+    order: Ordered,
     mean: f64,
     /// Central moments of order 2, 3, 4.
     central: [f64; 3],
@@ -41,46 +42,60 @@ impl LifeStatistics {
             }
         }
         let mut sorted = lives.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let count = sorted.len() as f64;
-        let mean = sorted.iter().sum::<f64>() / count;
-        let mut sums = [0.0; 3];
-        for life in &sorted {
-            let (off, square) = (life - mean, (life - mean) * (life - mean));
-            for (sum, power) in sums.iter_mut().zip([square, square * off, square * square]) {
-                *sum += power;
-            }
+        sorted.sort_unstable_by(f64::total_cmp);
+        let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+        Ok(Self::ordered(Ordered::Each(sorted), mean))
+    }
+
+    /// Of lives that are counted: the mean is that of the lives, all else that of the middles of their bins, each life off by
+    /// [`CountedLives::ERROR`] of itself at most.
+    ///
+    /// # Errors
+    /// [`LifeError::FewLives`].
+    pub fn counted(lives: &CountedLives) -> Result<Self, LifeError> {
+        match lives.count() {
+            count @ 0..2 => Err(LifeError::FewLives { lives: usize::from(count == 1) }),
+            _ => Ok(Self::ordered(Ordered::counted(lives), lives.mean())),
         }
-        let central = sums.map(|sum| sum / count);
-        Ok(Self { sorted, mean, central })
+    }
+
+    fn ordered(order: Ordered, mean: f64) -> Self {
+        let count = order.count() as f64;
+        let central = order.powers(mean).map(|sum| sum / count);
+        Self { order, mean, central }
     }
 
     /// Number of lives.
     pub fn count(&self) -> usize {
-        self.sorted.len()
+        self.order.count()
     }
 
-    /// The lives, shortest first.
-    pub fn sorted(&self) -> &[f64] {
-        &self.sorted
+    /// The shortest life.
+    pub fn shortest(&self) -> f64 {
+        self.order.quantile(0.0)
+    }
+
+    /// The longest life.
+    pub fn longest(&self) -> f64 {
+        self.order.quantile(1.0)
     }
 
     /// Mean; standard error s / sqrt(n).
     pub fn mean(&self) -> WithError {
-        let count = self.sorted.len() as f64;
+        let count = self.count() as f64;
         WithError { value: self.mean, error: self.deviation() / count.sqrt() }
     }
 
     /// Half-width of the interval that holds the mean of the law of lives with 95 %, by Student's law.
     pub fn mean_half_width(&self) -> f64 {
-        student_bound(self.sorted.len() - 1, 1.0 - 2.0 * TAIL) * self.mean().error
+        student_bound(self.count() - 1, 1.0 - 2.0 * TAIL) * self.mean().error
     }
 
     /// Standard deviation (divisor n - 1); standard error sqrt((m4 - m2²) / n) / (2 s), the delta method.
     pub fn std(&self) -> WithError {
         let [m2, _, m4] = self.central;
         let deviation = self.deviation();
-        let error = ((m4 - m2 * m2).max(0.0) / self.sorted.len() as f64).sqrt() / (2.0 * deviation);
+        let error = ((m4 - m2 * m2).max(0.0) / self.count() as f64).sqrt() / (2.0 * deviation);
         WithError { value: deviation, error: if deviation > 0.0 { error } else { 0.0 } }
     }
 
@@ -90,7 +105,7 @@ impl LifeStatistics {
     /// tails of their law: for one of heavy tails the interval of few is too short.
     pub fn std_interval(&self) -> (f64, f64) {
         let [m2, _, m4] = self.central;
-        let (count, deviation) = (self.sorted.len() as f64, self.deviation());
+        let (count, deviation) = (self.count() as f64, self.deviation());
         let scatter = m4 / (m2 * m2) - (count - 3.0) / (count - 1.0);
         let by_moment = if scatter > 0.0 { 2.0 * count / scatter } else { f64::INFINITY };
         let half = 0.5 * by_moment.min(count - 1.0);
@@ -107,7 +122,7 @@ impl LifeStatistics {
             return WithError { value, error: 0.0 };
         }
         let spread = (m4 / (m2 * m2) - 1.0) / 4.0 - m3 / (m2 * self.mean) + m2 / (self.mean * self.mean);
-        WithError { value, error: value * (spread.max(0.0) / self.sorted.len() as f64).sqrt() }
+        WithError { value, error: value * (spread.max(0.0) / self.count() as f64).sqrt() }
     }
 
     /// Quantile by linear interpolation (type 7 of Hyndman & Fan 1996); standard error without assuming a law: half the
@@ -117,8 +132,8 @@ impl LifeStatistics {
     /// [`LifeError::Probability`].
     pub fn quantile(&self, p: f64) -> Result<WithError, LifeError> {
         probability(p)?;
-        let step = (p * (1.0 - p) / self.sorted.len() as f64).sqrt();
-        let at = |p: f64| sorted_quantile(&self.sorted, p.clamp(0.0, 1.0));
+        let step = (p * (1.0 - p) / self.count() as f64).sqrt();
+        let at = |p: f64| self.order.quantile(p.clamp(0.0, 1.0));
         Ok(WithError { value: at(p), error: 0.5 * (at(p + step) - at(p - step)) })
     }
 
@@ -129,8 +144,8 @@ impl LifeStatistics {
     /// [`LifeError::Probability`].
     pub fn quantile_interval(&self, p: f64) -> Result<[Option<f64>; 2], LifeError> {
         probability(p)?;
-        let count = self.sorted.len();
-        let life = |rank: Option<usize>| rank.and_then(|rank| self.sorted.get(rank)).copied();
+        let count = self.count();
+        let life = |rank: Option<usize>| rank.and_then(|rank| self.order.get(rank));
         // The mirror image gives the upper end.
         let below = most_within(count, p);
         let above = most_within(count, 1.0 - p).and_then(|rank| count.checked_sub(rank + 1));
@@ -139,13 +154,13 @@ impl LifeStatistics {
 
     /// Share of the lives longer than `t`; binomial standard error.
     pub fn reliability(&self, t: f64) -> WithError {
-        let count = self.sorted.len() as f64;
-        let value = (self.sorted.len() - self.sorted.partition_point(|life| *life <= t)) as f64 / count;
+        let count = self.count() as f64;
+        let value = (self.count() - self.order.up_to(t)) as f64 / count;
         WithError { value, error: (value * (1.0 - value) / count).sqrt() }
     }
 
     fn deviation(&self) -> f64 {
-        let count = self.sorted.len() as f64;
+        let count = self.count() as f64;
         (self.central[0] * count / (count - 1.0)).sqrt()
     }
 }
@@ -154,8 +169,16 @@ impl LifeStatistics {
 fn most_within(count: usize, p: f64) -> Option<usize> {
     let (n, ln_p, ln_rest) = (count as f64, libm::log(p), libm::log1p(-p));
     let ln_factorial = |k: f64| ln_gamma(k + 1.0);
+    // Forty standard deviations below the mean chances are no numbers any more.
+    let first = n * p - 40.0 * (n * p * (1.0 - p)).sqrt() - 40.0;
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and the number of lives"
+    )]
+    let first = first.max(0.0) as usize;
     let mut sum = 0.0;
-    let within = (0..count).take_while(|k| {
+    let within = (first..count).take_while(|k| {
         let (k, rest) = (*k as f64, n - *k as f64);
         let ln_chance = ln_factorial(n) - ln_factorial(k) - ln_factorial(rest) + k * ln_p + rest * ln_rest;
         sum += libm::exp(ln_chance);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use linkwear::life::{Cost, Coupling, JointProcess, LifeResult, LifeStudy};
 use linkwear::number::number;
-use linkwear_gamma::life::{LifeStatistics, WithError};
+use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::{Value, json};
@@ -96,8 +96,8 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         "cov": statistics.map_or(0.0, |lives| lives.cov().value),
         "quantiles": { "p10": p10, "p50": p50, "p90": p90 },
         "mean_whole_cycles": life.mean_whole_cycles(),
-        "trajectories": life.lives.len().max(1),
-        "random": !life.lives.is_empty(),
+        "trajectories": life.random_lives().max(1),
+        "random": life.random_lives() > 0,
         "seed": study.seed,
         "mean_path": {
             "cycles": life.end.cycles, "whole_cycles": life.end.whole_cycles, "step_error": life.step_error,
@@ -141,6 +141,9 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
             "std": ends([Some(low), Some(high)]),
             "quantiles": quantiles(&|p| Some(ends(lives.quantile_interval(p).ok()?))),
         });
+        if life.counted.is_some() {
+            answer["bin_error"] = json!(CountedLives::ERROR);
+        }
         answer["reliability"] = reliability(lives);
         answer["failed_first"] =
             names.into_iter().zip(life.failed_first().into_iter().map(Value::from)).collect();
@@ -151,8 +154,7 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
 
 /// The part of the lives that is longer, from before the first failure to after the last.
 fn reliability(lives: &LifeStatistics) -> Value {
-    let sorted = lives.sorted();
-    let (first, last) = (sorted[0].floor(), sorted[sorted.len() - 1].ceil());
+    let (first, last) = (lives.shortest().floor(), lives.longest().ceil());
     let points = (0..=POINTS).map(|at| {
         let cycles = first + (last - first) * at as f64 / POINTS as f64;
         let part = lives.reliability(cycles);
@@ -199,7 +201,7 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
     if statistics.is_none() {
         let _ = writeln!(text, "\nerror of the mean path, half-widths at 95 % [cycles]\n{}", life.budget());
     }
-    if life.lives.is_empty() {
+    if life.random_lives() == 0 {
         text.push_str(if life.process.is_some() {
             "\nno random lives were drawn; --trajectories 16 draws some\n"
         } else {
@@ -243,6 +245,15 @@ fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> 
     let head = [head.as_str(), "cycles, +- standard error", "95 %", time];
     let mut text = format!("\n{}", table(&head, &rows));
     let _ = writeln!(text, "\nerror of the mean, half-widths at 95 % [cycles]\n{}", life.budget());
+    if life.counted.is_some() {
+        let _ = writeln!(
+            text,
+            "\nmore than {} lives are counted in bins: the mean is exact, quantiles and spread are those of lives each off by {:.1e} of \
+             itself at most; no lives.csv",
+            count(study.listed),
+            CountedLives::ERROR
+        );
+    }
     let names = life.names();
     if names.len() > 1 {
         let parts = names.iter().zip(life.failed_first());
