@@ -18,7 +18,8 @@ pub fn contact_frequencies(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: 
     let mut storage = vec![0.0; sizes.contacts * CONTACT_WRENCH + sizes.speeds];
     let frequency = |(joint, touch): (usize, &ContactState)| {
         let inverse = inverse_mass(evaluator, (t, q, v), (joint, touch), &mut storage);
-        let frequency = (touch.tangent_stiffness * inverse).sqrt() / (2.0 * PI);
+        let tangent_stiffness = evaluator.clearances().joints()[joint].tangent_stiffness(touch);
+        let frequency = (tangent_stiffness * inverse).sqrt() / (2.0 * PI);
         (frequency.is_finite() && frequency > 0.0).then_some(frequency)
     };
     touches.iter().enumerate().map(frequency).collect()

@@ -156,6 +156,9 @@ impl<'a> Dynamics<'a> {
     }
 
     /// On the way through a singular position: by states beside it, if they explain what is here but for rounding.
+    // Seldom, and much code: out of the way of what every evaluation runs through.
+    #[cold]
+    #[inline(never)]
     fn pass(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.direct.copy_from_slice(self.evaluator.forward_mut());
         let regularity = |forward: &Forward<'_>| self.largest_pivots.regularity(forward.pivots);
@@ -204,9 +207,11 @@ impl<'a> Dynamics<'a> {
     }
 
     fn check(&self, t: f64) -> Result<(), RunError> {
-        if is_finite(self.evaluator.last_solution()) {
-            return Ok(());
-        }
+        if is_finite(self.evaluator.last_solution()) { Ok(()) } else { Err(self.not_finite(t)) }
+    }
+
+    #[cold]
+    fn not_finite(&self, t: f64) -> RunError {
         let Forward { accelerations, multipliers, drives, .. } = self.evaluator.last_forward();
         let description = self.evaluator.description();
         let bad = |values: &[f64]| values.iter().position(|x| !x.is_finite());
@@ -218,7 +223,7 @@ impl<'a> Dynamics<'a> {
             let row = bad(multipliers).map_or(0, |i| self.evaluator.kept()[i]);
             format!("multiplier of {}", self.evaluator.joint_of_row(row))
         };
-        Err(RunError::NonFinite { t, what })
+        RunError::NonFinite { t, what }
     }
 }
 

@@ -26,6 +26,8 @@ pub struct Evaluator<'a> {
     sizes: Sizes,
     /// Row of the description behind each kept row.
     kept: Vec<usize>,
+    /// Of every row, whether its residual is one in radians.
+    angular: Vec<bool>,
     /// Longest length that each kept row of the Jacobian has had.
     row_lengths: Vec<f64>,
     row_scales: Vec<f64>,
@@ -81,6 +83,7 @@ impl<'a> Evaluator<'a> {
             layout,
             sizes,
             kept,
+            angular: description.rows.iter().map(|row| row.angular).collect(),
             row_lengths: vec![0.0; sizes.rows],
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
@@ -109,6 +112,11 @@ impl<'a> Evaluator<'a> {
     /// For every kept row, its row in the description.
     pub fn kept(&self) -> &[usize] {
         &self.kept
+    }
+
+    /// Values of the parameters.
+    pub(crate) fn parameters(&self) -> &[f64] {
+        self.questions.parameters()
     }
 
     /// Position, speed and acceleration of every driver, driver by driver.
@@ -282,26 +290,6 @@ impl<'a> Evaluator<'a> {
         Closure { positions, speeds, jacobian }
     }
 
-    /// Loop error of the last answer of [`Self::closure`].
-    pub fn loop_error(&self) -> LoopError {
-        let mut error = LoopError::default();
-        let mut most = 0.0;
-        for (i, (row, residual)) in
-            self.description.rows.iter().zip(self.last_closure().positions).enumerate()
-        {
-            let size = residual.abs();
-            let side = if row.angular { &mut error.radians } else { &mut error.metres };
-            // What is not a number wins.
-            if size.is_nan() || size > *side {
-                *side = size;
-            }
-            if size.is_nan() || size > most {
-                (most, error.worst) = (size, i);
-            }
-        }
-        error
-    }
-
     /// Kinetic and potential energy [J].
     pub fn energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
         let output = self.questions.ask(Entry::Energy, t, &[q, v]);
@@ -323,7 +311,7 @@ impl<'a> Evaluator<'a> {
         self.questions.system.side_by_side()
     }
 
-    /// Writes the question of [`Self::observe`] as that of one of several states.
+    /// Writes the question of [`Self::observe`] as that of one of several states, but for the parameters.
     pub(crate) fn write_question(
         &mut self,
         (t, q, v): (f64, &[f64], &[f64]),
@@ -335,9 +323,8 @@ impl<'a> Evaluator<'a> {
             self.multipliers[*row] = *multiplier;
         }
         let (time, wrenches) = ([t], self.clearances.wrenches());
-        let parts =
-            [self.questions.parameters(), &time, q, v, accelerations, &self.multipliers, drives, wrenches];
-        let mut left = question;
+        let parts = [&time, q, v, accelerations, &self.multipliers, drives, wrenches];
+        let mut left = &mut question[self.sizes.parameters..];
         for part in parts {
             let (places, rest) = left.split_at_mut(part.len());
             places.iter_mut().zip(part).for_each(|(place, value)| place[state] = *value);

@@ -71,7 +71,7 @@ impl Code {
     pub(super) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
         let Callable { start, pool, inputs, outputs, workspace: length, slack } = &self.functions[function];
         let (input, output) = (&input[..*inputs], &mut output[..*outputs]);
-        let skipped = workspace.as_ptr().align_offset(LINE).min(*slack);
+        let skipped = if *slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(*slack) };
         let workspace = &mut workspace[skipped..][..*length];
         let code = self.memory[*start..].as_ptr();
         // SAFETY: whole code of a function of this convention begins here (invariant 1) and is executable (invariant 4).

@@ -36,8 +36,8 @@ pub struct ContactState {
     pub penetration_rate: f64,
     /// Normal force, never negative [N].
     pub normal_force: f64,
-    /// Slope of the elastic force over the penetration [N/m].
-    pub tangent_stiffness: f64,
+    /// K at the clearance [N/m^n].
+    pub stiffness: f64,
     /// Sliding speed [m/s]; of a journal with its sign, of a ball the magnitude.
     pub sliding_speed: f64,
     /// Energy stored in the contact [J].
@@ -158,24 +158,25 @@ impl Clearance {
     }
 
     /// One evaluation: `motion` as [`crate::Entry::Contacts`] gives it, `worn` [m] on top of its clearance, a worn
-    /// profile of the bearing on top of that.
+    /// profile of the bearing on top of that; `before`: this joint's contact at any other instant.
     ///
     /// Stiffness and area go by the clearance plus the mean of the profile, which stays the same through a
     /// run: a stiffness that changed along the way would not give back the energy it took.
     #[inline]
     pub fn evaluate(
         &self,
-        motion: &[f64],
-        worn: f64,
-        profile: Option<&Profile>,
+        motion: &[f64; CONTACT_MOTION],
+        (worn, profile): (f64, Option<&Profile>),
         memory: &ImpactMemory<f64>,
+        before: &ContactState,
     ) -> ContactState {
-        debug_assert_eq!(motion.len(), CONTACT_MOTION);
         let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
         let (offset, offset_rate, turning) = (three(0), three(3), three(6));
         let round = motion[9] + worn;
         let clearance = round + profile.map_or(0.0, Profile::mean);
-        let stiffness = self.stiffness(clearance);
+        // A root and two divisions, mostly of the same numbers.
+        let known = before.stiffness > 0.0 && before.clearance.to_bits() == clearance.to_bits();
+        let stiffness = if known { before.stiffness } else { self.stiffness(clearance) };
         let (contact, force) = if self.ball {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
             let contact = SphericalContact::new(&motion, self.radius, clearance);
@@ -194,35 +195,31 @@ impl Clearance {
         };
         let [penetration, penetration_rate, sliding_speed] = contact;
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
-        let mut touch = ContactState {
+        let (normal_force, damping_loss) = (force.normal.force, force.normal.damping_loss);
+        let load = Load { normal_force, penetration, sliding_speed };
+        let depth_rate =
+            |(archard, _): &(Archard, WearInfo)| archard.rates(&load, &self.pair(clearance)).depth;
+        ContactState {
             offset: if self.ball { offset } else { [offset[0], offset[1], 0.0] },
             clearance,
             gap: -penetration,
             penetration_rate,
-            normal_force: force.normal.force,
+            normal_force,
+            stiffness,
             sliding_speed,
             elastic_energy: force.normal.elastic_energy,
-            loss: force.normal.damping_loss + force.friction_loss,
+            loss: damping_loss + force.friction_loss,
+            wear_power: normal_force * sliding_speed.abs(),
+            depth_rate: self.wear.as_ref().map_or(0.0, depth_rate),
             wrench: [fx, fy, fz, mx, my, mz],
-            ..ContactState::default()
-        };
-        self.finish(&mut touch);
-        touch
+        }
     }
 
-    #[inline]
-    fn finish(&self, touch: &mut ContactState) {
-        let depth = touch.penetration();
-        let law = &self.laws.normal;
-        if depth > 0.0 {
-            // n K p^(n-1), from the energy K p^(n+1)/(n+1).
-            let n = law.exponent();
-            touch.tangent_stiffness = n * (n + 1.0) * touch.elastic_energy / (depth * depth);
-        }
-        touch.wear_power = touch.normal_force * touch.sliding_speed.abs();
-        if let Some((archard, _)) = &self.wear {
-            touch.depth_rate = archard.rates(&Self::load(touch), &self.pair(touch.clearance)).depth;
-        }
+    /// Slope of the elastic force over the penetration [N/m]; zero apart.
+    pub fn tangent_stiffness(&self, touch: &ContactState) -> f64 {
+        let (depth, n) = (touch.penetration(), self.laws.normal.exponent());
+        // n K p^(n-1), from the energy K p^(n+1)/(n+1).
+        if depth > 0.0 { n * (n + 1.0) * touch.elastic_energy / (depth * depth) } else { 0.0 }
     }
 
     /// What acts on the contact, for laws of wear.

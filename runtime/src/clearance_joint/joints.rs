@@ -111,12 +111,12 @@ impl Clearances {
     /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
     pub fn evaluate(&mut self, motions: &[f64]) {
         self.changed = false;
+        let (motions, _) = motions.as_chunks::<CONTACT_MOTION>();
+        let (wrenches, _) = self.wrenches.as_chunks_mut::<CONTACT_WRENCH>();
         let each = self.joints.iter().zip(&self.states).zip(&mut self.contacts);
-        for (((joint, state), touch), motion) in each.zip(motions.chunks_exact(CONTACT_MOTION)) {
-            *touch = joint.evaluate(motion, state.worn, state.profile.as_ref(), &state.memory);
-        }
-        for (wrench, touch) in self.wrenches.chunks_exact_mut(CONTACT_WRENCH).zip(&self.contacts) {
-            wrench.copy_from_slice(&touch.wrench);
+        for (((joint, state), touch), (motion, wrench)) in each.zip(motions.iter().zip(wrenches)) {
+            *touch = joint.evaluate(motion, (state.worn, state.profile.as_ref()), &state.memory, touch);
+            *wrench = touch.wrench;
         }
     }
 

@@ -123,7 +123,7 @@ impl Friction {
     ///
     /// Times a tangential velocity it is the coefficient with its direction, in any dimension, without a
     /// division by a speed that may vanish.
-    #[inline]
+    #[inline(always)]
     pub fn over_speed<T: Scalar>(&self, speed: T) -> T {
         let strength = self.strength(speed) + T::constant(self.slope) * speed;
         strength.max(T::constant(0.0)) * self.onset_over_speed(speed)
@@ -135,7 +135,7 @@ impl Friction {
         self.over_speed(sliding_speed.abs()) * sliding_speed
     }
 
-    #[inline]
+    #[inline(always)]
     fn strength<T: Scalar>(&self, speed: T) -> T {
         match self.strength {
             Strength::Coulomb { coefficient } => T::constant(coefficient),
@@ -148,7 +148,7 @@ impl Friction {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn onset_over_speed<T: Scalar>(&self, speed: T) -> T {
         let c = T::constant;
         match self.onset {

@@ -12,26 +12,39 @@ pub(super) struct LargestPivots {
     values: Vec<f64>,
     /// Pivots up to here are noise.
     noise: f64,
-    /// Both before a look aside.
-    aside: (Vec<f64>, f64),
+    /// During a look aside.
+    is_aside: bool,
+    /// Both before it, if they have changed since.
+    aside: Option<f64>,
+    aside_values: Vec<f64>,
 }
 
 impl LargestPivots {
     pub(super) fn new(count: usize) -> Self {
-        Self { values: vec![0.0; count], noise: 0.0, aside: (vec![0.0; count], 0.0) }
+        let values = vec![0.0; count];
+        Self { aside_values: values.clone(), values, noise: 0.0, is_aside: false, aside: None }
     }
 
     /// Keeps the largest value of each and says how regular they are.
     pub(super) fn note(&mut self, pivots: &[f64]) -> f64 {
-        let grown = |(pivot, most): (&f64, &f64)| pivot > most;
-        if pivots.iter().zip(&self.values).any(grown) {
-            self.grow(pivots);
+        let (mut has_grown, mut smallest) = (false, 1.0);
+        for (pivot, most) in pivots.iter().zip(&self.values) {
+            has_grown |= pivot > most;
+            smallest = self.smaller(smallest, *pivot, *most);
         }
-        self.regularity(pivots)
+        if has_grown {
+            self.grow(pivots);
+            return self.regularity(pivots);
+        }
+        smallest
     }
 
     #[cold]
     fn grow(&mut self, pivots: &[f64]) {
+        if self.is_aside && self.aside.is_none() {
+            self.aside_values.copy_from_slice(&self.values);
+            self.aside = Some(self.noise);
+        }
         for (pivot, most) in pivots.iter().zip(&mut self.values) {
             if *pivot > *most && pivot.is_finite() {
                 *most = *pivot;
@@ -42,30 +55,29 @@ impl LargestPivots {
 
     /// Smallest pivot relative to the largest value that it has had.
     pub(super) fn regularity(&self, pivots: &[f64]) -> f64 {
-        let mut smallest = 1.0;
-        for (pivot, most) in pivots.iter().zip(&self.values) {
-            if *pivot > self.noise {
-                if *pivot < smallest * most {
-                    smallest = pivot / most;
-                }
-            } else {
-                // A pivot that is not a positive number counts as lost rank.
-                smallest = 0.0;
-            }
-        }
-        smallest
+        let all = pivots.iter().zip(&self.values);
+        all.fold(1.0, |smallest, (pivot, most)| self.smaller(smallest, *pivot, *most))
+    }
+
+    /// The smaller of a regularity and that of a pivot with the largest value that it has had.
+    #[inline]
+    fn smaller(&self, smallest: f64, pivot: f64, most: f64) -> f64 {
+        // A pivot that is not a positive number counts as lost rank.
+        if pivot > self.noise { if pivot < smallest * most { pivot / most } else { smallest } } else { 0.0 }
     }
 
     /// Keeps what [`Self::resume`] goes on with; one at a time.
     pub(super) fn put_aside(&mut self) {
-        self.aside.0.copy_from_slice(&self.values);
-        self.aside.1 = self.noise;
+        (self.is_aside, self.aside) = (true, None);
     }
 
     /// Goes on as if nothing had been noted since.
     pub(super) fn resume(&mut self) {
-        self.values.copy_from_slice(&self.aside.0);
-        self.noise = self.aside.1;
+        self.is_aside = false;
+        if let Some(noise) = self.aside.take() {
+            self.values.copy_from_slice(&self.aside_values);
+            self.noise = noise;
+        }
     }
 
     /// Passes all values, to be read or written.

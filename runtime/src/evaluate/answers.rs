@@ -72,15 +72,18 @@ impl Equations<'_> {
         forces.fill(0.0);
         let mut rows = self.mass;
         for i in 0..forces.len() {
-            let (row, below) = rows.split_at(forces.len() - i);
+            // Of slices cut to one length compilers make loops without checks.
+            let forces = &mut forces[i..];
+            let n = forces.len();
+            let (row, below) = rows.split_at(n);
+            let accelerations = &accelerations[i..][..n];
             rows = below;
-            let (acceleration, mut force) = (accelerations[i], row[0] * accelerations[i]);
-            let (entries, later) = (&row[1..], &accelerations[i + 1..]);
-            for ((entry, other), carried) in entries.iter().zip(later).zip(&mut forces[i + 1..]) {
-                force += entry * other;
-                *carried += entry * acceleration;
+            let (acceleration, mut force) = (accelerations[0], row[0] * accelerations[0]);
+            for j in 1..n {
+                force += row[j] * accelerations[j];
+                forces[j] += row[j] * acceleration;
             }
-            forces[i] += force;
+            forces[0] += force;
         }
     }
 

@@ -20,6 +20,22 @@ impl LoopError {
 }
 
 impl Evaluator<'_> {
+    /// Loop error of the last answer of [`Self::closure`].
+    pub fn loop_error(&self) -> LoopError {
+        // Magnitudes are ordered as their bits are, and what is not a number is above all.
+        let (mut sizes, mut most, mut worst) = ([0; 2], 0, 0);
+        for (row, (angular, residual)) in self.angular.iter().zip(self.last_closure().positions).enumerate() {
+            let size = residual.abs().to_bits();
+            let side = &mut sizes[usize::from(*angular)];
+            *side = size.max(*side);
+            if size > most {
+                (most, worst) = (size, row);
+            }
+        }
+        let [metres, radians] = sizes.map(f64::from_bits);
+        LoopError { metres, radians, worst }
+    }
+
     /// The longest lever arm [m] by which a turning speed moves a kept row; 1 m if none does. The size that lengths of
     /// this mechanism are compared with.
     pub fn longest_arm(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {

@@ -84,15 +84,19 @@ impl Derivative {
         }
     }
 
+    #[inline]
     fn is_at(&self, t: f64, q: &[f64], v: &[f64]) -> bool {
-        let state = &self.input[self.sizes.parameters..self.state_end];
         let known = self.has_contacts || self.has_answer;
-        // Other stages of a step have another time, or differ from the first number on.
-        known && state[0].to_bits() == t.to_bits() && {
-            let (coordinates, speeds) = state[1..].split_at(q.len());
-            let first = |all: &[f64]| all.first().map(|x| x.to_bits());
-            first(coordinates) == first(q) && same_bits(coordinates, q) && same_bits(speeds, v)
-        }
+        // Other stages of a step mostly have another time.
+        known && self.input[self.sizes.parameters].to_bits() == t.to_bits() && self.has_state(q, v)
+    }
+
+    fn has_state(&self, q: &[f64], v: &[f64]) -> bool {
+        let state = &self.input[self.sizes.parameters + 1..self.state_end];
+        let (coordinates, speeds) = state.split_at(q.len());
+        // Or they differ from the first number on.
+        let first = |all: &[f64]| all.first().map(|x| x.to_bits());
+        first(coordinates) == first(q) && same_bits(coordinates, q) && same_bits(speeds, v)
     }
 
     fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) {

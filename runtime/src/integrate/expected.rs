@@ -1,6 +1,8 @@
 //! Formulas of generalised-alpha: where a step ends if the accelerations go on as before, and where with corrections.
 //! In: the last point. Out: the next one, as far as no equations are needed. Never knows mechanisms.
 
+use crate::linear::largest_of;
+
 /// Coefficients for one spectral radius.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coefficients {
@@ -81,12 +83,12 @@ impl Expected {
         add_multiple(&mut next.v_dot, &self.v_dot, by_a * (1.0 - alpha_m) / (1.0 - alpha_f), x);
     }
 
-    /// What the change of the accelerations within the step moves, relative to natural sizes, with `x` added: by this the
+    /// What the change of the accelerations within the step moves, times one over natural sizes, with `x` added: by this the
     /// step's own error goes.
-    pub(super) fn moved(&self, now: &Point, x: &[f64], sizes: &[f64]) -> f64 {
+    pub(super) fn moved(&self, now: &Point, x: &[f64], per_size: &[f64]) -> f64 {
         let scale = self.step * self.step * self.coefficients.beta;
-        let ends = self.a.iter().zip(&now.a).zip(x.iter().zip(sizes));
-        ends.fold(0.0, |most: f64, ((a, now), (x, size))| most.max((scale * (a - now) + x).abs() / size))
+        let ends = self.a.iter().zip(&now.a).zip(x.iter().zip(per_size));
+        largest_of(ends.map(|((a, now), (x, per_size))| (scale * (a - now) + x) * per_size))
     }
 }
 

@@ -10,7 +10,7 @@
 use super::expected::{Coefficients, Expected, Point};
 use crate::error::RunError;
 use crate::evaluate::{CLOSED, Evaluator};
-use crate::linear::{Lu, Orthogonal, add_scaled, is_finite, largest};
+use crate::linear::{Lu, Orthogonal, add_scaled, is_finite, largest, largest_of};
 
 const MAX_ITERATIONS: u32 = 40;
 /// Corrections no smaller than this part of the one before: the Newton matrix is out of date. The second correction says
@@ -55,8 +55,9 @@ pub struct GeneralizedAlpha {
     matrix: Vec<f64>,
     lu: Lu,
     orthogonal: Orthogonal,
-    /// Natural size of each free speed's motion.
+    /// Natural size of each free speed's motion, and one over it.
     sizes: Vec<f64>,
+    per_size: Vec<f64>,
     /// Step that the Newton matrix was made for; 0: none.
     factored_step: f64,
     rank_lost: bool,
@@ -114,6 +115,7 @@ impl GeneralizedAlpha {
             lu: Lu::new(n + m),
             orthogonal: Orthogonal::new(n + m, n + m),
             sizes: vec![1.0; n],
+            per_size: vec![1.0; n],
             factored_step: 0.0,
             rank_lost: false,
             iterations: 0,
@@ -125,6 +127,7 @@ impl GeneralizedAlpha {
     /// of the iteration go by it. A contact is as stiff as its penetrations are small.
     pub fn with_sizes(mut self, sizes: &[f64]) -> Self {
         self.sizes.copy_from_slice(sizes);
+        self.per_size.iter_mut().zip(sizes).for_each(|(per_size, size)| *per_size = 1.0 / size);
         self
     }
 
@@ -182,7 +185,7 @@ impl GeneralizedAlpha {
             // What a steady rate leaves behind is a geometric series; a tenth of rounding is nothing.
             let rate = if before.is_finite() { size / before } else { 1.0 };
             let left = size * rate / (1.0 - rate);
-            let enough = (SOLVED * self.expected.moved(&self.now, &self.x, &self.sizes))
+            let enough = (SOLVED * self.expected.moved(&self.now, &self.x, &self.per_size))
                 .min(CLOSED_BY_A_STEP)
                 .max(0.1 * rounding);
             let converged = size <= rounding || (rate < STEADY && left <= enough);
@@ -226,9 +229,7 @@ impl GeneralizedAlpha {
         }
         add_scaled(&mut self.x, -1.0, &self.shifted[..n]);
         add_scaled(&mut self.scaled_multipliers, -1.0, &self.shifted[n..]);
-        let relative = self.shifted[..n].iter().zip(&self.sizes).map(|(x, size)| x.abs() / size);
-        // What is not a number wins.
-        relative.fold(0.0, |most, x| if x.is_nan() || x > most { x } else { most })
+        largest_of(self.shifted[..n].iter().zip(&self.per_size).map(|(x, per_size)| x * per_size))
     }
 
     /// Moves the trial to the present unknowns.
@@ -249,8 +250,9 @@ impl GeneralizedAlpha {
         let all = trial.all_a.len();
         let prescribed = evaluator.last_prescribed();
         evaluator.layout().expand((&next.q, &next.v), prescribed, (&mut trial.all_q, &mut trial.all_v));
+        let all_a = &mut trial.all_a[..];
         for (place, a) in trial.free.iter().zip(&next.v_dot) {
-            trial.all_a[*place] = *a;
+            all_a[*place] = *a;
         }
         evaluator.evaluate_contacts(t, &next.q, &next.v);
         let equations = evaluator.equations(t, &trial.all_q, &trial.all_v);
@@ -268,10 +270,11 @@ impl GeneralizedAlpha {
                 }
             }
         }
-        for (residual, place) in self.residual.iter_mut().zip(&self.trial.free) {
-            *residual = self.trial.balance[*place];
+        let (balance, (forces, loops)) = (&trial.balance[..], self.residual.split_at_mut(n));
+        for (residual, place) in forces.iter_mut().zip(&trial.free) {
+            *residual = balance[*place];
         }
-        for (residual, index) in self.residual[n..n + m].iter_mut().zip(&self.kept) {
+        for (residual, index) in loops[..m].iter_mut().zip(&self.kept) {
             *residual = equations.positions[*index];
         }
     }

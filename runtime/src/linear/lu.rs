@@ -103,31 +103,45 @@ impl Lu {
             *value = b[*place];
         }
         for (block, rows) in self.lower.chunks_exact(width).enumerate() {
+            let (columns, _) = rows.as_chunks::<4>();
             let (solved, rest) = self.work.split_at_mut(block);
-            let mut values = subtract(rest[0], rows, solved.as_flattened());
-            for (i, column) in rows[4 * block..].iter().take(4).enumerate() {
-                values = without(values, column, values[i]);
-            }
-            rest[0] = values;
+            let known = columns.iter().zip(&*solved);
+            let mut values = known.fold(rest[0], |values, (columns, known)| less(values, columns, known));
+            let [first, second, third, _] = columns[block];
+            values = without(values, &first, values[0]);
+            values = without(values, &second, values[1]);
+            rest[0] = without(values, &third, values[2]);
         }
         for (block, rows) in self.upper.chunks_exact(width).enumerate().rev() {
+            let (columns, _) = rows.as_chunks::<4>();
+            let pivots = &self.reciprocal_pivots[4 * block..][..4];
             let (rest, solved) = self.work.split_at_mut(block + 1);
-            let mut values = subtract(rest[block], &rows[4 * block + 4..], solved.as_flattened());
-            for (i, column) in rows[4 * block..].iter().take(4).enumerate().rev() {
-                values[i] *= self.reciprocal_pivots[4 * block + i];
-                values = without(values, column, values[i]);
-            }
+            let known = columns[block + 1..].iter().zip(&*solved);
+            let mut values = known.fold(rest[block], |values, (columns, known)| less(values, columns, known));
+            let [_, second, third, fourth] = columns[block];
+            values[3] *= pivots[3];
+            values = without(values, &fourth, values[3]);
+            values[2] *= pivots[2];
+            values = without(values, &third, values[2]);
+            values[1] *= pivots[1];
+            values = without(values, &second, values[1]);
+            values[0] *= pivots[0];
             rest[block] = values;
         }
         b[..self.size].copy_from_slice(&self.work.as_flattened()[..self.size]);
     }
 }
 
-/// `values` less the columns of some rows times what is known.
-fn subtract(values: Lanes, columns: &[Lanes], known: &[f64]) -> Lanes {
-    columns.iter().zip(known).fold(values, |values, (column, known)| without(values, column, *known))
+/// `values` less four columns, each times what is known.
+#[inline(always)]
+fn less(values: Lanes, columns: &[Lanes; 4], known: &Lanes) -> Lanes {
+    let values = without(values, &columns[0], known[0]);
+    let values = without(values, &columns[1], known[1]);
+    let values = without(values, &columns[2], known[2]);
+    without(values, &columns[3], known[3])
 }
 
+#[inline(always)]
 fn without(values: Lanes, column: &Lanes, factor: f64) -> Lanes {
     core::array::from_fn(|i| values[i] - column[i] * factor)
 }

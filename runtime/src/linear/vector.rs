@@ -1,6 +1,7 @@
 //! Vectors as slices: scalar product, sum, largest magnitude. The order of summation is fixed.
 
 /// Scalar product, in four running sums.
+#[inline]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a_blocks, a_rest) = a.as_chunks::<4>();
@@ -15,6 +16,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// `y += factor * x`.
+#[inline]
 pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
@@ -22,26 +24,27 @@ pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
 }
 
 /// Largest magnitude; NaN if any entry is not a number.
+#[inline]
 pub fn largest(values: &[f64]) -> f64 {
+    largest_of(values.iter().copied())
+}
+
+/// The same of values that come one by one.
+#[inline]
+pub fn largest_of(values: impl Iterator<Item = f64>) -> f64 {
     // Magnitudes are ordered as their bits are, and what is not a number is above all: no branches.
-    f64::from_bits(values.iter().fold(0, |most, x| most.max(x.abs().to_bits())))
+    f64::from_bits(values.fold(0, |most, x| most.max(x.abs().to_bits())))
 }
 
 /// Whether all are numbers, and none is infinite.
+#[inline]
 pub fn is_finite(values: &[f64]) -> bool {
-    // Nothing but these makes a zero that is none, and one that was made stays: no branches, several side by side.
-    let mut zeros = [0.0; 4];
-    let (blocks, rest) = values.as_chunks::<4>();
-    for block in blocks {
-        for (zero, x) in zeros.iter_mut().zip(block) {
-            *zero += 0.0 * x;
-        }
-    }
-    let rest: f64 = rest.iter().map(|x| 0.0 * x).sum();
-    zeros.iter().sum::<f64>() + rest == 0.0
+    // Nothing but these makes a zero that is none, of either sign: no branches, several side by side.
+    values.iter().fold(0, |bits, x| bits | (0.0 * x).to_bits()) << 1 == 0
 }
 
 /// Whether both have the same bits throughout.
+#[inline]
 pub fn same_bits(a: &[f64], b: &[f64]) -> bool {
     let mut bits = [0; 4];
     let (a_blocks, a_rest) = a.as_chunks::<4>();

@@ -222,7 +222,8 @@ impl Follower {
                 track.probed_penetration = touch.penetration();
                 let evaluator = &mut motion.dynamics.evaluator;
                 let inverse = inverse_mass(evaluator, (self.t, q, v), (joint, touch), &mut self.probe);
-                let frequency = (touch.tangent_stiffness * inverse).sqrt();
+                let tangent_stiffness = evaluator.clearances().joints()[joint].tangent_stiffness(touch);
+                let frequency = (tangent_stiffness * inverse).sqrt();
                 // Lost numbers stop a run elsewhere.
                 if frequency.is_finite() {
                     track.frequency = track.frequency.max(frequency);

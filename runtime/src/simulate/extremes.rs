@@ -52,9 +52,8 @@ pub(super) struct Collector {
     looks: Vec<[f64; STATES]>,
     /// The piece of the looks that are not judged yet.
     piece: usize,
-    /// Time and columns of the look judged last.
+    /// Time of the look judged last. Its columns stay in the last place of all groups.
     last: Option<f64>,
-    last_columns: Vec<f64>,
     low: Vec<At>,
     high: Vec<At>,
     /// Of every piece, the smallest and the largest values of all columns.
@@ -93,7 +92,6 @@ impl Collector {
             looks: vec![[0.0; STATES]; GROUPS * columns],
             piece: 0,
             last: None,
-            last_columns: vec![0.0; columns],
             low: none(f64::INFINITY),
             high: none(f64::NEG_INFINITY),
             pieces: vec![nothing; ENVELOPE_PIECES],
@@ -112,29 +110,32 @@ impl Collector {
         self.times.push(t);
     }
 
-    /// Notes all columns at several times, four at most.
+    /// Notes all columns at several times.
     pub(super) fn note_several(&mut self, times: &[f64], looks: &[[f64; STATES]]) {
-        let (Some(first), Some(last)) = (times.first(), times.last()) else { return };
-        let is_whole = times.len() == STATES && *first >= self.start;
-        if !is_whole || self.piece(*first) != self.piece(*last) {
-            for (state, t) in times.iter().enumerate() {
-                if *t < self.start {
-                    continue;
-                }
-                self.make_room(*t, |column| looks[column][state]);
-                let (places, place) = self.next_look();
-                places.iter_mut().zip(looks).for_each(|(look, known)| look[place] = known[state]);
-                self.times.push(*t);
+        for (state, t) in times.iter().enumerate() {
+            if *t < self.start {
+                continue;
             }
-            return;
+            self.make_room(*t, |column| looks[column][state]);
+            let (places, place) = self.next_look();
+            places.iter_mut().zip(looks).for_each(|(look, known)| look[place] = known[state]);
+            self.times.push(*t);
         }
-        if !self.times.len().is_multiple_of(STATES) {
+    }
+
+    /// Notes all columns at these times, which are to be written where this says; nowhere if these times are not all of the
+    /// piece of the look before.
+    pub(super) fn room(&mut self, times: &[f64; STATES]) -> Option<&mut [[f64; STATES]]> {
+        let [first, .., last] = times;
+        if *first < self.start || [first, last].iter().any(|t| self.piece(**t) != self.piece) {
+            return None;
+        }
+        if !self.times.len().is_multiple_of(STATES) || self.times.len() == GROUPS * STATES {
             self.judge();
         }
-        self.make_room(*first, |column| looks[column][0]);
         let group = self.times.len() / STATES;
-        self.looks[group * self.columns..][..self.columns].copy_from_slice(looks);
         self.times.extend_from_slice(times);
+        Some(&mut self.looks[group * self.columns..][..self.columns])
     }
 
     /// The group with the next look, and its place there.
@@ -160,7 +161,7 @@ impl Collector {
         let Some(last) = self.times.last() else { return };
         self.last = Some(*last);
         self.repeat_last();
-        let Self { columns, times, looks, last_columns, low, high, pieces, peaks, .. } = self;
+        let Self { columns, times, looks, low, high, pieces, peaks, .. } = self;
         let groups: [&[[f64; STATES]]; GROUPS] =
             std::array::from_fn(|group| &looks[group * *columns..][..*columns]);
         for (peak, loads) in peaks {
@@ -172,22 +173,17 @@ impl Collector {
         let [lowest, highest] = &mut pieces[self.piece];
         let pieces = lowest.iter_mut().zip(highest);
         let all = low.iter_mut().zip(high).zip(pieces);
-        for (column, ((low, high), (lowest, highest))) in all.enumerate() {
-            let of_column = groups.map(|group| group[column]);
-            let (least, most) = ends(&of_column);
-            let first = |value: f64| {
-                let mut met = of_column.as_flattened().iter().zip(&*times);
-                met.find(|(look, _)| **look == value).map(|(look, t)| At { value: *look, t: *t })
-            };
-            *lowest = smaller(least, *lowest);
-            *highest = larger(most, *highest);
-            if least < low.value {
-                *low = first(least).unwrap_or(*low);
+        let [first, second, third, fourth] = groups;
+        let looks = first.iter().zip(second).zip(third.iter().zip(fourth));
+        let all = all.zip(looks).enumerate();
+        for (column, (((low, high), (lowest, highest)), ((first, second), (third, fourth)))) in all {
+            (*lowest, *highest) = ends([first, second, third, fourth], (*lowest, *highest));
+            if *lowest < low.value {
+                take_first(low, (&groups, column), times, |look, low| look < low);
             }
-            if most > high.value {
-                *high = first(most).unwrap_or(*high);
+            if *highest > high.value {
+                take_first(high, (&groups, column), times, |look, high| look > high);
             }
-            last_columns[column] = of_column[GROUPS - 1][STATES - 1];
         }
         self.times.clear();
     }
@@ -213,7 +209,8 @@ impl Collector {
         let (from, to) = (place(before), place(t));
         for border in self.piece + 1..=now {
             let part = (border as f64 - from) / (to - from);
-            for (column, last) in self.last_columns.iter().enumerate() {
+            let last_columns = &self.looks[(GROUPS - 1) * self.columns..];
+            for (column, [.., last]) in last_columns.iter().enumerate() {
                 let value = last + part * (value(column) - last);
                 for [low, high] in &mut self.pieces[border - 1..=border] {
                     low[column] = if value < low[column] { value } else { low[column] };
@@ -265,10 +262,25 @@ impl Load {
     }
 }
 
-/// Smallest and largest value of groups of looks at a column.
+/// Goes on to the first of the looks that are furthest beyond `most`, if there are any.
+#[cold]
+fn take_first(
+    most: &mut At,
+    (groups, column): (&[&[[f64; STATES]]; GROUPS], usize),
+    times: &[f64],
+    is_beyond: impl Fn(f64, f64) -> bool,
+) {
+    for (look, t) in groups.iter().flat_map(|group| &group[column]).zip(times) {
+        if is_beyond(*look, most.value) {
+            *most = At { value: *look, t: *t };
+        }
+    }
+}
+
+/// Smallest and largest value of groups of looks at a column, and of those before.
 #[inline]
-fn ends(groups: &[[f64; STATES]; GROUPS]) -> (f64, f64) {
-    let (mut low, mut high) = ([f64::INFINITY; STATES], [f64::NEG_INFINITY; STATES]);
+fn ends(groups: [&[f64; STATES]; GROUPS], (low, high): (f64, f64)) -> (f64, f64) {
+    let (mut low, mut high) = ([low; STATES], [high; STATES]);
     for group in groups {
         for state in 0..STATES {
             low[state] = smaller(group[state], low[state]);
@@ -277,7 +289,11 @@ fn ends(groups: &[[f64; STATES]; GROUPS]) -> (f64, f64) {
             high[state] = larger(group[state], high[state]);
         }
     }
-    (low.into_iter().fold(f64::INFINITY, smaller), high.into_iter().fold(f64::NEG_INFINITY, larger))
+    // Halves first: two numbers then stay side by side to the end.
+    let [a, b, c, d] = low;
+    let least = smaller(smaller(a, c), smaller(b, d));
+    let [a, b, c, d] = high;
+    (least, larger(larger(a, c), larger(b, d)))
 }
 
 /// The smaller of both; `b` where `a` is not a number.

@@ -12,7 +12,9 @@ pub(super) struct Looks<'a> {
     times: [f64; STATES],
     count: usize,
     question: Vec<[f64; STATES]>,
-    /// The generated columns, then those that contacts add.
+    /// How many columns are generated ones...
+    generated: usize,
+    /// ...which come before those that contacts add.
     columns: Vec<[f64; STATES]>,
     workspace: Vec<[f64; STATES]>,
 }
@@ -21,11 +23,16 @@ impl<'a> Looks<'a> {
     /// For so many columns; none if the system observes one state after the other.
     pub(super) fn new(evaluator: &Evaluator<'a>, columns: usize) -> Option<Self> {
         let (observer, sizes) = (evaluator.side_by_side()?, evaluator.sizes());
+        let mut question = vec![[0.0; STATES]; sizes.input(Entry::Observe)];
+        for (place, value) in question.iter_mut().zip(evaluator.parameters()) {
+            *place = [*value; STATES];
+        }
         Some(Self {
             observer,
             times: [0.0; STATES],
             count: 0,
-            question: vec![[0.0; STATES]; sizes.input(Entry::Observe)],
+            question,
+            generated: sizes.channels,
             columns: vec![[0.0; STATES]; columns],
             workspace: vec![[0.0; STATES]; observer.workspace()],
         })
@@ -40,9 +47,8 @@ impl<'a> Looks<'a> {
         collector: &mut Collector,
     ) {
         evaluator.write_question((t, q, v), self.count, &mut self.question);
-        let generated = evaluator.sizes().channels;
         let of_contacts = channels.values(evaluator.clearances().contacts());
-        for (column, value) in self.columns[generated..].iter_mut().zip(of_contacts) {
+        for (column, value) in self.columns[self.generated..].iter_mut().zip(of_contacts) {
             column[self.count] = value;
         }
         self.times[self.count] = t;
@@ -55,10 +61,17 @@ impl<'a> Looks<'a> {
     /// Observes what waits.
     pub(super) fn finish(&mut self, collector: &mut Collector) {
         let count = std::mem::take(&mut self.count);
-        if count > 0 {
+        let Self { observer, times, question, generated, columns, workspace, .. } = self;
+        if count == STATES
+            && let Some(room) = collector.room(times)
+        {
+            let (room, of_contacts) = room.split_at_mut(*generated);
+            observer.observe(question, room, workspace);
+            of_contacts.copy_from_slice(&columns[*generated..]);
+        } else if count > 0 {
             // Places without a state hold an older one, or zeros, and nobody reads what they give.
-            self.observer.observe(&self.question, &mut self.columns, &mut self.workspace);
-            collector.note_several(&self.times[..count], &self.columns);
+            observer.observe(question, columns, workspace);
+            collector.note_several(&times[..count], columns);
         }
     }
 }

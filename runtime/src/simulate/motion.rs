@@ -309,12 +309,13 @@ impl<'a> ConstrainedMotion<'a> {
             accelerations.copy_from_slice(self.dynamics.evaluator.last_forward().accelerations);
             self.powers(t, q, v, coordinates, work);
         }
-        if is_finite(work) {
-            Ok(())
-        } else {
-            Err(RunError::NonFinite { t, what: "power of drivers and forces".to_owned() })
-        }
+        if is_finite(work) { Ok(()) } else { Err(infinite_power(t)) }
     }
+}
+
+#[cold]
+fn infinite_power(t: f64) -> RunError {
+    RunError::NonFinite { t, what: "power of drivers and forces".to_owned() }
 }
 
 impl Problem for ConstrainedMotion<'_> {
