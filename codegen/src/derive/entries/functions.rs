@@ -85,6 +85,12 @@ impl<'g> Deriver<'g> {
         (function(Entry::Start, "Where assembly starts from.", self.base_inputs(), outputs), values)
     }
 
+    /// Whether several ways to the same values are compared. Of longer chains one alone is derived: the others take as long as
+    /// all the rest of a check.
+    fn is_short(&self) -> bool {
+        self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE
+    }
+
     /// Accelerations, multipliers and drive forces as expressions of the state.
     pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Forward<'g> {
         let motion = &instant.state.motion;
@@ -103,8 +109,7 @@ impl<'g> Deriver<'g> {
             (forward.operations(self.geometry.g), forward)
         };
         let links = by(&instant.cuts);
-        let is_short = self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE;
-        let ground = is_short.then(|| instant.cuts_in_ground(false)).flatten().map(|cuts| by(&cuts));
+        let ground = self.is_short().then(|| instant.cuts_in_ground(false)).flatten().map(|cuts| by(&cuts));
         ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
     }
 
@@ -223,8 +228,8 @@ impl<'g> Deriver<'g> {
         };
         let in_ground = list(&instant);
         instant.state.points_in_ground = false;
-        let in_links = list(&instant);
-        let (channels, values) = if in_links.0 < in_ground.0 { in_links.1 } else { in_ground.1 };
+        let in_links = self.is_short().then(|| list(&instant));
+        let (channels, values) = in_links.filter(|in_links| in_links.0 < in_ground.0).unwrap_or(in_ground).1;
         let inputs = self.state_inputs([
             Block::vector("v_dot", self.v_dot.iter().copied()).doc("Accelerations from forward_dynamics."),
             Block::vector("lambda", self.lambda.iter().copied()).doc(
