@@ -1,6 +1,8 @@
 //! The law of one increment between two windows. In: a process, a difference of readings. Out: chances to go from a part to a part, or
 //! the slope of a density that hardly changes. Never knows what came before.
 
+use std::collections::HashMap;
+
 use super::window::{Even, Window};
 use crate::data::{Increment, Rounding};
 use crate::process::Process;
@@ -20,7 +22,15 @@ pub struct Laws<'a> {
     pub logs: &'a dyn Fn(&Increment) -> [f64; 2],
 }
 
-/// Increments over one exposure whose readings differ by `steps` steps.
+/// What is known of one law at places of the lattice that all windows share, so that neighbouring readings need few of their own:
+/// the distribution function and what it lacks to 1, and the integrals of both.
+#[derive(Default)]
+pub(super) struct Known {
+    chances: [HashMap<u64, f64>; 2],
+    integrals: [HashMap<u64, f64>; 2],
+}
+
+/// Increments over one exposure whose readings differ by a number of steps.
 pub(super) struct Kernel<'a> {
     pub process: &'a dyn Process,
     pub logs: [f64; 2],
@@ -28,20 +38,33 @@ pub(super) struct Kernel<'a> {
     pub parts: usize,
     /// Wear between the middles of both windows.
     pub middle: f64,
+    /// The same in units of the lattice, and a part in them.
+    place: f64,
+    pitch: f64,
 }
 
 impl<'a> Kernel<'a> {
     pub fn new(laws: Laws<'a>, increment: &Increment, rounding: Rounding, window: &Window) -> Self {
-        Self {
-            process: laws.process,
-            logs: (laws.logs)(increment),
-            part: window.part,
-            parts: window.parts,
-            middle: libm::round(increment.wear / rounding.step) * rounding.step,
-        }
+        let steps = libm::round(increment.wear / rounding.step);
+        Self::of(laws.process, (laws.logs)(increment), (steps, rounding), window)
     }
 
-    /// Equal spans have equal chances.
+    pub fn of(
+        process: &'a dyn Process,
+        logs: [f64; 2],
+        (steps, rounding): (f64, Rounding),
+        window: &Window,
+    ) -> Self {
+        let Window { part, parts, ratio: [of_step, pitch], .. } = *window;
+        Self { process, logs, part, parts, middle: steps * rounding.step, place: steps * of_step, pitch }
+    }
+
+    /// Equal spans have equal laws, ...
+    pub fn law(&self) -> [u64; 2] {
+        self.logs.map(f64::to_bits)
+    }
+
+    /// ... and equal differences of readings then equal chances.
     pub fn key(&self) -> [u64; 3] {
         [self.logs[0], self.logs[1], self.middle].map(f64::to_bits)
     }
@@ -86,7 +109,7 @@ impl<'a> Kernel<'a> {
     }
 
     /// Chances of all differences of parts, from -(parts - 1) on.
-    pub fn chances(&self) -> Vec<f64> {
+    pub fn chances(&self, known: &mut Known) -> Vec<f64> {
         let last = self.parts as isize;
         let ends = [-last, last - 1].map(|k| (self.ln_density(k + 1) - self.ln_density(k)).abs());
         if ends.into_iter().all(|change| change < SMOOTH) {
@@ -98,20 +121,30 @@ impl<'a> Kernel<'a> {
         }
         // The integral that is small there keeps the digits of its differences.
         let is_upper = self.excess(0) < self.shortfall(0);
-        let integral = |k: isize| if is_upper { self.excess(k) } else { self.shortfall(k) };
-        let values: Vec<f64> = (-last..=last).map(integral).collect();
+        let known = &mut known.integrals[usize::from(is_upper)];
+        let mut integral = |k: isize| {
+            let new = || if is_upper { self.excess(k) } else { self.shortfall(k) };
+            *known.entry((self.place + k as f64 * self.pitch).to_bits()).or_insert_with(new)
+        };
+        let values: Vec<f64> = (-last..=last).map(&mut integral).collect();
         values.windows(3).map(|v| ((v[0] - 2.0 * v[1] + v[2]) / self.part).max(0.0)).collect()
     }
 
     /// Masses of the parts of the next window before it is read, after wear that is known exactly.
-    pub fn after_exact(&self) -> Vec<f64> {
-        let edge = |k: usize| self.wear(0) + (k as f64 - 0.5 * self.parts as f64) * self.part;
-        let is_upper = self.below(self.wear(0)) > 0.5;
-        let tail = |wear: f64| if wear > 0.0 { self.process.failure(self.logs, 1.0, wear) } else { 1.0 };
-        let mass = |k: usize| match is_upper {
-            true => tail(edge(k)) - tail(edge(k + 1)),
-            false => self.below(edge(k + 1)) - self.below(edge(k)),
+    pub fn after_exact(&self, known: &mut Known) -> Vec<f64> {
+        let is_upper = self.below(self.middle) > 0.5;
+        let known = &mut known.chances[usize::from(is_upper)];
+        let mut chance = |k: usize| {
+            let place = k as f64 - 0.5 * self.parts as f64;
+            let wear = self.middle + place * self.part;
+            let new = || match is_upper {
+                true if wear > 0.0 => self.process.failure(self.logs, 1.0, wear),
+                true => 1.0,
+                false => self.below(wear),
+            };
+            *known.entry((self.place + place * self.pitch).to_bits()).or_insert_with(new)
         };
-        (0..self.parts).map(mass).collect()
+        let edges: Vec<f64> = (0..=self.parts).map(&mut chance).collect();
+        edges.windows(2).map(|edge| (edge[1] - edge[0]).abs()).collect()
     }
 }

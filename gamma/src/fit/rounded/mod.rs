@@ -22,8 +22,8 @@ use rand::distr::Open01;
 use crate::data::{Increment, Rounding};
 use crate::random::Stream;
 
-use self::kernel::Kernel;
 pub use self::kernel::Laws;
+use self::kernel::{Kernel, Known};
 pub use self::window::least_variance;
 use self::window::{Place, Window};
 
@@ -92,7 +92,8 @@ fn follow(
     let (step, part, parts) = (rounding.step, window.part, window.parts);
     let mut place = Place::Exact;
     let mut before: Option<&Increment> = None;
-    let mut known: HashMap<[u64; 3], Vec<f64>> = HashMap::new();
+    let mut followed: HashMap<[u64; 3], Vec<f64>> = HashMap::new();
+    let mut known_laws: HashMap<[u64; 2], Known> = HashMap::new();
     for increment in increments {
         if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
             place = if increment.from > 0.0 { Place::Tilted(0.0) } else { Place::Exact };
@@ -111,14 +112,19 @@ fn follow(
             Place::Tilted(tilt) => Some(window.tilted(tilt)),
             Place::Parts(masses) => Some(masses),
         };
+        let known = known_laws.entry(kernel.law()).or_default();
         let next: Vec<f64> = match &masses {
-            None => kernel.after_exact(),
+            None => kernel.after_exact(known),
             Some(masses) => {
-                let chances = known.entry(kernel.key()).or_insert_with(|| kernel.chances());
-                let into = |j: usize| -> f64 {
-                    masses.iter().enumerate().map(|(i, mass)| mass * chances[parts - 1 + j - i]).sum()
-                };
-                (0..parts).map(into).collect()
+                let chances = followed.entry(kernel.key()).or_insert_with(|| kernel.chances(known));
+                // Part by part of the window before: sums side by side, each in the order of the parts.
+                let mut next = vec![0.0; parts];
+                for (i, mass) in masses.iter().enumerate() {
+                    for (into, chance) in next.iter_mut().zip(&chances[parts - 1 - i..]) {
+                        *into += mass * chance;
+                    }
+                }
+                next
             }
         };
         let weighed: Vec<f64> =

@@ -1,6 +1,6 @@
 //! Likelihoods of rounded readings against sums over fine grids.
 
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Known};
 use super::window::{Place, Window};
 use super::*;
 use crate::process::{Gamma, Process};
@@ -99,9 +99,9 @@ fn two_chances(place: &Place, kernels: [&Kernel<'_>; 2], window: &Window, by_til
         } else {
             let parts = kernel.parts;
             let next = match masses(&at) {
-                None => kernel.after_exact(),
+                None => kernel.after_exact(&mut Known::default()),
                 Some(masses) => {
-                    let chances = kernel.chances();
+                    let chances = kernel.chances(&mut Known::default());
                     let into =
                         |j: usize| (0..parts).map(|i| masses[i] * chances[parts - 1 + j - i]).sum::<f64>();
                     (0..parts).map(into).collect()
@@ -124,14 +124,9 @@ fn tilted_windows_give_the_chances_of_their_parts() {
         let rounding = Rounding { step: 2e-2, error };
         let window = Window::new(rounding);
         // Steep and bent, and falling: nearly as much as counts as even.
-        let kernel = |alpha: f64, middle: f64| Kernel {
-            process: &Gamma,
-            logs: [alpha.ln(), 0.3],
-            part: window.part,
-            parts: window.parts,
-            middle,
-        };
-        let kernels = [kernel(1.5, 1.6), kernel(1.2, 0.9)];
+        let kernel =
+            |alpha: f64, steps: f64| Kernel::of(&Gamma, [alpha.ln(), 0.3], (steps, rounding), &window);
+        let kernels = [kernel(1.5, 80.0), kernel(1.2, 45.0)];
         let [first, second] = kernels.each_ref();
         for place in [Place::Exact, Place::Tilted(-0.9), Place::Parts(window.tilted(0.4))] {
             let exact = two_chances(&place, [first, second], &window, [false; 2]);

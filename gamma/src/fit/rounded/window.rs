@@ -10,6 +10,8 @@ const REACH: f64 = 5.0;
 /// of (R / PARTS)² / 12 to that of the rounding, R² / 12; at shape 0.3, where half of all wear lies near 0, it changes the chance
 /// of a reading by up to 2 %.
 const PARTS: usize = 16;
+/// By how much wider a part may be so that steps are whole numbers of parts, or parts of steps.
+const NEAR: f64 = 1.05;
 
 /// Variance of wear below which the parts of a window do not tell it from none.
 pub fn least_variance(rounding: Rounding) -> f64 {
@@ -21,6 +23,8 @@ pub fn least_variance(rounding: Rounding) -> f64 {
 pub(super) struct Window {
     pub part: f64,
     pub parts: usize,
+    /// Parts in a step, or steps in a part: the other is 1. Edges of the parts of all windows lie on one lattice.
+    pub ratio: [f64; 2],
     /// Chance of each part to give the reading, and a smaller one.
     pub chances: Vec<[f64; 2]>,
     /// Variance of the wear within it, for a density that is even.
@@ -29,10 +33,16 @@ pub(super) struct Window {
 
 impl Window {
     pub fn new(Rounding { step, error }: Rounding) -> Self {
-        if error == 0.0 {
-            return Self::of(step / PARTS as f64, vec![[1.0, 0.0]; PARTS]);
-        }
         let part = libm::hypot(step, error) / PARTS as f64;
+        let ratio = if part > step {
+            [1.0, libm::floor(part * NEAR / step)]
+        } else {
+            [libm::ceil(step / (part * NEAR)), 1.0]
+        };
+        let part = step * ratio[1] / ratio[0];
+        if error == 0.0 {
+            return Self::of(part, ratio, vec![[1.0, 0.0]; PARTS]);
+        }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundred")]
         let parts = ((step + 2.0 * REACH * error) / part).ceil() as usize;
         let chance = |k: usize| {
@@ -40,11 +50,11 @@ impl Window {
             let [below, above] = [-0.5, 0.5].map(|side| normal_cdf((side * step - off) / error));
             [above - below, below]
         };
-        Self::of(part, (0..parts).map(chance).collect())
+        Self::of(part, ratio, (0..parts).map(chance).collect())
     }
 
-    fn of(part: f64, chances: Vec<[f64; 2]>) -> Self {
-        let mut window = Self { part, parts: chances.len(), chances, variance: 0.0 };
+    fn of(part: f64, ratio: [f64; 2], chances: Vec<[f64; 2]>) -> Self {
+        let mut window = Self { part, parts: chances.len(), ratio, chances, variance: 0.0 };
         // Wear within a part counts as spread evenly over it.
         let square = |(k, mass): (usize, &f64)| mass * (window.off(k) * window.off(k) + part * part / 12.0);
         window.variance = window.tilted(0.0).iter().enumerate().map(square).sum();
