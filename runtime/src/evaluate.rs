@@ -299,9 +299,7 @@ impl<'a> Evaluator<'a> {
     /// One value per channel, with the last forward dynamics.
     pub fn observe(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
         let Forward { accelerations, multipliers, drives, .. } = self.derivative.forward();
-        for (row, multiplier) in self.kept.iter().zip(multipliers) {
-            self.multipliers[*row] = *multiplier;
-        }
+        put_kept(&self.kept, multipliers, &mut self.multipliers);
         let wrenches = self.clearances.wrenches();
         self.questions.ask(Entry::Observe, t, &[q, v, accelerations, &self.multipliers, drives, wrenches])
     }
@@ -319,9 +317,7 @@ impl<'a> Evaluator<'a> {
         question: &mut [[f64; STATES]],
     ) {
         let Forward { accelerations, multipliers, drives, .. } = self.derivative.forward();
-        for (row, multiplier) in self.kept.iter().zip(multipliers) {
-            self.multipliers[*row] = *multiplier;
-        }
+        put_kept(&self.kept, multipliers, &mut self.multipliers);
         let (time, wrenches) = ([t], self.clearances.wrenches());
         let parts = [&time, q, v, accelerations, &self.multipliers, drives, wrenches];
         let mut left = &mut question[self.sizes.parameters..];
@@ -364,5 +360,12 @@ impl<'a> Evaluator<'a> {
     /// Name of the joint of row `index` of the description.
     pub fn joint_of_row(&self, index: usize) -> String {
         self.description.rows.get(index).map(|row| row.joint.to_string()).unwrap_or_default()
+    }
+}
+
+/// Puts the multipliers of the kept rows at their places among all rows.
+fn put_kept(kept: &[usize], of_kept: &[f64], all: &mut [f64]) {
+    for (row, multiplier) in kept.iter().zip(of_kept) {
+        all[*row] = *multiplier;
     }
 }

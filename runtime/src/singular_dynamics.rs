@@ -23,7 +23,7 @@ pub const NEARLY_LOST: f64 = 1e-3;
 /// Below this part they are noise, and lost directions cannot be told from free ones.
 pub const LOST_RANK: f64 = 1e-11;
 
-/// Below this part projections leave a direction alone (their first level), so corrections count it as free.
+/// Below this part projections leave a direction alone (their first level but for the nearest states), so corrections count it as free.
 const FREE: f64 = 1e-4;
 
 /// Dropped rows shorter than this part of the longest row are rounding errors (1e-16) and say nothing.

@@ -49,14 +49,12 @@ pub fn fields_of<'s, 'g>(
     fields.collect()
 }
 
-/// Those [`bias_forces_by`] any way, that take the fewest operations `beside` what is computed anyway.
-pub fn shortest_bias_forces<'g>(
-    beside: &[Expr<'g>],
+/// The [`bias_forces_by`] every way.
+pub fn all_bias_forces<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
-) -> Vec<Expr<'g>> {
-    let g = motion.poses.geometry.g;
+) -> Vec<Vec<Expr<'g>>> {
     let shapes = shapes_of(masses);
     let mut kinds = vec![&[][..]];
     if !shapes.is_empty() {
@@ -67,8 +65,7 @@ pub fn shortest_bias_forces<'g>(
         let motion = motion.along(axes);
         bias_forces_by(&motion, masses, loads, (&fields_of(&motion, shapes), axes))
     });
-    let counted = forces.map(|forces| (g.operations(forces.iter().chain(beside).copied()), forces));
-    counted.min_by_key(|(operations, _)| *operations).map_or_else(Vec::new, |(_, forces)| forces)
+    forces.collect()
 }
 
 /// Inertial wrench of a link about its origin, in its frame.

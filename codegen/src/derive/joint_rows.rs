@@ -30,7 +30,7 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// Axes of which the last is a number in W: those of W, put so that it is the last.
 fn plane_axes<'g>(g: &'g Scope, last: Vec3<'g>) -> [Vec3<'g>; 3] {
-    let numbers = last.map(|x| x).0.map(|x| x.as_number().unwrap_or(0.0));
+    let numbers = last.0.map(|x| x.as_number().unwrap_or(0.0));
     let frame = canonical_frame(numbers, |_| None).0;
     [0, 1, 2].map(|j| g.vector(frame.axis(j)))
 }

@@ -1,7 +1,7 @@
 //! Formulas of generalised-alpha: where a step ends if the accelerations go on as before, and where with corrections.
 //! In: the last point. Out: the next one, as far as no equations are needed. Never knows mechanisms.
 
-use crate::linear::largest_of;
+use crate::linear::{combine, largest_of};
 
 /// Coefficients for one spectral radius.
 #[derive(Clone, Copy, Debug)]
@@ -77,10 +77,10 @@ impl Expected {
     pub(super) fn corrected(&self, x: &[f64], next: &mut Point, increments: &mut [f64]) {
         let Coefficients { alpha_m, alpha_f, beta, gamma } = self.coefficients;
         let by_a = 1.0 / (self.step * self.step * beta);
-        add_multiple(increments, &self.increments, 1.0, x);
-        add_multiple(&mut next.a, &self.a, by_a, x);
-        add_multiple(&mut next.v, &self.v, by_a * self.step * gamma, x);
-        add_multiple(&mut next.v_dot, &self.v_dot, by_a * (1.0 - alpha_m) / (1.0 - alpha_f), x);
+        combine(increments, &self.increments, 1.0, x);
+        combine(&mut next.a, &self.a, by_a, x);
+        combine(&mut next.v, &self.v, by_a * self.step * gamma, x);
+        combine(&mut next.v_dot, &self.v_dot, by_a * (1.0 - alpha_m) / (1.0 - alpha_f), x);
     }
 
     /// What the change of the accelerations within the step moves, times one over natural sizes, with `x` added: by this the
@@ -89,12 +89,5 @@ impl Expected {
         let scale = self.step * self.step * self.coefficients.beta;
         let ends = self.a.iter().zip(&now.a).zip(x.iter().zip(per_size));
         largest_of(ends.map(|((a, now), (x, per_size))| (scale * (a - now) + x) * per_size))
-    }
-}
-
-/// Writes `y + factor * x`.
-fn add_multiple(sum: &mut [f64], y: &[f64], factor: f64, x: &[f64]) {
-    for ((sum, y), x) in sum.iter_mut().zip(y).zip(x) {
-        *sum = y + factor * x;
     }
 }

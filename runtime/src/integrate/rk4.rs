@@ -3,6 +3,7 @@
 
 use super::problem::Problem;
 use crate::error::RunError;
+use crate::linear::combine;
 
 /// Storage of the four stages.
 #[derive(Clone, Debug)]
@@ -44,15 +45,7 @@ impl Rk4 {
     }
 }
 
-/// Of slices cut to one length compilers make loops without checks, several numbers at a time.
-fn combine(stage: &mut [f64], y: &[f64], factor: f64, slope: &[f64]) {
-    let n = stage.len();
-    let (y, slope) = (&y[..n], &slope[..n]);
-    for i in 0..n {
-        stage[i] = y[i] + factor * slope[i];
-    }
-}
-
+/// As [`combine`], with the four slopes of a step.
 fn advance(next: &mut [f64], y: &[f64], sixth: f64, slopes: [&[f64]; 4]) {
     let n = next.len();
     let (y, [a, b, c, d]) = (&y[..n], slopes.map(|slope| &slope[..n]));

@@ -11,4 +11,4 @@ mod vector;
 pub use cholesky::Cholesky;
 pub use lu::Lu;
 pub use orthogonal::Orthogonal;
-pub use vector::{add_scaled, dot, is_finite, largest, largest_of, same_bits};
+pub use vector::{add_scaled, combine, dot, is_finite, largest, largest_of, same_bits};

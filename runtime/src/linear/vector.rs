@@ -15,6 +15,15 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
+/// Writes `y + factor * x`. Of slices cut to one length compilers make loops without checks, several numbers at a time.
+pub fn combine(sum: &mut [f64], y: &[f64], factor: f64, x: &[f64]) {
+    let n = sum.len();
+    let (y, x) = (&y[..n], &x[..n]);
+    for i in 0..n {
+        sum[i] = y[i] + factor * x[i];
+    }
+}
+
 /// `y += factor * x`.
 #[inline]
 pub fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {

@@ -213,8 +213,8 @@ impl Collector {
             for (column, [.., last]) in last_columns.iter().enumerate() {
                 let value = last + part * (value(column) - last);
                 for [low, high] in &mut self.pieces[border - 1..=border] {
-                    low[column] = if value < low[column] { value } else { low[column] };
-                    high[column] = if value > high[column] { value } else { high[column] };
+                    low[column] = smaller(value, low[column]);
+                    high[column] = larger(value, high[column]);
                 }
             }
         }

@@ -86,8 +86,21 @@ pub struct Instant<'g> {
 }
 
 impl<'g> Instant<'g> {
+    /// What `by` makes of the rows of the cuts, with its operations: of those whose terms are summed up along the axes of
+    /// the links, or of W where that is shorter. `compare`: whether the second way is tried at all.
+    pub fn by_shorter_rows<T>(
+        &self,
+        exact: bool,
+        compare: bool,
+        by: impl Fn(&[CutRows<'g>]) -> (usize, T),
+    ) -> T {
+        let links = by(&self.cuts);
+        let ground = compare.then(|| self.cuts_in_ground(exact)).flatten().map(|cuts| by(&cuts));
+        ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
+    }
+
     /// The rows of the cuts with what they are made of summed up along the axes of W; nothing if that makes no difference.
-    pub fn cuts_in_ground(&self, exact: bool) -> Option<Vec<CutRows<'g>>> {
+    fn cuts_in_ground(&self, exact: bool) -> Option<Vec<CutRows<'g>>> {
         let linkage = self.state.geometry.linkage;
         let changes = linkage.cuts.iter().any(|cut| !(cut.plane && linkage.rows_in_ground));
         changes.then(|| cut_rows(&self.state.motion, exact, Sums::Ground))

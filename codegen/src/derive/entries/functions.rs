@@ -8,7 +8,7 @@ use super::observe::Channels;
 use super::row_axes::MOST_TO_COMPARE;
 use crate::derive::closure::CutRows;
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{kinetic_energy, shortest_bias_forces, weight_energy};
+use crate::derive::dynamics::{all_bias_forces, kinetic_energy, weight_energy};
 use crate::derive::forward::{Forward, Problem};
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
@@ -108,9 +108,7 @@ impl<'g> Deriver<'g> {
             let forward = forward(&problem, &self.jacobians);
             (forward.operations(self.geometry.g), forward)
         };
-        let links = by(&instant.cuts);
-        let ground = self.is_short().then(|| instant.cuts_in_ground(false)).flatten().map(|cuts| by(&cuts));
-        ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
+        instant.by_shorter_rows(false, self.is_short(), by)
     }
 
     pub(super) fn forward_dynamics(&self, solved: &Forward<'g>) -> Function {
@@ -185,8 +183,7 @@ impl<'g> Deriver<'g> {
                 rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
             (g.operations([&all, &rates, &jacobian].into_iter().flatten().copied()), [all, rates, jacobian])
         };
-        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(true).map(|cuts| by(&cuts)));
-        let [all, rates, jacobian] = ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1;
+        let [all, rates, jacobian] = instant.by_shorter_rows(true, true, by);
         let outputs = vec![
             Block::vector("phi", all)
                 .doc("Position residuals of all rows, dropped ones included [rad, m].")
@@ -275,6 +272,7 @@ impl<'g> Deriver<'g> {
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let all = vec![true; self.keep.len()];
         let fixed = solved.is_some_and(|solved| solved.rows_fix_all);
+        let forces = std::cell::OnceCell::new();
         let by = |cuts: &[CutRows<'g>]| {
             let rows: Vec<_> = kept_rows(motion, cuts, &all)
                 .into_iter()
@@ -286,11 +284,13 @@ impl<'g> Deriver<'g> {
             let of_rows =
                 rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
             let beside: Vec<Expr<'g>> = mass.iter().flatten().copied().chain(of_rows).collect();
-            let h = shortest_bias_forces(&beside, motion, masses, &instant.loads);
-            (g.operations(beside.into_iter().chain(h.iter().copied())), (rows, h))
+            // The same for all rows, which alone decide which of them are shortest.
+            let forces = forces.get_or_init(|| all_bias_forces(motion, masses, &instant.loads)).iter();
+            let counted = forces.map(|h| (g.operations(beside.iter().chain(h).copied()), h.clone()));
+            let (operations, h) = counted.min_by_key(|(operations, _)| *operations).unwrap_or_default();
+            (operations, (rows, h))
         };
-        let (links, ground) = (by(&instant.cuts), instant.cuts_in_ground(false).map(|cuts| by(&cuts)));
-        let (rows, h) = ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1;
+        let (rows, h) = instant.by_shorter_rows(false, true, by);
         let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied());
         let outputs = vec![
             Block::vector("mass", (0..n).flat_map(|i| mass[i][i..].to_vec()))

@@ -52,8 +52,7 @@ pub fn derive(
     guide: Option<&Guide>,
     purpose: Purpose,
 ) -> Derived {
-    let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
-    let linkage = linkage(mechanism, topology, &defaults);
+    let linkage = linkage(mechanism, topology, &mechanism.parameter_values());
     let scope = Scope::new();
     let (functions, sizes, description) = {
         scope.begin_section("prescribed motion");

@@ -43,8 +43,7 @@ pub fn splits_plane_rows(mechanism: &Mechanism, topology: &Topology, keep: &[boo
 }
 
 fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
-    let defaults: Vec<f64> = mechanism.parameters.iter().map(|parameter| parameter.value).collect();
-    linkage(mechanism, topology, &defaults)
+    linkage(mechanism, topology, &mechanism.parameter_values())
 }
 
 /// Operations of the forward dynamics, before positions say more than the pattern of the loop Jacobian does; nothing where
