@@ -11,9 +11,10 @@ use linkwear_runtime::{Entry, Integrator, Settings, Span, Watch, simulate};
 /// Ideal joints; angles of cut joints that are followed; a flexible coupler; a journal with clearance; a ball; two journals.
 const MECHANISMS: [&str; 6] =
     ["rssr_rigid", "four_bar", "rssr_flexible", "rssr", "rssr_ball_wear", "four_bar_wear"];
-const METHODS: [Integrator; 3] = [
+const METHODS: [Integrator; 4] = [
     Integrator::Rk4 { step: 2e-5 },
     Integrator::Dopri5 { tolerance: 1e-9, max_step: None },
+    Integrator::Rk43 { tolerance: 1e-6, max_step: None },
     Integrator::GeneralizedAlpha { step: 1e-5, rho: 0.8 },
 ];
 /// Rows of every run. Steps of the fixed-step methods stay of one length.

@@ -20,7 +20,7 @@ fn worn() -> Vec<Profile> {
     (wear.profile, wear.measure, wear.revolutions_per_cycle) = (true, Some(Measure::Maximum), REVOLUTIONS);
     let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
     let (system, settle) =
-        (rssr::Mechanism::default(), RevolutionSettings { settle: 2, ..RevolutionSettings::default() });
+        (rssr::Mechanism::default(), RevolutionSettings { settle: Some(2), ..RevolutionSettings::default() });
     let mut fine = DynamicsSource::new(&system, &description, &parameters, settle).expect("a start");
     let mut settings = LifeSettings::new(fine.joints().expect("numbers in range"));
     settings.step = WearStep::Cycle;

@@ -46,7 +46,7 @@ impl Effort {
 
     fn full() -> Self {
         let integrator = Integrator::Rk4 { step: STEP };
-        let settings = RevolutionSettings { integrator, settle: 4, average: 1 };
+        let settings = RevolutionSettings { integrator, settle: Some(4), average: 1 };
         Self {
             flexible: settings,
             rigid: RevolutionSettings { average: 32, ..settings },
@@ -63,7 +63,7 @@ impl Effort {
 
     fn quick() -> Self {
         let full = Self::full();
-        let settings = RevolutionSettings { settle: 2, ..full.flexible };
+        let settings = RevolutionSettings { settle: Some(2), ..full.flexible };
         Self {
             flexible: settings,
             rigid: RevolutionSettings { average: 4, ..settings },

@@ -161,13 +161,13 @@ pub struct SimulateArguments {
     pub samples: u32,
     #[arg(long, value_name = "FILE", value_parser = output(), help = rows_help())]
     pub out: Option<PathBuf>,
-    /// Method [default: dopri5, or rk4 if --step is given].
+    /// Method [default: dopri5, with clearance rk43; rk4 if --step is given].
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
     /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
     pub step: Option<f64>,
-    /// Error tolerance of dopri5 [default: 1e-9].
+    /// Accuracy of dopri5, relative to every value [default: 1e-9]; of rk43, of the wear integral [default: 1e-6].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
     /// What runs the equations, with the same results: machine code written now, code that was compiled in, the
@@ -208,12 +208,15 @@ pub struct LifeArguments {
     /// Wear does not open the clearance.
     #[arg(long)]
     pub no_feedback: bool,
-    /// Step of the fourth-order Runge-Kutta method [s].
-    #[arg(long, value_name = "S", value_parser = positive, default_value = "2e-5")]
-    pub step: f64,
-    /// Revolutions to settle after each change of clearance, before measuring.
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    pub settle: u32,
+    /// Relative error of the wear integral of a revolution [default: 1e-6].
+    #[arg(long, value_name = "E", value_parser = positive)]
+    pub tol: Option<f64>,
+    /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    pub step: Option<f64>,
+    /// Revolutions to settle after each change of clearance, before measuring [default: until two of them wear alike].
+    #[arg(long, value_name = "N")]
+    pub settle: Option<u32>,
     /// Revolutions to average; a motion that chatters needs 20 or more.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub average: u32,
@@ -350,6 +353,7 @@ pub struct LengthArguments {
 pub enum IntegratorName {
     Rk4,
     Dopri5,
+    Rk43,
     #[value(name = "generalized-alpha")]
     GeneralizedAlpha,
 }

@@ -15,7 +15,6 @@ use super::arguments::Input;
 use super::equations::operations;
 use super::failure::Failure;
 use super::input::{load, options};
-use super::simulate::DEFAULT_TOLERANCE;
 use super::table::{count, duration, plural, short_table, table};
 
 /// A turn of the first driven revolute joint, else a second, by the adaptive method.
@@ -49,7 +48,7 @@ fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<Turn, F
     let description = compiled.description();
     let equations = Equations::choose(compiled, options, Backend::Auto)?;
     let span = if description.turn_driver.is_some() { Span::Turns(1.0) } else { Span::Time(1.0) };
-    let integrator = Integrator::Dopri5 { tolerance: DEFAULT_TOLERANCE, max_step: None };
+    let integrator = Integrator::adaptive(description, None);
     // Only the two rows at the ends: more would be paid for.
     let settings = Settings::new(integrator, span, 2);
     let (system, parameters) = (equations.system(), compiled.parameters());

@@ -25,7 +25,11 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
-            integrator: Integrator::Rk4 { step: arguments.step },
+            integrator: match (arguments.step, arguments.tol) {
+                (Some(step), _) => Integrator::Rk4 { step },
+                (None, Some(tolerance)) => Integrator::Rk43 { tolerance, max_step: None },
+                (None, None) => RevolutionSettings::default().integrator,
+            },
             settle: arguments.settle,
             average: arguments.average,
         },

@@ -21,8 +21,6 @@ use super::table::{duration, plural, table};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
-/// Tolerance of the adaptive method unless one is given.
-pub const DEFAULT_TOLERANCE: f64 = 1e-9;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 
@@ -34,6 +32,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let description = &mechanism.description;
     refuse_too_many(arguments.samples as usize, description)?;
     let span = span(arguments, description)?;
+    let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));
     let settings = Settings::new(integrator, span, arguments.samples as usize);
 
     let start = Instant::now();
@@ -66,26 +65,28 @@ fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Fail
     Err(Failure::usage(message, format!("at most {most} rows stand in memory: {}", ROW_NUMBERS.help)))
 }
 
-fn integrator(arguments: &SimulateArguments) -> Result<Integrator, Failure> {
-    use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4};
+/// The method that is asked for; nothing: the adaptive one that suits the mechanism.
+fn integrator(arguments: &SimulateArguments) -> Result<Option<Integrator>, Failure> {
+    use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4, Rk43};
     let (given, tolerance) = (arguments.step, arguments.tol);
     let step = given.unwrap_or(DEFAULT_STEP);
-    let name = arguments.integrator.unwrap_or(if given.is_some() { Rk4 } else { Dopri5 });
+    let Some(name) = arguments.integrator.or(given.map(|_| Rk4)) else { return Ok(None) };
+    let or = |default: f64| tolerance.unwrap_or(default);
     match name {
-        Dopri5 if given.is_some() => {
-            let help = "dopri5 chooses its steps: give --tol, or --integrator rk4";
+        Dopri5 | Rk43 if given.is_some() => {
+            let help = "the method chooses its steps: give --tol, or --integrator rk4";
             Err(Failure::usage("the integrator has no --step", help))
         }
         Rk4 | GeneralizedAlpha if tolerance.is_some() => {
-            let help = "it takes fixed steps: give --step, or --integrator dopri5";
+            let help = "it takes fixed steps: give --step, or leave --integrator out";
             Err(Failure::usage("the integrator has no --tol", help))
         }
-        Dopri5 => {
-            Ok(Integrator::Dopri5 { tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), max_step: None })
-        }
+        Dopri5 => Ok(Integrator::Dopri5 { tolerance: or(Integrator::SMOOTH_TOLERANCE), max_step: None }),
+        Rk43 => Ok(Integrator::Rk43 { tolerance: or(Integrator::CONTACT_TOLERANCE), max_step: None }),
         Rk4 => Ok(Integrator::Rk4 { step }),
         GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
     }
+    .map(Some)
 }
 
 fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span, Failure> {
@@ -201,6 +202,7 @@ fn to_text(
     let method = match settings.integrator {
         Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
         Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
+        Integrator::Rk43 { tolerance, .. } => format!("rk43, tolerance {tolerance:e}"),
         Integrator::GeneralizedAlpha { step, rho } => {
             format!("generalized-alpha, step {step:e} s, rho {rho}")
         }

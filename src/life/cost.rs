@@ -15,6 +15,8 @@ use super::study::{Coupling, LifeStudy};
 const PER_CYCLE: [f64; 2] = [0.2, 5.0];
 /// Measurements per cycle of a random life: each begins anew, with one step or more of three stages.
 const PER_DRAWN_CYCLE: f64 = 4.0;
+/// Revolutions that a motion takes to settle when what it wears has hardly changed.
+const TO_SETTLE: u32 = 1;
 /// Shortest mean path: its first steps are short.
 const FEWEST: f64 = 30.0;
 
@@ -50,7 +52,7 @@ impl LifeStudy<'_> {
     pub fn cost(&self, watch: Watch<'_>) -> Result<Option<Cost>, LifeError> {
         self.wears()?;
         let system = self.mechanism.system();
-        let once = RevolutionSettings { settle: 0, average: 1, ..self.revolutions };
+        let once = RevolutionSettings { settle: Some(0), average: 1, ..self.revolutions };
         let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
         let source = DynamicsSource::new(&*system, description, parameters, once).map_err(Cause::from)?;
         let mut source = source.watched_by(watch);
@@ -74,7 +76,7 @@ impl LifeStudy<'_> {
         let table = DEFAULT_POINTS as f64 * if joints.len() > 1 { 2.0 } else { 1.0 };
         Ok(Some(Cost {
             seconds_per_revolution,
-            revolutions: self.revolutions.settle + self.revolutions.average.max(1),
+            revolutions: self.revolutions.settle.unwrap_or(TO_SETTLE) + self.revolutions.average.max(1),
             cycles,
             mean_path: [least, most],
             lives: lives * PER_DRAWN_CYCLE * cycles,

@@ -70,7 +70,7 @@ pub struct LifeStudy<'m> {
 }
 
 impl<'m> LifeStudy<'m> {
-    /// With the defaults of `linkwear life`: revolutions by Runge-Kutta at 20 µs, 4 to settle, 1 measured; feedback; a
+    /// With the defaults of `linkwear life`: revolutions by adaptive Runge-Kutta, until two wear alike; feedback; a
     /// table where that is right; 1000 random lives where every joint has a Gamma process; seed 1; all cores.
     pub fn new(mechanism: &'m Mechanism) -> Self {
         Self {

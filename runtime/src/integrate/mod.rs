@@ -1,13 +1,17 @@
 //! Integrators, one method per file. In: a [`Problem`]. Out: states. Allocate only when made.
 //! Explicit methods never know mechanisms; the implicit one asks for their equations of motion.
 
+mod adaptive;
 mod dopri5;
 mod expected;
 mod generalized_alpha;
 mod problem;
 mod rk4;
+mod rk43;
 
+pub use adaptive::{Adaptive, Method};
 pub use dopri5::Dopri5;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use problem::Problem;
 pub use rk4::Rk4;
+pub use rk43::Rk43;

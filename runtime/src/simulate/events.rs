@@ -9,7 +9,7 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use crate::clearance_joint::ContactState;
 use crate::error::RunError;
-use crate::integrate::Dopri5;
+use crate::integrate::{Adaptive, Method};
 
 /// Accuracy of a located onset, as a part of the step.
 const LOCATED: f64 = 1e-12;
@@ -26,10 +26,10 @@ struct Event {
 }
 
 /// Ends the last step of `method` where the first gap closes within it.
-pub(super) fn stop_at_contact(
+pub(super) fn stop_at_contact<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
-    method: &mut Dopri5,
+    method: &mut Adaptive<M>,
     between: &mut [f64],
 ) -> Result<(), RunError> {
     let Some(follower) = &sampler.follower else { return Ok(()) };

@@ -1,5 +1,6 @@
 //! What a run is told.
 
+use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::{RunError, SetupError};
 
@@ -11,10 +12,17 @@ pub enum Integrator {
         /// Longest step [s]; shortened so that steps land on the samples.
         step: f64,
     },
-    /// Dormand-Prince 5(4), adaptive, dense output.
+    /// Dormand-Prince 5(4), adaptive, dense output: for smooth motion.
     Dopri5 {
         /// Accuracy wanted, relative to each value (absolute below 1 rad, m, rad/s, m/s): steps are chosen
         /// so that each adds a tenth of it at most.
+        tolerance: f64,
+        /// Longest step [s]; a tenth of the run if `None`.
+        max_step: Option<f64>,
+    },
+    /// Runge-Kutta 4(3), adaptive, dense output: for joints with clearance.
+    Rk43 {
+        /// Relative error of the wear integrals, where the motion is not chaotic.
         tolerance: f64,
         /// Longest step [s]; a tenth of the run if `None`.
         max_step: Option<f64>,
@@ -27,6 +35,31 @@ pub enum Integrator {
         /// less than 1: without damping, errors of the multipliers grow.
         rho: f64,
     },
+}
+
+impl Integrator {
+    /// Tolerance of smooth motion where none is asked for.
+    pub const SMOOTH_TOLERANCE: f64 = 1e-9;
+    /// Tolerance with clearance where none is asked for.
+    pub const CONTACT_TOLERANCE: f64 = 1e-6;
+
+    /// The adaptive method that suits a mechanism: contacts vibrate faster than anything that is asked for, and steps are long
+    /// with the method that bears most of that.
+    pub fn adaptive(description: &Description, tolerance: Option<f64>) -> Self {
+        if description.contacts.is_empty() {
+            Self::Dopri5 { tolerance: tolerance.unwrap_or(Self::SMOOTH_TOLERANCE), max_step: None }
+        } else {
+            Self::Rk43 { tolerance: tolerance.unwrap_or(Self::CONTACT_TOLERANCE), max_step: None }
+        }
+    }
+
+    /// What it is told of its accuracy, if it chooses its steps.
+    pub const fn tolerance(self) -> Option<f64> {
+        match self {
+            Self::Dopri5 { tolerance, .. } | Self::Rk43 { tolerance, .. } => Some(tolerance),
+            Self::Rk4 { .. } | Self::GeneralizedAlpha { .. } => None,
+        }
+    }
 }
 
 /// Length of a run or of its settling.
@@ -71,7 +104,7 @@ impl Settings {
         let positive = |name, value: f64| need(value.is_finite() && value > 0.0, name, value, "positive");
         match self.integrator {
             Integrator::Rk4 { step } => positive("step", step)?,
-            Integrator::Dopri5 { tolerance, max_step } => {
+            Integrator::Dopri5 { tolerance, max_step } | Integrator::Rk43 { tolerance, max_step } => {
                 need((1e-14..=1e-1).contains(&tolerance), "tolerance", tolerance, "between 1e-14 and 0.1")?;
                 max_step.map_or(Ok(()), |step| positive("max_step", step))?;
             }

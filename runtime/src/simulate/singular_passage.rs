@@ -51,7 +51,7 @@ impl Passages {
             _ => None,
         };
         let Some(t) = position else { return error };
-        let is_adaptive = matches!(integrator, Integrator::Dopri5 { .. });
+        let is_adaptive = integrator.tolerance().is_some();
         RunError::InSingularPosition { t, is_adaptive, cause: Box::new(error) }
     }
 }

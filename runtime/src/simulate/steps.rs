@@ -6,7 +6,7 @@ use super::schedule::steps_between;
 use super::settings::Integrator;
 use super::{dead_point, events, implicit};
 use crate::error::RunError;
-use crate::integrate::{Dopri5, Rk4};
+use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43};
 use crate::watch::Watch;
 
 /// Runs a schedule to its end with a method; `state` is then where it got.
@@ -21,7 +21,11 @@ pub(super) fn run(
         Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, watch),
         Integrator::Dopri5 { tolerance, max_step } => {
             let longest = max_step.unwrap_or(sampler.duration() / 10.0);
-            run_dopri5(motion, sampler, state, (tolerance, longest), watch)
+            run_adaptive::<Dopri5>(motion, sampler, state, (tolerance, longest), watch)
+        }
+        Integrator::Rk43 { tolerance, max_step } => {
+            let longest = max_step.unwrap_or(sampler.duration() / 10.0);
+            run_adaptive::<Rk43>(motion, sampler, state, (tolerance, longest), watch)
         }
         Integrator::GeneralizedAlpha { step, rho } => {
             implicit::run_generalized_alpha(motion, sampler, state, (step, rho), watch)
@@ -63,7 +67,7 @@ fn run_rk4(
     Ok(())
 }
 
-fn run_dopri5(
+fn run_adaptive<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     state: &mut [f64],
@@ -73,7 +77,7 @@ fn run_dopri5(
     let (begin, end) = (sampler.schedule.begin, sampler.schedule.end);
     let mut between = state.to_vec();
     sampler.sample_at_start(motion, state)?;
-    let mut method = Dopri5::start(motion, (begin, end), state, tolerance, longest)?;
+    let mut method = Adaptive::<M>::start(motion, (begin, end), state, tolerance, longest)?;
     while method.t() < end {
         let outcome = method.step(motion, sampler.hard_stop(method.t()));
         sampler.statistics.rejected = method.rejected();

@@ -1,0 +1,93 @@
+//! The classical Runge-Kutta method of order 4 with an error of order 3 from the slope at its end, which the next step
+//! begins with. In: a problem, a step. Out: its end, its error, states within it.
+//!
+//! Of the methods of its cost it lets vibrations that nobody asks for be the fastest: they stay bounded up to 2.8 radians
+//! a step, 0.7 an evaluation (Dormand-Prince: 0.17). That is what contacts need. Kutta 1901; the estimate: Hairer, Norsett,
+//! Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4. Dense output: the cubic through values and slopes.
+
+use super::adaptive::{Method, Step};
+use super::problem::Problem;
+use crate::error::RunError;
+use crate::linear::combine;
+
+/// Weight of the difference of the last two slopes in the error: that of an embedded solution with a weight of 1/10 for
+/// the slope at the end.
+const WEIGHT: f64 = 0.1;
+
+/// Storage of the stages.
+#[derive(Clone, Debug)]
+pub struct Rk43 {
+    /// Four stages, and the slope at the end.
+    slopes: [Vec<f64>; 5],
+    dense: [Vec<f64>; 4],
+}
+
+impl Method for Rk43 {
+    const ORDER: f64 = 4.0;
+    /// With contacts most of the error is that of vibrations which die out and hardly wear. With three times the tolerance in
+    /// every step the wear integral of a turn is off by 0.3 to 0.7 of the tolerance (RSSR at 10, 30 and 90 um, 1e-5).
+    const SHARE: f64 = 3.0;
+
+    fn new(dimension: usize) -> Self {
+        let zero = || vec![0.0; dimension];
+        Self { slopes: std::array::from_fn(|_| zero()), dense: std::array::from_fn(|_| zero()) }
+    }
+
+    fn begin(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
+        problem.derivative(t, y, &mut self.slopes[0])
+    }
+
+    fn slope(&self) -> &[f64] {
+        &self.slopes[0]
+    }
+
+    fn attempt(
+        &mut self,
+        problem: &mut dyn Problem,
+        step: Step<'_>,
+        (next, error): (&mut [f64], &mut [f64]),
+    ) -> Result<(), RunError> {
+        let length = step.length;
+        for (stage, part) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
+            let (known, unknown) = self.slopes.split_at_mut(stage);
+            combine(next, step.y, part * length, &known[stage - 1]);
+            let t = if part == 1.0 { step.end } else { step.t + part * length };
+            problem.derivative(t, next, &mut unknown[0])?;
+        }
+        let [a, b, c, d, end] = &mut self.slopes;
+        for (i, (next, y)) in next.iter_mut().zip(step.y).enumerate() {
+            *next = y + length / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
+        }
+        problem.project(step.end, step.y, next)?;
+        problem.derivative(step.end, next, end)?;
+        for ((error, end), last) in error.iter_mut().zip(end).zip(d) {
+            *error = WEIGHT * (*end - *last);
+        }
+        Ok(())
+    }
+
+    fn accept(&mut self, step: Step<'_>, next: &[f64]) {
+        let length = step.length;
+        for (i, y) in step.y.iter().enumerate() {
+            let difference = next[i] - y;
+            let bend = length * self.slopes[0][i] - difference;
+            self.dense[0][i] = *y;
+            self.dense[1][i] = difference;
+            self.dense[2][i] = bend;
+            self.dense[3][i] = difference - length * self.slopes[4][i] - bend;
+        }
+        self.take_back();
+    }
+
+    fn take_back(&mut self) {
+        self.slopes.swap(0, 4);
+    }
+
+    fn interpolate(&self, s: f64, y: &mut [f64]) {
+        let r = 1.0 - s;
+        for (i, value) in y.iter_mut().enumerate() {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.dense[k][i]);
+            *value = a + s * (b + r * (c + s * d));
+        }
+    }
+}
