@@ -35,9 +35,11 @@ impl Default for RevolutionSettings {
 /// case study), so that the next one differs by far less.
 const SETTLED: f64 = 1e-5;
 /// A motion that has not settled after so many turns is taken as one that never does, ...
-const MOST_TO_SETTLE: u32 = 8;
-/// ... and its mean over so many is taken.
-const TO_AVERAGE: u32 = 20;
+const MOST_TO_SETTLE: u32 = 4;
+/// ... and the mean of so many is taken that its standard error is this part of it, ...
+const SCATTERED: f64 = 1e-4;
+/// ... or of so many turns.
+const MOST_TO_AVERAGE: usize = 20;
 
 /// How steady the turns were that a revolution was measured by, of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,7 +176,20 @@ impl<'a> DynamicsSource<'a> {
             }
             last = turns.pop();
         }
-        Ok((last, self.run(average.max(TO_AVERAGE), (done, 1.0))?))
+        let mut turns = self.run(average, (done, 0.5 * (1.0 + done)))?;
+        while turns.len() < MOST_TO_AVERAGE && !self.is_mean_known(&turns) {
+            done = 0.5 * (1.0 + done);
+            turns.extend(self.run(1, (done, 0.5 * (1.0 + done)))?);
+        }
+        Ok((last, turns))
+    }
+
+    /// Whether the wear of all joints scatters little in the mean of these turns.
+    fn is_mean_known(&self, turns: &[TurnMeasures]) -> bool {
+        self.wearing.iter().all(|(at, _)| {
+            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
+            Steadiness::of(None, &wears).scatter.is_some_and(|scatter| scatter <= SCATTERED)
+        })
     }
 
     /// Runs turns, from one part of a measurement to another.

@@ -217,7 +217,7 @@ pub struct LifeArguments {
     /// Revolutions to settle after each change of clearance, before measuring [default: until two of them wear alike].
     #[arg(long, value_name = "N")]
     pub settle: Option<u32>,
-    /// Revolutions to average; a motion that chatters needs 20 or more.
+    /// Revolutions to average, at least; of a motion that never settles more are taken, unless --settle is given.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub average: u32,
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.

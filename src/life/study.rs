@@ -93,7 +93,10 @@ impl<'m> LifeStudy<'m> {
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
         let own = [
             ("the integrator", json!(format!("{integrator:?}"))),
-            ("the number of revolutions to settle", json!(settle)),
+            (
+                "the number of revolutions to settle",
+                settle.map_or(json!("until two wear alike"), Value::from),
+            ),
             ("the number of revolutions to average", json!(average)),
             ("the coupling", json!(format!("{coupling:?}").to_lowercase())),
             ("feedback", json!(self.feedback)),
