@@ -14,7 +14,7 @@ const MECHANISMS: [&str; 6] =
 const METHODS: [Integrator; 4] = [
     Integrator::Rk4 { step: 2e-5 },
     Integrator::Dopri5 { tolerance: 1e-9, max_step: None },
-    Integrator::Rk43 { tolerance: 1e-6, max_step: None },
+    Integrator::Rk43 { tolerance: 1e-10, max_step: None },
     Integrator::GeneralizedAlpha { step: 1e-5, rho: 0.8 },
 ];
 /// Rows of every run. Steps of the fixed-step methods stay of one length.

@@ -56,7 +56,11 @@ fn more_lives_than_are_listed_are_counted_to_the_same_statistics() {
     let mechanism = Mechanism::shipped("rssr").expect("a shipped mechanism");
     let study = |listed, threads| LifeStudy {
         // Turns that have not settled: what they wear does not matter here.
-        revolutions: RevolutionSettings { integrator: Integrator::Rk4 { step: 1e-4 }, settle: 0, average: 1 },
+        revolutions: RevolutionSettings {
+            integrator: Integrator::Rk4 { step: 1e-4 },
+            settle: Some(0),
+            average: 1,
+        },
         trajectories: Trajectories::Count(3000),
         listed,
         threads: NonZero::new(threads),
