@@ -36,8 +36,9 @@ impl Default for RevolutionSettings {
 const SETTLED: f64 = 1e-5;
 /// A motion that has not settled after so many turns is taken as one that never does, ...
 const MOST_TO_SETTLE: u32 = 4;
-/// ... and the mean of so many is taken that its standard error is this part of it, ...
-const SCATTERED: f64 = 1e-4;
+/// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
+/// is left, and the budget tells it; ...
+const SCATTERED: f64 = 1e-3;
 /// ... or of so many turns.
 const MOST_TO_AVERAGE: usize = 20;
 
