@@ -136,7 +136,7 @@ fn the_wear_integral_converges_with_order_four() {
         TurnRunner::new(&system, compiled.description(), &parameters, method, SINGULAR_PIVOT).unwrap()
     };
     let mut settling = runner(STEP);
-    settling.settle(SETTLE as u32, Watch::NONE).unwrap();
+    settling.turns(SETTLE as u32, Watch::NONE).unwrap();
     let start = settling.state();
     let measure = |step| {
         let mut runner = runner(step);

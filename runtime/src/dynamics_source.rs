@@ -195,9 +195,7 @@ impl<'a> DynamicsSource<'a> {
 
     /// Runs turns, from one part of a measurement to another.
     fn run(&mut self, turns: u32, (from, to): (f64, f64)) -> Result<Vec<TurnMeasures>, RunError> {
-        let part = |turn: u32| from + (to - from) * f64::from(turn) / f64::from(turns);
-        let turn = |turn: u32| self.runner.measure(self.watch.piece(part(turn), part(turn + 1)));
-        (0..turns).map(turn).collect()
+        self.runner.turns(turns, self.watch.piece(from, to))
     }
 
     /// Whether all joints wear alike in two turns.

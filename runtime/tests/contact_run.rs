@@ -265,7 +265,7 @@ fn long_steps_and_lost_contact_draw_warnings() {
 fn wear_by_angle_adds_up_and_goes_where_the_contact_is() {
     let system = loaded(ContactInfo { wear: wear(Area::Hertz, true), ..smooth() }, circling);
     let mut runner = runner(&system);
-    runner.settle(2, Watch::NONE).expect("it turns");
+    runner.turns(2, Watch::NONE).expect("it turns");
     let turn = runner.measure(Watch::NONE).expect("it turns").joints.remove(0);
     let deposit = turn.deposit.expect("it keeps a profile");
     let amount: f64 = deposit.depths().iter().sum::<f64>() * deposit.bin_angle();
@@ -300,7 +300,7 @@ fn turn_by_turn_is_the_same_run_and_goes_on_from_a_kept_state() {
     let system = loaded(contact, swelling);
     let whole = run(&system, 0.0, rk4(TURN / 3600.0), Span::Turns(3.0), 0);
     let mut runner = runner(&system);
-    runner.settle(1, Watch::NONE).expect("it turns");
+    runner.turns(1, Watch::NONE).expect("it turns");
     let kept = runner.state();
     let second = runner.measure(Watch::NONE).expect("it turns");
     let expected = &whole.turns[1][0];

@@ -57,7 +57,7 @@ pub trait Method {
         &mut self,
         problem: &mut dyn Problem,
         step: Step<'_>,
-        end: (&mut [f64], &mut [f64]),
+        next_and_error: (&mut [f64], &mut [f64]),
     ) -> Result<(), RunError>;
 
     /// How much of the error of the last step tried may be rounding of its slopes, per second.

@@ -8,6 +8,7 @@
 //! projected state, and nothing is evaluated twice.
 
 use super::adaptive::{Method, Step};
+use super::dense::Cubics;
 use super::problem::Problem;
 use crate::error::RunError;
 use crate::linear::add_scaled;
@@ -50,7 +51,9 @@ pub struct Dopri5 {
     /// Slopes in which rounding may show.
     rough: [bool; 7],
     stage: Vec<f64>,
-    dense: [Vec<f64>; 5],
+    cubics: Cubics,
+    /// What bends the cubics further.
+    quartic: Vec<f64>,
 }
 
 impl Method for Dopri5 {
@@ -65,7 +68,8 @@ impl Method for Dopri5 {
             slopes: std::array::from_fn(|_| zero()),
             rough: [false; 7],
             stage: zero(),
-            dense: std::array::from_fn(|_| zero()),
+            cubics: Cubics::new(dimension),
+            quartic: zero(),
         }
     }
 
@@ -120,17 +124,9 @@ impl Method for Dopri5 {
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {
-        let length = step.length;
-        for (i, y) in step.y.iter().enumerate() {
-            let difference = next[i] - y;
-            let bend = length * self.slopes[0][i] - difference;
-            self.dense[0][i] = *y;
-            self.dense[1][i] = difference;
-            self.dense[2][i] = bend;
-            self.dense[3][i] = difference - length * self.slopes[6][i] - bend;
-        }
-        weighted_sum(&mut self.dense[4], &D, &self.slopes);
-        self.dense[4].iter_mut().for_each(|x| *x *= length);
+        self.cubics.set(step, next, [&self.slopes[0], &self.slopes[6]]);
+        weighted_sum(&mut self.quartic, &D, &self.slopes);
+        self.quartic.iter_mut().for_each(|x| *x *= step.length);
         self.take_back();
     }
 
@@ -140,11 +136,7 @@ impl Method for Dopri5 {
     }
 
     fn interpolate(&self, s: f64, y: &mut [f64]) {
-        let r = 1.0 - s;
-        for (i, value) in y.iter_mut().enumerate() {
-            let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|k| self.dense[k][i]);
-            *value = a + s * (b + r * (c + s * (d + r * e)));
-        }
+        self.cubics.at(s, y, |i| self.quartic[i]);
     }
 }
 

@@ -2,6 +2,7 @@
 //! Explicit methods never know mechanisms; the implicit one asks for their equations of motion.
 
 mod adaptive;
+mod dense;
 mod dopri5;
 mod expected;
 mod generalized_alpha;

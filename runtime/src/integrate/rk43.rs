@@ -6,6 +6,7 @@
 //! Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4. Dense output: the cubic through values and slopes.
 
 use super::adaptive::{Method, Step};
+use super::dense::Cubics;
 use super::problem::Problem;
 use crate::error::RunError;
 use crate::linear::combine;
@@ -19,7 +20,7 @@ const WEIGHT: f64 = 0.1;
 pub struct Rk43 {
     /// Four stages, and the slope at the end.
     slopes: [Vec<f64>; 5],
-    dense: [Vec<f64>; 4],
+    cubics: Cubics,
 }
 
 impl Method for Rk43 {
@@ -29,8 +30,7 @@ impl Method for Rk43 {
     const SHARE: f64 = 3.0;
 
     fn new(dimension: usize) -> Self {
-        let zero = || vec![0.0; dimension];
-        Self { slopes: std::array::from_fn(|_| zero()), dense: std::array::from_fn(|_| zero()) }
+        Self { slopes: std::array::from_fn(|_| vec![0.0; dimension]), cubics: Cubics::new(dimension) }
     }
 
     fn begin(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
@@ -67,15 +67,7 @@ impl Method for Rk43 {
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {
-        let length = step.length;
-        for (i, y) in step.y.iter().enumerate() {
-            let difference = next[i] - y;
-            let bend = length * self.slopes[0][i] - difference;
-            self.dense[0][i] = *y;
-            self.dense[1][i] = difference;
-            self.dense[2][i] = bend;
-            self.dense[3][i] = difference - length * self.slopes[4][i] - bend;
-        }
+        self.cubics.set(step, next, [&self.slopes[0], &self.slopes[4]]);
         self.take_back();
     }
 
@@ -84,10 +76,6 @@ impl Method for Rk43 {
     }
 
     fn interpolate(&self, s: f64, y: &mut [f64]) {
-        let r = 1.0 - s;
-        for (i, value) in y.iter_mut().enumerate() {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.dense[k][i]);
-            *value = a + s * (b + r * (c + s * d));
-        }
+        self.cubics.at(s, y, |_| 0.0);
     }
 }

@@ -8,6 +8,7 @@
 //! Slopes at the nodes are exact (1/r, and r(W + G)/r(W) - 1), so errors go with the fourth power of the cell; cells are
 //! made smaller until gain and time are met in between to [`ERROR`].
 
+use super::interpolate::{at, cubic};
 use super::settings::JointLife;
 
 /// Largest error of a gain in between, as a part of it, and of a time over a cell, as a part of that.
@@ -84,7 +85,7 @@ impl JointFlow {
     #[inline]
     fn at(&self, cells: &[[f64; 4]], wear: f64) -> f64 {
         let (cell, part) = place(wear * self.per_scale, self.resolution);
-        cells.get(cell).map_or(f64::NAN, |[a, b, c, d]| ((a * part + b) * part + c) * part + d)
+        cells.get(cell).map_or(f64::NAN, |cubic| at(cubic, part))
     }
 
     /// Of a joint whose wear per cycle is `rate` of its wear, smooth but at `knots` (rising), with this scale. Nothing if that
@@ -235,12 +236,6 @@ impl<'a> Solved<'a> {
         }
         Some(flow)
     }
-}
-
-/// Coefficients, the highest power first, of the cubic with these values and slopes at 0 and 1.
-fn cubic((from, m0): (f64, f64), (to, m1): (f64, f64)) -> [f64; 4] {
-    let rise = to - from;
-    [m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1, m0, from]
 }
 
 #[cfg(test)]

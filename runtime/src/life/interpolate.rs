@@ -38,13 +38,24 @@ impl Curve {
         let value = if !is_inside {
             from + slope * part
         } else {
-            let rise = self.values[index + 1] - from;
-            let (m0, m1) = (slope * width, self.slopes[index + 1] * width);
-            let (a, b) = (m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1);
-            ((a * part + b) * part + m0) * part + from
+            let to = (self.values[index + 1], self.slopes[index + 1] * width);
+            at(&cubic((from, slope * width), to), part)
         };
         if self.is_log { libm::exp(value) } else { value }
     }
+}
+
+/// Coefficients, the highest power first, of the cubic with these values and slopes at 0 and 1.
+#[inline]
+pub(super) fn cubic((from, m0): (f64, f64), (to, m1): (f64, f64)) -> [f64; 4] {
+    let rise = to - from;
+    [m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1, m0, from]
+}
+
+/// Its value.
+#[inline]
+pub(super) fn at([a, b, c, d]: &[f64; 4], part: f64) -> f64 {
+    ((a * part + b) * part + c) * part + d
 }
 
 /// A place among the points: after point `index` by `part` of `width`. Outside, `width` is one.

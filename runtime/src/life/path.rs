@@ -5,6 +5,7 @@
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
 use super::error::LifeError;
+use super::interpolate::{at, cubic};
 use super::settings::{Feedback, JointLife, LifeSettings, WearStep};
 use super::source::{JointWear, WearSource};
 use super::state::Control;
@@ -60,10 +61,8 @@ impl Segment {
             return self.to.clone();
         }
         let value = |i: usize| {
-            let rise = self.to[i] - self.from[i];
-            let (m0, m1) = (self.length * self.from_rate[i], self.length * self.to_rate[i]);
-            let (a, b) = (m0 + m1 - 2.0 * rise, 3.0 * rise - 2.0 * m0 - m1);
-            ((a * part + b) * part + m0) * part + self.from[i]
+            let begin = (self.from[i], self.length * self.from_rate[i]);
+            at(&cubic(begin, (self.to[i], self.length * self.to_rate[i])), part)
         };
         (0..self.from.len()).map(value).collect()
     }

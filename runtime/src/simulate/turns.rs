@@ -183,17 +183,13 @@ impl<'a> TurnRunner<'a> {
         (is_even(second - first) && is_even(third - second)).then_some(first)
     }
 
-    /// Runs turns that are not to be counted yet; returns the last of them.
+    /// Runs turns one after the other.
     ///
     /// # Errors
     /// As [`Self::measure`].
-    pub fn settle(&mut self, turns: u32, watch: Watch<'_>) -> Result<Option<TurnMeasures>, RunError> {
+    pub fn turns(&mut self, turns: u32, watch: Watch<'_>) -> Result<Vec<TurnMeasures>, RunError> {
         let part = |turn: u32| f64::from(turn) / f64::from(turns);
-        let mut last = None;
-        for turn in 0..turns {
-            last = Some(self.measure(watch.piece(part(turn), part(turn + 1)))?);
-        }
-        Ok(last)
+        (0..turns).map(|turn| self.measure(watch.piece(part(turn), part(turn + 1)))).collect()
     }
 
     /// Whether a turn with these clearances [m] may differ from the last one that was looked at by more than angles notice.

@@ -286,8 +286,9 @@ impl<'g> Deriver<'g> {
             let beside: Vec<Expr<'g>> = mass.iter().flatten().copied().chain(of_rows).collect();
             // The same for all rows, which alone decide which of them are shortest.
             let forces = forces.get_or_init(|| all_bias_forces(motion, masses, &instant.loads)).iter();
-            let counted = forces.map(|h| (g.operations(beside.iter().chain(h).copied()), h.clone()));
-            let (operations, h) = counted.min_by_key(|(operations, _)| *operations).unwrap_or_default();
+            let counted = forces.map(|h| (g.operations(beside.iter().chain(h).copied()), h));
+            let shortest = counted.min_by_key(|(operations, _)| *operations);
+            let (operations, h) = shortest.map(|(operations, h)| (operations, h.clone())).unwrap_or_default();
             (operations, (rows, h))
         };
         let (rows, h) = instant.by_shorter_rows(false, true, by);
