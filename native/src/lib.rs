@@ -6,7 +6,7 @@
 //! safe code.
 //!
 //! # What `unsafe` stands on
-//! `unsafe` is in `x86/code.rs`, which calls the code, and in `x86/functions.rs`, which the code calls. They rely on:
+//! `unsafe` is in `memory/code.rs`, which calls the code, and in `memory/called.rs`, which the code calls. They rely on:
 //! 1. Code comes from the encoder only, for a tape that was verified: it reads and writes the four slices that it is
 //!    given and nothing else, at places below the lengths that are kept beside it, and it ends in a return.
 //! 2. These lengths are compared with those of the slices before every call.
@@ -25,7 +25,13 @@
     clippy::unreachable
 )]
 
+#[cfg(target_arch = "x86_64")]
+mod functions;
+#[cfg(target_arch = "x86_64")]
+mod memory;
 mod refusal;
+#[cfg(target_arch = "x86_64")]
+mod straight;
 mod system;
 #[cfg(not(target_arch = "x86_64"))]
 mod unsupported;

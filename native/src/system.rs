@@ -6,11 +6,11 @@ use std::sync::Arc;
 use linkwear_codegen::tape::Tape;
 use linkwear_runtime::{Entry, STATES, SideBySide, Sizes, System};
 
+#[cfg(target_arch = "x86_64")]
+use crate::functions::Functions;
 use crate::refusal::Refusal;
 #[cfg(not(target_arch = "x86_64"))]
 use crate::unsupported::Functions;
-#[cfg(target_arch = "x86_64")]
-use crate::x86::Functions;
 
 /// A mechanism as machine code of this processor. Clones share the code.
 #[derive(Clone)]

@@ -1,101 +1,34 @@
-//! Code for x86-64 processors. In: tapes. Out: [`Functions`] that can be called.
+//! x86-64 processors: what they have, their instructions, which of them do an operation, their bytes.
 
-mod allocate;
 mod bounds;
-mod code;
 mod encode;
-mod frame;
-mod functions;
-mod graph;
+mod features;
 mod instruction;
-mod lower;
-mod number;
-mod order;
-mod pool;
-mod processor;
+mod select;
 #[cfg(test)]
 mod tests;
-mod uses;
-mod write;
 
-use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-
-use linkwear_codegen::tape::Tape;
-
+use crate::memory::called::address;
 use crate::refusal::Refusal;
+use crate::straight::graph::Function;
 
-use code::Code;
-use instruction::Lanes;
-use write::write;
+use instruction::{Lanes, Target};
 
-/// From so many operations on, tapes are written on several threads: below, these take longer to begin.
-const SEVERAL_THREADS: usize = 1000;
-/// Threads at most: the longest of the tapes takes a fifth of the time of all.
-const MOST_THREADS: usize = 4;
-
-/// Writes each, on several threads if that is worth it; in the order of the tapes.
-fn side_by_side<W: Send>(tapes: &[Tape], write: impl Fn(&Tape) -> W + Sync) -> Vec<W> {
-    let operations: usize = tapes.iter().map(|tape| tape.statements.len()).sum();
-    let threads = if operations < SEVERAL_THREADS {
-        1
-    } else {
-        thread::available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
-    };
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut written = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            let Some(tape) = tapes.get(place) else { return written };
-            written.push((place, write(tape)));
+/// What code for one, four or eight states side by side may use here.
+pub(crate) fn target<const LANES: usize>() -> Result<Target, Refusal> {
+    let lanes = const {
+        match LANES {
+            1 => Lanes::One,
+            4 => Lanes::Four,
+            8 => Lanes::Eight,
+            _ => panic!("one, four or eight lanes"),
         }
     };
-    let mut written = thread::scope(|scope| {
-        // Where the system gives no thread, this one does it all.
-        let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
-        let others: Vec<_> = (1..threads).filter_map(spawn).collect();
-        let mut written = work();
-        for other in others {
-            written.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        }
-        written
-    });
-    written.sort_unstable_by_key(|(place, _)| *place);
-    written.into_iter().map(|(_, written)| written).collect()
+    let needed = if lanes == Lanes::Eight { "AVX-512 (F, DQ, VL)" } else { "AVX" };
+    features::target(lanes).ok_or(Refusal::Processor { needed })
 }
 
-/// Functions of one mechanism, in the order of their tapes.
-pub(crate) struct Functions(Code);
-
-impl Functions {
-    /// For one, four or eight states side by side.
-    pub(crate) fn new<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
-        let lanes = const {
-            match LANES {
-                1 => Lanes::One,
-                4 => Lanes::Four,
-                8 => Lanes::Eight,
-                _ => panic!("one, four or eight lanes"),
-            }
-        };
-        let needed = if lanes == Lanes::Eight { "AVX-512 (F, DQ, VL)" } else { "AVX" };
-        let target = processor::target(lanes).ok_or(Refusal::Processor { needed })?;
-        let written = side_by_side(tapes, |tape| write(tape, target, &functions::address::<LANES>));
-        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
-    }
-
-    /// Length of the scratch slice that every function is content with, in numbers.
-    pub(crate) fn workspace(&self) -> usize {
-        self.0.workspace()
-    }
-
-    /// Runs a function; slices hold the numbers of all lanes, value by value.
-    ///
-    /// # Panics
-    /// If a slice is too short, or there is no such function.
-    pub(crate) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        self.0.run(function, input, output, workspace);
-    }
+/// Where the functions lie that this code calls.
+pub(crate) fn functions<const LANES: usize>() -> impl Fn(Function) -> usize + Sync {
+    address::<LANES>
 }

@@ -1,40 +1,12 @@
-//! The last look before code is believed: no instruction reaches past what the function is called with. Memory stays
-//! safe by this and the encoder, whatever stages before did. In: instructions, lengths. Out: the first that reaches out.
+//! The last look before code is believed: no instruction reaches past what the function is called with, nor for what the
+//! processor lacks. In: an instruction, lengths. Out: whether it is within.
 
-use super::instruction::{Address, Base, Binary, Instruction, Lanes, Operand, Target};
+use crate::straight::bounds::Lengths;
 
-/// Lengths in bytes of what the four pointers point to.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lengths {
-    pub(super) input: usize,
-    pub(super) output: usize,
-    pub(super) pool: usize,
-    pub(super) frame: usize,
-}
+use super::instruction::{Binary, Instruction, Lanes, Operand, Target};
 
-impl Lengths {
-    fn hold(self, Address { base, offset }: Address, bytes: usize, written: bool) -> bool {
-        let (length, writable) = match base {
-            Base::Input => (self.input, false),
-            Base::Output => (self.output, true),
-            Base::Pool => (self.pool, false),
-            Base::Frame => (self.frame, true),
-        };
-        let end = usize::try_from(offset).map(|offset| offset + bytes);
-        end.is_ok_and(|end| end <= length) && (writable || !written)
-    }
-}
-
-/// The first instruction that reaches past its memory or its registers.
-pub(super) fn first_out_of_bounds(
-    instructions: &[Instruction],
-    target: Target,
-    lengths: Lengths,
-) -> Option<Instruction> {
-    instructions.iter().copied().find(|instruction| !is_within(*instruction, target, lengths))
-}
-
-fn is_within(instruction: Instruction, target: Target, lengths: Lengths) -> bool {
+/// Whether an instruction stays within its memory and its registers.
+pub(super) fn is_within(instruction: Instruction, target: Target, lengths: Lengths) -> bool {
     let value = target.lanes.bytes();
     // Bitwise instructions read whole registers.
     let whole = value.max(16);
@@ -91,13 +63,15 @@ fn is_low(operand: Operand) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use crate::straight::place::{Address, Base};
+
     use super::*;
 
     const LENGTHS: Lengths = Lengths { input: 32, output: 32, pool: 16, frame: 32 };
 
     fn is_found(lanes: Lanes, registers: u8, instruction: Instruction) -> bool {
         let target = Target { lanes, registers };
-        first_out_of_bounds(&[instruction], target, LENGTHS) == Some(instruction)
+        !is_within(instruction, target, LENGTHS)
     }
 
     fn load(base: Base, offset: i32) -> Instruction {

@@ -1,8 +1,10 @@
 //! From instructions to bytes, by VEX where that can name the operands and by EVEX elsewhere (Intel's manual, volume 2,
 //! sections 2.3 and 2.7). In: instructions. Out: machine code. Never knows what it computes.
 
-use super::graph::Function;
-use super::instruction::{Address, Base, Binary, Instruction, Lanes, Operand, Register};
+use crate::straight::graph::Function;
+use crate::straight::place::{Address, Base, Register};
+
+use super::instruction::{Binary, Instruction, Lanes, Operand};
 
 /// Predicate of comparisons: ordered, less than, silent on NaN.
 const LESS_THAN: u8 = 0x11;

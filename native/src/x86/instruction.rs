@@ -1,10 +1,11 @@
 //! The instructions that straight-line code is made of. Never knows their bytes, nor why they are there.
 
-use super::graph::Function;
+use crate::straight::graph::Function;
+use crate::straight::place::{Address, Register};
 
 /// How many states one call evaluates side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lanes {
+pub(crate) enum Lanes {
     One,
     Four,
     Eight,
@@ -27,35 +28,14 @@ impl Lanes {
 
 /// What the code may use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Target {
+pub(crate) struct Target {
     pub(super) lanes: Lanes,
     /// Vector registers: 16 with AVX, 32 with AVX-512.
     pub(super) registers: u8,
 }
 
-/// What an address counts from: the four pointers that the code is called with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Base {
-    Input,
-    Output,
-    /// The constants.
-    Pool,
-    /// The caller's workspace.
-    Frame,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Address {
-    pub(super) base: Base,
-    /// In bytes.
-    pub(super) offset: i32,
-}
-
-/// A vector register, by its number.
-pub(super) type Register = u8;
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operand {
+pub(crate) enum Operand {
     Register(Register),
     /// A whole value.
     Memory(Address),
@@ -64,7 +44,7 @@ pub(super) enum Operand {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Binary {
+pub(crate) enum Binary {
     Add,
     Subtract,
     Multiply,
@@ -78,7 +58,7 @@ pub(super) enum Binary {
 
 /// The mask register is always the same one, and named by no instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Instruction {
+pub(crate) enum Instruction {
     Binary {
         operation: Binary,
         to: Register,

@@ -2,9 +2,10 @@
 
 use iced_x86::{Decoder, DecoderOptions, Formatter, MemorySizeOptions, NasmFormatter};
 
+use crate::straight::graph::Function;
+use crate::straight::place::{Address, Base, Register};
 use crate::x86::encode::Encoder;
-use crate::x86::graph::Function;
-use crate::x86::instruction::{Address, Base, Binary, Instruction, Lanes, Operand, Register};
+use crate::x86::instruction::{Binary, Instruction, Lanes, Operand};
 
 const FUNCTION: usize = 0x1234_5678_9ABC;
 

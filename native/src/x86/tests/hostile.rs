@@ -4,8 +4,8 @@
 use std::arch::asm;
 use std::mem::transmute;
 
-use crate::x86::functions::address;
-use crate::x86::graph::Function;
+use crate::memory::called::address;
+use crate::straight::graph::Function;
 
 const FUNCTIONS: [Function; 4] = [Function::Exp, Function::Ln, Function::Atan2, Function::MulAdd];
 

@@ -5,9 +5,9 @@
 use std::env;
 use std::process::Command;
 
+use crate::memory::code::Code;
 use crate::refusal::Refusal;
-use crate::x86::code::Code;
-use crate::x86::write::Written;
+use crate::straight::write::Written;
 
 /// Set where this test runs itself again, since the flag cannot be taken back.
 const INSIDE: &str = "LINKWEAR_TEST_WITHOUT_EXECUTABLE_MEMORY";
@@ -31,8 +31,16 @@ fn refused_memory_is_a_reason_and_no_crash() {
 #[ignore = "run by the test before, in a process of its own"]
 fn inside_a_hardened_process() {
     assert!(env::var_os(INSIDE).is_some(), "it hardens the whole process");
-    let returns =
-        || Written { code: vec![0xC3], pool: vec![], inputs: 0, outputs: 0, workspace: 0, slack: 0 };
+    let returns = || Written {
+        code: vec![0xC3],
+        pool: vec![],
+        inputs: 0,
+        outputs: 0,
+        workspace: 0,
+        slack: 0,
+        passes: 1,
+        advance: 1,
+    };
     let given = Code::new(vec![returns()]).expect("memory, as long as nothing forbids it");
     given.run(0, &[], &mut [], &mut []);
     // SAFETY: a flag of this process.

@@ -1,10 +1,11 @@
 //! Places in the caller's workspace. In: values that come and end. Out: their addresses.
 
-use super::instruction::{Address, Base, Lanes};
+use super::place::{Address, Base};
 
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
-    lanes: Lanes,
+    /// Length of a value in bytes.
+    value: usize,
     len: usize,
     free: Vec<Address>,
     /// Of values that the next instruction reads for the last time.
@@ -12,8 +13,8 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    pub(super) const fn new(lanes: Lanes) -> Self {
-        Self { lanes, len: 0, free: Vec::new(), ended: Vec::new() }
+    pub(super) const fn new(value: usize) -> Self {
+        Self { value, len: 0, free: Vec::new(), ended: Vec::new() }
     }
 
     /// In values.
@@ -23,7 +24,7 @@ impl Frame {
 
     pub(super) fn take(&mut self) -> Address {
         self.free.pop().unwrap_or_else(|| {
-            let offset = (self.len * self.lanes.bytes()) as i32;
+            let offset = (self.len * self.value) as i32;
             self.len += 1;
             Address { base: Base::Frame, offset }
         })

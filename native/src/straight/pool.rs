@@ -3,17 +3,14 @@
 use std::collections::HashMap;
 
 use super::graph::{Graph, Id, Operation};
-use super::instruction::{Address, Base, Lanes};
+use super::place::{Address, Base};
 
-/// Lays out what `order` and `outputs` read.
-///
-/// Four lanes read four copies. Eight lanes read one, which their instructions spread, except where a called function
-/// wants all eight. Bitwise operations of one lane read 16 bytes.
+/// Lays out what `order` and `outputs` read; `copies_read_by` tells how many copies side by side an operation reads, or an output.
 pub(super) fn lay_out(
     graph: &Graph,
     order: &[Id],
     outputs: &[Id],
-    lanes: Lanes,
+    copies_read_by: impl Fn(Option<Operation>) -> usize,
 ) -> (Vec<u64>, HashMap<Id, Address>) {
     let mut copies: Vec<(Id, u64, usize)> = Vec::new();
     let mut place: HashMap<Id, usize> = HashMap::new();
@@ -27,16 +24,11 @@ pub(super) fn lay_out(
         }
     };
     for id in outputs {
-        read(*id, if lanes == Lanes::Four { 4 } else { 1 });
+        read(*id, copies_read_by(None));
     }
     for id in order {
         let node = graph.node(*id);
-        let count = match (lanes, node.operation) {
-            (Lanes::One, operation) => 1 + usize::from(operation.is_bitwise()),
-            (Lanes::Four, _) => 4,
-            (Lanes::Eight, Operation::Call(_)) => 8,
-            (Lanes::Eight, _) => 1,
-        };
+        let count = copies_read_by(Some(node.operation));
         for argument in node.arguments() {
             read(*argument, count);
         }

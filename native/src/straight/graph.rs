@@ -4,14 +4,14 @@
 use std::collections::HashMap;
 
 /// Place of a node in its graph; arguments have smaller ones than what is computed from them.
-pub(super) type Id = u32;
+pub(crate) type Id = u32;
 
 /// The sign of a floating point number.
-pub(super) const SIGN: u64 = 1 << 63;
+pub(crate) const SIGN: u64 = 1 << 63;
 
 /// What has no instruction of its own and is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Function {
+pub(crate) enum Function {
     Exp,
     Ln,
     Atan2,
@@ -20,7 +20,7 @@ pub(super) enum Function {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Operation {
+pub(crate) enum Operation {
     /// Entry of the flat input.
     Input(u32),
     /// A number or a mask, by its bits.
@@ -44,51 +44,51 @@ pub(super) enum Operation {
 
 impl Operation {
     /// Whether it lies in memory before anything is computed.
-    pub(super) const fn is_leaf(self) -> bool {
+    pub(crate) const fn is_leaf(self) -> bool {
         matches!(self, Self::Input(_) | Self::Constant(_))
     }
 
     /// Whether its arguments may be exchanged without a change of bits.
-    pub(super) const fn commutes(self) -> bool {
+    pub(crate) const fn commutes(self) -> bool {
         matches!(self, Self::Add | Self::Multiply | Self::And | Self::Xor)
     }
 
     /// Whether its instruction reads whole registers even when only one number is asked for.
-    pub(super) const fn is_bitwise(self) -> bool {
+    pub(crate) const fn is_bitwise(self) -> bool {
         matches!(self, Self::And | Self::AndNot | Self::Xor | Self::Select)
     }
 }
 
 /// An operation and what it is computed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Node {
-    pub(super) operation: Operation,
+pub(crate) struct Node {
+    pub(crate) operation: Operation,
     /// Those past `count` are zero, so that equal nodes are equal.
     arguments: [Id; 3],
     count: u8,
 }
 
 impl Node {
-    pub(super) fn arguments(&self) -> &[Id] {
+    pub(crate) fn arguments(&self) -> &[Id] {
         &self.arguments[..usize::from(self.count)]
     }
 
     /// Each argument once.
-    pub(super) fn distinct_arguments(&self) -> impl Iterator<Item = Id> {
+    pub(crate) fn distinct_arguments(&self) -> impl Iterator<Item = Id> {
         let arguments = self.arguments();
         arguments.iter().enumerate().filter(|(at, id)| !arguments[..*at].contains(id)).map(|(_, id)| *id)
     }
 }
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Graph {
+pub(crate) struct Graph {
     nodes: Vec<Node>,
     known: HashMap<Node, Id>,
 }
 
 impl Graph {
     /// The node of an operation on at most three arguments.
-    pub(super) fn node_of<const N: usize>(&mut self, operation: Operation, arguments: [Id; N]) -> Id {
+    pub(crate) fn node_of<const N: usize>(&mut self, operation: Operation, arguments: [Id; N]) -> Id {
         const { assert!(N <= 3) };
         let mut all = [0; 3];
         all[..N].copy_from_slice(&arguments);
@@ -99,15 +99,15 @@ impl Graph {
         })
     }
 
-    pub(super) fn constant(&mut self, bits: u64) -> Id {
+    pub(crate) fn constant(&mut self, bits: u64) -> Id {
         self.node_of(Operation::Constant(bits), [])
     }
 
-    pub(super) fn node(&self, id: Id) -> &Node {
+    pub(crate) fn node(&self, id: Id) -> &Node {
         &self.nodes[id as usize]
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.nodes.len()
     }
 }

@@ -6,8 +6,7 @@ use std::mem;
 use memmap2::{Mmap, MmapMut};
 
 use crate::refusal::Refusal;
-
-use super::write::Written;
+use crate::straight::write::Written;
 
 /// Where functions begin, and constants: at whole lines of the cache.
 const LINE: usize = 64;
@@ -18,7 +17,10 @@ const LINE: usize = 64;
 struct Line([u64; LINE / size_of::<u64>()]);
 
 /// Inputs, outputs, constants, workspace. The same convention on every system.
+#[cfg(target_arch = "x86_64")]
 type Call = unsafe extern "sysv64" fn(*const f64, *mut f64, *const Line, *mut f64);
+#[cfg(not(target_arch = "x86_64"))]
+type Call = unsafe extern "C" fn(*const f64, *mut f64, *const Line, *mut f64);
 
 /// A function in executable memory.
 #[derive(Debug)]
@@ -30,28 +32,31 @@ struct Callable {
     outputs: usize,
     workspace: usize,
     slack: usize,
+    passes: usize,
+    advance: usize,
 }
 
 /// Functions in executable memory.
 #[derive(Debug)]
-pub(super) struct Code {
+pub(crate) struct Code {
     memory: Mmap,
     functions: Vec<Callable>,
 }
 
 impl Code {
-    /// Takes code that this processor has been found to run (invariants 1 and 3 of the crate: only `write` makes it).
+    /// Takes code that this processor has been found to run (invariants 1 and 3 of the crate: only `straight::write` makes it).
     ///
     /// # Errors
     /// If the system gives no executable memory.
-    pub(super) fn new(written: Vec<Written>) -> Result<Self, Refusal> {
+    pub(crate) fn new(written: Vec<Written>) -> Result<Self, Refusal> {
         let mut bytes = Vec::new();
         let mut functions = Vec::with_capacity(written.len());
-        for Written { code, pool, inputs, outputs, workspace, slack } in written {
+        for Written { code, pool, inputs, outputs, workspace, slack, passes, advance } in written {
             let start = bytes.len();
             bytes.extend(code);
             bytes.resize(bytes.len().next_multiple_of(LINE), 0);
-            functions.push(Callable { start, pool: lines(&pool), inputs, outputs, workspace, slack });
+            let pool = lines(&pool);
+            functions.push(Callable { start, pool, inputs, outputs, workspace, slack, passes, advance });
         }
         let refused = |error: std::io::Error| Refusal::Memory { reason: error.to_string() };
         let mut memory = MmapMut::map_anon(bytes.len().max(LINE)).map_err(refused)?;
@@ -60,7 +65,7 @@ impl Code {
     }
 
     /// Length of the scratch slice that every function is content with.
-    pub(super) fn workspace(&self) -> usize {
+    pub(crate) fn workspace(&self) -> usize {
         self.functions.iter().map(|function| function.workspace + function.slack).max().unwrap_or(0)
     }
 
@@ -68,17 +73,23 @@ impl Code {
     ///
     /// # Panics
     /// If a slice is too short, or there is no such function.
-    pub(super) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        let Callable { start, pool, inputs, outputs, workspace: length, slack } = &self.functions[function];
+    pub(crate) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
+        let Callable { start, pool, inputs, outputs, workspace: length, slack, passes, advance } =
+            &self.functions[function];
         let (input, output) = (&input[..*inputs], &mut output[..*outputs]);
         let skipped = if *slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(*slack) };
         let workspace = &mut workspace[skipped..][..*length];
         let code = self.memory[*start..].as_ptr();
         // SAFETY: whole code of a function of this convention begins here (invariant 1) and is executable (invariant 4).
         let call = unsafe { mem::transmute::<*const u8, Call>(code) };
-        // SAFETY: the slices are as long as the code takes them to be (invariant 2), the three that are not written may
-        // not change meanwhile and the two that are, are borrowed alone; the processor has what it uses (invariant 3).
-        unsafe { call(input.as_ptr(), output.as_mut_ptr(), pool.as_ptr(), workspace.as_mut_ptr()) };
+        for pass in 0..*passes {
+            let input = input.as_ptr().wrapping_add(pass * advance);
+            let output = output.as_mut_ptr().wrapping_add(pass * advance);
+            // SAFETY: the slices are as long as the code takes them to be, in the last pass too (invariant 2), the three
+            // that are not written may not change meanwhile and the two that are, are borrowed alone; the processor has
+            // what it uses (invariant 3).
+            unsafe { call(input, output, pool.as_ptr(), workspace.as_mut_ptr()) };
+        }
     }
 }
 

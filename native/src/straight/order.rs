@@ -6,7 +6,6 @@
 //! come to be ready, as long as not too many values are alive.
 
 use super::graph::{Graph, Id, Operation};
-use super::instruction::Target;
 use super::lower::Lowered;
 
 /// How many operations ahead may be taken.
@@ -16,10 +15,10 @@ const CROWDED: usize = 2;
 /// Operations that begin in one cycle.
 const PER_CYCLE: u32 = 4;
 
-/// The order for a target.
-pub(super) fn order(lowered: &Lowered, target: Target) -> Vec<Id> {
+/// The order for so many registers.
+pub(super) fn order(lowered: &Lowered, registers: u8) -> Vec<Id> {
     let first = depth_first(lowered);
-    interleaved(&lowered.graph, &first, CROWDED * usize::from(target.registers))
+    interleaved(&lowered.graph, &first, CROWDED * usize::from(registers))
 }
 
 /// Registers that each node would need if nothing were shared (Sethi and Ullman, Journal of the ACM 17, 1970).

@@ -1,0 +1,74 @@
+//! The functions of one mechanism as machine code of this processor. In: tapes. Out: [`Functions`] that can be called.
+
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use linkwear_codegen::tape::Tape;
+
+use crate::memory::code::Code;
+use crate::refusal::Refusal;
+use crate::straight::write::write;
+use crate::x86 as processor;
+
+/// From so many operations on, tapes are written on several threads: below, these take longer to begin.
+const SEVERAL_THREADS: usize = 1000;
+/// Threads at most: the longest of the tapes takes a fifth of the time of all.
+const MOST_THREADS: usize = 4;
+
+/// Writes each, on several threads if that is worth it; in the order of the tapes.
+fn side_by_side<W: Send>(tapes: &[Tape], write: impl Fn(&Tape) -> W + Sync) -> Vec<W> {
+    let operations: usize = tapes.iter().map(|tape| tape.statements.len()).sum();
+    let threads = if operations < SEVERAL_THREADS {
+        1
+    } else {
+        thread::available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
+    };
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut written = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(tape) = tapes.get(place) else { return written };
+            written.push((place, write(tape)));
+        }
+    };
+    let mut written = thread::scope(|scope| {
+        // Where the system gives no thread, this one does it all.
+        let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
+        let others: Vec<_> = (1..threads).filter_map(spawn).collect();
+        let mut written = work();
+        for other in others {
+            written.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+        written
+    });
+    written.sort_unstable_by_key(|(place, _)| *place);
+    written.into_iter().map(|(_, written)| written).collect()
+}
+
+/// Functions of one mechanism, in the order of their tapes.
+pub(crate) struct Functions(Code);
+
+impl Functions {
+    /// For one state, or so many side by side as the processor has code for.
+    pub(crate) fn new<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
+        let target = processor::target::<LANES>()?;
+        let functions = processor::functions::<LANES>();
+        let written = side_by_side(tapes, |tape| write(tape, target, &functions));
+        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+    }
+
+    /// Length of the scratch slice that every function is content with, in numbers.
+    pub(crate) fn workspace(&self) -> usize {
+        self.0.workspace()
+    }
+
+    /// Runs a function; slices hold the numbers of all lanes, value by value.
+    ///
+    /// # Panics
+    /// If a slice is too short, or there is no such function.
+    pub(crate) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
+        self.0.run(function, input, output, workspace);
+    }
+}

@@ -1,0 +1,86 @@
+//! The whole way of one function. In: a tape. Out: [`Written`], its machine code and what it wants beside it.
+
+use linkwear_codegen::tape::Tape;
+
+use crate::refusal::Refusal;
+
+use super::allocate::{Processor, allocate};
+use super::bounds::Lengths;
+use super::graph::Function;
+use super::lower::{Lowered, lower};
+use super::order::order;
+
+/// A function, ready to be made executable. Lengths are in numbers, those of all lanes together.
+#[derive(Clone, Debug)]
+pub(crate) struct Written {
+    pub(crate) code: Vec<u8>,
+    /// Bits of the constants.
+    pub(crate) pool: Vec<u64>,
+    pub(crate) inputs: usize,
+    pub(crate) outputs: usize,
+    pub(crate) workspace: usize,
+    /// How much of a longer workspace may be left out at its beginning, so that it begins where lines of the cache do.
+    pub(crate) slack: usize,
+    /// How many times the code is called for all lanes.
+    pub(crate) passes: usize,
+    /// How many numbers further inputs and outputs begin in the next pass.
+    pub(crate) advance: usize,
+}
+
+/// Writes the code of a tape; `functions` tells where the functions lie that it calls.
+///
+/// # Errors
+/// If the tape makes no sense, or is too long.
+pub(crate) fn write<P: Processor>(
+    tape: &Tape,
+    processor: P,
+    functions: &dyn Fn(Function) -> usize,
+) -> Result<Written, Refusal> {
+    let defective = |defect| Refusal::Tape { function: tape.name.clone(), defect };
+    let lowered = lower(tape).map_err(defective)?;
+    // Every address is below: a node is in the pool or the frame at most once, at most eight numbers long.
+    let most = (lowered.graph.len() + lowered.inputs + lowered.outputs.len()) * 8 * size_of::<f64>();
+    if i32::try_from(most).is_err() {
+        return Err(Refusal::TooLong);
+    }
+    placed(&lowered, processor, functions).map_err(defective)
+}
+
+/// Writes operations.
+///
+/// # Errors
+/// The first instruction that would reach past its memory: a fault of this crate.
+fn placed<P: Processor>(
+    lowered: &Lowered,
+    processor: P,
+    functions: &dyn Fn(Function) -> usize,
+) -> Result<Written, String> {
+    let shape = processor.shape();
+    let straight = allocate(lowered, &order(lowered, shape.registers), processor);
+    let numbers = |bytes: usize| bytes / size_of::<f64>();
+    let (inputs, outputs) = (lowered.inputs * shape.step, lowered.outputs.len() * shape.step);
+    let frame = straight.frame * shape.value;
+    // The last pass begins further on by the values of all others.
+    let of_others = shape.step - shape.value;
+    let lengths = Lengths {
+        input: inputs.saturating_sub(of_others),
+        output: outputs.saturating_sub(of_others),
+        pool: size_of_val(straight.pool.as_slice()),
+        frame,
+    };
+    let outside = |instruction: &&P::Instruction| !processor.is_within(**instruction, lengths);
+    if let Some(instruction) = straight.instructions.iter().find(outside) {
+        return Err(format!("its code would leave its memory by {instruction:?}, a fault of linkwear"));
+    }
+    Ok(Written {
+        code: processor.encode(&straight.instructions, functions),
+        pool: straight.pool,
+        inputs: numbers(inputs),
+        outputs: numbers(outputs),
+        workspace: numbers(frame),
+        // Values of several lanes that cross lines cost twice; single numbers never do.
+        slack: if shape.value == size_of::<f64>() { 0 } else { 7 },
+        passes: shape.step / shape.value,
+        advance: numbers(shape.value),
+    })
+}
