@@ -12,7 +12,7 @@ fn has_native() -> bool {
     #[cfg(target_arch = "x86_64")]
     return std::arch::is_x86_feature_detected!("avx");
     #[cfg(not(target_arch = "x86_64"))]
-    return false;
+    return cfg!(all(target_arch = "aarch64", target_os = "linux"));
 }
 
 /// The back end that serves a shipped file here.

@@ -6,9 +6,12 @@ use std::thread;
 
 use linkwear_codegen::tape::Tape;
 
+#[cfg(target_arch = "aarch64")]
+use crate::aarch64 as processor;
 use crate::memory::code::Code;
 use crate::refusal::Refusal;
 use crate::straight::write::write;
+#[cfg(target_arch = "x86_64")]
 use crate::x86 as processor;
 
 /// From so many operations on, tapes are written on several threads: below, these take longer to begin.

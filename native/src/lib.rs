@@ -12,7 +12,8 @@
 //! 2. These lengths are compared with those of the slices before every call.
 //! 3. Code uses only what the processor was found to have when it was written.
 //! 4. Memory is made executable once it is written, is never writable and executable together, and lives as long as what
-//!    calls into it.
+//!    calls into it. Where a processor would not see by itself that its instructions have changed, it is told before the
+//!    first call.
 //! 5. A called function gets addresses of whole values inside these slices, the result apart from the arguments, and
 //!    does not unwind.
 
@@ -25,15 +26,17 @@
     clippy::unreachable
 )]
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(test, target_arch = "aarch64"))]
+mod aarch64;
+#[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod functions;
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod memory;
 mod refusal;
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 mod straight;
 mod system;
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
 mod unsupported;
 #[cfg(target_arch = "x86_64")]
 mod x86;

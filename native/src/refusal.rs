@@ -7,9 +7,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Refusal {
     /// It is written for other processors.
-    #[error("machine code is written for x86-64 processors with {needed}, and this is another")]
+    #[error("machine code needs {needed}, and this is another")]
     Processor {
-        /// What the processor must have.
+        /// A processor, and what it must have.
         needed: &'static str,
     },
     /// The system gives no memory that may be run: it is hardened, or there is none left.

@@ -8,6 +8,8 @@ mod frame;
 pub(crate) mod graph;
 mod lower;
 mod number;
+#[cfg(target_arch = "x86_64")]
+mod operands;
 mod order;
 pub(crate) mod place;
 mod pool;

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use linkwear_codegen::tape::Tape;
 use linkwear_runtime::{Entry, STATES, SideBySide, Sizes, System};
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 use crate::functions::Functions;
 use crate::refusal::Refusal;
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
 use crate::unsupported::Functions;
 
 /// A mechanism as machine code of this processor. Clones share the code.

@@ -10,7 +10,7 @@ pub(crate) struct Functions(Infallible);
 
 impl Functions {
     pub(crate) fn new<const LANES: usize>(_: &[Tape]) -> Result<Self, Refusal> {
-        Err(Refusal::Processor { needed: "AVX" })
+        Err(Refusal::Processor { needed: "an x86-64 or aarch64 processor" })
     }
 
     pub(crate) fn workspace(&self) -> usize {

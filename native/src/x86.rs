@@ -24,7 +24,10 @@ pub(crate) fn target<const LANES: usize>() -> Result<Target, Refusal> {
             _ => panic!("one, four or eight lanes"),
         }
     };
-    let needed = if lanes == Lanes::Eight { "AVX-512 (F, DQ, VL)" } else { "AVX" };
+    let needed = match lanes {
+        Lanes::Eight => "an x86-64 processor with AVX-512 (F, DQ, VL)",
+        _ => "an x86-64 processor with AVX",
+    };
     features::target(lanes).ok_or(Refusal::Processor { needed })
 }
 

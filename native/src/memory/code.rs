@@ -61,7 +61,10 @@ impl Code {
         let refused = |error: std::io::Error| Refusal::Memory { reason: error.to_string() };
         let mut memory = MmapMut::map_anon(bytes.len().max(LINE)).map_err(refused)?;
         memory[..bytes.len()].copy_from_slice(&bytes);
-        Ok(Self { memory: memory.make_exec().map_err(refused)?, functions })
+        let memory = memory.make_exec().map_err(refused)?;
+        #[cfg(target_arch = "aarch64")]
+        show_to_instructions(&memory);
+        Ok(Self { memory, functions })
     }
 
     /// Length of the scratch slice that every function is content with.
@@ -91,6 +94,35 @@ impl Code {
             unsafe { call(input, output, pool.as_ptr(), workspace.as_mut_ptr()) };
         }
     }
+}
+
+/// Writes what was stored back to where instructions are fetched from, and forgets what was fetched before: this processor
+/// does neither by itself (Arm Architecture Reference Manual for A-profile: CTR_EL0, DC CVAU, IC IVAU).
+#[cfg(target_arch = "aarch64")]
+fn show_to_instructions(code: &[u8]) {
+    use std::arch::asm;
+
+    let lengths: usize;
+    // SAFETY: reads the lengths of the caches' lines, which programs may on Linux, and on no other system they come here.
+    unsafe { asm!("mrs {}, ctr_el0", out(reg) lengths, options(nomem, nostack, preserves_flags)) };
+    // Both count words of four bytes, as powers of two.
+    let [of_data, of_instructions] = [lengths >> 16 & 15, lengths & 15].map(|power| 4_usize << power);
+    let lines = |length: usize| {
+        let code = code.as_ptr_range();
+        (code.start.addr() / length * length..code.end.addr()).step_by(length)
+    };
+    for line in lines(of_data) {
+        // SAFETY: stays in the caches, for lines of this slice; no number in memory changes.
+        unsafe { asm!("dc cvau, {}", in(reg) line, options(nostack, preserves_flags)) };
+    }
+    // SAFETY: waits, no more.
+    unsafe { asm!("dsb ish", options(nostack, preserves_flags)) };
+    for line in lines(of_instructions) {
+        // SAFETY: as above.
+        unsafe { asm!("ic ivau, {}", in(reg) line, options(nostack, preserves_flags)) };
+    }
+    // SAFETY: waits, then fetches anew.
+    unsafe { asm!("dsb ish", "isb", options(nostack, preserves_flags)) };
 }
 
 fn lines(pool: &[u64]) -> Vec<Line> {

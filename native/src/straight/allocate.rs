@@ -13,8 +13,6 @@ use super::place::{Address, Base, MOST_REGISTERS, Register, Shape};
 use super::pool;
 use super::uses::Uses;
 
-/// An operand in memory is loaded if it is read again within so many operations and a register is free.
-const SOON: u32 = 8;
 /// A value that lies in memory as well gives way to one that does not, if it is read at most so many times sooner.
 const PREFER_CLEAN: u64 = 2;
 
@@ -37,10 +35,10 @@ pub(crate) trait Processor: Copy + Debug {
     fn argument(self, number: u8, address: Address) -> Self::Instruction;
 
     /// Writes an operation that is neither leaf nor call.
-    fn operation(allocation: &mut Allocation<'_, Self>, id: Id);
+    fn operation(allocation: &mut Allocation<'_, Self>, memory: &mut Self::Memory, id: Id);
 
     /// Calls a function, whose arguments are in place. All values lie in memory meanwhile.
-    fn call(allocation: &mut Allocation<'_, Self>, function: Function);
+    fn call(allocation: &mut Allocation<'_, Self>, memory: &mut Self::Memory, function: Function);
 
     /// A function with this body; `registers` from the first one on are used in it.
     fn framed(self, body: Vec<Self::Instruction>, calls: bool, registers: Register)
@@ -88,7 +86,6 @@ pub(super) fn allocate<P: Processor>(
     outputs.sort_unstable();
     let mut allocation = Allocation {
         processor,
-        memory: P::Memory::default(),
         graph,
         shape,
         uses: Uses::new(graph, order),
@@ -101,10 +98,11 @@ pub(super) fn allocate<P: Processor>(
         now: 0,
         instructions: Vec::with_capacity(2 * order.len()),
     };
+    let mut memory = P::Memory::default();
     allocation.store_leaves();
     for (position, id) in (0..).zip(order) {
         allocation.now = position;
-        allocation.operation(*id);
+        allocation.operation(&mut memory, *id);
     }
     let Allocation { instructions, used, frame, .. } = allocation;
     Straight { instructions: processor.framed(instructions, calls, used), pool, frame: frame.len() }
@@ -113,10 +111,9 @@ pub(super) fn allocate<P: Processor>(
 /// Where every value is, while instructions are written.
 pub(crate) struct Allocation<'a, P: Processor> {
     pub(crate) processor: P,
-    pub(crate) memory: P::Memory,
     graph: &'a Graph,
     shape: Shape,
-    uses: Uses,
+    pub(super) uses: Uses,
     /// Entries of the flat output by the node that they are, sorted.
     outputs: Vec<(Id, u32)>,
     /// What each register holds.
@@ -124,12 +121,12 @@ pub(crate) struct Allocation<'a, P: Processor> {
     /// How many registers were ever taken.
     used: Register,
     /// The register of every node.
-    register: Vec<Option<Register>>,
+    pub(super) register: Vec<Option<Register>>,
     /// Where in memory every node lies.
     home: Vec<Option<Address>>,
     frame: Frame,
     /// Position in the order.
-    now: u32,
+    pub(super) now: u32,
     instructions: Vec<P::Instruction>,
 }
 
@@ -142,48 +139,30 @@ impl<P: Processor> Allocation<'_, P> {
         self.instructions.push(instruction);
     }
 
-    pub(crate) fn register_of(&self, id: Id) -> Option<Register> {
-        self.register[id as usize]
-    }
-
-    /// Of two arguments the one to load first, where their operation allows that they are exchanged: what is in a
-    /// register, else what is read again sooner.
-    pub(crate) fn in_good_order(&self, operation: Operation, first: Id, second: Id) -> (Id, Id) {
-        let is_held = |id: Id| self.register_of(id).is_some();
-        let far = |id: Id| self.uses.after(id, self.now).unwrap_or(u32::MAX);
-        let exchange = !is_held(first) && (is_held(second) || far(second) < far(first));
-        if operation.commutes() && exchange { (second, first) } else { (first, second) }
-    }
-
-    /// Whether it is better to load a value than to read it from memory.
-    pub(crate) fn is_worth_a_register(&self, id: Id) -> bool {
-        let again = self.uses.after(id, self.now).is_some_and(|next| next - self.now <= SOON);
-        again && self.free_register().is_some()
-    }
-
-    fn operation(&mut self, id: Id) {
+    fn operation(&mut self, memory: &mut P::Memory, id: Id) {
         let node = self.node(id);
         match node.operation {
-            Operation::Call(function) => self.call(id, function, node.arguments()),
+            Operation::Call(function) => self.call(memory, id, function),
             // They lie where they lie.
             Operation::Input(_) | Operation::Constant(_) => {}
-            _ => P::operation(self, id),
+            _ => P::operation(self, memory, id),
         }
     }
 
     /// A function may use every vector register: all that is alive lies in memory meanwhile.
-    fn call(&mut self, id: Id, function: Function, arguments: &[Id]) {
+    fn call(&mut self, memory: &mut P::Memory, id: Id, function: Function) {
+        let node = self.node(id);
         for register in 0..self.shape.registers {
             self.evict(register);
         }
-        for (number, argument) in (1..).zip(arguments) {
+        for (number, argument) in (1..).zip(node.arguments()) {
             let address = self.home_of(*argument);
             self.push(self.processor.argument(number, address));
         }
         let result = self.frame.take();
         self.push(self.processor.argument(0, result));
-        P::call(self, function);
-        self.read(&self.node(id));
+        P::call(self, memory, function);
+        self.read(&node);
         self.frame.free_ended();
         self.home[id as usize] = Some(result);
         if self.outputs_of(id).next().is_some() {
@@ -277,7 +256,7 @@ impl<P: Processor> Allocation<'_, P> {
         to
     }
 
-    fn free_register(&self) -> Option<Register> {
+    pub(super) fn free_register(&self) -> Option<Register> {
         (0..self.shape.registers).find(|register| self.held[usize::from(*register)].is_none())
     }
 

@@ -47,16 +47,6 @@ impl Operation {
     pub(crate) const fn is_leaf(self) -> bool {
         matches!(self, Self::Input(_) | Self::Constant(_))
     }
-
-    /// Whether its arguments may be exchanged without a change of bits.
-    pub(crate) const fn commutes(self) -> bool {
-        matches!(self, Self::Add | Self::Multiply | Self::And | Self::Xor)
-    }
-
-    /// Whether its instruction reads whole registers even when only one number is asked for.
-    pub(crate) const fn is_bitwise(self) -> bool {
-        matches!(self, Self::And | Self::AndNot | Self::Xor | Self::Select)
-    }
 }
 
 /// An operation and what it is computed from.

@@ -7,7 +7,7 @@ use crate::refusal::Refusal;
 use super::allocate::{Processor, allocate};
 use super::bounds::Lengths;
 use super::graph::Function;
-use super::lower::{Lowered, lower};
+use super::lower::lower;
 use super::order::order;
 
 /// A function, ready to be made executable. Lengths are in numbers, those of all lanes together.
@@ -36,6 +36,19 @@ pub(crate) fn write<P: Processor>(
     processor: P,
     functions: &dyn Fn(Function) -> usize,
 ) -> Result<Written, Refusal> {
+    let (instructions, written) = placed(tape, processor)?;
+    Ok(Written { code: processor.encode(&instructions, functions), ..written })
+}
+
+/// The instructions of a tape, and all but their bytes.
+///
+/// # Errors
+/// If the tape makes no sense, or is too long. The first instruction that would reach past its memory: a fault of this
+/// crate.
+pub(crate) fn placed<P: Processor>(
+    tape: &Tape,
+    processor: P,
+) -> Result<(Vec<P::Instruction>, Written), Refusal> {
     let defective = |defect| Refusal::Tape { function: tape.name.clone(), defect };
     let lowered = lower(tape).map_err(defective)?;
     // Every address is below: a node is in the pool or the frame at most once, at most eight numbers long.
@@ -43,37 +56,20 @@ pub(crate) fn write<P: Processor>(
     if i32::try_from(most).is_err() {
         return Err(Refusal::TooLong);
     }
-    placed(&lowered, processor, functions).map_err(defective)
-}
-
-/// Writes operations.
-///
-/// # Errors
-/// The first instruction that would reach past its memory: a fault of this crate.
-fn placed<P: Processor>(
-    lowered: &Lowered,
-    processor: P,
-    functions: &dyn Fn(Function) -> usize,
-) -> Result<Written, String> {
     let shape = processor.shape();
-    let straight = allocate(lowered, &order(lowered, shape.registers), processor);
-    let numbers = |bytes: usize| bytes / size_of::<f64>();
+    let straight = allocate(&lowered, &order(&lowered, shape.registers), processor);
     let (inputs, outputs) = (lowered.inputs * shape.step, lowered.outputs.len() * shape.step);
     let frame = straight.frame * shape.value;
-    // The last pass begins further on by the values of all others.
-    let of_others = shape.step - shape.value;
-    let lengths = Lengths {
-        input: inputs.saturating_sub(of_others),
-        output: outputs.saturating_sub(of_others),
-        pool: size_of_val(straight.pool.as_slice()),
-        frame,
-    };
+    let pool = size_of_val(straight.pool.as_slice());
+    let lengths = Lengths { input: inputs, output: outputs, pool, frame }.of_last_pass(shape);
     let outside = |instruction: &&P::Instruction| !processor.is_within(**instruction, lengths);
     if let Some(instruction) = straight.instructions.iter().find(outside) {
-        return Err(format!("its code would leave its memory by {instruction:?}, a fault of linkwear"));
+        let defect = format!("its code would leave its memory by {instruction:?}, a fault of linkwear");
+        return Err(defective(defect));
     }
-    Ok(Written {
-        code: processor.encode(&straight.instructions, functions),
+    let numbers = |bytes: usize| bytes / size_of::<f64>();
+    let written = Written {
+        code: Vec::new(),
         pool: straight.pool,
         inputs: numbers(inputs),
         outputs: numbers(outputs),
@@ -82,5 +78,6 @@ fn placed<P: Processor>(
         slack: if shape.value == size_of::<f64>() { 0 } else { 7 },
         passes: shape.step / shape.value,
         advance: numbers(shape.value),
-    })
+    };
+    Ok((straight.instructions, written))
 }

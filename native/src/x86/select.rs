@@ -23,7 +23,7 @@ impl Processor for Target {
     /// wants all eight. Bitwise operations of one lane read 16 bytes.
     fn copies(self, reader: Option<Operation>) -> usize {
         match (self.lanes, reader) {
-            (Lanes::One, reader) => 1 + usize::from(reader.is_some_and(Operation::is_bitwise)),
+            (Lanes::One, reader) => 1 + usize::from(reader.is_some_and(is_bitwise)),
             (Lanes::Four, _) => 4,
             (Lanes::Eight, Some(Operation::Call(_))) => 8,
             (Lanes::Eight, _) => 1,
@@ -42,19 +42,19 @@ impl Processor for Target {
         Instruction::Argument { number, address }
     }
 
-    fn operation(allocation: &mut Allocation<'_, Self>, id: Id) {
+    fn operation(allocation: &mut Allocation<'_, Self>, mask: &mut Option<Id>, id: Id) {
         let node = allocation.node(id);
         match (node.operation, node.arguments()) {
             (Operation::SquareRoot, [of]) => square_root(allocation, id, *of),
-            (Operation::Select, [mask, yes, no]) => select(allocation, id, *mask, *yes, *no),
-            (operation, [first, second]) => binary(allocation, id, operation, *first, *second),
+            (Operation::Select, [by, yes, no]) => select(allocation, mask, id, [*by, *yes, *no]),
+            (operation, [first, second]) => binary(allocation, mask, id, operation, [*first, *second]),
             // No others are left.
             _ => {}
         }
     }
 
-    fn call(allocation: &mut Allocation<'_, Self>, function: Function) {
-        allocation.memory = None;
+    fn call(allocation: &mut Allocation<'_, Self>, mask: &mut Option<Id>, function: Function) {
+        *mask = None;
         if allocation.processor.lanes != Lanes::One {
             allocation.push(Instruction::ClearUpper);
         }
@@ -101,7 +101,7 @@ fn operand(allocation: &mut Allocation<'_, Target>, id: Id, reader: &Node) -> Op
     let address = allocation.home_of(id);
     let target = allocation.processor;
     // Bitwise operations read 16 bytes, which only constants have.
-    let too_short = target.lanes == Lanes::One && reader.operation.is_bitwise() && address.base != Base::Pool;
+    let too_short = target.lanes == Lanes::One && is_bitwise(reader.operation) && address.base != Base::Pool;
     if too_short || allocation.is_worth_a_register(id) {
         return Operand::Register(allocation.load(id, reader.arguments()));
     }
@@ -120,9 +120,26 @@ fn square_root(allocation: &mut Allocation<'_, Target>, id: Id, of: Id) {
     allocation.define(id, to);
 }
 
-fn binary(allocation: &mut Allocation<'_, Target>, id: Id, operation: Operation, first: Id, second: Id) {
+/// Whether arguments may be exchanged without a change of bits.
+const fn commutes(operation: Operation) -> bool {
+    matches!(operation, Operation::Add | Operation::Multiply | Operation::And | Operation::Xor)
+}
+
+/// Whether the instruction reads whole registers even when only one number is asked for.
+const fn is_bitwise(operation: Operation) -> bool {
+    matches!(operation, Operation::And | Operation::AndNot | Operation::Xor | Operation::Select)
+}
+
+fn binary(
+    allocation: &mut Allocation<'_, Target>,
+    mask: &mut Option<Id>,
+    id: Id,
+    operation: Operation,
+    [first, second]: [Id; 2],
+) {
     let node = allocation.node(id);
-    let (first, second) = allocation.in_good_order(operation, first, second);
+    let (first, second) =
+        if commutes(operation) { allocation.in_good_order(first, second) } else { (first, second) };
     let first = allocation.load(first, node.arguments());
     let second = operand(allocation, second, &node);
     let to = allocation.result(&node);
@@ -134,36 +151,44 @@ fn binary(allocation: &mut Allocation<'_, Target>, id: Id, operation: Operation,
         Operation::And => Binary::And,
         Operation::AndNot => Binary::AndNot,
         Operation::Xor => Binary::Xor,
-        _ => return less(allocation, id, to, first, second),
+        _ => {
+            less(allocation, mask, id, to, (first, second));
+            return allocation.define(id, to);
+        }
     };
     allocation.push(Instruction::Binary { operation, to, first, second });
     allocation.define(id, to);
 }
 
 /// Only registers below 16 and no eight lanes can be compared into a register; others go by the mask register.
-fn less(allocation: &mut Allocation<'_, Target>, id: Id, to: Register, first: Register, second: Operand) {
+fn less(
+    allocation: &mut Allocation<'_, Target>,
+    mask: &mut Option<Id>,
+    id: Id,
+    to: Register,
+    (first, second): (Register, Operand),
+) {
     let high = matches!(second, Operand::Register(register) if register > 15) || first > 15 || to > 15;
     if high || allocation.processor.lanes == Lanes::Eight {
         allocation.push(Instruction::LessToMask { first, second });
         allocation.push(Instruction::MaskToRegister { to });
-        allocation.memory = Some(id);
+        *mask = Some(id);
     } else {
         allocation.push(Instruction::Binary { operation: Binary::Less, to, first, second });
     }
-    allocation.define(id, to);
 }
 
-fn select(allocation: &mut Allocation<'_, Target>, id: Id, mask: Id, yes: Id, no: Id) {
+fn select(allocation: &mut Allocation<'_, Target>, mask: &mut Option<Id>, id: Id, [by, yes, no]: [Id; 3]) {
     let node = allocation.node(id);
     let locked = node.arguments();
     let by_mask = allocation.processor.registers > 16;
-    let known = by_mask && allocation.memory == Some(mask);
-    let held = if known { None } else { Some(allocation.load(mask, locked)) };
+    let known = by_mask && *mask == Some(by);
+    let held = if known { None } else { Some(allocation.load(by, locked)) };
     let no = allocation.load(no, locked);
     let yes = operand(allocation, yes, &node);
     if let (Some(of), true) = (held, by_mask) {
         allocation.push(Instruction::SignToMask { of });
-        allocation.memory = Some(mask);
+        *mask = Some(by);
     }
     let to = allocation.result(&node);
     allocation.push(match held {

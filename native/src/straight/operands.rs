@@ -1,0 +1,28 @@
+//! Which operands stay in memory, for processors whose instructions read them there.
+
+use super::allocate::{Allocation, Processor};
+use super::graph::Id;
+use super::place::Register;
+
+/// An operand in memory is loaded if it is read again within so many operations and a register is free.
+const SOON: u32 = 8;
+
+impl<P: Processor> Allocation<'_, P> {
+    pub(crate) fn register_of(&self, id: Id) -> Option<Register> {
+        self.register[id as usize]
+    }
+
+    /// Of two arguments that may be exchanged the one to load first: what is in a register, else what is read again sooner.
+    pub(crate) fn in_good_order(&self, first: Id, second: Id) -> (Id, Id) {
+        let is_held = |id: Id| self.register_of(id).is_some();
+        let far = |id: Id| self.uses.after(id, self.now).unwrap_or(u32::MAX);
+        let exchange = !is_held(first) && (is_held(second) || far(second) < far(first));
+        if exchange { (second, first) } else { (first, second) }
+    }
+
+    /// Whether it is better to load a value than to read it from memory.
+    pub(crate) fn is_worth_a_register(&self, id: Id) -> bool {
+        let again = self.uses.after(id, self.now).is_some_and(|next| next - self.now <= SOON);
+        again && self.free_register().is_some()
+    }
+}
