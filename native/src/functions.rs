@@ -5,12 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use linkwear_codegen::tape::Tape;
+use linkwear_runtime::Sizes;
+use linkwear_runtime::clearance_joint::Clearance;
 
 #[cfg(target_arch = "aarch64")]
 use crate::aarch64 as processor;
 use crate::memory::code::Code;
 use crate::refusal::Refusal;
-use crate::straight::write::write;
+use crate::straight::fuse::fuse;
+use crate::straight::write::{Named, write};
 #[cfg(target_arch = "x86_64")]
 use crate::x86 as processor;
 
@@ -60,6 +63,18 @@ impl Functions {
         let functions = processor::functions::<LANES>();
         let written = side_by_side(tapes, |tape| write(tape, target, &functions));
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+    }
+
+    /// The derivative of a flat state, laws of contact in the middle, from the tapes of all entries.
+    pub(crate) fn fused<const LANES: usize>(
+        tapes: &[Tape],
+        sizes: Sizes,
+        joints: &[Clearance],
+    ) -> Result<Self, Refusal> {
+        let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
+        let derivative = Named { name: "derivative", operations: fuse(tapes, sizes, joints) };
+        let written = write(derivative, target, &functions)?;
+        Code::new(vec![written]).map(Self)
     }
 
     /// Length of the scratch slice that every function is content with, in numbers.

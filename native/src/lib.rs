@@ -42,4 +42,4 @@ mod unsupported;
 mod x86;
 
 pub use refusal::Refusal;
-pub use system::{Lanes, Native};
+pub use system::{Lanes, Native, NativeBundle};

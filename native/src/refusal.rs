@@ -21,6 +21,9 @@ pub enum Refusal {
     /// The equations are longer than addresses reach.
     #[error("the equations need more than 2 GB of addresses")]
     TooLong,
+    /// Trajectories side by side have laws that no lane can look up a profile in.
+    #[error("wear by bearing angle runs one trajectory at a time")]
+    Profile,
     /// A tape makes no sense.
     #[error("the tape of `{function}` is wrong: {defect}")]
     Tape {

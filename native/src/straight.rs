@@ -5,8 +5,9 @@
 pub(crate) mod allocate;
 pub(crate) mod bounds;
 mod frame;
+pub(crate) mod fuse;
 pub(crate) mod graph;
-mod lower;
+pub(crate) mod lower;
 mod number;
 #[cfg(target_arch = "x86_64")]
 mod operands;

@@ -4,7 +4,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use linkwear_codegen::tape::Tape;
-use linkwear_runtime::{Entry, STATES, SideBySide, Sizes, System};
+use linkwear_runtime::clearance_joint::Clearance;
+use linkwear_runtime::{Bundle, Entry, STATES, SideBySide, Sizes, System};
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 use crate::functions::Functions;
@@ -77,6 +78,59 @@ impl<const N: usize> Lanes<N> {
     ) {
         let (input, output) = (input.as_flattened(), output.as_flattened_mut());
         self.functions.run(entry as usize, input, output, workspace.as_flattened_mut());
+    }
+}
+
+/// `N` trajectories of a mechanism side by side as machine code, laws of contact included. Clones share the code.
+#[derive(Clone, Debug)]
+pub struct NativeBundle<const N: usize> {
+    entries: Lanes<N>,
+    fused: Fused,
+}
+
+#[derive(Clone)]
+struct Fused(Arc<Functions>);
+
+impl fmt::Debug for Fused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Fused")
+    }
+}
+
+impl<const N: usize> NativeBundle<N> {
+    /// Writes the code of tapes, in the order of [`Entry::ALL`], and of these laws, joint by joint.
+    ///
+    /// # Errors
+    /// As [`Lanes::new`]; and if a joint keeps wear by bearing angle.
+    pub fn new(tapes: &[Tape], sizes: Sizes, joints: &[Clearance]) -> Result<Self, Refusal> {
+        if joints.iter().any(Clearance::keeps_profile) {
+            return Err(Refusal::Profile);
+        }
+        let mut entries = Lanes::new(tapes, sizes)?;
+        let fused = Functions::fused::<N>(tapes, sizes, joints)?;
+        entries.sizes.workspace = entries.sizes.workspace.max(fused.workspace().div_ceil(N));
+        Ok(Self { entries, fused: Fused(Arc::new(fused)) })
+    }
+}
+
+impl<const N: usize> Bundle<N> for NativeBundle<N> {
+    fn sizes(&self) -> Sizes {
+        self.entries.sizes
+    }
+
+    fn derivative(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
+        let (question, answer) = (question.as_flattened(), answer.as_flattened_mut());
+        self.fused.0.run(0, question, answer, workspace.as_flattened_mut());
+    }
+
+    fn evaluate(
+        &self,
+        entry: Entry,
+        input: &[[f64; N]],
+        output: &mut [[f64; N]],
+        workspace: &mut [[f64; N]],
+    ) {
+        self.entries.evaluate(entry, input, output, workspace);
     }
 }
 

@@ -3,6 +3,8 @@
 use std::convert::Infallible;
 
 use linkwear_codegen::tape::Tape;
+use linkwear_runtime::Sizes;
+use linkwear_runtime::clearance_joint::Clearance;
 
 use crate::refusal::Refusal;
 
@@ -11,6 +13,10 @@ pub(crate) struct Functions(Infallible);
 impl Functions {
     pub(crate) fn new<const LANES: usize>(_: &[Tape]) -> Result<Self, Refusal> {
         Err(Refusal::Processor { needed: "an x86-64 or aarch64 processor" })
+    }
+
+    pub(crate) fn fused<const LANES: usize>(_: &[Tape], _: Sizes, _: &[Clearance]) -> Result<Self, Refusal> {
+        Self::new::<LANES>(&[])
     }
 
     pub(crate) fn workspace(&self) -> usize {

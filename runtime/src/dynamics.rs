@@ -106,6 +106,22 @@ impl<'a> Dynamics<'a> {
         self.nearness = self.largest_pivots.note(pivots);
     }
 
+    /// Takes over evaluations made elsewhere, after the last of which the loops are as regular as this.
+    pub(crate) fn take_over(&mut self, evaluations: u64, nearness: f64) {
+        self.evaluations += evaluations;
+        (self.nearness, self.rank_lost) = (nearness, false);
+    }
+
+    /// The largest value that each pivot has had, and up to where pivots are noise.
+    pub(crate) fn largest_pivots(&self) -> (&[f64], f64) {
+        self.largest_pivots.known()
+    }
+
+    /// Notes pivots of an evaluation made elsewhere.
+    pub(crate) fn note_pivots(&mut self, pivots: &[f64]) -> f64 {
+        self.largest_pivots.note(pivots)
+    }
+
     /// What to go on with after a look that is no part of the run; one at a time.
     pub(crate) fn aside(&mut self) -> Aside {
         let Self { evaluations, rank_revealing_solves, nearness, rank_lost, .. } = *self;

@@ -10,7 +10,7 @@ mod questions;
 pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};
 
-use crate::clearance_joint::Clearances;
+use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::layout::Layout;
@@ -36,6 +36,8 @@ pub struct Evaluator<'a> {
     /// Whether any of them may be other than zero for dropped rows.
     has_dropped: bool,
     clearances: Clearances,
+    /// Bits of a time at which contacts were taken over.
+    contacts_known_at: Option<u64>,
     derivative: Derivative,
     questions: Questions<'a>,
 }
@@ -89,6 +91,7 @@ impl<'a> Evaluator<'a> {
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
             clearances: Clearances::new(&description.contacts)?,
+            contacts_known_at: None,
             derivative: Derivative::new(sizes, parameters),
             questions: Questions::new(system, parameters),
         })
@@ -147,9 +150,28 @@ impl<'a> Evaluator<'a> {
 
     /// Evaluates the contacts; their wrenches go into every answer from here on. Nothing to do without clearance.
     pub fn evaluate_contacts(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        if self.sizes.contacts > 0 {
+        let is_known = self.contacts_known_at == Some(t.to_bits()) && !self.clearances.has_changed();
+        if self.sizes.contacts > 0 && !is_known {
+            self.contacts_known_at = None;
             self.derivative.contacts(&mut self.questions, &mut self.clearances, (t, q, v));
         }
+    }
+
+    /// Takes over contacts that were evaluated elsewhere, at the one state that will be asked for at time `t`, until others are
+    /// evaluated or [`Self::forget_contacts`].
+    pub(crate) fn take_over_contacts(
+        &mut self,
+        t: f64,
+        state: impl Fn(usize, &ContactState) -> ContactState,
+    ) {
+        self.clearances.take_over(state);
+        self.derivative.forget();
+        self.contacts_known_at = Some(t.to_bits());
+    }
+
+    /// Contacts are asked for at any state from here on.
+    pub(crate) fn forget_contacts(&mut self) {
+        self.contacts_known_at = None;
     }
 
     /// Accelerations, multipliers, drive forces and pivots, with the forces of the contacts at this state. Asked again
@@ -167,6 +189,7 @@ impl<'a> Evaluator<'a> {
 
     fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64]) {
         self.forget_dropped();
+        self.contacts_known_at = None;
         self.derivative.evaluate(&mut self.questions, &mut self.clearances, (t, q, v));
     }
 
@@ -255,6 +278,11 @@ impl<'a> Evaluator<'a> {
     /// Passes all numbers that an answer can depend on besides its question, to be read or written.
     pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.row_lengths.iter_mut().chain(&mut self.row_scales).for_each(visit);
+    }
+
+    /// Longest length that each kept row of the Jacobian has had.
+    pub(crate) fn row_lengths(&self) -> &[f64] {
+        &self.row_lengths
     }
 
     fn note_row_lengths(&mut self) {

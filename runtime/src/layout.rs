@@ -112,8 +112,25 @@ impl Layout {
         for group in self.free() {
             if matches!(group.motion, Motion::Rotation | Motion::Pose) {
                 let part = &mut q[group.coordinate..][..4];
-                let length = part.iter().map(|x| x * x).sum::<f64>().sqrt();
+                let length = length([part[0], part[1], part[2], part[3]]);
                 part.iter_mut().for_each(|x| *x /= length);
+            }
+        }
+    }
+
+    /// The same of several states side by side.
+    pub(crate) fn normalize_all<const N: usize>(&self, q: &mut [[f64; N]]) {
+        for group in self.free() {
+            if matches!(group.motion, Motion::Rotation | Motion::Pose) {
+                let part = &mut q[group.coordinate..][..4];
+                let lengths: [f64; N] = std::array::from_fn(|lane| {
+                    length([part[0][lane], part[1][lane], part[2][lane], part[3][lane]])
+                });
+                for x in part {
+                    for lane in 0..N {
+                        x[lane] /= lengths[lane];
+                    }
+                }
             }
         }
     }
@@ -184,6 +201,12 @@ pub fn turn(q: [f64; 4], x: [f64; 3]) -> [f64; 3] {
     let once = cross(axis, x);
     let twice = cross(axis, once);
     core::array::from_fn(|i| x[i] + 2.0 * (q[0] * once[i] + twice[i]))
+}
+
+/// Length of a quaternion.
+#[inline(always)]
+fn length(quaternion: [f64; 4]) -> f64 {
+    quaternion.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

@@ -33,6 +33,8 @@ pub mod wear;
 #[cfg(feature = "std")]
 mod assemble;
 #[cfg(feature = "std")]
+mod bundle;
+#[cfg(feature = "std")]
 pub mod clearance_joint;
 #[cfg(feature = "std")]
 mod column;
@@ -81,6 +83,9 @@ pub use {
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
         offset_columns, place, resting_contacts,
     },
+    bundle::{
+        Bundle, CONTACT_ANSWER, CONTACT_MEMORY, TOTALS, WORKS, contact_answer, round_response, total_rates,
+    },
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
@@ -98,7 +103,8 @@ pub use {
     record::{Cells, Table, TableColumn, write_csv},
     simulate::{
         At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,
-        RunWarning, Settings, Span, Statistics, TurnMeasures, TurnRunner, TurnState, simulate,
+        RunWarning, Settings, Span, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState,
+        simulate,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

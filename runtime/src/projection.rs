@@ -127,6 +127,16 @@ impl Projector {
         self.error
     }
 
+    /// Residuals of positions and speeds up to which nothing is moved, whatever the coordinates' own size.
+    pub(crate) fn untouched(regularity: f64) -> (f64, f64) {
+        (POSITION_TOLERANCE * regularity, (SPEED_TOLERANCE * regularity).max(0.5 * f64::EPSILON))
+    }
+
+    /// Takes over the loop error of a state that was seen elsewhere to need nothing.
+    pub(crate) fn take_over(&mut self, error: LoopError) {
+        self.error = error;
+    }
+
     /// All that the last projection moved: positions, as speeds would in unit time, and speeds.
     pub(crate) fn moved(&mut self) -> &mut [Vec<f64>; 2] {
         self.has_moved = true;
@@ -136,8 +146,8 @@ impl Projector {
     /// Moves `q` and `v` onto the constraints at time `t`. Quaternions come out with unit length.
     ///
     /// `regularity`: [`crate::Dynamics::nearness`], 1 for regular positions. On the way to a singular one
-    /// an open loop shows as speed divided by it, so tolerances shrink with it. 0: nearly lost directions
-    /// are left as they are.
+    /// an open loop shows as speed divided by it, so tolerances shrink with it; above 1 they are wider. 0: nearly lost
+    /// directions are left as they are.
     ///
     /// # Errors
     /// If the loops stay open by more than [`CLOSED`], or a residual is not a number.
@@ -175,7 +185,7 @@ impl Projector {
     ) -> Result<(), NotClosed> {
         self.load(evaluator, t, q, v);
         // Most steps end so close, and need no tolerance.
-        if largest(&self.residual) <= POSITION_TOLERANCE * self.strictness {
+        if largest(&self.residual) <= Self::untouched(self.strictness).0 {
             self.error = evaluator.loop_error();
             if self.error.part(self.arm) <= CLOSED {
                 return Ok(());
@@ -230,7 +240,7 @@ impl Projector {
         v: &mut [f64],
         correction: &mut Correction,
     ) {
-        let least = (SPEED_TOLERANCE * self.strictness).max(0.5 * f64::EPSILON);
+        let (_, least) = Self::untouched(self.strictness);
         if largest(evaluator.last_closure().speeds) <= least {
             return;
         }

@@ -10,7 +10,7 @@ use super::number::{Number, Recorder};
 
 /// One function as machine operations.
 #[derive(Clone, Debug)]
-pub(super) struct Lowered {
+pub(crate) struct Lowered {
     pub(super) graph: Graph,
     /// Length of the flat input.
     pub(super) inputs: usize,
@@ -22,16 +22,23 @@ pub(super) struct Lowered {
 ///
 /// # Errors
 /// The tape's first defect.
-pub(super) fn lower(tape: &Tape) -> Result<Lowered, String> {
+pub(crate) fn lower(tape: &Tape) -> Result<Lowered, String> {
     verify(tape)?;
     let recorder = Recorder::default();
-    let mut outputs = vec![0; tape.output_len()];
-    let mut values: Vec<Number<'_>> = Vec::with_capacity(tape.values as usize);
+    let outputs = run(tape, &|index| recorder.input(index));
+    let outputs = outputs.into_iter().map(|output| recorder.id(output)).collect();
+    Ok(Lowered { graph: recorder.into_graph(), inputs: tape.input_len(), outputs })
+}
+
+/// Runs a tape that is verified on numbers that write down what is done with them.
+pub(super) fn run<'g>(tape: &Tape, input: &dyn Fn(u32) -> Number<'g>) -> Vec<Number<'g>> {
+    let mut outputs = vec![Number::Known(0.0); tape.output_len()];
+    let mut values: Vec<Number<'g>> = Vec::with_capacity(tape.values as usize);
     for (index, operand) in &tape.direct {
-        outputs[*index as usize] = recorder.id(number(*operand, &values, &recorder));
+        outputs[*index as usize] = number(*operand, &values, input);
     }
     for Statement { op, stores, .. } in &tape.statements {
-        let get = |operand: Operand| number(operand, &values, &recorder);
+        let get = |operand: Operand| number(operand, &values, input);
         let (first, second) = match *op {
             Op::Unary(operation, a) => (unary(operation, get(a)), None),
             Op::Binary(operation, a, b) => (binary(operation, get(a), get(b)), None),
@@ -43,17 +50,16 @@ pub(super) fn lower(tape: &Tape) -> Result<Lowered, String> {
         values.push(first);
         values.extend(second);
         for (index, operand) in stores {
-            outputs[*index as usize] = recorder.id(number(*operand, &values, &recorder));
+            outputs[*index as usize] = number(*operand, &values, input);
         }
     }
-    drop(values);
-    Ok(Lowered { graph: recorder.into_graph(), inputs: tape.input_len(), outputs })
+    outputs
 }
 
-fn number<'g>(operand: Operand, values: &[Number<'g>], recorder: &'g Recorder) -> Number<'g> {
+fn number<'g>(operand: Operand, values: &[Number<'g>], input: &dyn Fn(u32) -> Number<'g>) -> Number<'g> {
     match operand {
         Operand::Value(value) => values[value as usize],
-        Operand::Input(index) => recorder.input(index),
+        Operand::Input(index) => input(index),
         Operand::Constant(value) => Number::Known(value),
     }
 }

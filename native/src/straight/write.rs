@@ -1,4 +1,4 @@
-//! The whole way of one function. In: a tape. Out: [`Written`], its machine code and what it wants beside it.
+//! The whole way of one function. In: its operations. Out: [`Written`], its machine code and what it wants beside it.
 
 use linkwear_codegen::tape::Tape;
 
@@ -7,7 +7,7 @@ use crate::refusal::Refusal;
 use super::allocate::{Processor, allocate};
 use super::bounds::Lengths;
 use super::graph::Function;
-use super::lower::lower;
+use super::lower::{Lowered, lower};
 use super::order::order;
 
 /// A function, ready to be made executable. Lengths are in numbers, those of all lanes together.
@@ -27,30 +27,44 @@ pub(crate) struct Written {
     pub(crate) advance: usize,
 }
 
-/// Writes the code of a tape; `functions` tells where the functions lie that it calls.
+/// A function to be written.
+pub(crate) struct Named<'n> {
+    pub(crate) name: &'n str,
+    /// Its operations, or what is wrong with its tape.
+    pub(crate) operations: Result<Lowered, String>,
+}
+
+impl<'n> From<&'n Tape> for Named<'n> {
+    fn from(tape: &'n Tape) -> Self {
+        Self { name: &tape.name, operations: lower(tape) }
+    }
+}
+
+/// Writes the code of a function; `functions` tells where the functions lie that it calls.
 ///
 /// # Errors
-/// If the tape makes no sense, or is too long.
-pub(crate) fn write<P: Processor>(
-    tape: &Tape,
+/// If its tape makes no sense, or is too long.
+pub(crate) fn write<'n, P: Processor>(
+    named: impl Into<Named<'n>>,
     processor: P,
     functions: &dyn Fn(Function) -> usize,
 ) -> Result<Written, Refusal> {
-    let (instructions, written) = placed(tape, processor)?;
+    let (instructions, written) = placed(named, processor)?;
     Ok(Written { code: processor.encode(&instructions, functions), ..written })
 }
 
-/// The instructions of a tape, and all but their bytes.
+/// The instructions of a function, and all but their bytes.
 ///
 /// # Errors
-/// If the tape makes no sense, or is too long. The first instruction that would reach past its memory: a fault of this
+/// If its tape makes no sense, or is too long. The first instruction that would reach past its memory: a fault of this
 /// crate.
-pub(crate) fn placed<P: Processor>(
-    tape: &Tape,
+pub(crate) fn placed<'n, P: Processor>(
+    named: impl Into<Named<'n>>,
     processor: P,
 ) -> Result<(Vec<P::Instruction>, Written), Refusal> {
-    let defective = |defect| Refusal::Tape { function: tape.name.clone(), defect };
-    let lowered = lower(tape).map_err(defective)?;
+    let Named { name, operations } = named.into();
+    let defective = |defect| Refusal::Tape { function: name.to_owned(), defect };
+    let lowered = operations.map_err(defective)?;
     // Every address is below: a node is in the pool or the frame at most once, at most eight numbers long.
     let most = (lowered.graph.len() + lowered.inputs + lowered.outputs.len()) * 8 * size_of::<f64>();
     if i32::try_from(most).is_err() {

@@ -6,6 +6,7 @@ use crate::contact::{
     SphericalMotion, Stiffness, Support, bearing_angle, positive,
 };
 use crate::description::{ContactInfo, WearInfo};
+use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::wear::{Archard, Grid, Load, Pair, Profile, ScalarFeedback};
 
@@ -50,6 +51,29 @@ pub struct ContactState {
     pub depth_rate: f64,
     /// Force on the journal [N] and moment about its centre [N m], in the bearing's frame.
     pub wrench: [f64; CONTACT_WRENCH],
+}
+
+/// What the laws of a joint say at one instant; units as in [`ContactState`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response<T> {
+    /// Penetration, negative while the bodies are apart.
+    pub penetration: T,
+    /// Its rate.
+    pub penetration_rate: T,
+    /// Normal force.
+    pub normal_force: T,
+    /// Sliding speed.
+    pub sliding_speed: T,
+    /// Energy stored in the contact.
+    pub elastic_energy: T,
+    /// Power lost in damping and friction.
+    pub loss: T,
+    /// Rate of the wear integral.
+    pub wear_power: T,
+    /// Rate of the depth.
+    pub depth_rate: T,
+    /// Force and moment on the journal.
+    pub wrench: [T; CONTACT_WRENCH],
 }
 
 impl ContactState {
@@ -153,8 +177,9 @@ impl Clearance {
     }
 
     /// Geometry for areas at a clearance [m].
-    pub fn pair(&self, clearance: f64) -> Pair<f64> {
-        Pair { journal_radius: self.radius, length: self.length, clearance, modulus: self.modulus }
+    pub fn pair<T: Scalar>(&self, clearance: T) -> Pair<T> {
+        let [journal_radius, length, modulus] = [self.radius, self.length, self.modulus].map(T::constant);
+        Pair { journal_radius, length, clearance, modulus }
     }
 
     /// One evaluation: `motion` as [`crate::Entry::Contacts`] gives it, `worn` [m] on top of its clearance, a worn
@@ -170,49 +195,84 @@ impl Clearance {
         memory: &ImpactMemory<f64>,
         before: &ContactState,
     ) -> ContactState {
-        let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
-        let (offset, offset_rate, turning) = (three(0), three(3), three(6));
         let round = motion[9] + worn;
         let clearance = round + profile.map_or(0.0, Profile::mean);
         // A root and two divisions, mostly of the same numbers.
         let known = before.stiffness > 0.0 && before.clearance.to_bits() == clearance.to_bits();
         let stiffness = if known { before.stiffness } else { self.stiffness(clearance) };
-        let (contact, force) = if self.ball {
+        let support = |offset| match self.grid.as_ref().zip(profile) {
+            Some((grid, profile)) => grid.support(profile, round, offset),
+            None => Support::round(offset, round),
+        };
+        let now = self.respond(motion, support, (clearance, stiffness), memory);
+        ContactState {
+            offset: self.offset(motion),
+            clearance,
+            gap: -now.penetration,
+            penetration_rate: now.penetration_rate,
+            normal_force: now.normal_force,
+            stiffness,
+            sliding_speed: now.sliding_speed,
+            elastic_energy: now.elastic_energy,
+            loss: now.loss,
+            wear_power: now.wear_power,
+            depth_rate: now.depth_rate,
+            wrench: now.wrench,
+        }
+    }
+
+    /// The laws at one instant, on any scalar: lanes run them as they are. `motion` as [`crate::Entry::Contacts`] gives it;
+    /// `support`: how the bearing meets a journal's centre; radial clearance with its mean wear [m] and K there.
+    #[inline(always)]
+    pub fn respond<T: Scalar>(
+        &self,
+        motion: &[T; CONTACT_MOTION],
+        support: impl FnOnce([T; 2]) -> Support<T>,
+        (clearance, stiffness): (T, T),
+        memory: &ImpactMemory<T>,
+    ) -> Response<T> {
+        let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
+        let (offset, offset_rate, turning) = (three(0), three(3), three(6));
+        let radius = T::constant(self.radius);
+        let ([penetration, penetration_rate, sliding_speed], force) = if self.ball {
             let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
-            let contact = SphericalContact::new(&motion, self.radius, clearance);
+            let contact = SphericalContact::new(&motion, radius, clearance);
             let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
             (geometry, contact.force(&self.laws, stiffness, memory))
         } else {
             let [[x, y, _], [vx, vy, _]] = [offset, offset_rate];
-            let support = match self.grid.as_ref().zip(profile) {
-                Some((grid, profile)) => grid.support(profile, round, [x, y]),
-                None => Support::round([x, y], round),
-            };
             let motion = RevoluteMotion { offset: [x, y], offset_rate: [vx, vy], joint_speed: turning[2] };
-            let contact = RevoluteContact::new(&motion, self.radius, &support);
+            let contact = RevoluteContact::new(&motion, radius, &support([x, y]));
             let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
             (geometry, contact.force(&self.laws, stiffness, memory))
         };
-        let [penetration, penetration_rate, sliding_speed] = contact;
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
         let (normal_force, damping_loss) = (force.normal.force, force.normal.damping_loss);
         let load = Load { normal_force, penetration, sliding_speed };
         let depth_rate =
             |(archard, _): &(Archard, WearInfo)| archard.rates(&load, &self.pair(clearance)).depth;
-        ContactState {
-            offset: if self.ball { offset } else { [offset[0], offset[1], 0.0] },
-            clearance,
-            gap: -penetration,
+        Response {
+            penetration,
             penetration_rate,
             normal_force,
-            stiffness,
             sliding_speed,
             elastic_energy: force.normal.elastic_energy,
             loss: damping_loss + force.friction_loss,
             wear_power: normal_force * sliding_speed.abs(),
-            depth_rate: self.wear.as_ref().map_or(0.0, depth_rate),
+            depth_rate: self.wear.as_ref().map_or(T::constant(0.0), depth_rate),
             wrench: [fx, fy, fz, mx, my, mz],
         }
+    }
+
+    /// Offset of the journal's centre from the bearing's: a journal leaves the axis, and does not slide along it.
+    #[inline(always)]
+    pub fn offset<T: Scalar>(&self, motion: &[T; CONTACT_MOTION]) -> [T; 3] {
+        [motion[0], motion[1], if self.ball { motion[2] } else { T::constant(0.0) }]
+    }
+
+    /// Whether wear by bearing angle is kept.
+    pub fn keeps_profile(&self) -> bool {
+        self.grid.is_some()
     }
 
     /// Slope of the elastic force over the penetration [N/m]; zero apart.

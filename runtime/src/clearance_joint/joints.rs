@@ -120,6 +120,16 @@ impl Clearances {
         }
     }
 
+    /// Takes over contacts evaluated elsewhere, each by what it was.
+    pub(crate) fn take_over(&mut self, state: impl Fn(usize, &ContactState) -> ContactState) {
+        self.changed = false;
+        let (wrenches, _) = self.wrenches.as_chunks_mut::<CONTACT_WRENCH>();
+        for (joint, (touch, wrench)) in self.contacts.iter_mut().zip(wrenches).enumerate() {
+            *touch = state(joint, touch);
+            *wrench = touch.wrench;
+        }
+    }
+
     /// Brings the memories up to date after a step from `before` to the last evaluation. A gap that closed
     /// within it remembers the speed at the crossing, both taken as linear.
     pub fn remember(&mut self, before: &[ContactState]) {

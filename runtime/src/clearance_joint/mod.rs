@@ -9,5 +9,5 @@ mod joint;
 mod joints;
 
 pub(crate) use channels::Channels;
-pub use joint::{Clearance, ContactState};
+pub use joint::{Clearance, ContactState, Response};
 pub use joints::{ClearanceState, Clearances};

@@ -39,6 +39,11 @@ impl LargestPivots {
         smallest
     }
 
+    /// The largest values, and up to where pivots are noise.
+    pub(super) fn known(&self) -> (&[f64], f64) {
+        (&self.values, self.noise)
+    }
+
     #[cold]
     fn grow(&mut self, pivots: &[f64]) {
         if self.is_aside && self.aside.is_none() {

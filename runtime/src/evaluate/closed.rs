@@ -22,9 +22,14 @@ impl LoopError {
 impl Evaluator<'_> {
     /// Loop error of the last answer of [`Self::closure`].
     pub fn loop_error(&self) -> LoopError {
+        self.loop_error_of(self.last_closure().positions)
+    }
+
+    /// Loop error of residuals of all rows.
+    pub(crate) fn loop_error_of(&self, positions: &[f64]) -> LoopError {
         // Magnitudes are ordered as their bits are, and what is not a number is above all.
         let (mut sizes, mut most, mut worst) = ([0; 2], 0, 0);
-        for (row, (angular, residual)) in self.angular.iter().zip(self.last_closure().positions).enumerate() {
+        for (row, (angular, residual)) in self.angular.iter().zip(positions).enumerate() {
             let size = residual.abs().to_bits();
             let side = &mut sizes[usize::from(*angular)];
             *side = size.max(*side);

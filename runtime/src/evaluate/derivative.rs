@@ -65,6 +65,11 @@ impl Derivative {
         wrenches.copy_from_slice(clearances.wrenches());
     }
 
+    /// Contacts were put in place of those at the state of the input.
+    pub(super) fn forget(&mut self) {
+        (self.has_contacts, self.has_answer) = (false, false);
+    }
+
     /// Evaluates everything at a state.
     pub(super) fn evaluate(
         &mut self,

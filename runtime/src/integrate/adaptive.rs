@@ -1,21 +1,16 @@
 //! Steps as long as their errors allow, by any method that estimates them. In: a problem, a [`Method`].
 //! Out: accepted steps, and states anywhere within the last one. Never knows how a step is made.
 //!
-//! PI control of the step and the choice of the first one: Hairer, Norsett, Wanner, Solving Ordinary Differential
-//! Equations I, 2nd ed., II.4 (code DOPRI5). The error norm is the largest component, not the mean, so that idle ones hide
-//! nothing.
+//! The choice of the first step: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 (code
+//! DOPRI5). The error norm is the largest component, not the mean, so that idle ones hide nothing.
 
 use super::problem::Problem;
+use super::step_control::{self, StepControl};
 use crate::error::RunError;
 use crate::linear::combine;
 
-const SAFETY: f64 = 0.9;
-const SHRINK_MOST: f64 = 0.2;
-const GROW_MOST: f64 = 10.0;
-/// Weight of the previous error in the step control.
-const PI_WEIGHT: f64 = 0.04;
-/// Steps below this part of the time (or of the whole span) are at the limit of rounding.
-const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
+/// What is left of a step that failed, however large its error.
+const AFTER_TROUBLE: f64 = 0.25;
 
 /// Where a step begins.
 #[derive(Clone, Copy)]
@@ -66,6 +61,11 @@ pub trait Method {
         0.0
     }
 
+    /// By how much the next step may be longer, but for the safety: from the error of the step before and that of the last one.
+    fn growth(last_error: f64, error: f64) -> f64 {
+        step_control::growth(Self::ORDER, last_error, error)
+    }
+
     /// The step that was tried last counts: the next one begins at its end.
     fn accept(&mut self, step: Step<'_>, next: &[f64]);
 
@@ -74,6 +74,12 @@ pub trait Method {
 
     /// State at part `s` of the last accepted step.
     fn interpolate(&self, s: f64, y: &mut [f64]);
+}
+
+/// A method whose steps can be made elsewhere: it needs no more of them than the slopes at their ends.
+pub(crate) trait MadeElsewhere: Method {
+    /// Takes over the slopes at both ends of a step, which then counts.
+    fn know(&mut self, slopes: [&[f64]; 2]);
 }
 
 /// What is known of the error of a step.
@@ -92,18 +98,10 @@ struct Estimate {
 pub struct Adaptive<M> {
     method: M,
     tolerance: f64,
-    longest_step: f64,
-    span: f64,
-    /// Beginning of the last accepted step.
-    before: f64,
-    t: f64,
-    step: f64,
-    last_step: f64,
-    last_error: f64,
+    control: StepControl,
     y: Vec<f64>,
     next: Vec<f64>,
     error: Vec<f64>,
-    rejected: u64,
     /// Why a longer step failed, and where: the reason to give if steps get too short before that.
     trouble: Option<(f64, RunError)>,
 }
@@ -124,33 +122,27 @@ impl<M: Method> Adaptive<M> {
         let mut adaptive = Self {
             method: M::new(y.len()),
             tolerance: M::SHARE * tolerance,
-            longest_step: longest_step.min(end - t),
-            span: end - t,
-            before: t,
-            t,
-            step: 0.0,
-            last_step: 0.0,
-            last_error: 1e-4,
+            control: StepControl::new((M::ORDER, M::growth), (t, end), longest_step),
             y: y.to_vec(),
             next: zero(),
             error: zero(),
-            rejected: 0,
             trouble: None,
         };
         adaptive.method.begin(problem, t, &adaptive.y)?;
         problem.reached(t, adaptive.method.slope());
-        adaptive.step = adaptive.first_step(problem);
+        let step = adaptive.first_step(problem);
+        adaptive.control.set_step(step);
         Ok(adaptive)
     }
 
     /// Time reached.
     pub fn t(&self) -> f64 {
-        self.t
+        self.control.t()
     }
 
     /// Time at the beginning of the last accepted step.
     pub fn before(&self) -> f64 {
-        self.before
+        self.control.before()
     }
 
     /// State reached.
@@ -160,7 +152,7 @@ impl<M: Method> Adaptive<M> {
 
     /// Steps tried and not accepted.
     pub fn rejected(&self) -> u64 {
-        self.rejected
+        self.control.rejected()
     }
 
     /// Goes one accepted step further, never beyond `end` and onto it exactly.
@@ -168,40 +160,30 @@ impl<M: Method> Adaptive<M> {
     /// # Errors
     /// [`RunError::StepTooSmall`], or what the problem reports however short the step.
     pub fn step(&mut self, problem: &mut dyn Problem, end: f64) -> Result<(), RunError> {
-        let mut just_rejected = false;
         loop {
-            let left = end - self.t;
-            // A last crumb of a step would be all rounding: stretch this one.
-            let last = 1.01 * self.step >= left;
-            let step = if last { left } else { self.step };
-            let next_t = if last { end } else { self.t + step };
+            let (step, next_t) = self.control.propose(end);
             let outcome = self.attempt(problem, step, next_t);
-            let smallest = SMALLEST_STEP * self.span.max(self.t.abs());
+            let is_smallest = self.control.is_smallest(step);
             match outcome {
                 Ok(estimate) if estimate.error <= 1.0 => {
-                    self.accept(problem, (step, next_t), estimate, just_rejected);
+                    self.accept(problem, (step, next_t), estimate);
                     return Ok(());
                 }
                 Ok(Estimate { error, worst, .. }) => {
-                    if step <= smallest {
-                        return Err(RunError::StepTooSmall {
-                            t: self.t,
-                            step,
-                            variable: problem.name(worst),
-                        });
+                    if is_smallest {
+                        let variable = problem.name(worst);
+                        return Err(RunError::StepTooSmall { t: self.t(), step, variable });
                     }
-                    self.step = step * (SAFETY * libm::pow(error, -1.0 / M::ORDER)).max(SHRINK_MOST);
+                    self.control.reject(step, error);
                 }
                 Err(reason) => {
-                    if step <= smallest {
+                    if is_smallest {
                         return Err(reason);
                     }
                     self.trouble = Some((next_t, reason));
-                    self.step = 0.25 * step;
+                    self.control.shorten(step, AFTER_TROUBLE);
                 }
             }
-            just_rejected = true;
-            self.rejected += 1;
         }
     }
 
@@ -213,18 +195,18 @@ impl<M: Method> Adaptive<M> {
     pub fn retake(&mut self, problem: &mut dyn Problem, t: f64) -> Result<(), RunError> {
         core::mem::swap(&mut self.y, &mut self.next);
         self.method.take_back();
-        let (before, longer) = (self.before, self.step);
-        self.t = before;
+        let longest = self.control.take_back();
+        let length = t - self.t();
         // A part of a step that was accepted is accepted, whatever its own estimate says.
-        let estimate = self.attempt(problem, t - before, t)?;
-        self.accept(problem, (t - before, t), Estimate { error: estimate.error.min(1.0), ..estimate }, true);
-        self.step = self.step.min(longer);
+        let estimate = self.attempt(problem, length, t)?;
+        self.accept(problem, (length, t), Estimate { error: estimate.error.min(1.0), ..estimate });
+        self.control.limit(longest);
         Ok(())
     }
 
     /// Takes a step and estimates its error.
     fn attempt(&mut self, problem: &mut dyn Problem, length: f64, end: f64) -> Result<Estimate, RunError> {
-        let step = Step { t: self.t, y: &self.y, length, end };
+        let step = Step { t: self.control.t(), y: &self.y, length, end };
         self.method.attempt(problem, step, (&mut self.next, &mut self.error))?;
         let mut estimate = self.estimate(problem, length, 0.0);
         if estimate.is_ok_and(|estimate| estimate.error > 1.0) {
@@ -254,35 +236,46 @@ impl<M: Method> Adaptive<M> {
         Ok(most)
     }
 
-    fn accept(
-        &mut self,
-        problem: &mut dyn Problem,
-        (length, end): (f64, f64),
-        estimate: Estimate,
-        just_rejected: bool,
-    ) {
-        self.method.accept(Step { t: self.t, y: &self.y, length, end }, &self.next);
+    fn accept(&mut self, problem: &mut dyn Problem, (length, end): (f64, f64), estimate: Estimate) {
+        self.method.accept(Step { t: self.t(), y: &self.y, length, end }, &self.next);
         problem.reached(end, self.method.slope());
         if self.trouble.as_ref().is_some_and(|(t, _)| end >= *t) {
             self.trouble = None;
         }
         core::mem::swap(&mut self.y, &mut self.next);
-        (self.before, self.t, self.last_step) = (self.t, end, length);
-        let error = estimate.error.max(1e-10);
-        let growth = if estimate.noisy {
-            1.0
-        } else {
-            SAFETY * libm::pow(self.last_error, PI_WEIGHT)
-                / libm::pow(error, 1.0 / M::ORDER - 0.75 * PI_WEIGHT)
-        };
-        let most = if just_rejected { 1.0 } else { GROW_MOST };
-        self.step = (length * growth.clamp(SHRINK_MOST, most)).min(self.longest_step);
-        self.last_error = error.max(1e-4);
+        self.control.accept((length, end), estimate.error, estimate.noisy);
     }
 
     /// The state at a time within the last accepted step.
     pub fn interpolate(&self, t: f64, y: &mut [f64]) {
-        self.method.interpolate((t - self.before) / self.last_step, y);
+        self.method.interpolate((t - self.before()) / self.control.last_step(), y);
+    }
+
+    /// Part of the sizes that the error of a step may have.
+    pub(crate) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Lengths of its steps, for who makes them elsewhere.
+    pub(crate) fn control(&mut self) -> &mut StepControl {
+        &mut self.control
+    }
+
+    /// The state that the last step began with, and room for the end of the next one.
+    pub(crate) fn ends(&mut self) -> (&[f64], &mut [f64]) {
+        (&self.y, &mut self.next)
+    }
+
+    /// A step that was made elsewhere counts, its end in the room for it. [`Self::slope`], [`Self::interpolate`] and
+    /// [`Self::retake`] have to be told of its slopes first, by [`Self::know`].
+    pub(crate) fn accept_end(&mut self, step: (f64, f64), error: f64) {
+        core::mem::swap(&mut self.y, &mut self.next);
+        self.control.accept(step, error, false);
+    }
+
+    /// Slope at the state reached.
+    pub(crate) fn slope(&self) -> &[f64] {
+        self.method.slope()
     }
 
     /// Hairer's choice: one explicit Euler step tells the second derivative.
@@ -295,10 +288,10 @@ impl<M: Method> Adaptive<M> {
         let slope = weigh(problem, first, &self.y);
         let size = weigh(problem, &self.y, &self.y);
         let trial = if slope < 1e-10 || size < 1e-10 { 1e-6 } else { 0.01 * size / slope };
-        let trial = trial.min(self.longest_step);
+        let trial = trial.min(self.control.longest_step());
         combine(&mut self.next, &self.y, trial, first);
         let mut bend = vec![0.0; self.y.len()];
-        if problem.derivative(self.t + trial, &self.next, &mut bend).is_err() {
+        if problem.derivative(self.t() + trial, &self.next, &mut bend).is_err() {
             // Too far already: the step control finds its way from here.
             return 1e-3 * trial;
         }
@@ -311,6 +304,16 @@ impl<M: Method> Adaptive<M> {
         } else {
             libm::pow(0.01 * self.tolerance / steepest, 1.0 / M::ORDER)
         };
-        step.min(100.0 * trial).min(self.longest_step)
+        step.min(100.0 * trial)
+    }
+}
+
+#[allow(private_bounds, reason = "methods of this crate alone")]
+impl<M: MadeElsewhere> Adaptive<M> {
+    /// Takes over the slopes at both ends of the last step, which was made elsewhere.
+    pub(crate) fn know(&mut self, slopes: [&[f64]; 2]) {
+        let (t, end) = (self.before(), self.t());
+        self.method.know(slopes);
+        self.method.accept(Step { t, y: &self.next, length: self.control.last_step(), end }, &self.y);
     }
 }

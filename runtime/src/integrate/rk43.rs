@@ -5,7 +5,7 @@
 //! a step, 0.7 an evaluation (Dormand-Prince: 0.17). That is what contacts need. Kutta 1901; the estimate: Hairer, Norsett,
 //! Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4. Dense output: the cubic through values and slopes.
 
-use super::adaptive::{Method, Step};
+use super::adaptive::{MadeElsewhere, Method, Step};
 use super::dense::Cubics;
 use super::problem::Problem;
 use crate::error::RunError;
@@ -15,12 +15,34 @@ use crate::linear::combine;
 /// the slope at the end.
 const WEIGHT: f64 = 0.1;
 
+/// Parts of a step at which its inner stages lie.
+pub(crate) const PARTS: [f64; 3] = [0.5, 0.5, 1.0];
+
+/// The end of a step, by the slopes of its stages.
+#[inline(always)]
+pub(super) fn step_of(y: f64, length: f64, [a, b, c, d]: [f64; 4]) -> f64 {
+    y + length / 6.0 * (a + 2.0 * (b + c) + d)
+}
+
+/// Error per second, by the slopes of the last stage and at the end.
+#[inline(always)]
+pub(super) fn error_of(last: f64, end: f64) -> f64 {
+    WEIGHT * (end - last)
+}
+
 /// Storage of the stages.
 #[derive(Clone, Debug)]
 pub struct Rk43 {
     /// Four stages, and the slope at the end.
     slopes: [Vec<f64>; 5],
     cubics: Cubics,
+}
+
+impl MadeElsewhere for Rk43 {
+    fn know(&mut self, [begin, end]: [&[f64]; 2]) {
+        self.slopes[0].copy_from_slice(begin);
+        self.slopes[4].copy_from_slice(end);
+    }
 }
 
 impl Method for Rk43 {
@@ -48,7 +70,7 @@ impl Method for Rk43 {
         (next, error): (&mut [f64], &mut [f64]),
     ) -> Result<(), RunError> {
         let length = step.length;
-        for (stage, part) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
+        for (stage, part) in (1..).zip(PARTS) {
             let (known, unknown) = self.slopes.split_at_mut(stage);
             combine(next, step.y, part * length, &known[stage - 1]);
             let t = if part == 1.0 { step.end } else { step.t + part * length };
@@ -56,14 +78,23 @@ impl Method for Rk43 {
         }
         let [a, b, c, d, end] = &mut self.slopes;
         for (i, (next, y)) in next.iter_mut().zip(step.y).enumerate() {
-            *next = y + length / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
+            *next = step_of(*y, length, [a[i], b[i], c[i], d[i]]);
         }
         problem.project(step.end, step.y, next)?;
         problem.derivative(step.end, next, end)?;
         for ((error, end), last) in error.iter_mut().zip(end).zip(d) {
-            *error = WEIGHT * (*end - *last);
+            *error = error_of(*last, *end);
         }
         Ok(())
+    }
+
+    /// With weights of 1/32 and 7/32 in place of 0.04 and 0.22: roots take a third of the time of powers, which are a tenth of
+    /// that of a step.
+    fn growth(last_error: f64, error: f64) -> f64 {
+        let root = |x: f64, times: usize| (0..times).fold(x, |x, _| x.sqrt());
+        let eighth = root(error, 3);
+        let sixteenth = eighth.sqrt();
+        root(last_error, 5) / (eighth * sixteenth * sixteenth.sqrt())
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {

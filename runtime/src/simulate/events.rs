@@ -41,12 +41,14 @@ pub(super) fn stop_at_contact<M: Method>(
     for joint in 0..follower.contacts.len() {
         let after = motion.dynamics.evaluator.clearances().contacts()[joint];
         let touching = motion.dynamics.evaluator.clearances().states()[joint].memory.touching > 0.5;
-        let curve = Cubic::new(&follower.contacts[joint], &after, length);
+        let Some(suspect) = Cubic::new(&follower.contacts[joint], &after, length).suspect(touching) else {
+            continue;
+        };
         let mut penetration = |part: f64| -> f64 {
             method.interpolate(begin + part * length, between);
             motion.penetration(joint, begin + part * length, between)
         };
-        if let Some(event) = curve.event((joint, touching), &mut penetration)
+        if let Some(event) = suspect.event(joint, &mut penetration)
             && first.is_none_or(|first| event.at < first.at)
         {
             first = Some(event);
@@ -62,6 +64,23 @@ pub(super) fn stop_at_contact<M: Method>(
         }
     }
     Ok(())
+}
+
+/// Whether the last step may have to end earlier: then its dense output is searched.
+pub(super) fn is_suspect<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &Sampler<'_>,
+    method: &Adaptive<M>,
+) -> bool {
+    let Some(follower) = &sampler.follower else { return false };
+    let length = method.t() - method.before();
+    let (q, v, _) = motion.split(method.y());
+    motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
+    let clearances = motion.dynamics.evaluator.clearances();
+    let ends = follower.contacts.iter().zip(clearances.contacts()).zip(clearances.states());
+    ends.into_iter().any(|((before, after), state)| {
+        Cubic::new(before, after, length).suspect(state.memory.touching > 0.5).is_some()
+    })
 }
 
 /// Penetration over a step, as the cubic through values and rates at both ends; time in steps.
@@ -108,33 +127,59 @@ impl Cubic {
         0.5 * (low + high)
     }
 
-    /// The first event; `touching`: a contact runs at the start of the step, also if its penetration is still zero
-    /// there but for rounding.
-    fn event(
-        &self,
-        (joint, touching): (usize, bool),
-        penetration: &mut dyn FnMut(f64) -> f64,
-    ) -> Option<Event> {
-        let turns = (self.from_rate > 0.0) != (self.to_rate > 0.0);
-        let close = |high: f64, penetration: &mut dyn FnMut(f64) -> f64| {
-            let at = root(high, penetration);
-            Some(Event { at, closing: Some(joint) }).filter(|event| event.at > AT_BEGIN)
-        };
+    /// Whether the curve may get to the other side of zero than its ends are on, which are on one side: their rates bend it by
+    /// 4/27 of themselves at most.
+    fn may_cross(&self) -> bool {
+        const BENT: f64 = 4.0 / 27.0;
+        self.from.abs().min(self.to.abs()) <= BENT * (self.from_rate.abs() + self.to_rate.abs())
+    }
+
+    /// What may happen in the step by its ends; `touching`: a contact runs at its start, also if its penetration is still
+    /// zero there but for rounding.
+    fn suspect(&self, touching: bool) -> Option<Suspect> {
+        let turns = (self.from_rate > 0.0) != (self.to_rate > 0.0) && self.may_cross();
         match (touching, self.to > 0.0) {
-            (false, true) if self.from < 0.0 => close(1.0, penetration),
-            (false, false) if turns && self.from_rate > 0.0 => {
+            (false, true) if self.from < 0.0 => Some(Suspect::Closes),
+            (false, false) if turns && self.from_rate > 0.0 && self.from < 0.0 => {
                 let top = self.turning_point();
-                let touches = self.from < 0.0 && self.at(top) > 0.0 && penetration(top) > 0.0;
-                if touches { close(top, penetration) } else { None }
+                (self.at(top) > 0.0).then_some(Suspect::Touches { top })
             }
             (true, true) if turns && self.from_rate < 0.0 => {
                 let bottom = self.turning_point();
-                let opens = self.at(bottom) < 0.0 && penetration(bottom) < 0.0;
-                opens.then_some(Event { at: bottom, closing: None })
+                (self.at(bottom) < 0.0).then_some(Suspect::Opens { bottom })
             }
             _ => None,
         }
     }
+}
+
+/// What may happen in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Suspect {
+    /// A gap closes.
+    Closes,
+    /// It closes and opens again around this part.
+    Touches { top: f64 },
+    /// A contact opens and closes again around this part.
+    Opens { bottom: f64 },
+}
+
+impl Suspect {
+    /// What happens first, by the penetration at parts of the step.
+    fn event(self, joint: usize, penetration: &mut dyn FnMut(f64) -> f64) -> Option<Event> {
+        match self {
+            Self::Closes => close(joint, 1.0, penetration),
+            Self::Touches { top } if penetration(top) > 0.0 => close(joint, top, penetration),
+            Self::Opens { bottom } if penetration(bottom) < 0.0 => Some(Event { at: bottom, closing: None }),
+            Self::Touches { .. } | Self::Opens { .. } => None,
+        }
+    }
+}
+
+/// A gap that closes before part `high` of the step; nothing if that belongs to its begin.
+fn close(joint: usize, high: f64, penetration: &mut dyn FnMut(f64) -> f64) -> Option<Event> {
+    let at = root(high, penetration);
+    (at > AT_BEGIN).then_some(Event { at, closing: Some(joint) })
 }
 
 /// Where the penetration gets above zero between the start of the step and `high`.

@@ -3,6 +3,7 @@
 //! Never knows files or terminals; a [`Watch`] hears of progress and may stop the run.
 
 mod angles;
+mod bundle;
 mod contacts;
 mod dead_point;
 mod events;
@@ -23,6 +24,7 @@ mod turns;
 mod unbounded;
 mod warning;
 
+pub use bundle::{TurnBundle, TurnOutcome};
 pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};
 pub use ideal::IdealJoint;
 pub use motion::{BRANCH_PART, JUMP_FLOOR};

@@ -74,8 +74,8 @@ impl<'a> Sampler<'a> {
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
         let guard = Guard::new(motion, (begin, schedule.end), state);
+        let (kinetic, potential) = motion.energy(begin, state);
         let (q, v, work) = motion.split(state);
-        let (kinetic, potential) = motion.dynamics.evaluator.energy(begin, q, v);
         motion.energy_scale = motion.energy_scale.max(kinetic);
         let elastic = motion.elastic_energy(begin, q, v);
         let mut sampler = Self {
@@ -295,6 +295,11 @@ impl<'a> Sampler<'a> {
         Ok(())
     }
 
+    /// Whether angles are followed.
+    pub(super) fn watches_angles(&self) -> bool {
+        !self.angles.is_empty()
+    }
+
     /// Follows angles although there are no rows.
     pub(super) fn watch_angles(&mut self) {
         self.angles = Angles::new(&self.columns.channels);
@@ -415,8 +420,8 @@ impl<'a> Sampler<'a> {
         state: &[f64],
         elastic: f64,
     ) -> f64 {
-        let (q, v, (supplied, dissipated)) = motion.split(state);
-        let (kinetic, potential) = motion.dynamics.evaluator.energy(t, q, v);
+        let (kinetic, potential) = motion.energy(t, state);
+        let (_, _, (supplied, dissipated)) = motion.split(state);
         let mut error = kinetic + potential - self.start_energy - supplied + dissipated;
         if self.follower.is_some() {
             error += elastic + motion.contact_loss(state);

@@ -20,12 +20,11 @@ pub(super) fn run(
     let outcome = match integrator {
         Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, watch),
         Integrator::Dopri5 { tolerance, max_step } => {
-            let longest = max_step.unwrap_or(sampler.duration() / 10.0);
-            run_adaptive::<Dopri5>(motion, sampler, state, (tolerance, longest), watch)
+            run_adaptive::<Dopri5>(motion, sampler, state, (tolerance, max_step), watch)
         }
         Integrator::Rk43 { tolerance, max_step } => {
-            let longest = max_step.unwrap_or(sampler.duration() / 10.0);
-            run_adaptive::<Rk43>(motion, sampler, state, (tolerance, longest), watch)
+            motion.loosen(tolerance);
+            run_adaptive::<Rk43>(motion, sampler, state, (tolerance, max_step), watch)
         }
         Integrator::GeneralizedAlpha { step, rho } => {
             implicit::run_generalized_alpha(motion, sampler, state, (step, rho), watch)
@@ -71,35 +70,57 @@ fn run_adaptive<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     state: &mut [f64],
-    (tolerance, longest): (f64, f64),
+    limits: (f64, Option<f64>),
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    let (begin, end) = (sampler.schedule.begin, sampler.schedule.end);
     let mut between = state.to_vec();
-    sampler.sample_at_start(motion, state)?;
-    let mut method = Adaptive::<M>::start(motion, (begin, end), state, tolerance, longest)?;
-    while method.t() < end {
+    let mut method = begin_adaptive::<M>(motion, sampler, state, limits)?;
+    while method.t() < sampler.schedule.end {
         let outcome = method.step(motion, sampler.hard_stop(method.t()));
         sampler.statistics.rejected = method.rejected();
         outcome?;
-        events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
-        sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
-        sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
-        for t in sampler.between(motion, method.before(), method.t()) {
-            method.interpolate(t, &mut between);
-            sampler.look(motion, t, &between)?;
-        }
-        while let Some(t) = sampler.due_before(method.t()) {
-            method.interpolate(t, &mut between);
-            sampler.sample(motion, t, &mut between)?;
-        }
-        sampler.step_done(motion, method.t(), method.y())?;
-        state.copy_from_slice(method.y());
-        if sampler.is_due(method.t()) {
-            between.copy_from_slice(method.y());
-            sampler.sample(motion, method.t(), &mut between)?;
-        }
-        sampler.report(method.t(), watch)?;
+        after_step(motion, sampler, &mut method, &mut between, watch)?;
     }
+    state.copy_from_slice(method.y());
     Ok(())
+}
+
+/// Begins a schedule with a method, its tolerance and its longest step [s].
+pub(super) fn begin_adaptive<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler<'_>,
+    state: &[f64],
+    (tolerance, longest): (f64, Option<f64>),
+) -> Result<Adaptive<M>, RunError> {
+    let longest = longest.unwrap_or(sampler.duration() / 10.0);
+    let span = (sampler.schedule.begin, sampler.schedule.end);
+    sampler.sample_at_start(motion, state)?;
+    Adaptive::start(motion, span, state, tolerance, longest)
+}
+
+/// What is done about an accepted step: it ends where a gap closes; what it shows is noted.
+pub(super) fn after_step<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler<'_>,
+    method: &mut Adaptive<M>,
+    between: &mut [f64],
+    watch: Watch<'_>,
+) -> Result<(), RunError> {
+    events::stop_at_contact(motion, sampler, method, between)?;
+    sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
+    sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
+    for t in sampler.between(motion, method.before(), method.t()) {
+        method.interpolate(t, between);
+        sampler.look(motion, t, between)?;
+    }
+    while let Some(t) = sampler.due_before(method.t()) {
+        method.interpolate(t, between);
+        sampler.sample(motion, t, between)?;
+    }
+    sampler.step_done(motion, method.t(), method.y())?;
+    if sampler.is_due(method.t()) {
+        between.copy_from_slice(method.y());
+        sampler.sample(motion, method.t(), between)?;
+    }
+    sampler.report(method.t(), watch)
 }

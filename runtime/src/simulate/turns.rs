@@ -63,8 +63,8 @@ pub struct TurnMeasures {
 
 /// Runs a mechanism turn by turn.
 pub struct TurnRunner<'a> {
-    motion: ConstrainedMotion<'a>,
-    integrator: Integrator,
+    pub(super) motion: ConstrainedMotion<'a>,
+    pub(super) integrator: Integrator,
     t: f64,
     state: State,
     /// Whether turns differ by their clearances alone, once that was asked.
@@ -232,38 +232,63 @@ impl<'a> TurnRunner<'a> {
     /// Why the turn could not be finished, or [`RunError::Interrupted`]; the runner is then where it was before
     /// the turn.
     pub fn measure(&mut self, watch: Watch<'_>) -> Result<TurnMeasures, RunError> {
-        let schedule = Schedule::turn(&mut self.motion.dynamics.evaluator, self.t)?;
-        let kept = self.state();
-        let (evaluations, projections) = (self.motion.dynamics.evaluations, self.motion.projections);
-        let mut state = self.motion.join(&self.state);
-        let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
-        let clearances: Vec<f64> = self
-            .motion
-            .dynamics
-            .evaluator
-            .clearances()
-            .contacts()
-            .iter()
-            .map(|touch| touch.clearance)
-            .collect();
-        let looks = self.may_differ(&clearances);
-        if looks {
-            sampler.watch_angles();
-        }
-        if let Err(error) = steps::run(&mut self.motion, &mut sampler, &mut state, self.integrator, watch) {
-            self.restore(&kept)?;
+        let looks = self.looks();
+        let mut turn = self.begin(looks)?;
+        let Turn { sampler, state, .. } = &mut turn;
+        if let Err(error) = steps::run(&mut self.motion, sampler, state, self.integrator, watch) {
+            self.restore(&turn.kept)?;
             return Err(error);
         }
-        if looks {
+        Ok(self.end(turn))
+    }
+
+    /// The clearances [m], if the next turn has to be looked at for forces that jump with an angle.
+    pub(super) fn looks(&mut self) -> Option<Vec<f64>> {
+        let clearances = self.clearances();
+        self.may_differ(&clearances).then_some(clearances)
+    }
+
+    /// Begins a turn, of which nothing is done yet.
+    pub(super) fn begin(&mut self, looks: Option<Vec<f64>>) -> Result<Turn<'a>, RunError> {
+        let schedule = Schedule::turn(&mut self.motion.dynamics.evaluator, self.t)?;
+        // A turn depends on where it begins alone, whatever went before.
+        self.motion.learn_sizes(self.t, &self.state);
+        let kept = self.state();
+        let costs = (self.motion.dynamics.evaluations, self.motion.projections);
+        let state = self.motion.join(&self.state);
+        let mut sampler = Sampler::new(&mut self.motion, schedule, &state);
+        if looks.is_some() {
+            sampler.watch_angles();
+        }
+        Ok(Turn { sampler, state, kept, looks, costs })
+    }
+
+    /// A turn is done: what it did.
+    pub(super) fn end(&mut self, turn: Turn<'a>) -> TurnMeasures {
+        let Turn { sampler, state, looks, costs: (evaluations, projections), .. } = turn;
+        if let Some(clearances) = looks {
             self.looked_at = clearances;
         }
         let (q, v, _) = self.motion.split(&state);
         self.state = State { q: q.to_vec(), v: v.to_vec() };
-        self.t = schedule.end;
+        self.t = sampler.schedule.end;
         let mut run = sampler.finish(&self.motion, step_limits(self.integrator), None);
         let mut statistics = run.statistics;
         statistics.evaluations -= evaluations;
         statistics.projections -= projections;
-        Ok(TurnMeasures { joints: run.turns.pop().unwrap_or_default(), warnings: run.warnings, statistics })
+        TurnMeasures { joints: run.turns.pop().unwrap_or_default(), warnings: run.warnings, statistics }
     }
+}
+
+/// A turn under way.
+pub(super) struct Turn<'a> {
+    pub(super) sampler: Sampler<'a>,
+    /// The flat state it has got to.
+    pub(super) state: Vec<f64>,
+    /// Where it began.
+    pub(super) kept: TurnState,
+    /// Clearances [m], if it is looked at for forces that jump with an angle.
+    looks: Option<Vec<f64>>,
+    /// Evaluations and projections before it.
+    costs: (u64, u64),
 }

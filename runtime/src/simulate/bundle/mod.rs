@@ -1,0 +1,112 @@
+//! Turns of several trajectories of one mechanism side by side, a lane each, in the bits that each has alone.
+//! In: where turns begin. Out: what they did. Never knows lives, threads, or which lane a turn runs in.
+//!
+//! Every lane has a runner of its own, which does all that is done once a step as it does it alone; what is done at every
+//! stage, the lanes do together. A turn that meets what only a lone trajectory is made for (loops nearly singular, numbers
+//! that are infinite, steps that do not get longer) is given back, to be run alone from its beginning.
+
+mod lanes;
+mod trajectory;
+
+use super::turns::{TurnMeasures, TurnRunner, TurnState};
+use crate::bundle::Bundle;
+use crate::error::RunError;
+use lanes::{Lanes, Steps};
+use trajectory::Trajectory;
+
+/// How a turn in a lane ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TurnOutcome {
+    /// It is done: what it did, and where it got.
+    Done(Box<(TurnMeasures, TurnState)>),
+    /// It has to be run alone, from where it began.
+    Alone,
+}
+
+/// Runs turns of one mechanism in `N` lanes.
+pub struct TurnBundle<'a, const N: usize> {
+    lanes: Lanes<'a, N>,
+    trajectories: Vec<Trajectory<'a>>,
+}
+
+impl<'a, const N: usize> TurnBundle<'a, N> {
+    /// Prepares the lanes; `runner` makes a runner of the mechanism that the bundle has the equations of.
+    ///
+    /// # Errors
+    /// What making a runner reports.
+    pub fn new(
+        bundle: &'a dyn Bundle<N>,
+        runner: impl Fn() -> Result<TurnRunner<'a>, RunError>,
+    ) -> Result<Self, RunError> {
+        let trajectories: Vec<_> = (0..N).map(|_| runner().map(Trajectory::new)).collect::<Result<_, _>>()?;
+        let parameters = trajectories[0].evaluator().parameters().to_vec();
+        Ok(Self { lanes: Lanes::new(bundle, &parameters), trajectories })
+    }
+
+    /// A lane without a turn; none if all are under way.
+    pub fn free_lane(&self) -> Option<usize> {
+        self.trajectories.iter().position(|trajectory| !trajectory.is_under_way())
+    }
+
+    /// Whether no lane has a turn.
+    pub fn is_idle(&self) -> bool {
+        !self.trajectories.iter().any(Trajectory::is_under_way)
+    }
+
+    /// Begins a turn in a lane that has none; `looked_at`: the clearances [m], if it has to be looked at for forces that jump
+    /// with an angle. Whether it can be run here: only by [`crate::Integrator::Rk43`].
+    ///
+    /// # Errors
+    /// If the state is not one of this mechanism, or the turn cannot begin.
+    pub fn begin(
+        &mut self,
+        lane: usize,
+        from: &TurnState,
+        looked_at: Option<Vec<f64>>,
+    ) -> Result<bool, RunError> {
+        self.trajectories[lane].begin(from, looked_at, (&mut self.lanes, lane))
+    }
+
+    /// Gives up the turn of a lane.
+    pub fn cancel(&mut self, lane: usize) {
+        self.trajectories[lane].cancel();
+    }
+
+    /// Tries one step in every lane that has a turn; `ended` hears of turns that end.
+    pub fn step(&mut self, ended: &mut dyn FnMut(usize, TurnOutcome)) {
+        let Self { lanes, trajectories } = self;
+        let mut steps = Steps { begins: [0.0; N], lengths: [0.0; N], ends: [0.0; N], ordinary: [false; N] };
+        let mut tolerances = [1.0; N];
+        for (lane, trajectory) in trajectories.iter_mut().enumerate() {
+            if let Some((begin, length, end, tolerance)) = trajectory.propose() {
+                (steps.begins[lane], steps.lengths[lane], steps.ends[lane]) = (begin, length, end);
+                (steps.ordinary[lane], tolerances[lane]) = (true, tolerance);
+            }
+        }
+        let asked = steps.ordinary;
+        lanes.stages(&mut steps, &mut |lane, pivots| trajectories[lane].note_pivots(pivots));
+        let nearness = lanes.nearness;
+        let untouched = std::array::from_fn(|lane| trajectories[lane].untouched(nearness[lane]));
+        let evaluator = trajectories[0].evaluator();
+        let closed = lanes.are_closed(evaluator.layout(), evaluator.kept(), &untouched);
+        for lane in (0..N).filter(|lane| asked[*lane]) {
+            let (is_regular, end) = (steps.ordinary[lane], steps.ends[lane]);
+            steps.ordinary[lane] = is_regular && trajectories[lane].project((lanes, lane), end, closed[lane]);
+        }
+        let errors =
+            lanes.errors(&mut steps, &tolerances, &mut |lane, pivots| trajectories[lane].note_pivots(pivots));
+        let mut accepted = [false; N];
+        for lane in (0..N).filter(|lane| asked[*lane]) {
+            let step = (steps.lengths[lane], steps.ends[lane]);
+            // Of what is not ordinary, nothing is to be believed.
+            let error = if steps.ordinary[lane] { errors[lane] } else { f64::NAN };
+            accepted[lane] = trajectories[lane].judge((lanes, lane), step, error);
+        }
+        lanes.method.accept(&accepted);
+        for lane in (0..N).filter(|lane| asked[*lane]) {
+            if let Some(outcome) = trajectories[lane].settle((lanes, lane), accepted[lane]) {
+                ended(lane, outcome);
+            }
+        }
+    }
+}
