@@ -133,8 +133,9 @@ fn rows(data: &str, like: Case, samples: u32) -> bool {
     println!(
         "| data | increments | shape | 5 mean increments | 5, half worn | 20 | 20, half worn |\n|---|---|---|---|---|---|---|"
     );
-    // Nothing beyond the two per cent, and three standard errors of the mean of coverages that scatter by 7 %.
-    let allowed = 2.0 + 3.0 * 7.0 / f64::from(samples).sqrt();
+    // Two per cent. Of rounded readings samples without scatter are refused, and those left are held a little more often: three
+    // standard errors of the mean of coverages that scatter by 7 % more.
+    let allowed = if like.step.is_some() { 2.0 + 3.0 * 7.0 / f64::from(samples).sqrt() } else { 2.0 };
     let mut all = true;
     for increments in [8, 16, 40] {
         for shape in [0.3, 2.0, 20.0] {

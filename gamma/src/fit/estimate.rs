@@ -2,7 +2,7 @@
 //! knows intervals.
 
 use super::error::FitError;
-use super::maximise::{maximise, start};
+use super::maximise::{maximise, start, unbounded};
 use super::model::Model;
 use super::rounded::{Laws, windows};
 use crate::data::{Increment, Observations, Rounding};
@@ -68,7 +68,7 @@ pub(super) fn estimate_increments(
         maximise(model, increments, &from, None)?
     };
     let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
-    let covariance = covariance.ok_or(FitError::NotConverged)?;
+    let covariance = covariance.ok_or_else(|| unbounded(model, increments, &phi))?;
     Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: increments.len() })
 }
 

@@ -8,6 +8,10 @@ use crate::matrix::Factor;
 
 /// Steps of Newton's method; 5 to 15 are usual.
 const MOST_STEPS: usize = 200;
+/// What is left to climb below which a top that is none may be taken as one: relative to 1 in the log-likelihood.
+const NEARLY_DONE: f64 = 1e-7;
+/// By how much ln alpha is raised at most to see whether it has a finite estimate: half the scatter.
+const HALF_THE_SCATTER: f64 = 1.4;
 
 /// A start for [`maximise`]: the process's parameters given Lambda, c by a coarse search, no effect of covariates.
 pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitError> {
@@ -30,7 +34,9 @@ pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitErr
             best = Some((value, phi));
         }
     }
-    best.map(|(_, phi)| phi).ok_or(FitError::NoScatter)
+    // Where a gauge rounds, readings along a line say no more than that scatter hides in its step.
+    let none = if model.resolution.is_some() { FitError::ScatterBelowGauge } else { FitError::NoScatter };
+    best.map(|(_, phi)| phi).ok_or(none)
 }
 
 /// Newton's method from a start, each step shortened until the likelihood grows; a parameter may be held.
@@ -41,7 +47,39 @@ pub fn maximise(
     held: Option<usize>,
 ) -> Result<(Vec<f64>, Point), FitError> {
     let mut phi = start.to_vec();
-    let mut here = model.point(&phi, increments, held);
+    climb(model, increments, &mut phi, held).map(|point| (phi.clone(), point)).map_err(|error| match error {
+        FitError::NotConverged if held.is_none() => unbounded(model, increments, &phi),
+        error => error,
+    })
+}
+
+/// Why there is no maximum beyond `phi`: less scatter explains readings of a gauge as well, or some other parameter runs off.
+pub fn unbounded(model: &Model, increments: &[Increment], phi: &[f64]) -> FitError {
+    if model.resolution.is_none() {
+        return FitError::NotConverged;
+    }
+    let here = model.value(phi, increments);
+    let mut less = phi.to_vec();
+    // The same mean, and then the best one; halfway at most to where the gauge tells no scatter.
+    let rise = (0.5 * model.ln_scatter(phi, increments)).min(HALF_THE_SCATTER);
+    less.iter_mut().take(2).for_each(|log| *log += rise);
+    let same_mean = model.value(&less, increments);
+    let best = climb(model, increments, &mut less, Some(0)).map_or(same_mean, |point| point.value);
+    if best.max(same_mean) >= here - NEARLY_DONE {
+        FitError::ScatterBelowGauge
+    } else {
+        FitError::NotConverged
+    }
+}
+
+/// From `phi`, which goes along.
+fn climb(
+    model: &Model,
+    increments: &[Increment],
+    phi: &mut Vec<f64>,
+    held: Option<usize>,
+) -> Result<Point, FitError> {
+    let mut here = model.point(phi, increments, held);
     let free: Vec<usize> = (0..phi.len()).filter(|at| Some(*at) != held).collect();
     for _ in 0..MOST_STEPS {
         let gradient: Vec<f64> = free.iter().map(|at| here.gradient[*at]).collect();
@@ -60,18 +98,18 @@ pub fn maximise(
             let there = usable.then(|| model.point(&next, increments, held));
             let slack = 1e-12 * here.value.abs().max(1.0);
             if let Some(there) = there.filter(|there| there.value >= here.value - slack) {
-                (phi, here) = (next, there);
+                (*phi, here) = (next, there);
                 break;
             }
             length *= 0.5;
             if length < 1e-9 {
-                return if gain < 1e-7 { Ok((phi, here)) } else { Err(FitError::NotConverged) };
+                return if gain < NEARLY_DONE { Ok(here) } else { Err(FitError::NotConverged) };
             }
         }
         if done {
-            return Ok((phi, here));
+            return Ok(here);
         }
-        if model.has_no_scatter(&phi, increments) {
+        if model.ln_scatter(phi, increments) < 0.0 {
             return Err(FitError::ScatterBelowGauge);
         }
     }
@@ -101,6 +139,7 @@ fn ascent(here: &Point, free: &[usize], gradient: &[f64]) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::Rounding;
     use crate::process::PROCESSES;
 
     #[test]
@@ -128,5 +167,46 @@ mod tests {
                 assert!((found - logs).abs() < 1e-11, "{process:?}: {phi:?} {logs}");
             }
         }
+    }
+
+    /// Units of four increments of exposure 1 from new, read to whole steps.
+    fn whole_steps(wears: &[[i32; 4]]) -> Vec<Increment> {
+        let one = |(at, wear): (usize, &i32)| {
+            let from = (at % 4) as f64;
+            Increment {
+                unit: at / 4,
+                from,
+                to: from + 1.0,
+                wear: (*wear).into(),
+                ln_covariates: vec![],
+                row: 0,
+            }
+        };
+        wears.iter().flatten().enumerate().map(one).collect()
+    }
+
+    #[test]
+    fn fits_without_a_maximum_say_what_runs_off() {
+        let rounded = Model { resolution: Some(Rounding::to(1.0)), ..Model::default() };
+        let fitted = |model: &Model, wears: &[[i32; 4]]| {
+            let increments = whole_steps(wears);
+            let phi = start(model, &increments)?;
+            maximise(model, &increments, &phi, None).map(drop)
+        };
+        // A line explains them for certain, and one through the edge of a step as well as any scatter does; both were said to run
+        // off in some parameter.
+        let line = [[1; 4]; 8];
+        let mut edge = line;
+        (edge[3], edge[5]) = ([1, 1, 1, 2], [1, 1, 1, 2]);
+        for wears in [line, edge] {
+            assert_eq!(fitted(&rounded, &wears), Err(FitError::ScatterBelowGauge), "{wears:?}");
+            let near = [20.0_f64.ln(); 2];
+            let found = maximise(&rounded, &whole_steps(&wears), &near, None);
+            assert_eq!(found.map(drop), Err(FitError::ScatterBelowGauge), "{wears:?}");
+        }
+        // All wear within the last span: the exponent runs off, whatever the scatter.
+        let power = Model { power_law: true, ..rounded };
+        let late = [[0, 0, 0, 9], [0, 0, 0, 4], [0, 0, 0, 14], [0, 0, 0, 7]];
+        assert_eq!(fitted(&power, &late), Err(FitError::NotConverged));
     }
 }

@@ -132,12 +132,13 @@ impl Model {
         point
     }
 
-    /// Whether increments scatter by less than a gauge's readings tell: the likelihood has no maximum there, and its values get
-    /// dearer with every step towards no scatter.
-    pub fn has_no_scatter(&self, phi: &[f64], increments: &[Increment]) -> bool {
-        let Some(rounding) = self.resolution else { return false };
-        let least = least_variance(rounding);
-        increments.iter().all(|one| self.process.variance(self.logs(phi, one)) < least)
+    /// ln of the largest variance of an increment over the least that a gauge's readings tell from none: where it is below 0 the
+    /// likelihood has no maximum, and its values get dearer with every step towards no scatter.
+    pub fn ln_scatter(&self, phi: &[f64], increments: &[Increment]) -> f64 {
+        let Some(rounding) = self.resolution else { return f64::INFINITY };
+        let variance = |one: &Increment| self.process.variance(self.logs(phi, one));
+        let largest = increments.iter().map(variance).fold(0.0, f64::max);
+        libm::log(largest / least_variance(rounding))
     }
 
     /// Value, gradient and information, but for a parameter that is held: its entries may be 0.

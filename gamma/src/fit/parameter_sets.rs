@@ -6,7 +6,8 @@
 //! there, as the information does; flat, it would leave all weight on no scatter at all.
 //!
 //! Importance sampling: points of a lattice, carried over to Student's law around the maximum, whose tails are wider than those
-//! of any posterior with more increments than parameters.
+//! of any posterior with more increments than parameters. After few increments that is too narrow all the same: posteriors are skew, and
+//! few points lie in their longer tail. So the sets that count come from a second round, around the mean of the first.
 
 use super::model::Model;
 use crate::data::Increment;
@@ -21,7 +22,7 @@ const TRIED_ROUNDED: [usize; 3] = [512, 1024, 2048];
 const NEGLIGIBLE: f64 = 1e-7;
 /// Part of the sets tried that as many of equal weight would replace, below which the next round tries where these are.
 const ENOUGH: f64 = 0.2;
-/// Rounds after which the sets are no picture of the posterior.
+/// Rounds, two at least, after which the sets are no picture of the posterior.
 const ROUNDS: usize = 4;
 /// Variance that rounding adds to that of an increment, in steps squared: 1/12 for the reading on either side.
 const ROUNDING: f64 = 1.0 / 6.0;
@@ -60,11 +61,11 @@ fn sets_of(
         let phi: Vec<f64> = values.iter().enumerate().map(natural).collect();
         model.value(&phi, increments) + ln_prior(model, &phi, increments)
     };
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         let factor = Factor::definite(&spread)?;
         let sets = weighed(&ln_density, &middle, &factor, tried);
         let squares: f64 = sets.iter().map(|set| set.1 * set.1).sum();
-        if squares * ENOUGH * (tried as f64) < 1.0 {
+        if round > 0 && squares * ENOUGH * (tried as f64) < 1.0 {
             return Some(sets);
         }
         // Around the mean of these sets, as wide as they are.
