@@ -5,14 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use linkwear_codegen::tape::Tape;
-use linkwear_runtime::Sizes;
-use linkwear_runtime::clearance_joint::Clearance;
+use linkwear_runtime::{Entry, StepPlan};
 
 #[cfg(target_arch = "aarch64")]
 use crate::aarch64 as processor;
 use crate::memory::code::Code;
 use crate::refusal::Refusal;
-use crate::straight::fuse::fuse;
+use crate::straight::fuse;
 use crate::straight::write::{Named, write};
 #[cfg(target_arch = "x86_64")]
 use crate::x86 as processor;
@@ -65,16 +64,16 @@ impl Functions {
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 
-    /// The derivative of a flat state, laws of contact in the middle, from the tapes of all entries.
-    pub(crate) fn fused<const LANES: usize>(
-        tapes: &[Tape],
-        sizes: Sizes,
-        joints: &[Clearance],
-    ) -> Result<Self, Refusal> {
+    /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
+    pub(crate) fn of_steps<const LANES: usize>(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+        if let Some(entry) = Entry::ALL.get(tapes.len()) {
+            return Err(Refusal::missing(*entry));
+        }
         let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
-        let derivative = Named { name: "derivative", operations: fuse(tapes, sizes, joints) };
-        let written = write(derivative, target, &functions)?;
-        Code::new(vec![written]).map(Self)
+        let attempt = Named { name: "attempt", operations: fuse::attempt(tapes, plan) };
+        let conclude = Named { name: "conclude", operations: fuse::conclude(tapes, plan) };
+        let written = [attempt, conclude].map(|part| write(part, target, &functions));
+        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 
     /// Length of the scratch slice that every function is content with, in numbers.

@@ -1,5 +1,6 @@
 //! Why there is no machine code. In: what was found. Out: [`Refusal`].
 
+use linkwear_runtime::Entry;
 use thiserror::Error;
 
 /// Why a mechanism does not run as machine code here; the interpreter runs it, in the same bits.
@@ -32,4 +33,10 @@ pub enum Refusal {
         /// Its first defect.
         defect: String,
     },
+}
+
+impl Refusal {
+    pub(crate) fn missing(entry: Entry) -> Self {
+        Self::Tape { function: entry.name().to_owned(), defect: "there is none".to_owned() }
+    }
 }

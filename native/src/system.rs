@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use linkwear_codegen::tape::Tape;
 use linkwear_runtime::clearance_joint::Clearance;
-use linkwear_runtime::{Bundle, Entry, STATES, SideBySide, Sizes, System};
+use linkwear_runtime::{Bundle, Entry, STATES, SideBySide, Sizes, StepPlan, System};
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 use crate::functions::Functions;
@@ -51,8 +51,7 @@ impl<const N: usize> Lanes<N> {
     /// If this processor or this system cannot run it, or a tape makes no sense.
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
         if let Some(entry) = Entry::ALL.get(tapes.len()) {
-            let (function, defect) = (entry.name().to_owned(), "there is none".to_owned());
-            return Err(Refusal::Tape { function, defect });
+            return Err(Refusal::missing(*entry));
         }
         let functions = Functions::new::<N>(tapes)?;
         let sizes = Sizes { workspace: functions.workspace().div_ceil(N), ..sizes };
@@ -81,56 +80,49 @@ impl<const N: usize> Lanes<N> {
     }
 }
 
-/// `N` trajectories of a mechanism side by side as machine code, laws of contact included. Clones share the code.
-#[derive(Clone, Debug)]
+/// Steps of `N` trajectories of a mechanism side by side as machine code, laws of contact included. Clones share the code.
+#[derive(Clone)]
 pub struct NativeBundle<const N: usize> {
-    entries: Lanes<N>,
-    fused: Fused,
+    parts: Arc<Functions>,
+    sizes: Sizes,
 }
 
-#[derive(Clone)]
-struct Fused(Arc<Functions>);
-
-impl fmt::Debug for Fused {
+impl<const N: usize> fmt::Debug for NativeBundle<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Fused")
+        f.debug_struct("NativeBundle").field("lanes", &N).field("sizes", &self.sizes).finish_non_exhaustive()
     }
 }
 
 impl<const N: usize> NativeBundle<N> {
-    /// Writes the code of tapes, in the order of [`Entry::ALL`], and of these laws, joint by joint.
+    /// Writes the code of a plan with tapes, in the order of [`Entry::ALL`].
     ///
     /// # Errors
     /// As [`Lanes::new`]; and if a joint keeps wear by bearing angle.
-    pub fn new(tapes: &[Tape], sizes: Sizes, joints: &[Clearance]) -> Result<Self, Refusal> {
-        if joints.iter().any(Clearance::keeps_profile) {
+    pub fn new(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+        if plan.joints().iter().any(Clearance::keeps_profile) {
             return Err(Refusal::Profile);
         }
-        let mut entries = Lanes::new(tapes, sizes)?;
-        let fused = Functions::fused::<N>(tapes, sizes, joints)?;
-        entries.sizes.workspace = entries.sizes.workspace.max(fused.workspace().div_ceil(N));
-        Ok(Self { entries, fused: Fused(Arc::new(fused)) })
+        Ok(Self { parts: Arc::new(Functions::of_steps::<N>(tapes, plan)?), sizes: plan.sizes() })
     }
 }
 
 impl<const N: usize> Bundle<N> for NativeBundle<N> {
     fn sizes(&self) -> Sizes {
-        self.entries.sizes
+        self.sizes
     }
 
-    fn derivative(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
+    fn workspace(&self) -> usize {
+        self.parts.workspace().div_ceil(N)
+    }
+
+    fn attempt(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
         let (question, answer) = (question.as_flattened(), answer.as_flattened_mut());
-        self.fused.0.run(0, question, answer, workspace.as_flattened_mut());
+        self.parts.run(0, question, answer, workspace.as_flattened_mut());
     }
 
-    fn evaluate(
-        &self,
-        entry: Entry,
-        input: &[[f64; N]],
-        output: &mut [[f64; N]],
-        workspace: &mut [[f64; N]],
-    ) {
-        self.entries.evaluate(entry, input, output, workspace);
+    fn conclude(&self, arena: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
+        let (arena, answer) = (arena.as_flattened(), answer.as_flattened_mut());
+        self.parts.run(1, arena, answer, workspace.as_flattened_mut());
     }
 }
 

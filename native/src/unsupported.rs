@@ -3,8 +3,7 @@
 use std::convert::Infallible;
 
 use linkwear_codegen::tape::Tape;
-use linkwear_runtime::Sizes;
-use linkwear_runtime::clearance_joint::Clearance;
+use linkwear_runtime::StepPlan;
 
 use crate::refusal::Refusal;
 
@@ -15,7 +14,7 @@ impl Functions {
         Err(Refusal::Processor { needed: "an x86-64 or aarch64 processor" })
     }
 
-    pub(crate) fn fused<const LANES: usize>(_: &[Tape], _: Sizes, _: &[Clearance]) -> Result<Self, Refusal> {
+    pub(crate) fn of_steps<const LANES: usize>(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
         Self::new::<LANES>(&[])
     }
 

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle};
-use linkwear_runtime::clearance_joint::Clearances;
 use linkwear_runtime::{
-    Integrator, SINGULAR_PIVOT, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState, Watch,
+    Integrator, SINGULAR_PIVOT, StepPlan, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState, Watch,
 };
 
 const INTEGRATOR: Integrator = Integrator::Rk43 { tolerance: 1e-5, max_step: None };
@@ -29,13 +28,21 @@ fn alone(runner: &mut TurnRunner<'_>, start: &TurnState) -> Vec<(TurnMeasures, T
 }
 
 #[test]
-fn lanes_have_the_bits_of_lone_turns() {
+fn eight_lanes_have_the_bits_of_lone_turns() {
+    lanes_have_the_bits_of_lone_turns::<8>();
+}
+
+#[test]
+fn four_lanes_have_the_bits_of_lone_turns() {
+    lanes_have_the_bits_of_lone_turns::<4>();
+}
+
+fn lanes_have_the_bits_of_lone_turns<const N: usize>() {
     for name in ["rssr.toml", "four_bar_wear.toml"] {
         let mechanism = shipped(name);
         let system = Native::new(mechanism.tapes(), mechanism.sizes()).expect("machine code");
-        let joints = Clearances::new(&mechanism.description().contacts).expect("laws");
-        let bundle = NativeBundle::<8>::new(mechanism.tapes(), mechanism.sizes(), joints.joints());
-        let bundle = bundle.expect("eight lanes");
+        let plan = StepPlan::new(mechanism.description(), mechanism.sizes()).expect("laws");
+        let bundle = NativeBundle::<N>::new(mechanism.tapes(), &plan).expect("lanes");
         let mut one = runner(&system, &mechanism);
         let start = one.state();
         let starts: Vec<TurnState> = (0..11)
@@ -52,7 +59,7 @@ fn lanes_have_the_bits_of_lone_turns() {
         // Lives begin in any lane as it gets free, with whatever neighbours.
         let mut found: Vec<Vec<(TurnMeasures, TurnState)>> = vec![Vec::new(); starts.len()];
         let mut waiting: Vec<usize> = (0..starts.len()).rev().collect();
-        let mut life_of = [0; 8];
+        let mut life_of = [0; N];
         let began = std::time::Instant::now();
         loop {
             while let Some(lane) = lanes.free_lane() {

@@ -10,6 +10,7 @@ use crate::linear::{is_finite, largest};
 use crate::passage::{Judge, Limit, Passage};
 use crate::singular_dynamics::SingularSolver;
 use pivots::LargestPivots;
+pub(crate) use pivots::note_pivots;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
 /// has had makes the runtime leave the generated elimination. At 1e-7 (a singular value of 3e-4) rounding
@@ -112,8 +113,8 @@ impl<'a> Dynamics<'a> {
         (self.nearness, self.rank_lost) = (nearness, false);
     }
 
-    /// The largest value that each pivot has had, and up to where pivots are noise.
-    pub(crate) fn largest_pivots(&self) -> (&[f64], f64) {
+    /// The largest value that each pivot has had.
+    pub(crate) fn largest_pivots(&self) -> &[f64] {
         self.largest_pivots.known()
     }
 

@@ -285,6 +285,14 @@ impl<'a> Evaluator<'a> {
         &self.row_lengths
     }
 
+    /// Takes over the Jacobian of a state that was evaluated elsewhere.
+    pub(crate) fn take_over_rows(&mut self, jacobian: impl Iterator<Item = f64>) {
+        let first = self.sizes.all_rows + self.sizes.rows;
+        let places = &mut self.questions.last_mut(Entry::Closure)[first..];
+        places.iter_mut().zip(jacobian).for_each(|(place, value)| *place = value);
+        self.note_row_lengths();
+    }
+
     fn note_row_lengths(&mut self) {
         let n = self.sizes.speeds.max(1);
         let first = self.sizes.all_rows + self.sizes.rows;

@@ -108,29 +108,12 @@ impl Layout {
     }
 
     /// Scales the quaternions in `q` to unit length.
-    pub fn normalize(&self, q: &mut [f64]) {
+    pub fn normalize<T: Scalar>(&self, q: &mut [T]) {
         for group in self.free() {
             if matches!(group.motion, Motion::Rotation | Motion::Pose) {
                 let part = &mut q[group.coordinate..][..4];
                 let length = length([part[0], part[1], part[2], part[3]]);
-                part.iter_mut().for_each(|x| *x /= length);
-            }
-        }
-    }
-
-    /// The same of several states side by side.
-    pub(crate) fn normalize_all<const N: usize>(&self, q: &mut [[f64; N]]) {
-        for group in self.free() {
-            if matches!(group.motion, Motion::Rotation | Motion::Pose) {
-                let part = &mut q[group.coordinate..][..4];
-                let lengths: [f64; N] = std::array::from_fn(|lane| {
-                    length([part[0][lane], part[1][lane], part[2][lane], part[3][lane]])
-                });
-                for x in part {
-                    for lane in 0..N {
-                        x[lane] /= lengths[lane];
-                    }
-                }
+                part.iter_mut().for_each(|x| *x = *x / length);
             }
         }
     }
@@ -205,8 +188,8 @@ pub fn turn(q: [f64; 4], x: [f64; 3]) -> [f64; 3] {
 
 /// Length of a quaternion.
 #[inline(always)]
-fn length(quaternion: [f64; 4]) -> f64 {
-    quaternion.iter().map(|x| x * x).sum::<f64>().sqrt()
+fn length<T: Scalar>(quaternion: [T; 4]) -> T {
+    dot(quaternion, quaternion).sqrt()
 }
 
 #[cfg(test)]

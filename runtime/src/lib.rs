@@ -83,9 +83,7 @@ pub use {
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
         offset_columns, place, resting_contacts,
     },
-    bundle::{
-        Bundle, CONTACT_ANSWER, CONTACT_MEMORY, TOTALS, WORKS, contact_answer, round_response, total_rates,
-    },
+    bundle::{Bundle, Evaluate, StepPlan, TOTALS, WORKS},
     column::Column,
     contact_frequency::contact_frequencies,
     description::{

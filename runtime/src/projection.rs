@@ -8,6 +8,7 @@
 
 use crate::evaluate::{CLOSED, Evaluator, LoopError};
 use crate::linear::{Cholesky, Orthogonal, add_scaled, largest};
+use crate::scalar::Scalar;
 
 /// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
 pub const POSITION_TOLERANCE: f64 = 1e-14;
@@ -81,6 +82,31 @@ pub struct Projector {
     keep_lost: bool,
 }
 
+/// Residual of positions up to which nothing is moved, by the largest coordinate.
+fn position_tolerance<T: Scalar>(strictness: T, largest: T) -> T {
+    // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
+    let rounding = T::constant(f64::EPSILON) * largest.max(T::constant(1.0));
+    let own = T::constant(POSITION_TOLERANCE) * strictness;
+    own.max(T::constant(0.5) * rounding) + rounding * strictness
+}
+
+/// Residual of speeds up to which nothing is moved, by the largest speed and what it is for small ones.
+fn speed_tolerance<T: Scalar>(least: T, largest: T) -> T {
+    least * largest.max(T::constant(1.0))
+}
+
+/// Residuals of positions and speeds up to which nothing is moved, by the largest coordinate and speed.
+pub(crate) fn tolerances<T: Scalar>(strictness: T, coordinate: T, speed: T) -> (T, T) {
+    let (_, least) = untouched(strictness);
+    (position_tolerance(strictness, coordinate), speed_tolerance(least, speed))
+}
+
+/// Residuals of positions and speeds up to which nothing is moved, whatever the coordinates' own size.
+fn untouched<T: Scalar>(regularity: T) -> (T, T) {
+    let speed = T::constant(SPEED_TOLERANCE) * regularity;
+    (T::constant(POSITION_TOLERANCE) * regularity, speed.max(T::constant(0.5 * f64::EPSILON)))
+}
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Factored {
     No,
@@ -125,11 +151,6 @@ impl Projector {
     /// Loop error over all rows after the last projection.
     pub fn loop_error(&self) -> LoopError {
         self.error
-    }
-
-    /// Residuals of positions and speeds up to which nothing is moved, whatever the coordinates' own size.
-    pub(crate) fn untouched(regularity: f64) -> (f64, f64) {
-        (POSITION_TOLERANCE * regularity, (SPEED_TOLERANCE * regularity).max(0.5 * f64::EPSILON))
     }
 
     /// Takes over the loop error of a state that was seen elsewhere to need nothing.
@@ -185,16 +206,13 @@ impl Projector {
     ) -> Result<(), NotClosed> {
         self.load(evaluator, t, q, v);
         // Most steps end so close, and need no tolerance.
-        if largest(&self.residual) <= Self::untouched(self.strictness).0 {
+        if largest(&self.residual) <= untouched(self.strictness).0 {
             self.error = evaluator.loop_error();
             if self.error.part(self.arm) <= CLOSED {
                 return Ok(());
             }
         }
-        // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
-        let rounding = f64::EPSILON * largest(q).max(1.0);
-        let tolerance =
-            (POSITION_TOLERANCE * self.strictness).max(0.5 * rounding) + rounding * self.strictness;
+        let tolerance = position_tolerance(self.strictness, largest(q));
         let mut before = f64::INFINITY;
         for iteration in 0..=MAX_ITERATIONS {
             if iteration > 0 {
@@ -240,11 +258,11 @@ impl Projector {
         v: &mut [f64],
         correction: &mut Correction,
     ) {
-        let (_, least) = Self::untouched(self.strictness);
+        let (_, least) = untouched(self.strictness);
         if largest(evaluator.last_closure().speeds) <= least {
             return;
         }
-        let tolerance = least * largest(v).max(1.0);
+        let tolerance = speed_tolerance(least, largest(v));
         for _ in 0..=LEVELS.len() {
             self.residual.copy_from_slice(evaluator.last_closure().speeds);
             if largest(&self.residual) <= tolerance {

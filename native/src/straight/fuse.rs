@@ -1,44 +1,54 @@
-//! The derivative of a flat state as one function, laws of contact in the middle. In: the tapes of contacts and derivative, laws.
-//! Out: [`Lowered`]. Never knows what the laws say: they are the runtime's, run on numbers that write down what is done with them.
+//! Both parts of a step as functions of their own, from tapes. In: the tapes of all entries, a plan. Out: [`Lowered`]. Never knows
+//! what is computed: it is the runtime's, run on numbers that write down what is done with them.
+
+use std::cell::RefCell;
 
 use linkwear_codegen::tape::{Tape, verify};
-use linkwear_runtime::clearance_joint::Clearance;
-use linkwear_runtime::{
-    CONTACT_MEMORY, CONTACT_MOTION, Entry, Sizes, WORKS, contact_answer, round_response, total_rates,
-};
+use linkwear_runtime::{Entry, StepPlan};
 
 use super::lower::{Lowered, run};
-use super::number::Recorder;
+use super::number::{Number, Recorder};
 
-/// What [`linkwear_runtime::Bundle::derivative`] asks for; `tapes` are those of all entries.
+/// What [`linkwear_runtime::Bundle::attempt`] asks for; `tapes` are those of all entries.
 ///
 /// # Errors
 /// A tape's first defect.
-pub(crate) fn fuse(tapes: &[Tape], sizes: Sizes, joints: &[Clearance]) -> Result<Lowered, String> {
-    let [contacts, derivative] = [Entry::Contacts, Entry::Derivative].map(|entry| &tapes[entry as usize]);
-    verify(contacts)?;
-    verify(derivative)?;
+pub(crate) fn attempt(tapes: &[Tape], plan: &StepPlan) -> Result<Lowered, String> {
+    tapes.iter().try_for_each(verify)?;
     let recorder = Recorder::default();
-    let state = sizes.input(Entry::Contacts);
-    let input = |index: usize| recorder.input(index as u32);
-    let moved = run(contacts, &|index| recorder.input(index));
-    let (motions, _) = moved.as_chunks::<CONTACT_MOTION>();
-    let respond = |(joint, clearance): (usize, &Clearance)| {
-        let memory = std::array::from_fn(|at| input(state + CONTACT_MEMORY * joint + at));
-        round_response(clearance, &motions[joint], memory)
-    };
-    let responses: Vec<_> = joints.iter().enumerate().map(respond).collect();
-    let mut question: Vec<_> = (0..state).map(input).collect();
-    question.extend(responses.iter().flat_map(|response| response.wrench));
-    question.extend(&moved);
-    let answer = run(derivative, &|index| question[index as usize]);
-    let (rates, forces) = answer.split_at(sizes.coordinates + sizes.speeds);
-    let (forces, powers) = forces.split_at(forces.len() - WORKS);
-    let totals: Vec<_> = responses.iter().flat_map(total_rates).collect();
-    let each = joints.iter().zip(motions).zip(&responses);
-    let contacts: Vec<_> =
-        each.flat_map(|((joint, motion), response)| contact_answer(joint, motion, response)).collect();
-    let outputs = [rates, powers, &totals, forces, &contacts].concat();
-    let outputs = outputs.into_iter().map(|output| recorder.id(output)).collect();
-    Ok(Lowered { graph: recorder.into_graph(), inputs: sizes.bundle_question(), outputs })
+    let answers = RefCell::default();
+    let inputs = inputs(&recorder, plan.question());
+    let outputs = plan.attempt(&|entry, input| ask(tapes, &answers, entry, input), &inputs);
+    let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
+    Ok(Lowered { graph: recorder.into_graph(), inputs: plan.question(), first, outputs })
+}
+
+/// What [`linkwear_runtime::Bundle::conclude`] asks for.
+///
+/// # Errors
+/// As [`attempt`].
+pub(crate) fn conclude(tapes: &[Tape], plan: &StepPlan) -> Result<Lowered, String> {
+    tapes.iter().try_for_each(verify)?;
+    let recorder = Recorder::default();
+    let answers = RefCell::default();
+    let inputs = inputs(&recorder, plan.arena());
+    let outputs = plan.conclude(&|entry, input| ask(tapes, &answers, entry, input), &inputs);
+    let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
+    Ok(Lowered { graph: recorder.into_graph(), inputs: plan.arena(), first, outputs })
+}
+
+fn inputs(recorder: &Recorder, count: usize) -> Vec<Number<'_>> {
+    (0..count).map(|index| recorder.input(index as u32)).collect()
+}
+
+/// Answers an entry. One answer is computed after the other: taken together, their values would crowd the registers.
+fn ask<'g>(
+    tapes: &[Tape],
+    answers: &RefCell<Vec<Number<'g>>>,
+    entry: Entry,
+    input: &[Number<'g>],
+) -> Vec<Number<'g>> {
+    let answer = run(&tapes[entry as usize], &|index| input[index as usize]);
+    answers.borrow_mut().extend(&answer);
+    answer
 }

@@ -14,6 +14,8 @@ pub(crate) struct Lowered {
     pub(super) graph: Graph,
     /// Length of the flat input.
     pub(super) inputs: usize,
+    /// Nodes that are computed before others, in this order, as far as outputs need them.
+    pub(super) first: Vec<Id>,
     /// The node of every entry of the flat output.
     pub(super) outputs: Vec<Id>,
 }
@@ -27,7 +29,7 @@ pub(crate) fn lower(tape: &Tape) -> Result<Lowered, String> {
     let recorder = Recorder::default();
     let outputs = run(tape, &|index| recorder.input(index));
     let outputs = outputs.into_iter().map(|output| recorder.id(output)).collect();
-    Ok(Lowered { graph: recorder.into_graph(), inputs: tape.input_len(), outputs })
+    Ok(Lowered { graph: recorder.into_graph(), inputs: tape.input_len(), first: Vec::new(), outputs })
 }
 
 /// Runs a tape that is verified on numbers that write down what is done with them.

@@ -33,6 +33,11 @@ impl Recorder {
         }
     }
 
+    /// The nodes of numbers.
+    pub(super) fn ids(&self, numbers: Vec<Number<'_>>) -> Vec<Id> {
+        numbers.into_iter().map(|number| self.id(number)).collect()
+    }
+
     pub(super) fn into_graph(self) -> Graph {
         self.0.into_inner()
     }

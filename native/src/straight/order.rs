@@ -37,6 +37,22 @@ fn needs(graph: &Graph) -> Vec<u32> {
     needs
 }
 
+/// Nodes that outputs are computed from.
+fn needed(lowered: &Lowered) -> Vec<bool> {
+    let mut needed = vec![false; lowered.graph.len()];
+    lowered.outputs.iter().for_each(|output| needed[*output as usize] = true);
+    // Arguments have smaller places than what is computed from them.
+    for id in (0..lowered.graph.len() as Id).rev() {
+        if !needed[id as usize] {
+            continue;
+        }
+        for argument in lowered.graph.node(id).arguments() {
+            needed[*argument as usize] = true;
+        }
+    }
+    needed
+}
+
 /// Operations from output to output, each argument as soon as it is wanted.
 fn depth_first(lowered: &Lowered) -> Vec<Id> {
     let graph = &lowered.graph;
@@ -44,7 +60,8 @@ fn depth_first(lowered: &Lowered) -> Vec<Id> {
     let mut placed = vec![false; graph.len()];
     let mut order = Vec::new();
     let mut open: Vec<(Id, bool)> = Vec::new();
-    for output in &lowered.outputs {
+    let needed = needed(lowered);
+    for output in lowered.first.iter().filter(|id| needed[**id as usize]).chain(&lowered.outputs) {
         open.push((*output, false));
         while let Some((id, arguments_are_placed)) = open.pop() {
             if placed[id as usize] || graph.node(id).operation.is_leaf() {

@@ -1,10 +1,40 @@
 //! How regular loops are by their pivots. In: pivots at one state after the other. Out: the smallest one relative to the
 //! largest value it has had. Never knows what is done about it.
 
-use crate::linear::largest;
+use crate::scalar::Scalar;
 
 /// Pivots below this part of the largest of all pivots are noise, whatever they were before.
 const NOISE_PIVOT: f64 = 1e-13;
+
+/// Keeps the largest value that each pivot has had, and says how regular these are: [`LargestPivots::note`] without branches.
+pub(crate) fn note_pivots<T: Scalar>(pivots: &[T], values: &mut [T]) -> T {
+    for (pivot, most) in pivots.iter().zip(&mut *values) {
+        *most = larger(*pivot, *most);
+    }
+    let noise = noise_of(values);
+    let all = pivots.iter().zip(values);
+    all.fold(T::constant(1.0), |smallest, (pivot, most)| smaller(smallest, (*pivot, *most), noise))
+}
+
+/// The larger of a pivot, if it is finite, and the largest value that it has had.
+#[inline]
+fn larger<T: Scalar>(pivot: T, most: T) -> T {
+    let finite = T::select(pivot.lt(T::constant(f64::INFINITY)), pivot, most);
+    T::select(most.lt(pivot), finite, most)
+}
+
+/// Up to where pivots are noise, by their largest values.
+fn noise_of<T: Scalar>(values: &[T]) -> T {
+    T::constant(NOISE_PIVOT) * values.iter().fold(T::constant(0.0), |most, value| most.max(value.abs()))
+}
+
+/// The smaller of a regularity and that of a pivot with the largest value that it has had.
+#[inline]
+fn smaller<T: Scalar>(smallest: T, (pivot, most): (T, T), noise: T) -> T {
+    let least = T::select(pivot.lt(smallest * most), pivot / most, smallest);
+    // A pivot that is not a positive number counts as lost rank.
+    T::select(noise.lt(pivot), least, T::constant(0.0))
+}
 
 /// The largest value that each pivot has had.
 #[derive(Clone, Debug)]
@@ -30,7 +60,7 @@ impl LargestPivots {
         let (mut has_grown, mut smallest) = (false, 1.0);
         for (pivot, most) in pivots.iter().zip(&self.values) {
             has_grown |= pivot > most;
-            smallest = self.smaller(smallest, *pivot, *most);
+            smallest = smaller(smallest, (*pivot, *most), self.noise);
         }
         if has_grown {
             self.grow(pivots);
@@ -39,9 +69,9 @@ impl LargestPivots {
         smallest
     }
 
-    /// The largest values, and up to where pivots are noise.
-    pub(super) fn known(&self) -> (&[f64], f64) {
-        (&self.values, self.noise)
+    /// The largest values.
+    pub(super) fn known(&self) -> &[f64] {
+        &self.values
     }
 
     #[cold]
@@ -51,9 +81,7 @@ impl LargestPivots {
             self.aside = Some(self.noise);
         }
         for (pivot, most) in pivots.iter().zip(&mut self.values) {
-            if *pivot > *most && pivot.is_finite() {
-                *most = *pivot;
-            }
+            *most = larger(*pivot, *most);
         }
         self.find_noise();
     }
@@ -61,14 +89,7 @@ impl LargestPivots {
     /// Smallest pivot relative to the largest value that it has had.
     pub(super) fn regularity(&self, pivots: &[f64]) -> f64 {
         let all = pivots.iter().zip(&self.values);
-        all.fold(1.0, |smallest, (pivot, most)| self.smaller(smallest, *pivot, *most))
-    }
-
-    /// The smaller of a regularity and that of a pivot with the largest value that it has had.
-    #[inline]
-    fn smaller(&self, smallest: f64, pivot: f64, most: f64) -> f64 {
-        // A pivot that is not a positive number counts as lost rank.
-        if pivot > self.noise { if pivot < smallest * most { pivot / most } else { smallest } } else { 0.0 }
+        all.fold(1.0, |smallest, (pivot, most)| smaller(smallest, (*pivot, *most), self.noise))
     }
 
     /// Keeps what [`Self::resume`] goes on with; one at a time.
@@ -92,6 +113,6 @@ impl LargestPivots {
     }
 
     fn find_noise(&mut self) {
-        self.noise = NOISE_PIVOT * largest(&self.values);
+        self.noise = noise_of(&self.values);
     }
 }

@@ -5,9 +5,10 @@
 //! DOPRI5). The error norm is the largest component, not the mean, so that idle ones hide nothing.
 
 use super::problem::Problem;
-use super::step_control::{self, StepControl};
+use super::step_control::{self, StepControl, floored};
 use crate::error::RunError;
 use crate::linear::combine;
+use crate::scalar::Scalar;
 
 /// What is left of a step that failed, however large its error.
 const AFTER_TROUBLE: f64 = 0.25;
@@ -80,6 +81,18 @@ pub trait Method {
 pub(crate) trait MadeElsewhere: Method {
     /// Takes over the slopes at both ends of a step, which then counts.
     fn know(&mut self, slopes: [&[f64]; 2]);
+}
+
+/// Error of one number, 1 just accepted: from its values at both ends and its natural size, from the length of the step and the
+/// error per second.
+#[inline(always)]
+pub(crate) fn relative_error<T: Scalar>(
+    (y, next, scale): (T, T, T),
+    (step, error): (T, T),
+    tolerance: T,
+) -> T {
+    let size = y.abs().max(next.abs()).max(scale);
+    (step * error / (tolerance * size)).abs()
 }
 
 /// What is known of the error of a step.
@@ -222,8 +235,8 @@ impl<M: Method> Adaptive<M> {
     fn estimate(&self, problem: &dyn Problem, step: f64, noise: f64) -> Result<Estimate, usize> {
         let mut most = Estimate { error: 0.0, worst: 0, noisy: false };
         for i in 0..self.y.len() {
-            let size = self.y[i].abs().max(self.next[i].abs()).max(problem.scale(i));
-            let error = (step * self.error[i] / (self.tolerance * size)).abs();
+            let ends = (self.y[i], self.next[i], problem.scale(i));
+            let error = relative_error(ends, (step, self.error[i]), self.tolerance);
             if error.is_nan() {
                 return Err(i);
             }
@@ -268,9 +281,11 @@ impl<M: Method> Adaptive<M> {
 
     /// A step that was made elsewhere counts, its end in the room for it. [`Self::slope`], [`Self::interpolate`] and
     /// [`Self::retake`] have to be told of its slopes first, by [`Self::know`].
-    pub(crate) fn accept_end(&mut self, step: (f64, f64), error: f64) {
+    ///
+    /// `growth`: [`Method::growth`] of the last error and this one.
+    pub(crate) fn accept_end(&mut self, step: (f64, f64), error: f64, growth: f64) {
         core::mem::swap(&mut self.y, &mut self.next);
-        self.control.accept(step, error, false);
+        self.control.accept_grown(step, floored(error), step_control::SAFETY * growth);
     }
 
     /// Slope at the state reached.

@@ -9,14 +9,14 @@ mod generalized_alpha;
 mod problem;
 mod rk4;
 mod rk43;
-mod rk43_lanes;
 mod step_control;
 
+pub(crate) use adaptive::relative_error;
 pub use adaptive::{Adaptive, Method};
 pub use dopri5::Dopri5;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use problem::Problem;
 pub use rk4::Rk4;
-pub(crate) use rk43::PARTS;
 pub use rk43::Rk43;
-pub(crate) use rk43_lanes::{Rk43Lanes, Room, SLOPES};
+pub(crate) use rk43::{PARTS, error_of, growth_of, step_of};
+pub(crate) use step_control::floored;

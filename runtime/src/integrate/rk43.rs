@@ -10,6 +10,7 @@ use super::dense::Cubics;
 use super::problem::Problem;
 use crate::error::RunError;
 use crate::linear::combine;
+use crate::scalar::Scalar;
 
 /// Weight of the difference of the last two slopes in the error: that of an embedded solution with a weight of 1/10 for
 /// the slope at the end.
@@ -20,14 +21,24 @@ pub(crate) const PARTS: [f64; 3] = [0.5, 0.5, 1.0];
 
 /// The end of a step, by the slopes of its stages.
 #[inline(always)]
-pub(super) fn step_of(y: f64, length: f64, [a, b, c, d]: [f64; 4]) -> f64 {
-    y + length / 6.0 * (a + 2.0 * (b + c) + d)
+pub(crate) fn step_of<T: Scalar>(y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
+    y + length / T::constant(6.0) * (a + T::constant(2.0) * (b + c) + d)
 }
 
 /// Error per second, by the slopes of the last stage and at the end.
 #[inline(always)]
-pub(super) fn error_of(last: f64, end: f64) -> f64 {
-    WEIGHT * (end - last)
+pub(crate) fn error_of<T: Scalar>(last: T, end: T) -> T {
+    T::constant(WEIGHT) * (end - last)
+}
+
+/// See [`Method::growth`]. With weights of 1/32 and 7/32 in place of 0.04 and 0.22: roots take a third of the time of powers, which
+/// are a tenth of that of a step.
+#[inline(always)]
+pub(crate) fn growth_of<T: Scalar>(last_error: T, error: T) -> T {
+    let root = |x: T, times: usize| (0..times).fold(x, |x, _| x.sqrt());
+    let eighth = root(error, 3);
+    let sixteenth = eighth.sqrt();
+    root(last_error, 5) / (eighth * sixteenth * sixteenth.sqrt())
 }
 
 /// Storage of the stages.
@@ -88,13 +99,8 @@ impl Method for Rk43 {
         Ok(())
     }
 
-    /// With weights of 1/32 and 7/32 in place of 0.04 and 0.22: roots take a third of the time of powers, which are a tenth of
-    /// that of a step.
     fn growth(last_error: f64, error: f64) -> f64 {
-        let root = |x: f64, times: usize| (0..times).fold(x, |x, _| x.sqrt());
-        let eighth = root(error, 3);
-        let sixteenth = eighth.sqrt();
-        root(last_error, 5) / (eighth * sixteenth * sixteenth.sqrt())
+        growth_of(last_error, error)
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {

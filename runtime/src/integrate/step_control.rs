@@ -2,7 +2,9 @@
 //!
 //! PI control of the step: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 (code DOPRI5).
 
-const SAFETY: f64 = 0.9;
+use crate::scalar::Scalar;
+
+pub(super) const SAFETY: f64 = 0.9;
 const SHRINK_MOST: f64 = 0.2;
 const GROW_MOST: f64 = 10.0;
 /// Weight of the previous error in the step control.
@@ -14,6 +16,12 @@ const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 /// estimate, plus one.
 pub(super) fn growth(order: f64, last_error: f64, error: f64) -> f64 {
     libm::pow(last_error, PI_WEIGHT) / libm::pow(error, 1.0 / order - 0.75 * PI_WEIGHT)
+}
+
+/// An error, or the least that counts: of none, no length would follow.
+#[inline(always)]
+pub(crate) fn floored<T: Scalar>(error: T) -> T {
+    error.max(T::constant(1e-10))
 }
 
 /// Chooses the lengths of steps.
@@ -73,6 +81,11 @@ impl StepControl {
         self.last_step
     }
 
+    /// Error of the last accepted step, as the next one is judged by it.
+    pub(crate) fn last_error(&self) -> f64 {
+        self.last_error
+    }
+
     /// Steps tried and not accepted.
     pub(crate) fn rejected(&self) -> u64 {
         self.rejected
@@ -114,10 +127,15 @@ impl StepControl {
     }
 
     /// A step counts; `noisy`: its error is rounding, and tells nothing of a longer one.
-    pub(crate) fn accept(&mut self, (length, end): (f64, f64), error: f64, noisy: bool) {
-        (self.before, self.t, self.last_step) = (self.t, end, length);
-        let error = error.max(1e-10);
+    pub(super) fn accept(&mut self, step: (f64, f64), error: f64, noisy: bool) {
+        let error = floored(error);
         let growth = if noisy { 1.0 } else { SAFETY * (self.growth)(self.last_error, error) };
+        self.accept_grown(step, error, growth);
+    }
+
+    /// The same, if it is known by how much the next one may be longer; `error`: not below the least that counts.
+    pub(super) fn accept_grown(&mut self, (length, end): (f64, f64), error: f64, growth: f64) {
+        (self.before, self.t, self.last_step) = (self.t, end, length);
         let most = if self.just_rejected { 1.0 } else { GROW_MOST };
         self.step = (length * growth.clamp(SHRINK_MOST, most)).min(self.longest_step);
         self.last_error = error.max(1e-4);

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::assemble::{State, offset_columns};
-use crate::bundle::{TOTALS, WORKS};
+use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
 use crate::description::Motion;
 use crate::dynamics::Dynamics;
@@ -156,9 +156,14 @@ impl<'a> ConstrainedMotion<'a> {
         self.dynamics.evaluator.forget_contacts();
     }
 
-    /// Residuals of positions and speeds up to which a step's end needs no projection.
-    pub(super) fn untouched(&self, nearness: f64) -> (f64, f64) {
-        Projector::untouched(nearness * self.looseness)
+    /// Natural sizes of coordinates and speeds.
+    pub(super) fn state_scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    /// Factor on how far loops may stay open after a step, in regular positions.
+    pub(super) fn looseness(&self) -> f64 {
+        self.looseness
     }
 
     /// Takes over the residuals of all rows at a step's end that needs no projection otherwise. Whether the loops are closed.
@@ -437,9 +442,8 @@ impl Problem for ConstrainedMotion<'_> {
     fn scale(&self, index: usize) -> f64 {
         let Some(integral) = index.checked_sub(self.first_integral()) else { return self.scales[index] };
         match integral.checked_sub(WORKS).map(|integral| integral % TOTALS) {
-            None | Some(0 | 3) => self.energy_scale,
-            // Depth and impulse are as smooth as the wear integral, and have no natural size of their own.
-            Some(_) => f64::INFINITY,
+            Some(total) if !is_energy(total) => f64::INFINITY,
+            _ => self.energy_scale,
         }
     }
 

@@ -6,22 +6,16 @@
 //! that are infinite, steps that do not get longer) is given back, to be run alone from its beginning.
 
 mod lanes;
+mod outcome;
+mod room;
 mod trajectory;
 
-use super::turns::{TurnMeasures, TurnRunner, TurnState};
+use super::turns::{TurnRunner, TurnState};
 use crate::bundle::Bundle;
 use crate::error::RunError;
 use lanes::{Lanes, Steps};
+pub use outcome::TurnOutcome;
 use trajectory::Trajectory;
-
-/// How a turn in a lane ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TurnOutcome {
-    /// It is done: what it did, and where it got.
-    Done(Box<(TurnMeasures, TurnState)>),
-    /// It has to be run alone, from where it began.
-    Alone,
-}
 
 /// Runs turns of one mechanism in `N` lanes.
 pub struct TurnBundle<'a, const N: usize> {
@@ -76,33 +70,25 @@ impl<'a, const N: usize> TurnBundle<'a, N> {
     pub fn step(&mut self, ended: &mut dyn FnMut(usize, TurnOutcome)) {
         let Self { lanes, trajectories } = self;
         let mut steps = Steps { begins: [0.0; N], lengths: [0.0; N], ends: [0.0; N], ordinary: [false; N] };
-        let mut tolerances = [1.0; N];
         for (lane, trajectory) in trajectories.iter_mut().enumerate() {
-            if let Some((begin, length, end, tolerance)) = trajectory.propose() {
+            if let Some((begin, length, end)) = trajectory.propose() {
                 (steps.begins[lane], steps.lengths[lane], steps.ends[lane]) = (begin, length, end);
-                (steps.ordinary[lane], tolerances[lane]) = (true, tolerance);
+                steps.ordinary[lane] = true;
             }
         }
         let asked = steps.ordinary;
-        lanes.stages(&mut steps, &mut |lane, pivots| trajectories[lane].note_pivots(pivots));
-        let nearness = lanes.nearness;
-        let untouched = std::array::from_fn(|lane| trajectories[lane].untouched(nearness[lane]));
-        let evaluator = trajectories[0].evaluator();
-        let closed = lanes.are_closed(evaluator.layout(), evaluator.kept(), &untouched);
+        lanes.attempt(&mut steps);
         for lane in (0..N).filter(|lane| asked[*lane]) {
             let (is_regular, end) = (steps.ordinary[lane], steps.ends[lane]);
-            steps.ordinary[lane] = is_regular && trajectories[lane].project((lanes, lane), end, closed[lane]);
+            steps.ordinary[lane] = is_regular && trajectories[lane].project((lanes, lane), end);
         }
-        let errors =
-            lanes.errors(&mut steps, &tolerances, &mut |lane, pivots| trajectories[lane].note_pivots(pivots));
+        lanes.conclude(&mut steps);
         let mut accepted = [false; N];
         for lane in (0..N).filter(|lane| asked[*lane]) {
             let step = (steps.lengths[lane], steps.ends[lane]);
-            // Of what is not ordinary, nothing is to be believed.
-            let error = if steps.ordinary[lane] { errors[lane] } else { f64::NAN };
-            accepted[lane] = trajectories[lane].judge((lanes, lane), step, error);
+            accepted[lane] = trajectories[lane].judge((lanes, lane), step, steps.ordinary[lane]);
         }
-        lanes.method.accept(&accepted);
+        lanes.accept(&accepted);
         for lane in (0..N).filter(|lane| asked[*lane]) {
             if let Some(outcome) = trajectories[lane].settle((lanes, lane), accepted[lane]) {
                 ended(lane, outcome);

@@ -1,11 +1,11 @@
 //! One trajectory of a bundle: what is done once a step, by the runner that would run it alone. In: a turn, steps that its lane
 //! has tried. Out: whether they count, the turn's end. Never knows the other lanes.
 
-use super::TurnOutcome;
 use super::lanes::Lanes;
+use super::outcome::TurnOutcome;
 use crate::error::RunError;
 use crate::evaluate::Evaluator;
-use crate::integrate::{Adaptive, Problem, Rk43, SLOPES};
+use crate::integrate::{Adaptive, PARTS, Problem, Rk43};
 use crate::simulate::settings::Integrator;
 use crate::simulate::turns::{Turn, TurnRunner, TurnState};
 use crate::simulate::{events, steps};
@@ -53,11 +53,6 @@ impl<'a> Trajectory<'a> {
         &self.runner.motion.dynamics.evaluator
     }
 
-    /// Residuals up to which the end of a step needs no projection.
-    pub(super) fn untouched(&self, nearness: f64) -> (f64, f64) {
-        self.runner.motion.untouched(nearness)
-    }
-
     pub(super) fn is_under_way(&self) -> bool {
         self.turn.is_some()
     }
@@ -78,14 +73,13 @@ impl<'a> Trajectory<'a> {
         let mut turn = self.runner.begin(looked_at)?;
         let motion = &mut self.runner.motion;
         motion.loosen(tolerance);
-        let method: Adaptive<Rk43> =
+        let mut method: Adaptive<Rk43> =
             steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, (tolerance, max_step))?;
         lanes.put_state(lane, method.y(), method.slope());
-        lanes.put_memory(lane, motion.dynamics.evaluator.clearances());
+        lanes.put_settings(lane, motion, method.tolerance());
+        let clearances = motion.dynamics.evaluator.clearances();
+        lanes.put_memory(lane, clearances, motion.energy_scale, method.control().last_error());
         lanes.put_pivots(lane, &motion.dynamics);
-        for place in 0..lanes.sizes.flat_state() {
-            lanes.scales.all_mut()[place][lane] = motion.scale(place);
-        }
         let numbers = || vec![0.0; turn.state.len()];
         let (between, slopes) = (numbers(), [numbers(), numbers()]);
         lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
@@ -94,62 +88,59 @@ impl<'a> Trajectory<'a> {
         Ok(true)
     }
 
-    /// Begin, length and end of the step to try, and the tolerance of its error.
-    pub(super) fn propose(&mut self) -> Option<(f64, f64, f64, f64)> {
+    /// Begin, length and end of the step to try.
+    pub(super) fn propose(&mut self) -> Option<(f64, f64, f64)> {
         let UnderWay { turn, method, .. } = self.turn.as_mut()?;
-        let tolerance = method.tolerance();
         let control = method.control();
         let (length, end) = control.propose(turn.sampler.hard_stop(control.t()));
-        Some((control.t(), length, end, tolerance))
+        Some((control.t(), length, end))
     }
 
-    /// Notes pivots that have grown: how regular they are, the largest now, and up to where pivots are noise.
-    pub(super) fn note_pivots(&mut self, pivots: &[f64]) -> (f64, Vec<f64>, f64) {
-        let dynamics = &mut self.runner.motion.dynamics;
-        let regularity = dynamics.note_pivots(pivots);
-        let (values, noise) = dynamics.largest_pivots();
-        (regularity, values.to_vec(), noise)
-    }
-
-    /// Puts the end of the step onto the constraints; `closed`: the lanes have seen nothing to be done. Whether that succeeded.
-    pub(super) fn project<const N: usize>(
-        &mut self,
-        (lanes, lane): Place<'_, 'a, N>,
-        end: f64,
-        closed: bool,
-    ) -> bool {
+    /// Puts the end of the step onto the constraints, unless the lanes have seen that nothing has to be done. Whether that
+    /// succeeded.
+    pub(super) fn project<const N: usize>(&mut self, (lanes, lane): Place<'_, 'a, N>, end: f64) -> bool {
         let Some(UnderWay { method, residuals, .. }) = &mut self.turn else { return false };
         let motion = &mut self.runner.motion;
-        // Three inner stages have been evaluated.
-        motion.dynamics.take_over(SLOPES as u64 - 2, lanes.nearness[lane]);
+        motion.dynamics.take_over(PARTS.len() as u64, lanes.nearness(lane));
         let (before, next) = method.ends();
-        lanes.residuals(lane, residuals);
-        if closed && motion.take_over_loops(residuals) {
-            lanes.take_normalized(lane);
-            lanes.method.next.get(lane, 0, next);
-            return true;
+        if lanes.is_untouched(lane) {
+            if lanes.has_longer_row(lane) {
+                motion.dynamics.evaluator.take_over_rows(lanes.jacobian(lane));
+                lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
+            }
+            lanes.get(lane, lanes.places().closure.start, residuals);
+            if motion.take_over_loops(residuals) {
+                lanes.get(lane, lanes.places().next.start, next);
+                return true;
+            }
         }
-        lanes.method.next.get(lane, 0, next);
+        lanes.raw_end(lane, next);
         if motion.project(end, before, next).is_err() {
             return false;
         }
-        lanes.method.next.put(lane, 0, &next[..motion.first_integral()]);
+        lanes.put_end(lane, &next[..motion.first_integral()]);
         lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
         true
     }
 
-    /// Whether the step counts by its error, 1 just accepted; if it does, what follows from it is done.
+    /// Whether the step counts by its error; if it does, what follows from it is done. Of what is not ordinary, nothing is to be
+    /// believed.
     pub(super) fn judge<const N: usize>(
         &mut self,
         (lanes, lane): Place<'_, 'a, N>,
         step: (f64, f64),
-        error: f64,
+        is_ordinary: bool,
     ) -> bool {
         let Some(UnderWay { turn, method, between, slopes, after, .. }) = &mut self.turn else {
             return false;
         };
         let motion = &mut self.runner.motion;
-        motion.dynamics.take_over(1, lanes.nearness[lane]);
+        motion.dynamics.take_over(1, lanes.nearness_at_end(lane));
+        if let Some(pivots) = lanes.grown_pivots(lane) {
+            motion.dynamics.note_pivots(&pivots);
+        }
+        let (error, growth) = lanes.error(lane);
+        let error = if is_ordinary { error } else { f64::NAN };
         *after = After::Nothing;
         if error > 1.0 && !method.control().is_smallest(step.0) {
             method.control().reject(step.0, error);
@@ -160,16 +151,15 @@ impl<'a> Trajectory<'a> {
             *after = After::Failed;
             return false;
         }
-        method.accept_end(step, error);
+        method.accept_end(step, error, growth);
         motion.take_over(step.1, lanes.energy(lane), |joint, before| lanes.contact(lane, joint, before));
         let sampler = &mut turn.sampler;
         sampler.statistics.rejected = method.rejected();
         let at_end = method.t() == sampler.schedule.end;
         if at_end || sampler.watches_angles() || events::is_suspect(motion, sampler, method) {
-            for (slope, answer) in slopes.iter_mut().zip([0, SLOPES - 1]) {
-                lanes.method.answers[answer].get(lane, 0, slope);
-            }
-            method.know([&slopes[0], &slopes[1]]);
+            let [begin, end] = slopes;
+            lanes.slopes(lane, [&mut *begin, &mut *end]);
+            method.know([begin, end]);
             motion.reached(method.t(), method.slope());
         }
         let done = steps::after_step(motion, sampler, method, between, Watch::NONE);
@@ -200,10 +190,8 @@ impl<'a> Trajectory<'a> {
             lanes.put_state(lane, method.y(), method.slope());
             lanes.put_pivots(lane, &motion.dynamics);
         }
-        lanes.put_memory(lane, motion.dynamics.evaluator.clearances());
-        for place in motion.first_integral()..lanes.sizes.flat_state() {
-            lanes.scales.all_mut()[place][lane] = motion.scale(place);
-        }
+        let clearances = motion.dynamics.evaluator.clearances();
+        lanes.put_memory(lane, clearances, motion.energy_scale, method.control().last_error());
         if method.t() < turn.sampler.schedule.end {
             return None;
         }

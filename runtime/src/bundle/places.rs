@@ -1,0 +1,164 @@
+//! Where numbers of a step lie: in the arena, and in the answer of its last evaluation. In: counts. Out: places.
+//! Never knows what is done with them.
+
+use std::ops::Range;
+
+use super::{TOTALS, WORKS};
+use crate::system::{CONTACT_WRENCH, Sizes};
+
+/// Numbers per joint with clearance that laws want besides its motion: how far it is worn [m], on top of its clearance;
+/// stiffness K there [N/m^n]; whether it touches (1) and the speed at which its gap closed [m/s], as in
+/// [`crate::contact::ImpactMemory`].
+pub(crate) const CONTACT_MEMORY: usize = 4;
+
+/// Numbers per joint with clearance that tell what a contact is like, besides the rates of its totals: offset (3) [m], penetration
+/// [m], its rate [m/s], sliding speed [m/s], energy stored [J], wrench as [`crate::CONTACT_WRENCH`].
+pub(crate) const CONTACT_ANSWER: usize = 7 + CONTACT_WRENCH;
+
+/// Places in the arena, in order.
+#[derive(Clone, Debug)]
+pub(crate) struct Places {
+    pub(crate) parameters: Range<usize>,
+    /// Time at which the step begins [s], its length [s], time at which it ends [s].
+    pub(crate) begin: usize,
+    pub(crate) length: usize,
+    pub(crate) end: usize,
+    /// The flat state at its beginning, and the slope there.
+    pub(crate) y: Range<usize>,
+    pub(crate) slope: Range<usize>,
+    /// [`CONTACT_MEMORY`] numbers of every joint with clearance.
+    pub(crate) memory: Range<usize>,
+    /// The largest value that each loop pivot has had before the step.
+    pub(crate) pivots: Range<usize>,
+    /// Square of the longest length that each row of the Jacobian has had.
+    pub(crate) row_squares: Range<usize>,
+    /// Factor on how far loops may stay open.
+    pub(crate) looseness: usize,
+    /// Tolerance of the error, relative to sizes; the error of the last accepted step, 1 just accepted.
+    pub(crate) tolerance: usize,
+    pub(crate) last_error: usize,
+    /// Natural sizes of coordinates and speeds, in their units; of energies [J].
+    pub(crate) scales: Range<usize>,
+    pub(crate) energy_scale: usize,
+    /// The flat state at the end, with quaternions of unit length. From here on: what an attempt answers.
+    pub(crate) next: Range<usize>,
+    /// The coordinates as the method has them.
+    pub(crate) raw: Range<usize>,
+    /// The slope at the last inner stage.
+    pub(crate) last_slope: Range<usize>,
+    /// The largest pivots, those of the inner stages included.
+    pub(crate) grown_pivots: Range<usize>,
+    /// How regular the loops were at the last inner stage; the least of all of them, no number if one was infinite or none.
+    pub(crate) nearness: usize,
+    pub(crate) least_nearness: usize,
+    /// 1 where residuals of positions and speeds are such that nothing has to be moved, else 0.
+    pub(crate) is_untouched: usize,
+    /// 1 where a row of the Jacobian may be longer than ever, else 0.
+    pub(crate) has_longer_row: usize,
+    /// Answer of [`crate::Entry::Closure`] at the end.
+    pub(crate) closure: Range<usize>,
+    /// Length of all.
+    pub(crate) all: usize,
+}
+
+/// Hands out places one behind the other.
+struct Next(usize);
+
+impl Next {
+    fn one(&mut self) -> usize {
+        self.some(1).start
+    }
+
+    fn some(&mut self, count: usize) -> Range<usize> {
+        let start = self.0;
+        self.0 += count;
+        start..self.0
+    }
+}
+
+impl Places {
+    pub(crate) fn new(sizes: &Sizes) -> Self {
+        let Sizes { coordinates, speeds, rows, .. } = *sizes;
+        let flat = sizes.flat_state();
+        let mut next = Next(0);
+        let mut places = Self {
+            parameters: next.some(sizes.parameters),
+            begin: next.one(),
+            length: next.one(),
+            end: next.one(),
+            y: next.some(flat),
+            slope: next.some(flat),
+            memory: next.some(CONTACT_MEMORY * sizes.contacts),
+            pivots: next.some(rows),
+            row_squares: next.some(rows),
+            looseness: next.one(),
+            tolerance: next.one(),
+            last_error: next.one(),
+            scales: next.some(coordinates + speeds),
+            energy_scale: next.one(),
+            next: next.some(flat),
+            raw: next.some(coordinates),
+            last_slope: next.some(flat),
+            grown_pivots: next.some(rows),
+            nearness: next.one(),
+            least_nearness: next.one(),
+            is_untouched: next.one(),
+            has_longer_row: next.one(),
+            closure: next.some(sizes.all_rows + rows + rows * speeds),
+            all: 0,
+        };
+        places.all = next.0;
+        places
+    }
+
+    /// Length of the question of an attempt.
+    pub(crate) fn question(&self) -> usize {
+        self.next.start
+    }
+}
+
+/// Places in the answer of the last evaluation, in order.
+#[derive(Clone, Debug)]
+pub(crate) struct Conclusion {
+    /// The slope at the end.
+    pub(crate) slope: Range<usize>,
+    /// [`CONTACT_ANSWER`] numbers of every joint with clearance.
+    pub(crate) contacts: Range<usize>,
+    /// Kinetic and potential energy [J].
+    pub(crate) energy: Range<usize>,
+    /// The largest value that each pivot has had.
+    pub(crate) pivots: Range<usize>,
+    /// 1 where one has grown in the step, else 0.
+    pub(crate) has_grown: usize,
+    /// How regular the loops are at the end, no number if an answer is infinite or none.
+    pub(crate) nearness: usize,
+    /// The error of the step, 1 just accepted; by how much the next one may be longer, but for the safety.
+    pub(crate) error: usize,
+    pub(crate) growth: usize,
+    /// Length of all.
+    pub(crate) all: usize,
+}
+
+impl Conclusion {
+    pub(crate) fn new(sizes: &Sizes) -> Self {
+        let mut next = Next(0);
+        let mut places = Self {
+            slope: next.some(sizes.flat_state()),
+            contacts: next.some(CONTACT_ANSWER * sizes.contacts),
+            energy: next.some(2),
+            pivots: next.some(sizes.rows),
+            has_grown: next.one(),
+            nearness: next.one(),
+            error: next.one(),
+            growth: next.one(),
+            all: 0,
+        };
+        places.all = next.0;
+        places
+    }
+
+    /// Where the totals of a joint are among slopes.
+    pub(crate) fn totals(sizes: &Sizes, joint: usize) -> usize {
+        sizes.coordinates + sizes.speeds + WORKS + TOTALS * joint
+    }
+}

@@ -1,0 +1,218 @@
+//! What is computed in a step of [`crate::Integrator::Rk43`], over any scalar: machine code for lanes is written by running it on
+//! numbers that write down what is done with them. In: answers of entries. Out: ends of steps, errors. Never knows machine code.
+
+use super::laws::{contact_answer, round_response, total_rates};
+use super::places::{Conclusion, Places};
+use super::{TOTALS, WORKS, is_energy};
+use crate::clearance_joint::{Clearance, Clearances};
+use crate::description::Description;
+use crate::dynamics::note_pivots;
+use crate::error::SetupError;
+use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
+use crate::layout::Layout;
+use crate::projection::tolerances;
+use crate::scalar::Scalar;
+use crate::system::{CONTACT_MOTION, Entry, Sizes};
+
+/// Answers an entry, as [`crate::System::evaluate`] does.
+pub type Evaluate<'e, T> = &'e dyn Fn(Entry, &[T]) -> Vec<T>;
+
+/// Part of the square of a row's length that is rounding: nobody asks for more.
+const ROUNDED: f64 = 1e-12;
+
+/// What has to be known of a mechanism for its steps.
+#[derive(Clone, Debug)]
+pub struct StepPlan {
+    sizes: Sizes,
+    joints: Vec<Clearance>,
+    layout: Layout,
+    /// Of every kept row, its row among all.
+    kept: Vec<usize>,
+    places: Places,
+}
+
+/// What the equations say at a state.
+struct Slope<T> {
+    /// Of the flat state.
+    state: Vec<T>,
+    /// Multipliers and drive forces.
+    forces: Vec<T>,
+    pivots: Vec<T>,
+    /// [`super::CONTACT_ANSWER`] numbers of every joint.
+    contacts: Vec<T>,
+}
+
+impl StepPlan {
+    /// Of a mechanism with these counts.
+    ///
+    /// # Errors
+    /// [`SetupError::Contact`] if a constant of a law is out of range.
+    pub fn new(description: &Description, sizes: Sizes) -> Result<Self, SetupError> {
+        Ok(Self {
+            sizes,
+            joints: Clearances::new(&description.contacts)?.joints().to_vec(),
+            layout: Layout::new(&description.motions),
+            kept: (0..sizes.rows)
+                .filter_map(|kept| description.rows.iter().position(|row| row.kept == Some(kept)))
+                .collect(),
+            places: Places::new(&sizes),
+        })
+    }
+
+    /// The counts of the mechanism.
+    pub fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    /// The joints with clearance.
+    pub fn joints(&self) -> &[Clearance] {
+        &self.joints
+    }
+
+    /// Length of the question of [`Self::attempt`].
+    pub fn question(&self) -> usize {
+        self.places.question()
+    }
+
+    /// Length of the question of [`Self::conclude`]: that of an attempt and its answer.
+    pub fn arena(&self) -> usize {
+        self.places.all
+    }
+
+    /// The inner stages of a step, its end before it is put onto the constraints, and whether it has to be.
+    pub fn attempt<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
+        let (at, one) = (&self.places, |place: usize| question[place]);
+        let (y, length) = (&question[at.y.clone()], one(at.length));
+        let mut slopes = vec![question[at.slope.clone()].to_vec()];
+        let mut pivots = question[at.pivots.clone()].to_vec();
+        let (mut nearness, mut least, mut nothing) = (T::constant(1.0), T::constant(1.0), T::constant(0.0));
+        for part in PARTS {
+            let factor = T::constant(part) * length;
+            let t = if part == 1.0 { one(at.end) } else { one(at.begin) + factor };
+            let before = &slopes[slopes.len() - 1];
+            let state: Vec<T> = y.iter().zip(before).map(|(y, slope)| *y + factor * *slope).collect();
+            let slope = self.slope(evaluate, question, t, &state);
+            nearness = note_pivots(&slope.pivots, &mut pivots);
+            least = T::select(nearness.lt(least), nearness, least);
+            nothing = none_of(nothing, &slope.forces);
+            slopes.push(slope.state);
+        }
+        let end = |i: usize| step_of(y[i], length, std::array::from_fn(|stage| slopes[stage][i]));
+        let mut next: Vec<T> = (0..y.len()).map(end).collect();
+        // Slopes that are infinite or none leave no finite end.
+        nothing = none_of(nothing, &next);
+        let raw = next[..self.sizes.coordinates].to_vec();
+        self.layout.normalize(&mut next);
+        let closure = evaluate(Entry::Closure, &self.ask(question, one(at.end), &next));
+        let [is_untouched, has_longer_row] = self.judge_loops(question, (&next, &closure), nearness);
+        let last_slope = slopes.pop().unwrap_or_default();
+        let flags = vec![nearness, least + nothing, is_untouched, has_longer_row];
+        let answer = [next, raw, last_slope, pivots, flags, closure].concat();
+        debug_assert_eq!(self.question() + answer.len(), self.arena());
+        answer
+    }
+
+    /// What is at the end of a step, and how large its error is.
+    pub fn conclude<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T]) -> Vec<T> {
+        let (at, one) = (&self.places, |place: usize| arena[place]);
+        let (y, next, t) = (&arena[at.y.clone()], &arena[at.next.clone()], one(at.end));
+        let slope = self.slope(evaluate, arena, t, next);
+        let energy = evaluate(Entry::Energy, &self.ask(arena, t, next));
+        let mut pivots = arena[at.grown_pivots.clone()].to_vec();
+        let nearness = note_pivots(&slope.pivots, &mut pivots);
+        let nothing = none_of(T::constant(0.0), &slope.state[self.sizes.coordinates..]);
+        let nothing = none_of(nothing, &slope.forces);
+        let (yes, no) = (T::constant(1.0), T::constant(0.0));
+        let before = &arena[at.pivots.clone()];
+        let has_grown = before
+            .iter()
+            .zip(&pivots)
+            .fold(no, |grown, (before, now)| T::select(before.lt(*now), yes, grown));
+        let last = &arena[at.last_slope.clone()];
+        let mut error = no;
+        for i in 0..y.len() {
+            let Some(scale) = self.scale(i) else { continue };
+            let per_second = error_of(last[i], slope.state[i]);
+            let own = relative_error(
+                (y[i], next[i], arena[scale]),
+                (one(at.length), per_second),
+                one(at.tolerance),
+            );
+            error = T::select(error.lt(own), own, error);
+        }
+        let growth = growth_of(one(at.last_error), floored(error));
+        let numbers = vec![has_grown, nearness + nothing, error, growth];
+        let answer = [slope.state, slope.contacts, energy, pivots, numbers].concat();
+        debug_assert_eq!(answer.len(), Conclusion::new(&self.sizes).all);
+        answer
+    }
+
+    /// Place of the natural size of a number of a flat state; none if it is not judged.
+    fn scale(&self, index: usize) -> Option<usize> {
+        let Some(integral) = index.checked_sub(self.places.scales.len()) else {
+            return Some(self.places.scales.start + index);
+        };
+        let judged = integral.checked_sub(WORKS).is_none_or(|integral| is_energy(integral % TOTALS));
+        judged.then_some(self.places.energy_scale)
+    }
+
+    /// Question of an entry of coordinates and speeds.
+    fn ask<T: Scalar>(&self, arena: &[T], t: T, state: &[T]) -> Vec<T> {
+        let state = &state[..self.sizes.coordinates + self.sizes.speeds];
+        [&arena[self.places.parameters.clone()], &[t], state].concat()
+    }
+
+    /// The derivative of a flat state, laws of contact in the middle.
+    fn slope<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T], t: T, state: &[T]) -> Slope<T> {
+        let mut question = self.ask(arena, t, state);
+        let moved = evaluate(Entry::Contacts, &question);
+        let (motions, _) = moved.as_chunks::<CONTACT_MOTION>();
+        let (memories, _) = arena[self.places.memory.clone()].as_chunks();
+        let each = self.joints.iter().zip(motions).zip(memories);
+        let responses: Vec<_> =
+            each.map(|((joint, motion), memory)| round_response(joint, motion, *memory)).collect();
+        question.extend(responses.iter().flat_map(|response| response.wrench));
+        question.extend(&moved);
+        let answer = evaluate(Entry::Derivative, &question);
+        let (rates, rest) = answer.split_at(self.sizes.coordinates + self.sizes.speeds);
+        let (rest, powers) = rest.split_at(rest.len() - WORKS);
+        let (forces, pivots) = rest.split_at(rest.len() - self.sizes.rows);
+        let totals: Vec<_> = responses.iter().flat_map(total_rates).collect();
+        let each = self.joints.iter().zip(motions).zip(&responses);
+        let contacts = each.flat_map(|((joint, motion), response)| contact_answer(joint, motion, response));
+        Slope {
+            state: [rates, powers, &totals].concat(),
+            forces: forces.to_vec(),
+            pivots: pivots.to_vec(),
+            contacts: contacts.collect(),
+        }
+    }
+
+    /// Whether loops are closed such that nothing is moved; whether a row of the Jacobian may be longer than ever.
+    fn judge_loops<T: Scalar>(&self, question: &[T], (next, closure): (&[T], &[T]), nearness: T) -> [T; 2] {
+        let (yes, no) = (T::constant(1.0), T::constant(0.0));
+        let (positions, rest) = closure.split_at(self.sizes.all_rows);
+        let (speeds, jacobian) = rest.split_at(self.sizes.rows);
+        let (q, v) =
+            (&next[..self.sizes.coordinates], &next[self.sizes.coordinates..self.places.scales.len()]);
+        let largest = |values: &[T]| values.iter().fold(no, |most, value| most.max(value.abs()));
+        let strictness = nearness * question[self.places.looseness];
+        let (position, speed) = tolerances(strictness, largest(q), largest(v));
+        let residuals = self.kept.iter().map(|row| (positions[*row], position));
+        let residuals = residuals.chain(speeds.iter().map(|residual| (*residual, speed)));
+        let is_untouched =
+            residuals.fold(yes, |closed, (residual, limit)| T::select(limit.lt(residual.abs()), no, closed));
+        let rows = jacobian.chunks_exact(self.sizes.speeds.max(1));
+        let squares = &question[self.places.row_squares.clone()];
+        let longer = rows.zip(squares).fold(no, |longer, (row, most)| {
+            let square = row.iter().fold(no, |sum, x| sum + *x * *x);
+            T::select((T::constant(1.0 - ROUNDED) * *most).lt(square), yes, longer)
+        });
+        [is_untouched, longer]
+    }
+}
+
+/// `nothing`, which is zero, unless a value is infinite or none.
+fn none_of<T: Scalar>(nothing: T, values: &[T]) -> T {
+    values.iter().fold(nothing, |nothing, value| nothing + T::constant(0.0) * *value)
+}
