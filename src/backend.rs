@@ -3,9 +3,11 @@
 
 use std::fmt;
 
+use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Options};
-use linkwear_native::{Native, Refusal};
-use linkwear_runtime::System;
+use linkwear_native::{Native, NativeBundle, Refusal};
+use linkwear_runtime::clearance_joint::Clearances;
+use linkwear_runtime::{Description, Sizes, System};
 use thiserror::Error;
 
 use crate::mechanisms::{SHIPPED, Shipped};
@@ -43,6 +45,26 @@ pub enum BackendError {
     Native(#[from] Refusal),
 }
 
+/// Machine code for trajectories side by side, as many as this processor has lanes.
+pub(crate) enum Lanes {
+    /// Eight.
+    Eight(NativeBundle<8>),
+    /// Four.
+    Four(NativeBundle<4>),
+}
+
+impl Lanes {
+    /// Of a mechanism with clearance; none where there is no code for it here.
+    pub(crate) fn new(tapes: &[Tape], sizes: Sizes, description: &Description) -> Option<Self> {
+        let joints = Clearances::new(&description.contacts).ok()?;
+        let eight = NativeBundle::new(tapes, sizes, joints.joints()).map(Self::Eight);
+        eight.or_else(|_| NativeBundle::new(tapes, sizes, joints.joints()).map(Self::Four)).ok()
+    }
+}
+
+/// How machine code that was written when the mechanism was read is called.
+const NATIVE: &str = "native";
+
 type Make = dyn Fn() -> Box<dyn System<f64>> + Send + Sync;
 
 /// Equations on a back end; every thread makes a system of its own.
@@ -76,7 +98,7 @@ impl Equations {
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
         let system = Native::new(mechanism.tapes(), mechanism.sizes())?;
-        Ok(Self { name: "native", make: Box::new(move || Box::new(system.clone())), refusal: None })
+        Ok(Self { name: NATIVE, make: Box::new(move || Box::new(system.clone())), refusal: None })
     }
 
     /// Of a mechanism, compiled with these options, on the back end that is asked for.
@@ -106,6 +128,11 @@ impl Equations {
     /// `compiled`, `native` or `interpreter`.
     pub fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// Whether they are machine code that was written when the mechanism was read.
+    pub(crate) fn is_native(&self) -> bool {
+        self.name == NATIVE
     }
 
     /// Why they are interpreted although machine code would have been taken; none if nothing was refused.

@@ -13,7 +13,7 @@ use linkwear_runtime::{Description, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
-use crate::backend::{Backend, BackendError, Equations};
+use crate::backend::{Backend, BackendError, Equations, Lanes};
 use crate::mechanisms::SHIPPED;
 
 /// A mechanism that cannot be run.
@@ -115,6 +115,12 @@ impl Mechanism {
     /// Its equations, for one thread.
     pub fn system(&self) -> Box<dyn System<f64>> {
         self.equations.system()
+    }
+
+    /// Its equations for trajectories side by side; none but of machine code.
+    pub(crate) fn lanes(&self) -> Option<Lanes> {
+        let tapes = self.origin.tapes.as_ref().filter(|_| self.equations.is_native())?;
+        Lanes::new(tapes, self.equations.system().sizes(), &self.description)
     }
 
     /// What runs them: `compiled`, `native` or `interpreter`.

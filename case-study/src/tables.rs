@@ -17,7 +17,8 @@ use super::workers::Workers;
 /// W as the largest depth around the bearing.
 pub(super) const DEEPEST: WearOf = WearOf::Profile(Measure::Maximum);
 /// Wear steps that leave no error beside that of a table: those of the finest model.
-pub(super) const FINEST: WearStep = WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1 };
+pub(super) const FINEST: WearStep =
+    WearStep::Adaptive { tolerance: 1e-7, shortest: 1e-3, longest: 1, remembers: false };
 /// Life of the paper's ground truth [cycles].
 pub const TRUE_LIFE: f64 = 25.1;
 /// Accuracy of the calibration [cycles].

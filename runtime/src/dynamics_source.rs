@@ -5,7 +5,7 @@ use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
 use crate::life::{JointLife, JointWear, SettingsError, WearOf, WearSource};
-use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnRunner, TurnState};
+use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState};
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
@@ -81,10 +81,26 @@ pub struct DynamicsSource<'a> {
     /// Indices of the wearing joints among those with clearance, with their clearance at the start [m].
     wearing: Vec<(usize, f64)>,
     settings: RevolutionSettings,
+    /// Where turns are run, if not by the runner.
+    queue: Option<TurnQueue>,
     watch: Watch<'a>,
     warnings: Vec<RunWarning>,
     steadiness: Vec<Steadiness>,
+    /// The first measurements of a life that begins with unworn joints.
+    beginning: Vec<Known>,
 }
+
+/// A measurement that will be asked for again: every life begins with the same.
+struct Known {
+    joints: Vec<JointWear>,
+    from: Option<TurnState>,
+    measured: Vec<ContactMeasure>,
+    steadiness: Vec<Steadiness>,
+    state: Option<TurnState>,
+}
+
+/// So many are kept: those of a first cycle, in steps as long as it.
+const MOST_KNOWN: usize = 4;
 
 impl<'a> DynamicsSource<'a> {
     /// Starts at t = 0 with unworn joints.
@@ -104,7 +120,19 @@ impl<'a> DynamicsSource<'a> {
         let wearing = wearing.map(|at| (at, clearances[at])).collect();
         let start = runner.state();
         let (warnings, steadiness) = (Vec::new(), Vec::new());
-        Ok(Self { runner, description, start, wearing, settings, watch: Watch::NONE, warnings, steadiness })
+        let (queue, watch) = (None, Watch::NONE);
+        Ok(Self {
+            runner,
+            description,
+            start,
+            wearing,
+            settings,
+            queue,
+            watch,
+            warnings,
+            steadiness,
+            beginning: Vec::new(),
+        })
     }
 
     /// How long a revolution lasts [s]; nothing where the first three last differently.
@@ -115,6 +143,11 @@ impl<'a> DynamicsSource<'a> {
     /// How steady the turns of the last measurement were, per wearing joint.
     pub fn steadiness(&self) -> &[Steadiness] {
         &self.steadiness
+    }
+
+    /// Has its turns run side by side with those of others, in the same bits: the queue is that of a bundle of the same mechanism.
+    pub fn through(self, queue: TurnQueue) -> Self {
+        Self { queue: Some(queue), ..self }
     }
 
     /// Hears of the finished part of every measurement; when it breaks, the measurement ends with
@@ -195,7 +228,11 @@ impl<'a> DynamicsSource<'a> {
 
     /// Runs turns, from one part of a measurement to another.
     fn run(&mut self, turns: u32, (from, to): (f64, f64)) -> Result<Vec<TurnMeasures>, RunError> {
-        self.runner.turns(turns, self.watch.piece(from, to))
+        let one = |watch| match &self.queue {
+            Some(queue) => queue.measure(&mut self.runner, watch),
+            None => self.runner.measure(watch),
+        };
+        self.watch.piece(from, to).pieces(turns).map(one).collect()
     }
 
     /// Whether all joints wear alike in two turns.
@@ -233,6 +270,13 @@ impl WearSource for DynamicsSource<'_> {
         joints: &[JointWear],
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, RunError> {
+        let is_known = |known: &&Known| known.from == *state && known.joints == joints;
+        if let Some(known) = self.beginning.iter().find(is_known) {
+            state.clone_from(&known.state);
+            self.steadiness.clone_from(&known.steadiness);
+            return Ok(known.measured.clone());
+        }
+        let from = state.clone();
         self.runner.restore(state.as_ref().unwrap_or(&self.start))?;
         for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
             self.runner.set_worn(*at, joint.clearance - unworn, joint.profile.clone())?;
@@ -248,7 +292,14 @@ impl WearSource for DynamicsSource<'_> {
         let of = |(at, _): &(usize, f64)| {
             ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
         };
-        Ok(self.wearing.iter().map(of).collect())
+        let measured: Vec<_> = self.wearing.iter().map(of).collect();
+        let begins = from.is_none() || self.beginning.iter().any(|known| known.state == from);
+        if begins && self.beginning.len() < MOST_KNOWN {
+            let (joints, steadiness) = (joints.to_vec(), self.steadiness.clone());
+            let (measured, state) = (measured.clone(), state.clone());
+            self.beginning.push(Known { joints, from, measured, steadiness, state });
+        }
+        Ok(measured)
     }
 }
 

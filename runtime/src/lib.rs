@@ -101,8 +101,8 @@ pub use {
     record::{Cells, Table, TableColumn, write_csv},
     simulate::{
         At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,
-        RunWarning, Settings, Span, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState,
-        simulate,
+        RunWarning, Settings, Span, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue,
+        TurnRequests, TurnRunner, TurnState, simulate, turn_queue,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

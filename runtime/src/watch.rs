@@ -28,6 +28,12 @@ impl<'a> Watch<'a> {
         Self { hear: self.hear, from: self.from + from * self.length, length: (to - from) * self.length }
     }
 
+    /// The same for equal pieces of the work, one after the other.
+    pub fn pieces(self, count: u32) -> impl Iterator<Item = Self> {
+        let part = move |piece: u32| f64::from(piece) / f64::from(count);
+        (0..count).map(move |piece| self.piece(part(piece), part(piece + 1)))
+    }
+
     /// Tells the finished part; answers whether to go on.
     pub fn report(self, part: f64) -> ControlFlow<()> {
         (self.hear)(self.from + part * self.length)

@@ -11,10 +11,10 @@ use super::run::Plan;
 use super::study::{Coupling, LifeStudy};
 
 /// Measurements per cycle of a mean path: fewest where steps grow to their longest, most where wear is noisy or steps stay within
-/// a cycle (the case study: 4.6).
+/// a cycle.
 const PER_CYCLE: [f64; 2] = [0.2, 5.0];
-/// Measurements per cycle of a random life: each begins anew, with one step or more of three stages.
-const PER_DRAWN_CYCLE: f64 = 4.0;
+/// Measurements per cycle of a random life: each begins anew, with one step of two.
+const PER_DRAWN_CYCLE: f64 = 2.0;
 /// Revolutions that a motion takes to settle when what it wears has hardly changed.
 const TO_SETTLE: u32 = 1;
 /// Shortest mean path: its first steps are short.

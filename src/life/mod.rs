@@ -7,12 +7,14 @@
 
 mod cost;
 mod counted;
+mod draw;
 mod error;
 mod fit;
 mod journal;
 mod process;
 mod result;
 mod run;
+mod side_by_side;
 mod source;
 mod steady;
 mod study;

@@ -4,44 +4,29 @@
 use std::convert::Infallible;
 use std::error::Error as StdError;
 use std::num::NonZero;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
 use linkwear_codegen::limits;
-use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
 use linkwear_runtime::life::{
-    CycleRecord, DEFAULT_POINTS, FailureEvent, Feedback, IncrementModel, LifeError as Stop, LifeOutcome,
-    LifeSettings, LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
+    CycleRecord, DEFAULT_POINTS, Feedback, IncrementModel, LifeError as Stop, LifeOutcome, LifeSettings,
+    LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
 };
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
-use super::counted::{CountedEnds, parts};
 use super::error::{Cause, LifeError};
-use super::journal::{Batch, Journal, KnownLives};
+use super::journal::Journal;
 use super::process::Process;
 use super::result::LifeResult;
 use super::source::KeptSource;
 use super::steady::TurnErrors;
 use super::study::{Coupling, LifeStudy};
-
-/// Lives for each of the four shifts that tell what uncertain parameters do to the mean. Shifts share their random
-/// numbers, so few are enough; with the dynamics at every step each is dear.
-const SHIFTED_BY_TABLE: u64 = 200;
-const SHIFTED_BY_DYNAMICS: u64 = 4;
-
-/// Ends of lives by their numbers.
-type Numbered = Vec<(u64, FailureEvent)>;
-
-/// Lives to draw: which of them, of how many in all.
-struct Part {
-    batch: Batch,
-    lives: Range<u64>,
-    of: u64,
-}
+use crate::backend::Lanes;
 
 /// Runs with a source of wear that was made for it.
-type Body<'b> = &'b mut dyn FnMut(&mut dyn WearSource<State = Option<TurnState>, Error = RunError>);
+pub(super) type Body<'b, E = RunError, S = Option<TurnState>> =
+    &'b mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>);
 
 impl LifeStudy<'_> {
     /// Lives.
@@ -118,7 +103,7 @@ impl LifeStudy<'_> {
     }
 
     /// Revolutions of a system.
-    fn source<'s>(
+    pub(super) fn source<'s>(
         &'s self,
         system: &'s dyn System<f64>,
         between: Watch<'s>,
@@ -133,19 +118,19 @@ const FIRST: f64 = 1.0 / DEFAULT_POINTS as f64;
 
 /// What to live, and how.
 pub(super) struct Plan<'s> {
-    study: &'s LifeStudy<'s>,
+    pub(super) study: &'s LifeStudy<'s>,
     pub settings: LifeSettings,
     pub coupling: Coupling,
-    process: Option<Process>,
-    journal: Option<&'s Journal>,
+    pub(super) process: Option<Process>,
+    pub(super) journal: Option<&'s Journal>,
     /// Random lives; none for the mean path alone.
     pub trajectories: Option<u64>,
     pub threads: NonZero<usize>,
     /// Those of them that the system did not give.
-    missing_threads: AtomicUsize,
-    watch: Watch<'s>,
+    pub(super) missing_threads: AtomicUsize,
+    pub(super) watch: Watch<'s>,
     /// For work between two reports.
-    between: Watch<'s>,
+    pub(super) between: Watch<'s>,
 }
 
 impl<'s> Plan<'s> {
@@ -191,10 +176,11 @@ impl<'s> Plan<'s> {
         let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
         let mut table = measured.map_err(|error| self.error(self.cause(error, None), &[]))?;
         let mut result = self.mean_path(&mut table, self.between)?;
-        self.draw(&mut result, &|body| {
+        let scale = |body: Body<'_, Infallible, ()>| {
             body(&mut table.clone());
-            Ok::<(), Infallible>(())
-        })?;
+            Ok(())
+        };
+        self.draw(&mut result, &scale, self.threads)?;
         result.measurements = table.report().measurements as u64;
         result.table = Some(table.report().clone());
         Ok(result)
@@ -202,11 +188,19 @@ impl<'s> Plan<'s> {
 
     fn by_dynamics(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         let mut result = self.mean_path(source, self.watch)?;
-        self.draw(&mut result, &|body: Body<'_>| {
-            let system = self.study.mechanism.system();
-            body(&mut self.study.source(&*system, self.between)?);
-            Ok(())
-        })?;
+        let lanes = self.process.as_ref().and(self.trajectories).and_then(|_| self.study.mechanism.lanes());
+        match lanes {
+            Some(Lanes::Eight(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
+            Some(Lanes::Four(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
+            None => {
+                let scale = |body: Body<'_>| {
+                    let system = self.study.mechanism.system();
+                    body(&mut self.study.source(&*system, self.between)?);
+                    Ok(())
+                };
+                self.draw(&mut result, &scale, self.threads)?;
+            }
+        }
         Ok(result)
     }
 
@@ -253,105 +247,17 @@ impl<'s> Plan<'s> {
         })
     }
 
-    /// The random lives, and what uncertain parameters do to their mean.
-    fn draw<S: Clone + Default, E: StdError + Send + Sync + 'static>(
-        &self,
-        result: &mut LifeResult,
-        scale: Scale<'_, S, E>,
-    ) -> Result<(), LifeError> {
-        let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
-        let failed =
-            |(cause, lives): (Cause, Numbered)| LifeError { lives, ..self.error(cause, &result.cycles) };
-        let is_listed = count <= self.study.listed;
-        let (mut counted, mut lives) = (CountedEnds::default(), Vec::new());
-        // More than are listed go in parts of as many, which are counted and forgotten.
-        for part in parts(count, self.study.listed) {
-            let [start, length] =
-                [part.start, part.end - part.start].map(|lives| lives as f64 / count as f64);
-            let watch = |done: f64| self.watch.report(start + length * done);
-            let part = Part { batch: 0, lives: part, of: count };
-            lives = self.draw_by(scale, &process.draw(), part, Watch::new(&watch)).map_err(failed)?;
-            if !is_listed {
-                let all = lives.drain(..).try_for_each(|(_, end)| counted.add(&end));
-                let cause = |error| Cause::Wear { trajectory: None, error: Box::new(error) };
-                all.map_err(|error| self.error(cause(error), &result.cycles))?;
-            }
-        }
-        let few = match self.coupling {
-            Coupling::Table => SHIFTED_BY_TABLE,
-            Coupling::Full => SHIFTED_BY_DYNAMICS,
-        };
-        let mut batch = 0;
-        let by_fits = process.uncertainty(&mut |shifted| {
-            batch += 1;
-            let few = count.min(few);
-            let part = Part { batch, lives: 0..few, of: few };
-            let lives = self.draw_by(scale, shifted, part, self.between)?;
-            Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
-        });
-        let by_fits = by_fits.map_err(|(cause, _)| failed((cause, lives.clone())))?;
-        // One life has no statistics: the budget stays that of the mean path.
-        if count > 1 {
-            result.parameter_error = by_fits;
-        }
-        result.counted = (!is_listed).then_some(counted);
-        result.lives = lives.into_iter().map(|(_, end)| end).collect();
-        let missing = self.missing_threads.load(Ordering::Relaxed);
-        if missing > 0 {
-            let given = self.threads.get() - missing;
-            let of = self.threads;
-            result.warnings.push(format!(
-                "the system gave {given} of {of} threads: the lives are the same, and took longer"
-            ));
-        }
-        Ok(())
-    }
-
-    /// Lives by these draws; with an error those that were finished.
-    fn draw_by<S: Clone + Default, E: StdError + Send + Sync + 'static>(
-        &self,
-        scale: Scale<'_, S, E>,
-        draw: &GammaDraw,
-        Part { batch, lives, of }: Part,
-        watch: Watch<'_>,
-    ) -> Result<Numbered, (Cause, Numbered)> {
-        let mut settings = self.settings.clone();
-        settings.keep_cycles = false;
-        let done = lives.start;
-        let run = MonteCarlo { settings: &settings, draw, trajectories: lives, threads: self.threads };
-        let none = KnownLives::new();
-        let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
-        let keep = |ends: &[(u64, FailureEvent)]| {
-            // Lives that are not listed are as fast lived again as read.
-            if let Some(journal) = self.journal.filter(|_| of <= self.study.listed) {
-                journal.keep_lives(batch, ends);
-            }
-        };
-        let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);
-        self.missing_threads.fetch_max(missing_threads, Ordering::Relaxed);
-        let lives = Some((failures.len() + usize::try_from(done).unwrap_or(0), of));
-        let cause = match ended {
-            Ended::Complete => return Ok(failures),
-            Ended::Cancelled => Cause::Interrupted { trajectory: None, lives },
-            Ended::Stopped { trajectory, stop } => match self.cause(stop, Some(trajectory)) {
-                Cause::Interrupted { trajectory, .. } => Cause::Interrupted { trajectory, lives },
-                cause => cause,
-            },
-            Ended::Panicked { trajectory, message } => Cause::Panicked { trajectory, message },
-            Ended::Survived { trajectory } => {
-                Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles }
-            }
-        };
-        Err((cause, failures))
-    }
-
-    fn error(&self, cause: Cause, cycles: &[CycleRecord]) -> LifeError {
+    pub(super) fn error(&self, cause: Cause, cycles: &[CycleRecord]) -> LifeError {
         let joints = self.settings.joints.iter().map(|joint| joint.joint.clone()).collect();
         LifeError { cause: Box::new(cause), joints, cycles: cycles.to_vec(), lives: Vec::new() }
     }
 
     /// Whatever a fine scale says that was asked to stop, it was stopped.
-    fn cause<E: StdError + Send + Sync + 'static>(&self, error: Stop<E>, trajectory: Option<u64>) -> Cause {
+    pub(super) fn cause<E: StdError + Send + Sync + 'static>(
+        &self,
+        error: Stop<E>,
+        trajectory: Option<u64>,
+    ) -> Cause {
         let is_stopped = matches!(error, Stop::Fine { .. }) && self.between.report(0.0).is_break();
         if is_stopped || matches!(error, Stop::Interrupted) {
             return Cause::Interrupted { trajectory, lives: None };

@@ -115,8 +115,15 @@ fn first_guess<F: WearSource>(
     cycles: f64,
 ) -> Result<f64, CalibrationError<F::Error>> {
     let state = LifeState::<F::State>::new(settings, 0).map_err(LifeError::from)?;
-    let mut walker =
-        Walker { settings, fine, base: &state.joints, state: F::State::default(), cycle: 0, measurements: 0 };
+    let mut walker = Walker {
+        settings,
+        fine,
+        base: &state.joints,
+        state: F::State::default(),
+        cycle: 0,
+        measurements: 0,
+        earlier: Vec::new(),
+    };
     let measured = walker.measure(&vec![0.0; settings.width()], &mut F::State::default())?;
     let rates = rates(settings, &measured);
     let pace = |((joint, rate), base): ((&JointLife, &[f64]), &WearState)| {

@@ -70,6 +70,7 @@ fn advance<F: WearSource>(
         state: state.fine.clone(),
         cycle: state.cycle,
         measurements: state.measurements,
+        earlier: state.earlier.clone(),
     };
     let measured = match state.measured.clone() {
         Some(measured) => measured,
@@ -83,7 +84,7 @@ fn advance<F: WearSource>(
     let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
     let mut control = state.control;
     let path = walker.follow(&measured, &mut control, most)?;
-    let (fine_state, measurements) = (walker.state, walker.measurements);
+    let (fine_state, measurements, earlier) = (walker.state, walker.measurements, walker.earlier);
 
     let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;
     // From here on nothing fails: the state changes as a whole.
@@ -111,6 +112,7 @@ fn advance<F: WearSource>(
         joint.error += error;
     }
     (state.fine, state.control, state.measurements) = (fine_state, control, measurements);
+    state.earlier = earlier;
     Ok(flow)
 }
 

@@ -10,6 +10,7 @@
 //! are fine scales to the same loop, [`run_life`].
 
 mod calibrate;
+mod curve;
 mod cycle;
 mod error;
 mod flow;

@@ -4,6 +4,7 @@
 //! Bogacki and Shampine's pair of order 3 and 2 (Appl. Math. Lett. 2 (1989) 321-325): its last stage is the first of
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
+use super::curve::{Curve, Measured};
 use super::error::LifeError;
 use super::interpolate::{at, cubic};
 use super::settings::{Feedback, JointLife, LifeSettings, WearStep};
@@ -46,6 +47,12 @@ pub(super) struct Path {
 }
 
 impl Path {
+    /// Whether it leads anywhere, and nowhere back.
+    fn is_finite(&self) -> bool {
+        let onward = |to: &f64| to.is_finite() && *to >= 0.0;
+        self.segments.iter().all(|segment| segment.to.iter().chain(&segment.to_rate).all(onward))
+    }
+
     /// Increments at a time in cycles after its begin.
     pub(super) fn at(&self, time: f64) -> Increments {
         let index = self.segments.partition_point(|segment| segment.start < time).max(1) - 1;
@@ -79,7 +86,15 @@ pub(super) struct Walker<'a, F: WearSource> {
     /// Whole cycles before the path.
     pub(super) cycle: u64,
     pub(super) measurements: u64,
+    /// What the last step has measured, joint by joint, where steps remember it.
+    pub(super) earlier: Vec<[Measured; 2]>,
 }
+
+/// Part of a step at which its second measurement is made: the rest is too short for what a curve through it misses.
+const SECOND: f64 = 0.75;
+/// Earlier measurements that are nearer than this part of the distance between the step's own tell more of the scatter of the fine
+/// scale than of its curve.
+const APART: f64 = 0.25;
 
 /// A step that was tried.
 struct Trial<S> {
@@ -89,6 +104,8 @@ struct Trial<S> {
     /// Error over gain.
     ratio: f64,
     error: Vec<f64>,
+    /// Its inner measurements, joint by joint.
+    seen: Vec<[Measured; 2]>,
 }
 
 impl<F: WearSource> Walker<'_, F> {
@@ -116,7 +133,7 @@ impl<F: WearSource> Walker<'_, F> {
     ) -> Result<Path, LifeError<F::Error>> {
         let rates = rates(self.settings, start);
         let nothing = vec![0.0; rates.len()];
-        let WearStep::Adaptive { tolerance, shortest, longest } = self.settings.step else {
+        let WearStep::Adaptive { tolerance, shortest, longest, remembers } = self.settings.step else {
             let (from_rate, to_rate) = (rates.clone(), rates.clone());
             let segment = Segment { start: 0.0, length: 1.0, from: nothing, to: rates, from_rate, to_rate };
             let error = vec![0.0; self.base.len()];
@@ -124,6 +141,16 @@ impl<F: WearSource> Walker<'_, F> {
         };
         // A jump of several cycles is one step.
         let mut span = (control.step.floor() as u64).clamp(1, most.min(longest).max(1));
+        let remembers = remembers && self.settings.joints.iter().all(|joint| joint.bins.is_none());
+        let earlier = std::mem::take(&mut self.earlier);
+        if remembers && earlier.len() == rates.len() {
+            let (path, ratio) = self.along_curves(&rates, &earlier, span)?;
+            let before = *control;
+            if path.is_finite() && accepts(control, ratio, span as f64, None, (tolerance, shortest)) {
+                return Ok(path);
+            }
+            *control = before;
+        }
         let mut path = Path { segments: Vec::new(), span, end: None, error: vec![0.0; self.base.len()] };
         let (mut time, mut from, mut from_rate) = (0.0, nothing, rates);
         let mut refused: Option<(f64, f64)> = None;
@@ -149,6 +176,9 @@ impl<F: WearSource> Walker<'_, F> {
                 to_rate,
             });
             path.error.iter_mut().zip(&trial.error).for_each(|(sum, more)| *sum += more);
+            if remembers {
+                self.earlier = trial.seen;
+            }
             self.state = trial.state;
             // The last of equal steps ends there, up to rounding.
             time += length;
@@ -157,6 +187,45 @@ impl<F: WearSource> Walker<'_, F> {
                 return Ok(path);
             }
         }
+    }
+
+    /// One step along curves through its measurements and the nearest earlier one, joint by joint in its own wear; and by how much
+    /// of its gain it differs from straight lines.
+    fn along_curves(
+        &mut self,
+        rates: &[f64],
+        earlier: &[[Measured; 2]],
+        span: u64,
+    ) -> Result<(Path, f64), LifeError<F::Error>> {
+        let length = span as f64;
+        let second: Increments = rates.iter().map(|rate| SECOND * length * rate).collect();
+        let mut state = self.state.clone();
+        let measured = self.measure(&second, &mut state)?;
+        let then = self::rates(self.settings, &measured);
+        self.state = state;
+        let own = |i: usize| {
+            let wear = self.base[i].wear;
+            let begin = Measured { wear, rate: rates[i] };
+            [begin, Measured { wear: wear + second[i], rate: then[i] }]
+        };
+        let own: Vec<[Measured; 2]> = (0..rates.len()).map(own).collect();
+        let nothing = vec![0.0; rates.len()];
+        let (mut to, mut to_rate, mut errors) = (nothing.clone(), nothing.clone(), nothing.clone());
+        for (i, [begin, later]) in own.iter().enumerate() {
+            let line = Curve::line(*begin, *later);
+            let distance = |one: &Measured| (one.wear - begin.wear).abs();
+            let far = earlier[i].iter().filter(|one| distance(one) >= APART * distance(later));
+            let third = far.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let curve = third.map_or(line, |third| line.through(*third));
+            let end = curve.after(length);
+            (to[i], to_rate[i]) = (end - begin.wear, curve.rate(end));
+            errors[i] = end - line.after(length);
+        }
+        let (error, ratio) = self.judge(&errors, &to, length);
+        self.earlier = own;
+        let from_rate = rates.to_vec();
+        let segment = Segment { start: 0.0, length, from: nothing, to, from_rate, to_rate };
+        Ok((Path { segments: vec![segment], span, end: None, error }, ratio))
     }
 
     /// One step of the pair.
@@ -170,9 +239,11 @@ impl<F: WearSource> Walker<'_, F> {
         let moved = |rate: &dyn Fn(usize) -> f64| -> Increments {
             from.iter().enumerate().map(|(i, value)| value + length * rate(i)).collect()
         };
-        let measured = self.measure(&moved(&|i| 0.5 * k1[i]), &mut state)?;
+        let first = moved(&|i| 0.5 * k1[i]);
+        let measured = self.measure(&first, &mut state)?;
         let k2 = rates(self.settings, &measured);
-        let measured = self.measure(&moved(&|i| 0.75 * k2[i]), &mut state)?;
+        let second = moved(&|i| 0.75 * k2[i]);
+        let measured = self.measure(&second, &mut state)?;
         let k3 = rates(self.settings, &measured);
         let to = moved(&|i| (2.0 * k1[i] + 3.0 * k2[i] + 4.0 * k3[i]) / 9.0);
         let measured = self.measure(&to, &mut state)?;
@@ -188,7 +259,12 @@ impl<F: WearSource> Walker<'_, F> {
         let errors: Increments = (0..to.len()).map(error).collect();
         let gains: Increments = to.iter().zip(from).map(|(to, from)| to - from).collect();
         let (error, ratio) = self.judge(&errors, &gains, length);
-        Ok(Trial { to, measured, state, ratio, error })
+        let seen = |(joint, base): (usize, &WearState)| {
+            let at = |increment: f64, rate| Measured { wear: base.wear + increment, rate };
+            [at(first[joint], k2[joint]), at(second[joint], k3[joint])]
+        };
+        let seen = self.base.iter().enumerate().map(seen).collect();
+        Ok(Trial { to, measured, state, ratio, error, seen })
     }
 
     /// Error per joint in cycles, and the largest error of W over the largest gain, both as parts of the thresholds:

@@ -59,16 +59,20 @@ pub enum WearStep {
         shortest: f64,
         /// Longest step in cycles.
         longest: u64,
+        /// Whether a step takes what earlier ones have measured, and two measurements of its own in place of three: where
+        /// every joint's wear is one number.
+        remembers: bool,
     },
 }
 
 impl WearStep {
     /// For a fine scale that costs seconds.
-    pub const FULL: Self = Self::Adaptive { tolerance: 1e-4, shortest: 0.25, longest: 16 };
+    pub const FULL: Self = Self::Adaptive { tolerance: 1e-4, shortest: 0.25, longest: 16, remembers: true };
     /// For a table.
-    pub const TABLE: Self = Self::Adaptive { tolerance: 1e-6, shortest: 0.01, longest: 16 };
+    pub const TABLE: Self = Self::Adaptive { tolerance: 1e-6, shortest: 0.01, longest: 16, remembers: false };
     /// For a calibration, which compares lives with each other to seven digits.
-    pub(super) const FINE: Self = Self::Adaptive { tolerance: 1e-7, shortest: 1e-4, longest: 1 };
+    pub(super) const FINE: Self =
+        Self::Adaptive { tolerance: 1e-7, shortest: 1e-4, longest: 1, remembers: false };
 }
 
 /// A wearing joint over its life. SI.
@@ -203,7 +207,7 @@ impl LifeSettings {
         self.joints.iter().try_for_each(JointLife::check)?;
         let touching = self.least_touching;
         checked("the least part in contact", touching, "from 0 to below 1", |x| (0.0..1.0).contains(&x))?;
-        if let WearStep::Adaptive { tolerance, shortest, longest } = self.step {
+        if let WearStep::Adaptive { tolerance, shortest, longest, .. } = self.step {
             checked("the tolerance of the wear step", tolerance, "between 0 and 1", |x| x > 0.0 && x < 1.0)?;
             let need = "above 0 and at most 1 cycle";
             checked("the shortest wear step", shortest, need, |x| x > 0.0 && x <= 1.0)?;

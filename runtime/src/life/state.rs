@@ -1,6 +1,7 @@
 //! The state of a trajectory as one value: saved, it goes on with the same bits. In: settings. Out: the state and
 //! the records of cycles. Never knows files or formats.
 
+use super::curve::Measured;
 use super::settings::{LifeSettings, SettingsError};
 use super::worn::WearState;
 use crate::column::{Column, Quantity};
@@ -20,6 +21,9 @@ pub struct LifeState<S> {
     pub fine: S,
     /// What a revolution wears now, if it was measured already.
     pub measured: Option<Vec<ContactMeasure>>,
+    /// What the last step has measured, joint by joint, where steps remember it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub earlier: Vec<[Measured; 2]>,
     /// Control of the wear step.
     pub control: Control,
     /// How it ended, if it has.
@@ -135,6 +139,7 @@ impl<S: Default> LifeState<S> {
             joints: joints.collect(),
             fine: S::default(),
             measured: None,
+            earlier: Vec::new(),
             control: Control { step: 1.0, noise: 0.0 },
             failure: None,
             warnings: Vec::new(),

@@ -24,7 +24,7 @@ mod turns;
 mod unbounded;
 mod warning;
 
-pub use bundle::{TurnBundle, TurnOutcome};
+pub use bundle::{TurnBundle, TurnOutcome, TurnQueue, TurnRequests, turn_queue};
 pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};
 pub use ideal::IdealJoint;
 pub use motion::{BRANCH_PART, JUMP_FLOOR};

@@ -188,8 +188,7 @@ impl<'a> TurnRunner<'a> {
     /// # Errors
     /// As [`Self::measure`].
     pub fn turns(&mut self, turns: u32, watch: Watch<'_>) -> Result<Vec<TurnMeasures>, RunError> {
-        let part = |turn: u32| f64::from(turn) / f64::from(turns);
-        (0..turns).map(|turn| self.measure(watch.piece(part(turn), part(turn + 1)))).collect()
+        watch.pieces(turns).map(|watch| self.measure(watch)).collect()
     }
 
     /// Whether a turn with these clearances [m] may differ from the last one that was looked at by more than angles notice.
@@ -246,6 +245,14 @@ impl<'a> TurnRunner<'a> {
     pub(super) fn looks(&mut self) -> Option<Vec<f64>> {
         let clearances = self.clearances();
         self.may_differ(&clearances).then_some(clearances)
+    }
+
+    /// Goes on after a turn that was run elsewhere; `looked_at` as [`Self::looks`] has it.
+    pub(super) fn go_on(&mut self, state: &TurnState, looked_at: Option<Vec<f64>>) -> Result<(), SetupError> {
+        if let Some(clearances) = looked_at {
+            self.looked_at = clearances;
+        }
+        self.restore(state)
     }
 
     /// Begins a turn, of which nothing is done yet.

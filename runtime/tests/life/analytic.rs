@@ -141,5 +141,5 @@ pub fn live<F: WearSource>(settings: &LifeSettings, fine: &mut F) -> Result<Live
 
 /// Adaptive steps of a tolerance, as short as need be.
 pub fn adaptive(tolerance: f64) -> WearStep {
-    WearStep::Adaptive { tolerance, shortest: 1e-3, longest: 16 }
+    WearStep::Adaptive { tolerance, shortest: 1e-3, longest: 16, remembers: false }
 }

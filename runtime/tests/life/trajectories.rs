@@ -63,7 +63,7 @@ fn estimated_error_covers_the_true_one() {
 fn wear_steps_are_of_third_order() {
     // Steps of one cycle; the same life in 8, 16 and 32 cycles, wear after half of it.
     let wear = |cycles: u32| {
-        let step = WearStep::Adaptive { tolerance: 0.9, shortest: 1.0, longest: 1 };
+        let step = WearStep::Adaptive { tolerance: 0.9, shortest: 1.0, longest: 1, remembers: false };
         let settings = settings(0.5, 1.0, f64::from(cycles), step);
         let (_, state) = live(&settings, &mut Powers::one(0.5)).unwrap();
         state.cycles[cycles as usize / 2 - 1].joints[0].wear

@@ -7,8 +7,11 @@
 
 mod lanes;
 mod outcome;
+mod queue;
 mod room;
 mod trajectory;
+
+pub use queue::{TurnQueue, TurnRequests, turn_queue};
 
 use super::turns::{TurnRunner, TurnState};
 use crate::bundle::Bundle;

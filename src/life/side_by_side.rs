@@ -1,0 +1,58 @@
+//! Random lives by the dynamics, several in the lanes of every thread. In: a plan, machine code of the mechanism for lanes.
+//! Out: the lives, the same bits as one after the other. Never knows what a life is.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{Builder, scope};
+
+use linkwear_native::NativeBundle;
+use linkwear_runtime::{SINGULAR_PIVOT, TurnBundle, TurnQueue, TurnRequests, TurnRunner, turn_queue};
+
+use super::error::LifeError;
+use super::result::LifeResult;
+use super::run::{Body, Plan};
+
+impl Plan<'_> {
+    /// The random lives, in the lanes of a bundle for each thread.
+    pub(super) fn draw_in_lanes<const N: usize>(
+        &self,
+        result: &mut LifeResult,
+        bundle: &NativeBundle<N>,
+    ) -> Result<(), LifeError> {
+        scope(|scope| {
+            let (queues, requests): (Vec<TurnQueue>, Vec<TurnRequests>) =
+                (0..self.threads.get()).map(|_| turn_queue()).unzip();
+            // Where the system gives no thread, or it ends, turns are run by those who ask for them.
+            let spawn =
+                |requests| Builder::new().spawn_scoped(scope, move || self.serve(bundle, requests)).ok();
+            let servers: Vec<_> = requests.into_iter().filter_map(spawn).collect();
+            let next = AtomicUsize::new(0);
+            let scale = |body: Body<'_>| {
+                let system = self.study.mechanism.system();
+                let queue = queues[next.fetch_add(1, Ordering::Relaxed) % queues.len()].clone();
+                body(&mut self.study.source(&*system, self.between)?.through(queue));
+                Ok(())
+            };
+            let lanes = self.threads.saturating_mul(NonZero::new(N).unwrap_or(NonZero::<usize>::MIN));
+            let drawn = self.draw(result, &scale, lanes);
+            drop(queues);
+            for server in servers {
+                let _ = server.join();
+            }
+            drawn
+        })
+    }
+
+    fn serve<const N: usize>(&self, bundle: &NativeBundle<N>, requests: TurnRequests) {
+        let mechanism = self.study.mechanism;
+        let system = mechanism.system();
+        let integrator = self.study.revolutions.integrator;
+        let runner = || {
+            let (description, parameters) = (&mechanism.description, &mechanism.parameters);
+            TurnRunner::new(&*system, description, parameters, integrator, SINGULAR_PIVOT)
+        };
+        if let Ok(mut turns) = TurnBundle::new(bundle, runner) {
+            turns.serve(requests);
+        }
+    }
+}
