@@ -1,6 +1,8 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod settled;
+
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
@@ -9,13 +11,16 @@ use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunne
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+use settled::SETTLED;
+pub use settled::{Settled, Steadiness};
 
 /// How revolutions are run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RevolutionSettings {
     /// The method.
     pub integrator: Integrator,
-    /// Turns after each change of wear before one is measured. Nothing: until two turns wear alike.
+    /// Turns after each change of wear before one is measured. Nothing: until two turns wear alike, or none where such
+    /// comparisons show that the first is as good.
     pub settle: Option<u32>,
     /// Turns whose mean is taken, at least 1. One is enough for a periodic motion; one that chatters needs 20 or more.
     pub average: u32,
@@ -31,9 +36,6 @@ impl Default for RevolutionSettings {
     }
 }
 
-/// Turns that wear alike but for this part of it have settled: a motion settles by a constant factor each turn (of 500 in the
-/// case study), so that the next one differs by far less.
-const SETTLED: f64 = 1e-5;
 /// A motion that has not settled after so many turns is taken as one that never does, ...
 const MOST_TO_SETTLE: u32 = 4;
 /// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
@@ -41,36 +43,6 @@ const MOST_TO_SETTLE: u32 = 4;
 const SCATTERED: f64 = 1e-3;
 /// ... or of so many turns.
 const MOST_TO_AVERAGE: usize = 20;
-
-/// How steady the turns were that a revolution was measured by, of one joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Steadiness {
-    /// What the revolution adds to W [m].
-    pub wear: f64,
-    /// By how much of it the revolution differs from the last turn that settled; nothing if none did.
-    pub drift: Option<f64>,
-    /// Standard error of the mean over the turns measured, as a part of it: by their scatter, or for a single one by its
-    /// difference from the turn before, which has the scatter of two. Nothing if there is one turn in all.
-    pub scatter: Option<f64>,
-}
-
-impl Steadiness {
-    /// From W per turn [m] of the last turn that settled, and of those measured.
-    fn of(before: Option<f64>, turns: &[f64]) -> Self {
-        let count = turns.len() as f64;
-        let wear = turns.iter().sum::<f64>() / count;
-        // What does not wear at all is steady.
-        let part = |of: f64| if of == 0.0 { 0.0 } else { of / wear };
-        let drift = before.map(|before| part(wear - before));
-        let squares: f64 = turns.iter().map(|turn| (turn - wear) * (turn - wear)).sum();
-        let scatter = match turns.len() {
-            1 => drift.map(|drift| drift.abs() * core::f64::consts::FRAC_1_SQRT_2),
-            _ => Some(part(libm::sqrt(squares / (count * (count - 1.0))))),
-        };
-        Self { wear, drift, scatter }
-    }
-}
 
 /// Revolutions of one mechanism.
 #[must_use]
@@ -93,10 +65,10 @@ pub struct DynamicsSource<'a> {
 /// A measurement that will be asked for again: every life begins with the same.
 struct Known {
     joints: Vec<JointWear>,
-    from: Option<TurnState>,
+    from: Option<Settled>,
     measured: Vec<ContactMeasure>,
     steadiness: Vec<Steadiness>,
-    state: Option<TurnState>,
+    state: Option<Settled>,
 }
 
 /// So many are kept: those of a first cycle, in steps as long as it.
@@ -262,7 +234,7 @@ impl<'a> DynamicsSource<'a> {
 }
 
 impl WearSource for DynamicsSource<'_> {
-    type State = Option<TurnState>;
+    type State = Option<Settled>;
     type Error = RunError;
 
     fn measure(
@@ -277,18 +249,31 @@ impl WearSource for DynamicsSource<'_> {
             return Ok(known.measured.clone());
         }
         let from = state.clone();
-        self.runner.restore(state.as_ref().unwrap_or(&self.start))?;
+        self.runner.restore(from.as_ref().map_or(&self.start, |settled| &settled.turn))?;
         for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
             self.runner.set_worn(*at, joint.clearance - unworn, joint.profile.clone())?;
         }
-        let (settled, turns) = self.turns()?;
-        *state = Some(self.runner.state());
+        let by_itself = self.settings.settle.is_none() && self.settings.average <= 1;
+        let expects =
+            from.as_ref().filter(|_| by_itself).and_then(|from| Some((from, from.expects(joints)?)));
+        let (settled, turns) = match expects {
+            Some(_) => (None, self.run(1, (0.0, 1.0))?),
+            None => self.turns()?,
+        };
         self.note(&turns);
         let steady = |(at, _): &(usize, f64)| {
             let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of(settled.as_ref().map(|turn| self.wear(*at, turn)), &wears)
+            match expects {
+                Some((_, drift)) => Steadiness::expected(wears[0], drift),
+                None => Steadiness::of(settled.as_ref().map(|turn| self.wear(*at, turn)), &wears),
+            }
         };
         self.steadiness = self.wearing.iter().map(steady).collect();
+        let turn = self.runner.state();
+        *state = Some(match expects {
+            Some((from, _)) => Settled::trusted(from, turn, joints),
+            None => Settled::compared(from.as_ref(), turn, joints, &self.steadiness),
+        });
         let of = |(at, _): &(usize, f64)| {
             ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
         };
@@ -300,26 +285,5 @@ impl WearSource for DynamicsSource<'_> {
             self.beginning.push(Known { joints, from, measured, steadiness, state });
         }
         Ok(measured)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_that_differ_say_how_far_their_mean_may_be_off() {
-        // 2, 3 and 4: mean 3, standard deviation 1.
-        let three = Steadiness::of(Some(2.7), &[2.0, 3.0, 4.0]);
-        assert_eq!(three.wear, 3.0);
-        assert!((three.drift.expect("a turn before") - 0.1).abs() < 1e-15);
-        assert!((three.scatter.expect("three turns") - 1.0 / 3.0_f64.sqrt() / 3.0).abs() < 1e-15);
-        let one = Steadiness::of(Some(2.0), &[4.0]);
-        assert_eq!(one.drift, Some(0.5));
-        assert!((one.scatter.expect("two turns") - 0.5 / 2.0_f64.sqrt()).abs() < 1e-15);
-        let alone = Steadiness::of(None, &[4.0]);
-        assert_eq!((alone.drift, alone.scatter), (None, None));
-        let still = Steadiness { wear: 0.0, drift: Some(0.0), scatter: Some(0.0) };
-        assert_eq!(Steadiness::of(Some(0.0), &[0.0, 0.0]), still);
     }
 }

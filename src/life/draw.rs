@@ -50,7 +50,9 @@ impl Plan<'_> {
             let [start, length] =
                 [part.start, part.end - part.start].map(|lives| lives as f64 / count as f64);
             let watch = |done: f64| self.watch.report(start + length * done);
-            let part = Part { batch: 0, lives: part, of: count };
+            let first = self.study.first;
+            let lives_of_part = first.saturating_add(part.start)..first.saturating_add(part.end);
+            let part = Part { batch: 0, lives: lives_of_part, of: count };
             lives =
                 self.draw_by((scale, threads), &process.draw(), part, Watch::new(&watch)).map_err(failed)?;
             if !is_listed {
@@ -98,7 +100,7 @@ impl Plan<'_> {
     ) -> Result<Numbered, (Cause, Numbered)> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
-        let done = lives.start;
+        let done = lives.start.saturating_sub(self.study.first);
         let run = MonteCarlo { settings: &settings, draw, trajectories: lives, threads };
         let none = KnownLives::new();
         let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);

@@ -56,6 +56,9 @@ pub struct LifeStudy<'m> {
     pub feedback: bool,
     /// Random lives beside the mean path.
     pub trajectories: Trajectories,
+    /// Number of the first random life. A life depends on the seed and its number alone: ranges of numbers that are lived apart,
+    /// on any machines, are together the lives of one study.
+    pub first: u64,
     /// Lives up to which each is kept and told; more are counted in bins, the same on any number of threads.
     pub listed: u64,
     /// Seed of the random numbers: the same seed gives the same bits on any number of threads.
@@ -79,6 +82,7 @@ impl<'m> LifeStudy<'m> {
             coupling: None,
             feedback: true,
             trajectories: Trajectories::Default,
+            first: 0,
             listed: LISTED_LIVES,
             seed: 1,
             threads: None,

@@ -62,7 +62,7 @@ pub trait Method {
         0.0
     }
 
-    /// By how much the next step may be longer, but for the safety: from the error of the step before and that of the last one.
+    /// By how much the next step may be longer: from the error of the step before and that of the last one.
     fn growth(last_error: f64, error: f64) -> f64 {
         step_control::growth(Self::ORDER, last_error, error)
     }

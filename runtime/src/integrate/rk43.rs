@@ -8,6 +8,7 @@
 use super::adaptive::{MadeElsewhere, Method, Step};
 use super::dense::Cubics;
 use super::problem::Problem;
+use super::step_control::SAFETY;
 use crate::error::RunError;
 use crate::linear::combine;
 use crate::scalar::Scalar;
@@ -100,7 +101,7 @@ impl Method for Rk43 {
     }
 
     fn growth(last_error: f64, error: f64) -> f64 {
-        growth_of(last_error, error)
+        SAFETY * growth_of(last_error, error)
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {

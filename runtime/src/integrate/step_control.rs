@@ -12,10 +12,9 @@ const PI_WEIGHT: f64 = 0.04;
 /// Steps below this part of the time (or of the whole span) are at the limit of rounding.
 const SMALLEST_STEP: f64 = 16.0 * f64::EPSILON;
 
-/// By how much a step may grow, but for the safety, from the error of the step before and its own; `order`: that of the error
-/// estimate, plus one.
+/// By how much a step may grow, from the error of the step before and its own; `order`: that of the error estimate, plus one.
 pub(super) fn growth(order: f64, last_error: f64, error: f64) -> f64 {
-    libm::pow(last_error, PI_WEIGHT) / libm::pow(error, 1.0 / order - 0.75 * PI_WEIGHT)
+    SAFETY * libm::pow(last_error, PI_WEIGHT) / libm::pow(error, 1.0 / order - 0.75 * PI_WEIGHT)
 }
 
 /// An error, or the least that counts: of none, no length would follow.
@@ -129,7 +128,7 @@ impl StepControl {
     /// A step counts; `noisy`: its error is rounding, and tells nothing of a longer one.
     pub(super) fn accept(&mut self, step: (f64, f64), error: f64, noisy: bool) {
         let error = floored(error);
-        let growth = if noisy { 1.0 } else { SAFETY * (self.growth)(self.last_error, error) };
+        let growth = if noisy { 1.0 } else { (self.growth)(self.last_error, error) };
         self.accept_grown(step, error, growth);
     }
 

@@ -11,6 +11,8 @@ mod queue;
 mod room;
 mod trajectory;
 
+pub use outcome::TurnOutcome;
+
 pub use queue::{TurnQueue, TurnRequests, turn_queue};
 
 use super::turns::{TurnRunner, TurnState};

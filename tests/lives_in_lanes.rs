@@ -1,0 +1,44 @@
+//! Random lives with full coupling: the same bits in lanes as alone, on any number of threads, in any ranges of their numbers.
+
+use std::num::NonZero;
+use std::path::Path;
+
+use linkwear::backend::Backend;
+use linkwear::life::{Coupling, LifeStudy, Trajectories};
+use linkwear::mechanism::Mechanism;
+use linkwear_codegen::{Options, SourceFile};
+
+fn mechanism(backend: Backend) -> Mechanism {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/rssr.toml");
+    let text = std::fs::read_to_string(file).expect("a shipped file");
+    let source = SourceFile { name: "rssr.toml".to_owned(), text };
+    let mut mechanism = Mechanism::compile(&source, &Options::default(), backend).expect("it compiles");
+    // A few cycles are enough to part lives that differ by a bit.
+    let wear = mechanism.description.contacts.to_mut()[0].wear.as_mut().expect("R1 wears");
+    wear.threshold = 8e-6;
+    mechanism
+}
+
+/// Lives in cycles, by their bits.
+fn lives(mechanism: &Mechanism, threads: usize, (first, count): (u64, u64)) -> Vec<u64> {
+    let study = LifeStudy {
+        coupling: Some(Coupling::Full),
+        trajectories: Trajectories::Count(count),
+        first,
+        threads: NonZero::new(threads),
+        ..LifeStudy::new(mechanism)
+    };
+    study.run().expect("lives").lives.iter().map(|end| end.cycles.to_bits()).collect()
+}
+
+#[test]
+fn lives_are_the_same_alone_side_by_side_and_in_ranges() {
+    let native = mechanism(Backend::Native);
+    let all = lives(&native, 1, (0, 11));
+    assert_eq!(all.len(), 11);
+    assert_eq!(lives(&native, 2, (0, 11)), all, "two threads");
+    let ranges = [(0, 1), (1, 7), (8, 3)].map(|range| lives(&native, 2, range));
+    assert_eq!(ranges.concat(), all, "ranges");
+    // Compiled code has no lanes: one life after the other.
+    assert_eq!(lives(&mechanism(Backend::Compiled), 1, (0, 3)), all[..3], "alone");
+}
