@@ -19,7 +19,6 @@ use super::turns::{TurnRunner, TurnState};
 use crate::bundle::Bundle;
 use crate::error::RunError;
 use lanes::{Lanes, Steps};
-pub use outcome::TurnOutcome;
 use trajectory::Trajectory;
 
 /// Runs turns of one mechanism in `N` lanes.
