@@ -6,8 +6,7 @@ use std::fmt;
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Options};
 use linkwear_native::{Native, NativeBundle, Refusal};
-use linkwear_runtime::clearance_joint::Clearances;
-use linkwear_runtime::{Description, Sizes, System};
+use linkwear_runtime::{StepPlan, System};
 use thiserror::Error;
 
 use crate::mechanisms::{SHIPPED, Shipped};
@@ -54,11 +53,10 @@ pub(crate) enum Lanes {
 }
 
 impl Lanes {
-    /// Of a mechanism with clearance; none where there is no code for it here.
-    pub(crate) fn new(tapes: &[Tape], sizes: Sizes, description: &Description) -> Option<Self> {
-        let joints = Clearances::new(&description.contacts).ok()?;
-        let eight = NativeBundle::new(tapes, sizes, joints.joints()).map(Self::Eight);
-        eight.or_else(|_| NativeBundle::new(tapes, sizes, joints.joints()).map(Self::Four)).ok()
+    /// Of a mechanism; none where there is no code for it here.
+    pub(crate) fn new(tapes: &[Tape], plan: &StepPlan) -> Option<Self> {
+        let eight = NativeBundle::new(tapes, plan).map(Self::Eight);
+        eight.or_else(|_| NativeBundle::new(tapes, plan).map(Self::Four)).ok()
     }
 }
 

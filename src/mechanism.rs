@@ -9,7 +9,7 @@ use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::Refusal;
-use linkwear_runtime::{Description, System};
+use linkwear_runtime::{Description, StepPlan, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
@@ -120,7 +120,8 @@ impl Mechanism {
     /// Its equations for trajectories side by side; none but of machine code.
     pub(crate) fn lanes(&self) -> Option<Lanes> {
         let tapes = self.origin.tapes.as_ref().filter(|_| self.equations.is_native())?;
-        Lanes::new(tapes, self.equations.system().sizes(), &self.description)
+        let plan = StepPlan::new(&self.description, self.equations.system().sizes()).ok()?;
+        Lanes::new(tapes, &plan)
     }
 
     /// What runs them: `compiled`, `native` or `interpreter`.
