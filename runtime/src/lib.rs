@@ -91,7 +91,7 @@ pub use {
         Tables, Text, VariableInfo, WearInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
-    dynamics_source::{DynamicsSource, RevolutionSettings, Settled, Steadiness},
+    dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
     error::{AssemblyError, NoColumn, RunError, SetupError},
     evaluate::{
         Accelerations, CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates,

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use hmac_sha256::Hash;
 use linkwear_runtime::life::FailureEvent;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{RunWarning, Settled, Steadiness};
+use linkwear_runtime::{RunWarning, Steadiness, TurnState};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use thiserror::Error;
@@ -87,7 +87,7 @@ pub(super) struct Measurement {
     pub measured: Vec<ContactMeasure>,
     /// How steady the turns were, joint by joint.
     pub steadiness: Vec<Steadiness>,
-    pub state: Option<Settled>,
+    pub state: Option<TurnState>,
     /// All that was doubtful until then.
     pub warnings: Vec<RunWarning>,
 }

@@ -13,7 +13,7 @@ use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, Feedback, IncrementModel, LifeError as Stop, LifeOutcome, LifeSettings,
     LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
 };
-use linkwear_runtime::{DynamicsSource, RunError, Settled, System, Watch};
+use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
 use super::error::{Cause, LifeError};
 use super::journal::Journal;
@@ -25,7 +25,7 @@ use super::study::{Coupling, LifeStudy};
 use crate::backend::Lanes;
 
 /// Runs with a source of wear that was made for it.
-pub(super) type Body<'b, E = RunError, S = Option<Settled>> =
+pub(super) type Body<'b, E = RunError, S = Option<TurnState>> =
     &'b mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>);
 
 impl LifeStudy<'_> {

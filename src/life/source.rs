@@ -3,7 +3,7 @@
 
 use linkwear_runtime::life::{JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, RunError, RunWarning, Settled, Steadiness};
+use linkwear_runtime::{DynamicsSource, RunError, RunWarning, Steadiness, TurnState};
 
 use super::journal::{Journal, Measurement};
 use super::steady::{Steady, TurnErrors};
@@ -37,7 +37,7 @@ impl<'a> KeptSource<'a> {
 }
 
 impl WearSource for KeptSource<'_> {
-    type State = Option<Settled>;
+    type State = Option<TurnState>;
     type Error = RunError;
 
     fn measure(
