@@ -15,6 +15,8 @@ use super::study::{Coupling, LifeStudy};
 const PER_CYCLE: [f64; 2] = [0.2, 5.0];
 /// Measurements per cycle of a random life: each begins anew, with one step of two.
 const PER_DRAWN_CYCLE: f64 = 2.0;
+/// How many times shorter a turn is in one of the lanes of a thread than alone: 4 to 5 in the case study.
+const SHORTER_IN_LANES: f64 = 4.0;
 /// Revolutions that a motion takes to settle when what it wears has hardly changed.
 const TO_SETTLE: u32 = 1;
 /// Shortest mean path: its first steps are short.
@@ -33,6 +35,8 @@ pub struct Cost {
     pub mean_path: [f64; 2],
     /// Measurements of the random lives that one thread makes.
     pub lives: f64,
+    /// How many times shorter they take than others: they are lived side by side in the lanes of a thread, where it has some.
+    pub side_by_side: f64,
     /// Measurements of a table instead; nothing where a profile is fed back, which no table holds.
     pub table: Option<f64>,
 }
@@ -80,6 +84,7 @@ impl LifeStudy<'_> {
             cycles,
             mean_path: [least, most],
             lives: lives * PER_DRAWN_CYCLE * cycles,
+            side_by_side: self.mechanism.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
             table: has_table.then_some(table),
         }))
     }

@@ -20,8 +20,10 @@ impl Plan<'_> {
         bundle: &NativeBundle<N>,
     ) -> Result<(), LifeError> {
         scope(|scope| {
+            // A few lives go on as many threads as there are, in a lane each.
+            let wanted = usize::try_from(self.trajectories.unwrap_or(0)).unwrap_or(usize::MAX).max(1);
             let (queues, requests): (Vec<TurnQueue>, Vec<TurnRequests>) =
-                (0..self.threads.get()).map(|_| turn_queue()).unzip();
+                (0..self.threads.get().min(wanted)).map(|_| turn_queue()).unzip();
             // Where the system gives no thread, or it ends, turns are run by those who ask for them.
             let spawn =
                 |requests| Builder::new().spawn_scoped(scope, move || self.serve(bundle, requests)).ok();

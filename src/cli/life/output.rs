@@ -39,7 +39,8 @@ pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
 
 /// What a life with the dynamics at every wear step will cost, and what a table would.
 pub fn cost(cost: &Cost) -> String {
-    let Cost { seconds_per_revolution, revolutions, cycles, mean_path: [least, most], lives, table } = cost;
+    let Cost { seconds_per_revolution, revolutions, cycles, mean_path: [least, most], .. } = cost;
+    let Cost { lives, side_by_side, table, .. } = cost;
     let time = |measurements: f64| about(cost.seconds(measurements));
     let mut text = format!(
         "full coupling runs the dynamics at every wear step: {} a measurement ({revolutions} revolutions of {}). If all wore as \
@@ -50,7 +51,8 @@ pub fn cost(cost: &Cost) -> String {
         time(*most),
     );
     if *lives > 0.0 {
-        let _ = write!(text, "; the random lives {lives:.0} for each thread, {}", time(*lives));
+        let _ =
+            write!(text, "; the random lives {lives:.0} for each thread, {}", time(*lives / side_by_side));
     }
     let _ = match table {
         Some(table) => write!(
