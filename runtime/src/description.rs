@@ -211,6 +211,11 @@ pub struct Tables {
 }
 
 impl Description {
+    /// Of every kept row, its row among all; fewer than `count` where the description misses one.
+    pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
+        (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
+    }
+
     /// The description that the tables of generated code stand for.
     pub fn from_tables(name: &'static str, tables: Tables) -> Self {
         let variable = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {

@@ -54,9 +54,7 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Self, SetupError> {
         let sizes = system.sizes();
         let layout = Layout::new(&description.motions);
-        let kept: Vec<usize> = (0..sizes.rows)
-            .filter_map(|k| description.rows.iter().position(|row| row.kept == Some(k)))
-            .collect();
+        let kept = description.kept_rows(sizes.rows);
         let same = |what, expected, found| {
             if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
         };

@@ -84,7 +84,7 @@ impl LifeStudy<'_> {
             cycles,
             mean_path: [least, most],
             lives: lives * PER_DRAWN_CYCLE * cycles,
-            side_by_side: self.mechanism.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
+            side_by_side: plan.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
             table: has_table.then_some(table),
         }))
     }

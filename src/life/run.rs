@@ -188,8 +188,7 @@ impl<'s> Plan<'s> {
 
     fn by_dynamics(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         let mut result = self.mean_path(source, self.watch)?;
-        let lanes = self.process.as_ref().and(self.trajectories).and_then(|_| self.study.mechanism.lanes());
-        match lanes {
+        match self.lanes() {
             Some(Lanes::Eight(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
             Some(Lanes::Four(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
             None => {

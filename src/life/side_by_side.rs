@@ -6,13 +6,23 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{Builder, scope};
 
 use linkwear_native::NativeBundle;
-use linkwear_runtime::{SINGULAR_PIVOT, TurnBundle, TurnQueue, TurnRequests, TurnRunner, turn_queue};
+use linkwear_runtime::{
+    Integrator, SINGULAR_PIVOT, TurnBundle, TurnQueue, TurnRequests, TurnRunner, turn_queue,
+};
 
 use super::error::LifeError;
 use super::result::LifeResult;
 use super::run::{Body, Plan};
+use crate::backend::Lanes;
 
 impl Plan<'_> {
+    /// Machine code for the random lives side by side; none where there are no lives, or their method has no lanes.
+    pub(super) fn lanes(&self) -> Option<Lanes> {
+        let wanted = self.process.as_ref().and(self.trajectories);
+        let has_lanes = matches!(self.study.revolutions.integrator, Integrator::Rk43 { .. });
+        wanted.filter(|_| has_lanes).and_then(|_| self.study.mechanism.lanes())
+    }
+
     /// The random lives, in the lanes of a bundle for each thread.
     pub(super) fn draw_in_lanes<const N: usize>(
         &self,

@@ -44,18 +44,16 @@ pub(crate) fn contact_state(
 ) -> ContactState {
     let [wear_power, depth_rate, normal_force, loss] = rates;
     let [x, y, z, penetration, penetration_rate, sliding_speed, elastic_energy, wrench @ ..] = answer;
-    ContactState {
-        offset: [x, y, z],
-        clearance: before.clearance,
-        gap: -penetration,
+    let response = Response {
+        penetration,
         penetration_rate,
         normal_force,
-        stiffness: before.stiffness,
         sliding_speed,
         elastic_energy,
         loss,
         wear_power,
         depth_rate,
         wrench,
-    }
+    };
+    ContactState::of([x, y, z], (before.clearance, before.stiffness), &response)
 }

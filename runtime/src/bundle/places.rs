@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::{TOTALS, WORKS};
-use crate::system::{CONTACT_WRENCH, Sizes};
+use crate::system::{CONTACT_WRENCH, Entry, Sizes};
 
 /// Numbers per joint with clearance that laws want besides its motion: how far it is worn [m], on top of its clearance;
 /// stiffness K there [N/m^n]; whether it touches (1) and the speed at which its gap closed [m/s], as in
@@ -104,7 +104,7 @@ impl Places {
             least_nearness: next.one(),
             is_untouched: next.one(),
             has_longer_row: next.one(),
-            closure: next.some(sizes.all_rows + rows + rows * speeds),
+            closure: next.some(sizes.output(Entry::Closure)),
             all: 0,
         };
         places.all = next.0;
@@ -132,7 +132,7 @@ pub(crate) struct Conclusion {
     pub(crate) has_grown: usize,
     /// How regular the loops are at the end, no number if an answer is infinite or none.
     pub(crate) nearness: usize,
-    /// The error of the step, 1 just accepted; by how much the next one may be longer, but for the safety.
+    /// The error of the step, 1 just accepted; by how much the next one may be longer.
     pub(crate) error: usize,
     pub(crate) growth: usize,
     /// Length of all.
@@ -145,7 +145,7 @@ impl Conclusion {
         let mut places = Self {
             slope: next.some(sizes.flat_state()),
             contacts: next.some(CONTACT_ANSWER * sizes.contacts),
-            energy: next.some(2),
+            energy: next.some(sizes.output(Entry::Energy)),
             pivots: next.some(sizes.rows),
             has_grown: next.one(),
             nearness: next.one(),

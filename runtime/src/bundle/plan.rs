@@ -52,9 +52,7 @@ impl StepPlan {
             sizes,
             joints: Clearances::new(&description.contacts)?.joints().to_vec(),
             layout: Layout::new(&description.motions),
-            kept: (0..sizes.rows)
-                .filter_map(|kept| description.rows.iter().position(|row| row.kept == Some(kept)))
-                .collect(),
+            kept: description.kept_rows(sizes.rows),
             places: Places::new(&sizes),
         })
     }

@@ -77,6 +77,25 @@ pub struct Response<T> {
 }
 
 impl ContactState {
+    /// By its offset [m], clearance [m] with the stiffness there [N/m^n], and what the laws say.
+    #[inline(always)]
+    pub(crate) fn of(offset: [f64; 3], (clearance, stiffness): (f64, f64), response: &Response<f64>) -> Self {
+        Self {
+            offset,
+            clearance,
+            gap: -response.penetration,
+            penetration_rate: response.penetration_rate,
+            normal_force: response.normal_force,
+            stiffness,
+            sliding_speed: response.sliding_speed,
+            elastic_energy: response.elastic_energy,
+            loss: response.loss,
+            wear_power: response.wear_power,
+            depth_rate: response.depth_rate,
+            wrench: response.wrench,
+        }
+    }
+
     /// Angle of a journal's offset about the joint's axis, in (-pi, pi] [rad]. A ball has no such axis.
     pub fn angle(&self) -> f64 {
         bearing_angle([self.offset[0], self.offset[1]])
@@ -204,21 +223,8 @@ impl Clearance {
             Some((grid, profile)) => grid.support(profile, round, offset),
             None => Support::round(offset, round),
         };
-        let now = self.respond(motion, support, (clearance, stiffness), memory);
-        ContactState {
-            offset: self.offset(motion),
-            clearance,
-            gap: -now.penetration,
-            penetration_rate: now.penetration_rate,
-            normal_force: now.normal_force,
-            stiffness,
-            sliding_speed: now.sliding_speed,
-            elastic_energy: now.elastic_energy,
-            loss: now.loss,
-            wear_power: now.wear_power,
-            depth_rate: now.depth_rate,
-            wrench: now.wrench,
-        }
+        let response = self.respond(motion, support, (clearance, stiffness), memory);
+        ContactState::of(self.offset(motion), (clearance, stiffness), &response)
     }
 
     /// The laws at one instant, on any scalar: lanes run them as they are. `motion` as [`crate::Entry::Contacts`] gives it;

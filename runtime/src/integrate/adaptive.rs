@@ -285,7 +285,7 @@ impl<M: Method> Adaptive<M> {
     /// `growth`: [`Method::growth`] of the last error and this one.
     pub(crate) fn accept_end(&mut self, step: (f64, f64), error: f64, growth: f64) {
         core::mem::swap(&mut self.y, &mut self.next);
-        self.control.accept_grown(step, floored(error), step_control::SAFETY * growth);
+        self.control.accept_grown(step, floored(error), growth);
     }
 
     /// Slope at the state reached.

@@ -39,7 +39,7 @@ pub(crate) fn growth_of<T: Scalar>(last_error: T, error: T) -> T {
     let root = |x: T, times: usize| (0..times).fold(x, |x, _| x.sqrt());
     let eighth = root(error, 3);
     let sixteenth = eighth.sqrt();
-    root(last_error, 5) / (eighth * sixteenth * sixteenth.sqrt())
+    T::constant(SAFETY) * (root(last_error, 5) / (eighth * sixteenth * sixteenth.sqrt()))
 }
 
 /// Storage of the stages.
@@ -101,7 +101,7 @@ impl Method for Rk43 {
     }
 
     fn growth(last_error: f64, error: f64) -> f64 {
-        SAFETY * growth_of(last_error, error)
+        growth_of(last_error, error)
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {

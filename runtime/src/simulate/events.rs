@@ -34,16 +34,9 @@ pub(super) fn stop_at_contact<M: Method>(
 ) -> Result<(), RunError> {
     let Some(follower) = &sampler.follower else { return Ok(()) };
     let (begin, length) = (method.before(), method.t() - method.before());
-    let after: &[f64] = method.y();
-    let (q, v, _) = motion.split(after);
-    motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
     let mut first: Option<Event> = None;
-    for joint in 0..follower.contacts.len() {
-        let after = motion.dynamics.evaluator.clearances().contacts()[joint];
-        let touching = motion.dynamics.evaluator.clearances().states()[joint].memory.touching > 0.5;
-        let Some(suspect) = Cubic::new(&follower.contacts[joint], &after, length).suspect(touching) else {
-            continue;
-        };
+    for (joint, before) in follower.contacts.iter().enumerate() {
+        let Some(suspect) = suspect(motion, method, (joint, before)) else { continue };
         let mut penetration = |part: f64| -> f64 {
             method.interpolate(begin + part * length, between);
             motion.penetration(joint, begin + part * length, between)
@@ -54,8 +47,7 @@ pub(super) fn stop_at_contact<M: Method>(
             first = Some(event);
         }
         // The search left the contacts at other places of the step.
-        let (q, v, _) = motion.split(method.y());
-        motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
+        evaluate_end(motion, method);
     }
     if let Some(event) = first {
         sampler.closing = event.closing;
@@ -73,14 +65,26 @@ pub(super) fn is_suspect<M: Method>(
     method: &Adaptive<M>,
 ) -> bool {
     let Some(follower) = &sampler.follower else { return false };
+    follower.contacts.iter().enumerate().any(|begun| suspect(motion, method, begun).is_some())
+}
+
+/// What may happen to a joint in the last step, by its contact at both ends.
+fn suspect<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    method: &Adaptive<M>,
+    (joint, before): (usize, &ContactState),
+) -> Option<Suspect> {
+    evaluate_end(motion, method);
+    let clearances = motion.dynamics.evaluator.clearances();
+    let touching = clearances.states()[joint].memory.touching > 0.5;
     let length = method.t() - method.before();
+    Cubic::new(before, &clearances.contacts()[joint], length).suspect(touching)
+}
+
+/// Evaluates the contacts at the end of the last step.
+fn evaluate_end<M: Method>(motion: &mut ConstrainedMotion<'_>, method: &Adaptive<M>) {
     let (q, v, _) = motion.split(method.y());
     motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
-    let clearances = motion.dynamics.evaluator.clearances();
-    let ends = follower.contacts.iter().zip(clearances.contacts()).zip(clearances.states());
-    ends.into_iter().any(|((before, after), state)| {
-        Cubic::new(before, after, length).suspect(state.memory.touching > 0.5).is_some()
-    })
 }
 
 /// Penetration over a step, as the cubic through values and rates at both ends; time in steps.

@@ -79,7 +79,8 @@ fn run_adaptive<M: Method>(
         let outcome = method.step(motion, sampler.hard_stop(method.t()));
         sampler.statistics.rejected = method.rejected();
         outcome?;
-        after_step(motion, sampler, &mut method, &mut between, watch)?;
+        events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
+        after_step(motion, sampler, &method, &mut between, watch)?;
     }
     state.copy_from_slice(method.y());
     Ok(())
@@ -98,15 +99,14 @@ pub(super) fn begin_adaptive<M: Method>(
     Adaptive::start(motion, span, state, tolerance, longest)
 }
 
-/// What is done about an accepted step: it ends where a gap closes; what it shows is noted.
+/// Notes what an accepted step shows, once it ends where a gap closes.
 pub(super) fn after_step<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
-    method: &mut Adaptive<M>,
+    method: &Adaptive<M>,
     between: &mut [f64],
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    events::stop_at_contact(motion, sampler, method, between)?;
     sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
     sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
     for t in sampler.between(motion, method.before(), method.t()) {

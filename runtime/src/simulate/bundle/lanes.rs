@@ -168,7 +168,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
         (answer[self.conclusion.has_grown][lane] == 1.0).then(|| pivots.iter().map(|all| all[lane]).collect())
     }
 
-    /// The error of a lane's step, 1 just accepted, and by how much the next one may be longer, but for the safety.
+    /// The error of a lane's step, 1 just accepted, and by how much the next one may be longer.
     pub(super) fn error(&self, lane: usize) -> (f64, f64) {
         let answer = self.answer.all();
         (answer[self.conclusion.error][lane], answer[self.conclusion.growth][lane])

@@ -1,7 +1,7 @@
 //! Numbers of several trajectories side by side. In: what one lane has. Out: what all lanes have. Never knows what it is.
 
 /// Numbers of all lanes, beginning where a line of the cache does: values of several lanes that cross lines cost twice.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Room<const N: usize> {
     numbers: Vec<f64>,
     first: usize,

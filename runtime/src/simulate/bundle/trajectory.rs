@@ -156,13 +156,16 @@ impl<'a> Trajectory<'a> {
         let sampler = &mut turn.sampler;
         sampler.statistics.rejected = method.rejected();
         let at_end = method.t() == sampler.schedule.end;
-        if at_end || sampler.watches_angles() || events::is_suspect(motion, sampler, method) {
+        let is_suspect = events::is_suspect(motion, sampler, method);
+        if at_end || sampler.watches_angles() || is_suspect {
             let [begin, end] = slopes;
             lanes.slopes(lane, [&mut *begin, &mut *end]);
             method.know([begin, end]);
             motion.reached(method.t(), method.slope());
         }
-        let done = steps::after_step(motion, sampler, method, between, Watch::NONE);
+        let stopped =
+            if is_suspect { events::stop_at_contact(motion, sampler, method, between) } else { Ok(()) };
+        let done = stopped.and_then(|()| steps::after_step(motion, sampler, method, between, Watch::NONE));
         *after = match done {
             Err(_) => After::Failed,
             Ok(()) if method.t() != step.1 => After::Shortened,
