@@ -4,8 +4,8 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use linkwear_codegen::tape::Tape;
 use linkwear_runtime::{Entry, StepPlan};
+use linkwear_tape::Tape;
 
 #[cfg(target_arch = "aarch64")]
 use crate::aarch64 as processor;

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
-use linkwear_codegen::tape::Tape;
 use linkwear_runtime::clearance_joint::Clearance;
 use linkwear_runtime::{Bundle, Entry, STATES, SideBySide, Sizes, StepPlan, System};
+use linkwear_tape::Tape;
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 use crate::functions::Functions;

@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use linkwear_codegen::tape::Tape;
 use linkwear_runtime::StepPlan;
+use linkwear_tape::Tape;
 
 use crate::refusal::Refusal;
 

@@ -91,6 +91,11 @@ fn the_gamma_process_has_only_the_allowed_arrows() {
 }
 
 #[test]
+fn tapes_have_only_the_allowed_arrows() {
+    assert_clean("tape/src", "Allowed arrows: tape");
+}
+
+#[test]
 fn machine_code_has_only_the_allowed_arrows() {
     assert_clean("native/src", "Allowed arrows: native");
 }
@@ -98,7 +103,7 @@ fn machine_code_has_only_the_allowed_arrows() {
 /// The workspace's lints forbid it; only the crate that calls machine code has lints of its own.
 #[test]
 fn only_machine_code_is_called_without_the_compilers_guard() {
-    let manifests = ["", "benchmarks/", "case-study/", "codegen/", "gamma/", "oracle/", "runtime/"];
+    let manifests = ["", "benchmarks/", "case-study/", "codegen/", "gamma/", "oracle/", "runtime/", "tape/"];
     for folder in manifests {
         let manifest = fs::read_to_string(format!("{folder}Cargo.toml")).expect("a manifest");
         assert!(manifest.contains("[lints]\nworkspace = true"), "{folder}Cargo.toml");
@@ -115,7 +120,8 @@ fn only_machine_code_is_called_without_the_compilers_guard() {
 
 #[test]
 fn allowed_arrows_form_no_circle() {
-    let headings = ["codegen", "runtime", "gamma", "native"].map(|name| format!("Allowed arrows: {name}"));
+    let headings =
+        ["codegen", "runtime", "gamma", "native", "tape"].map(|name| format!("Allowed arrows: {name}"));
     for heading in &headings {
         let mut left = table(heading);
         while !left.is_empty() {
@@ -134,16 +140,24 @@ fn allowed_arrows_form_no_circle() {
 
 #[test]
 fn files_form_no_circle() {
-    let roots =
-        ["codegen/src", "runtime/src", "gamma/src", "native/src", "oracle/src", "src", "case-study/src"];
+    let roots = [
+        "codegen/src",
+        "runtime/src",
+        "gamma/src",
+        "native/src",
+        "oracle/src",
+        "src",
+        "case-study/src",
+        "tape/src",
+    ];
     let wrong: Vec<String> =
         roots.iter().flat_map(|root| Graph::read(Path::new(root)).arrows_on_circles()).collect();
     assert!(wrong.is_empty(), "arrows on circles of files:\n{}", wrong.join("\n"));
 }
 
 #[test]
-fn runtime_and_gamma_do_not_know_that_a_generator_exists() {
-    for root in ["runtime/src", "gamma/src"] {
+fn what_runs_does_not_know_that_a_generator_exists() {
+    for root in ["runtime/src", "gamma/src", "tape/src"] {
         for file in rust_files(Path::new(root)) {
             assert!(!code(&file).contains("linkwear_codegen"), "{}", file.display());
         }
@@ -175,9 +189,16 @@ fn the_command_line_asks_and_prints_and_does_not_compute() {
 /// Generated code has its own dialect: its users lint it by theirs.
 #[test]
 fn must_use_stands_on_types() {
-    for root in
-        ["codegen/src", "runtime/src", "gamma/src", "native/src", "oracle/src", "src", "case-study/src"]
-    {
+    for root in [
+        "codegen/src",
+        "runtime/src",
+        "gamma/src",
+        "native/src",
+        "oracle/src",
+        "src",
+        "case-study/src",
+        "tape/src",
+    ] {
         for file in rust_files(Path::new(root)) {
             if !file.starts_with("codegen/src/backend") {
                 let code = code(&file);
@@ -193,7 +214,7 @@ fn must_use_stands_on_types() {
 #[test]
 fn libraries_and_programs_deny_what_panics() {
     let lints = ["unwrap_used", "expect_used", "panic", "todo", "unimplemented", "unreachable"];
-    for folder in ["codegen", "gamma", "native", "runtime", ".", "case-study"]
+    for folder in ["codegen", "gamma", "native", "runtime", "tape", ".", "case-study"]
         .map(|folder| Path::new(folder).join("src"))
     {
         for root in

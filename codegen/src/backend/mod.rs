@@ -1,4 +1,8 @@
 //! Back ends: each runs or writes tapes, operation by operation. They know tapes, never mechanics.
 
-pub mod interp;
 pub mod rust;
+
+/// Runs tapes without a compiler.
+pub mod interp {
+    pub use linkwear_tape::Interpreted;
+}

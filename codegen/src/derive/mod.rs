@@ -129,13 +129,9 @@ impl Block {
         Self { citation: citation.to_owned(), ..self }
     }
 
-    /// `n` for a column vector, `m x n` for a matrix.
-    pub fn shape(&self) -> String {
-        if self.columns == 1 { self.rows.to_string() } else { format!("{} x {}", self.rows, self.columns) }
-    }
-
-    /// The citation after a space, or nothing.
-    pub fn cited(&self) -> String {
-        if self.citation.is_empty() { String::new() } else { format!(" {}", self.citation) }
+    /// What a tape tells of it.
+    pub fn header(&self) -> linkwear_tape::Block {
+        let (name, doc, citation) = (self.name.clone(), self.doc.clone(), self.citation.clone());
+        linkwear_tape::Block { name, doc, citation, rows: self.rows, columns: self.columns }
     }
 }

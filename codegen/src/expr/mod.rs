@@ -20,6 +20,7 @@ use crate::limits::EXPRESSIONS;
 
 pub use crate::id::{ExprId, SymbolId};
 pub use expression::Expr;
+pub use linkwear_tape::{Binary, Unary};
 pub use passes::{Program, shortened};
 pub use scope::Scope;
 pub use signs::Signs;
@@ -48,36 +49,6 @@ impl Node {
         };
         first.into_iter().chain(second)
     }
-}
-
-/// Functions of one value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "named as in mathematics")]
-pub enum Unary {
-    Neg,
-    Sqrt,
-    Sin,
-    Cos,
-    Exp,
-    Ln,
-    /// Series-safe coefficients of the logarithm on SE(3), by rank of derivative; see
-    /// `linkwear_runtime::log_coefficient`. The argument is theta², the squared rotation angle.
-    LogCoefficient(u8),
-}
-
-/// Functions of two values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "named as in mathematics")]
-pub enum Binary {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    /// `atan2(first, second)`: angle of the vector (second, first).
-    Atan2,
-    /// theta / sin theta from (sin² theta, cos theta), series-safe at zero; see
-    /// `linkwear_runtime::angle_over_sine`.
-    AngleOverSine,
 }
 
 /// The graph: nodes, names of inputs, readable labels and sections.

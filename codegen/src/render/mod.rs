@@ -185,7 +185,8 @@ impl<'a> Writer<'a> {
                 .iter()
                 .find(|info| info.function == self.function.name && info.name == block.name)
                 .expect("every output has a cost");
-            let (shape, citation) = (block.shape(), block.cited());
+            let header = block.header();
+            let (shape, citation) = (header.shape(), header.cited());
             self.comment(
                 text,
                 &format!(

@@ -6,10 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::derive::{Block, Function};
-use crate::expr::ExprId;
+use crate::derive::Function;
 
-use super::{Op, Operand, Statement, Tape, Value};
+use super::{Block, Op, Operand, Statement, Tape, Value};
 
 /// Name of the block of values that cross without being an answer.
 const HELD: &str = "held";
@@ -18,19 +17,18 @@ const HELD: &str = "held";
 pub(super) struct Joined<'a> {
     /// Its inputs are those of the second, its outputs those of the first, then those of the second.
     pub(super) tape: Tape,
-    /// Node behind each value.
-    pub(super) nodes: Vec<ExprId>,
     pub(super) functions: [&'a Function; 2],
 }
 
 /// The two tapes. Inputs of the second after its own: outputs of the first, in order.
 pub(super) fn cut(joined: Joined<'_>) -> [Tape; 2] {
-    let Joined { tape: whole, nodes, functions } = joined;
+    let Joined { tape: whole, functions } = joined;
     let blocks = functions[0].outputs.len();
     let answers = length(&whole.outputs[..blocks]);
     let is_first = |store: &(u32, Operand)| store.0 < answers;
     let in_first = needed(&whole, answers);
     let mut crossing = Crossing::new(&whole, answers, &in_first);
+    let held = crossing.held.len();
     let own = length(&whole.inputs);
     let [mut first, mut second] = functions.map(|function| Part::new(function, whole.values));
     for (value, index) in &crossing.places {
@@ -60,14 +58,12 @@ pub(super) fn cut(joined: Joined<'_>) -> [Tape; 2] {
         }
     }
     let mut answers_of_first = whole.outputs[..blocks].to_vec();
-    let held = crossing.order.iter().map(|value| nodes[*value as usize]);
     let held = Block::vector(HELD, held).doc(&format!("Values that {} takes over.", functions[1].name));
-    answers_of_first.extend((!held.entries.is_empty()).then_some(held));
+    answers_of_first.extend((!held.is_empty()).then_some(held));
     second.tape.outputs = whole.outputs[blocks..].to_vec();
     second.tape.inputs = whole.inputs.iter().chain(&answers_of_first).cloned().collect();
-    let names = answers_of_first
-        .iter()
-        .flat_map(|block| (0..block.entries.len()).map(|i| format!("{}{i}", block.name)));
+    let names =
+        answers_of_first.iter().flat_map(|block| (0..block.len()).map(|i| format!("{}{i}", block.name)));
     second.tape.input_names = whole.input_names.iter().cloned().chain(names).collect();
     let inputs = functions[0].inputs.len();
     first.tape.inputs = whole.inputs[..inputs].to_vec();
@@ -78,7 +74,7 @@ pub(super) fn cut(joined: Joined<'_>) -> [Tape; 2] {
 
 #[expect(clippy::cast_possible_truncation, reason = "limits::EXPRESSIONS is far below the reach of 32 bits")]
 fn length(blocks: &[Block]) -> u32 {
-    blocks.iter().map(|block| block.entries.len()).sum::<usize>() as u32
+    blocks.iter().map(|block| block.len()).sum::<usize>() as u32
 }
 
 /// By statement: whether one of the outputs before `end` needs it.
@@ -114,8 +110,6 @@ struct Crossing {
     places: BTreeMap<Value, u32>,
     /// Of these, by value, those that are no answers.
     held: BTreeMap<Value, u32>,
-    /// Those, in order.
-    order: Vec<Value>,
 }
 
 impl Crossing {
@@ -135,7 +129,7 @@ impl Crossing {
             let operands = statement.op.operands().filter(move |_| !is_first);
             operands.chain(stores.map(|(_, operand)| *operand))
         });
-        let mut crossing = Self { places: BTreeMap::new(), held: BTreeMap::new(), order: Vec::new() };
+        let mut crossing = Self { places: BTreeMap::new(), held: BTreeMap::new() };
         let mut wanted: Vec<Value> =
             late.filter_map(value_of).filter(|value| home[*value as usize]).collect();
         wanted.sort_unstable();
@@ -144,7 +138,6 @@ impl Crossing {
         for value in wanted {
             let index = answered.get(&value).copied().unwrap_or_else(|| {
                 crossing.held.insert(value, next);
-                crossing.order.push(value);
                 next += 1;
                 next - 1
             });
@@ -208,7 +201,7 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derive::Equations;
+    use crate::derive::{Block, Equations};
     use crate::expr::Scope;
     use crate::tape::{lower, verify};
 

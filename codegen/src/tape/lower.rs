@@ -43,30 +43,24 @@ pub fn lower_short(equations: &Equations) -> Vec<Tape> {
 }
 
 /// One tape for every function: of a function and the one that goes on from it as one, then cut.
-fn each(equations: &Equations, lower: &dyn Fn(&Function) -> Lowered) -> Vec<Tape> {
+fn each(equations: &Equations, lower: &dyn Fn(&Function) -> Tape) -> Vec<Tape> {
     let mut tapes = Vec::with_capacity(equations.functions.len());
     let mut functions = equations.functions.iter().peekable();
     while let Some(function) = functions.next() {
         let Some(next) = functions.next_if(|next| next.goes_on) else {
-            tapes.push(lower(function).tape);
+            tapes.push(lower(function));
             continue;
         };
         let outputs = function.outputs.iter().chain(&next.outputs).cloned().collect();
-        let Lowered { tape, nodes } = lower(&Function { outputs, ..next.clone() });
-        let parts = cut(Joined { tape, nodes, functions: [function, next] });
+        let tape = lower(&Function { outputs, ..next.clone() });
+        let parts = cut(Joined { tape, functions: [function, next] });
         debug_assert!(parts.iter().all(|tape| verify(tape) == Ok(())));
         tapes.extend(parts);
     }
     tapes
 }
 
-/// A tape, and the node behind each of its values.
-struct Lowered {
-    tape: Tape,
-    nodes: Vec<ExprId>,
-}
-
-fn lower_function(graph: &Graph, function: &Function) -> Lowered {
+fn lower_function(graph: &Graph, function: &Function) -> Tape {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
     let uses = graph.uses(&roots);
@@ -141,9 +135,9 @@ impl<'a> Lowerer<'a> {
         let tape = Tape {
             name: function.name.clone(),
             doc: function.doc.clone(),
-            inputs: function.inputs.clone(),
+            inputs: function.inputs.iter().map(Block::header).collect(),
             input_names: inputs().map(name).collect(),
-            outputs: function.outputs.clone(),
+            outputs: function.outputs.iter().map(Block::header).collect(),
             direct: Vec::new(),
             statements: Vec::new(),
             sections: Vec::new(),
@@ -257,7 +251,7 @@ impl<'a> Lowerer<'a> {
         Operand::Value(first)
     }
 
-    fn finish(mut self, roots: &[ExprId]) -> Lowered {
+    fn finish(mut self, roots: &[ExprId]) -> Tape {
         for (index, root) in (0..).zip(roots) {
             let store = (index, self.operand(*root));
             match self.defined.get(root) {
@@ -266,13 +260,7 @@ impl<'a> Lowerer<'a> {
             }
         }
         debug_assert_eq!(verify(&self.tape), Ok(()));
-        let mut nodes = vec![ExprId::new(0); self.tape.values as usize];
-        for (index, operand) in self.operands.iter().enumerate() {
-            if let Operand::Value(value) = operand {
-                nodes[*value as usize] = ExprId::new(index);
-            }
-        }
-        Lowered { tape: self.tape, nodes }
+        self.tape
     }
 }
 
@@ -289,7 +277,7 @@ mod tests {
         let outputs = vec![Block::vector("y", build(&g, a, b))];
         let inputs = vec![Block::vector("x", [a, b])];
         let function = Function { name: "test".into(), doc: String::new(), inputs, outputs, goes_on: false };
-        lower_function(&g.into_graph(), &function).tape
+        lower_function(&g.into_graph(), &function)
     }
 
     #[test]

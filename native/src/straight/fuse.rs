@@ -3,8 +3,8 @@
 
 use std::cell::RefCell;
 
-use linkwear_codegen::tape::{Tape, verify};
 use linkwear_runtime::{Entry, StepPlan};
+use linkwear_tape::{Tape, verify};
 
 use super::lower::{Lowered, run};
 use super::number::{Number, Recorder};

@@ -1,9 +1,8 @@
 //! From a tape to machine operations. In: a tape that [`verify`] passes. Out: [`Lowered`].
 //! Never knows in which order they will run.
 
-use linkwear_codegen::expr::{Binary, Unary};
-use linkwear_codegen::tape::{Op, Operand, Statement, Tape, verify};
 use linkwear_runtime::{Scalar, angle_over_sine, log_coefficient};
+use linkwear_tape::{Binary, Op, Operand, Statement, Tape, Unary, verify};
 
 use super::graph::{Graph, Id};
 use super::number::{Number, Recorder};

@@ -1,6 +1,6 @@
 //! The whole way of one function. In: its operations. Out: [`Written`], its machine code and what it wants beside it.
 
-use linkwear_codegen::tape::Tape;
+use linkwear_tape::Tape;
 
 use crate::refusal::Refusal;
 

@@ -4,8 +4,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::derive::Block;
-use crate::tape::{Split, Tape};
+use crate::tape::{Block, Split, Tape};
 
 use super::body;
 use super::comment::{count_text, one_line};
@@ -81,7 +80,7 @@ fn documentation(tape: &Tape, split: &Split) -> Vec<String> {
     let mut list = |title: &str, blocks: &[Block]| {
         let mut first = 0;
         for block in blocks {
-            let end = first + block.entries.len();
+            let end = first + block.len();
             let range = if first == end { "empty".to_owned() } else { format!("{first}..{end}") };
             first = end;
             let text = format!("{}{}", block.doc, block.cited());

@@ -3,9 +3,9 @@
 
 use std::fs;
 
-use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Options, SourceFile, compile};
 use linkwear_runtime::{Entry, System};
+use linkwear_tape::Tape;
 
 use super::emulator::{Case, function, run};
 use super::targets::{NUMBERS, TARGETS};

@@ -1,7 +1,7 @@
 //! What a tape's code calls, and what it should be answered: where code runs without the runtime, others can answer.
 
-use linkwear_codegen::tape::Tape;
 use linkwear_runtime::Scalar;
+use linkwear_tape::Tape;
 
 use crate::straight::graph::{Function, Operation};
 use crate::straight::lower::lower;

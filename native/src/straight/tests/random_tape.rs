@@ -1,9 +1,7 @@
 //! Random tapes and what they mean, by plain evaluation.
 
-use linkwear_codegen::derive::Block;
-use linkwear_codegen::expr::{Binary, ExprId, Unary};
-use linkwear_codegen::tape::{Op, Operand, Statement, Tape};
 use linkwear_runtime::{Scalar, angle_over_sine, log_coefficient};
+use linkwear_tape::{Binary, Block, Op, Operand, Statement, Tape, Unary};
 
 /// A small generator (xorshift), so that tapes repeat.
 pub(crate) struct Random(pub(crate) u64);
@@ -75,13 +73,12 @@ impl Random {
                 operand => direct.push((index, operand)),
             }
         }
-        let ids = |count: usize| (0..count).map(ExprId::new).collect::<Vec<_>>();
         Tape {
             name: "random".into(),
             doc: String::new(),
-            inputs: vec![Block::vector("x", ids(inputs))],
+            inputs: vec![Block::vector("x", inputs)],
             input_names: (0..inputs).map(|index| format!("x{index}")).collect(),
-            outputs: vec![Block::vector("y", ids(outputs))],
+            outputs: vec![Block::vector("y", outputs)],
             direct,
             statements,
             sections: vec![String::new()],

@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::{Operand, Tape, Value};
+use crate::operation::{Operand, Value};
+use crate::tape::Tape;
 
 /// Statements of a part at most.
 pub const PART_LIMIT: usize = 1000;
@@ -98,23 +99,34 @@ fn assign_slots(home: &[usize], users: &BTreeMap<Value, Vec<usize>>, parts: &mut
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::derive::{Block, Equations, Function};
-    use crate::expr::Scope;
+    use crate::block::Block;
+    use crate::operation::{Binary, Op};
+    use crate::tape::Statement;
+
+    /// A chain of additions, of which every one needs the one before.
+    fn chain(length: u32) -> Tape {
+        let link = |value: u32| {
+            let before = value.checked_sub(1).map_or(Operand::Input(0), Operand::Value);
+            let op = Op::Binary(Binary::Add, before, Operand::Constant(f64::from(value)));
+            let stores = if value + 1 == length { vec![(0, Operand::Value(value))] } else { Vec::new() };
+            Statement { op, first: value, labels: [None, None], section: 0, stores }
+        };
+        Tape {
+            name: "chain".into(),
+            doc: String::new(),
+            inputs: vec![Block::vector("x", 1)],
+            input_names: vec!["x".into()],
+            outputs: vec![Block::vector("y", 1)],
+            direct: Vec::new(),
+            statements: (0..length).map(link).collect(),
+            sections: vec![String::new()],
+            values: length,
+        }
+    }
 
     #[test]
     fn parts_keep_the_limit_and_values_cross_once() {
-        let g = Scope::new();
-        let x = g.symbol("x");
-        let end = (1..=100).fold(x, |last, k| (last + f64::from(k)).square());
-        let function = Function {
-            name: "chain".into(),
-            doc: String::new(),
-            inputs: vec![Block::vector("x", [x])],
-            outputs: vec![Block::vector("y", [end])],
-            goes_on: false,
-        };
-        let equations = Equations { graph: g.into_graph(), functions: vec![function] };
-        let tape = super::super::lower(&equations).remove(0);
+        let tape = chain(200);
         let split = split(&tape, 30);
         assert!(split.parts.iter().all(|part| part.statements.len() <= 30));
         assert_eq!(

@@ -7,19 +7,20 @@ use std::sync::Arc;
 
 use linkwear_runtime::{Description, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
 
-use crate::expr::{Binary, Unary};
-use crate::tape::{Op, Operand, Registers, Statement, Tape};
+use crate::operation::{Binary, Op, Operand, Unary};
+use crate::registers::Registers;
+use crate::tape::{Statement, Tape};
 
 /// A mechanism as tapes, ready to be evaluated on any scalar.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
-    programs: Arc<Vec<Program>>,
+    routines: Arc<Vec<Routine>>,
     sizes: Sizes,
     description: Arc<Description>,
 }
 
 #[derive(Clone, Debug)]
-struct Program {
+struct Routine {
     constants: Vec<f64>,
     inputs: usize,
     instructions: Vec<Instruction>,
@@ -47,16 +48,16 @@ impl Interpreted {
     /// Prepares tapes in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
     pub fn new(tapes: &[Tape], sizes: Sizes, description: Description) -> Self {
         let mut workspace = 0;
-        let programs: Vec<Program> = tapes
+        let routines: Vec<Routine> = tapes
             .iter()
             .map(|tape| {
-                let (program, length) = Program::new(tape);
+                let (routine, length) = Routine::new(tape);
                 workspace = workspace.max(length);
-                program
+                routine
             })
             .collect();
         Self {
-            programs: Arc::new(programs),
+            routines: Arc::new(routines),
             sizes: Sizes { workspace, ..sizes },
             description: Arc::new(description),
         }
@@ -68,8 +69,8 @@ impl Interpreted {
     }
 }
 
-impl Program {
-    /// The program and the length of the workspace that it wants.
+impl Routine {
+    /// The routine and the length of the workspace that it wants.
     fn new(tape: &Tape) -> (Self, usize) {
         let registers = Registers::assign(tape);
         let mut constants: Vec<f64> = Vec::new();
@@ -146,11 +147,11 @@ impl<T: Scalar> System<T> for Interpreted {
     }
 
     fn evaluate(&self, entry: Entry, input: &[T], output: &mut [T], workspace: &mut [T]) {
-        self.programs[entry as usize].run(input, output, workspace);
+        self.routines[entry as usize].run(input, output, workspace);
     }
 }
 
-impl Program {
+impl Routine {
     fn run<T: Scalar>(&self, input: &[T], output: &mut [T], w: &mut [T]) {
         for (place, number) in w.iter_mut().zip(&self.constants) {
             *place = T::constant(*number);

@@ -1,16 +1,13 @@
-//! Operation counts of tapes, and of expressions before sharing.
-//! In: tapes or graph nodes. Out: [`Operations`].
+//! Operation counts of tapes. In: tapes. Out: [`Operations`].
 
 use std::ops::AddAssign;
 
-use serde::Serialize;
-
-use crate::expr::{Binary, ExprId, Graph, Node, Unary};
-
-use super::{Op, Operand, Tape};
+use crate::operation::{Binary, Op, Operand, Unary};
+use crate::tape::Tape;
 
 /// Operations by kind. Counts before sharing can be astronomic: sums saturate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// Multiplications.
     pub mul: u64,
@@ -41,7 +38,8 @@ impl AddAssign for Operations {
 }
 
 impl Operations {
-    fn count(&mut self, op: &Op) {
+    /// Counts one more.
+    pub fn count(&mut self, op: &Op) {
         match op {
             Op::Binary(Binary::Mul, ..) => self.mul += 1,
             Op::Binary(Binary::Add | Binary::Sub, ..) | Op::Unary(Unary::Neg, _) => self.add += 1,
@@ -75,8 +73,8 @@ impl Tape {
 
     /// Operations that one output block needs on its own.
     pub fn operations_of(&self, output: usize) -> Operations {
-        let first: usize = self.outputs[..output].iter().map(|block| block.entries.len()).sum();
-        let range = first..first + self.outputs[output].entries.len();
+        let first: usize = self.outputs[..output].iter().map(|block| block.len()).sum();
+        let range = first..first + self.outputs[output].len();
         let mut needed = vec![false; self.values as usize];
         let mark = |needed: &mut Vec<bool>, operand: Operand| {
             if let Operand::Value(value) = operand {
@@ -99,31 +97,4 @@ impl Tape {
         }
         counts
     }
-}
-
-/// Operations of expressions written out in full, with nothing shared.
-pub fn unshared_operations(graph: &Graph, roots: &[ExprId]) -> Operations {
-    let uses = graph.uses(roots);
-    let zero = Operand::Constant(0.0);
-    let mut known: Vec<Operations> = Vec::with_capacity(uses.len());
-    for (index, used) in uses.iter().enumerate() {
-        let mut counts = Operations::default();
-        if *used > 0 {
-            let node = graph.node(ExprId::new(index));
-            match node {
-                Node::Unary(operation, _) => counts.count(&Op::Unary(operation, zero)),
-                Node::Binary(operation, ..) => counts.count(&Op::Binary(operation, zero, zero)),
-                Node::Constant(_) | Node::Symbol(_) => {}
-            }
-            for child in node.children() {
-                counts += known[child.index()];
-            }
-        }
-        known.push(counts);
-    }
-    let mut sum = Operations::default();
-    for root in roots {
-        sum += known[root.index()];
-    }
-    sum
 }

@@ -1,7 +1,8 @@
 //! Packs the values of a tape into as few registers as their lifetimes allow.
 //! In: a tape. Out: a register per value. Serves the interpreter's cache.
 
-use super::{Operand, Statement, Tape, Value};
+use crate::operation::{Operand, Value};
+use crate::tape::{Statement, Tape};
 
 /// Which register each value lives in.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,0 +1,35 @@
+//! One function of a mechanism as a straight line of statements: what every back end runs, operation by operation.
+//!
+//! Generators make [`Tape`]s, one per [`linkwear_runtime::Entry`]. From then on nothing is rewritten: back ends must not
+//! reorder, fuse or fold, so that they agree in every bit. [`Interpreted`] runs tapes without a compiler; [`Program`]
+//! is all of a mechanism that a run needs, and comes back from bytes as it was.
+
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
+
+mod block;
+mod interpreter;
+mod operation;
+mod operations;
+mod program;
+mod registers;
+mod split;
+pub mod stored;
+mod tape;
+mod verify;
+
+pub use block::Block;
+pub use interpreter::Interpreted;
+pub use operation::{Binary, Op, Operand, Unary, Value};
+pub use operations::Operations;
+pub use program::Program;
+pub use registers::Registers;
+pub use split::{PART_LIMIT, Part, Split, split};
+pub use tape::{Statement, Tape};
+pub use verify::verify;

@@ -1,0 +1,67 @@
+//! Operations and what they read. Never knows order or names.
+
+/// Functions of one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "named as in mathematics")]
+pub enum Unary {
+    Neg,
+    Sqrt,
+    Sin,
+    Cos,
+    Exp,
+    Ln,
+    /// Series-safe coefficients of the logarithm on SE(3), by rank of derivative; see
+    /// `linkwear_runtime::log_coefficient`. The argument is theta², the squared rotation angle.
+    LogCoefficient(u8),
+}
+
+/// Functions of two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs, reason = "named as in mathematics")]
+pub enum Binary {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    /// `atan2(first, second)`: angle of the vector (second, first).
+    Atan2,
+    /// theta / sin theta from (sin² theta, cos theta), series-safe at zero; see
+    /// `linkwear_runtime::angle_over_sine`.
+    AngleOverSine,
+}
+
+/// A value computed by a statement.
+pub type Value = u32;
+
+/// Where an operation reads from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operand {
+    /// Result of an earlier statement.
+    Value(Value),
+    /// Entry of the flat input.
+    Input(u32),
+    /// A number.
+    Constant(f64),
+}
+
+/// An operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// One operand, one result.
+    Unary(Unary, Operand),
+    /// Two operands, one result.
+    Binary(Binary, Operand, Operand),
+    /// Sine (this value) and cosine (the next value) of an angle.
+    SinCos(Operand),
+}
+
+impl Op {
+    /// The operands, in order.
+    pub fn operands(&self) -> impl Iterator<Item = Operand> {
+        let (first, second) = match self {
+            Self::Unary(_, a) | Self::SinCos(a) => (*a, None),
+            Self::Binary(_, a, b) => (*a, Some(*b)),
+        };
+        std::iter::once(first).chain(second)
+    }
+}
