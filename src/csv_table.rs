@@ -93,13 +93,28 @@ impl<'a> CsvTable<'a> {
         self.rows.iter().map(|(line, _)| *line)
     }
 
+    /// Names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// A fault of the line of column names.
+    pub fn fault_in_header(&self, message: String, help: &str) -> CsvError {
+        self.fault_at(Some(self.head), message, help)
+    }
+
+    /// A fault at a line, if it has a place.
+    pub fn fault_at(&self, line: Option<usize>, message: String, help: &str) -> CsvError {
+        fault(self.file, line, message, help)
+    }
+
     /// Whether there is a column of this name.
     pub fn has(&self, name: &str) -> bool {
         self.header.iter().any(|column| column == name)
     }
 
     fn place(&self, name: &str) -> Result<usize, CsvError> {
-        let wrong = |message: String, help: &str| Err(fault(self.file, Some(self.head), message, help));
+        let wrong = |message: String, help: &str| Err(self.fault_in_header(message, help));
         let mut found = self.header.iter().enumerate().filter(|(_, column)| *column == name);
         match (found.next(), found.next()) {
             (Some((at, _)), None) => Ok(at),

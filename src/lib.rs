@@ -20,6 +20,8 @@ pub mod cost;
 #[cfg(feature = "cli")]
 pub mod csv_table;
 pub mod files;
+#[cfg(feature = "cli")]
+pub mod inputs;
 pub mod life;
 pub mod mechanism;
 pub mod mechanisms;

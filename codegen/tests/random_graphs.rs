@@ -66,6 +66,7 @@ fn nobody() -> Description {
         coordinates: vec![].into(),
         speeds: vec![].into(),
         motions: vec![].into(),
+        inputs: vec![].into(),
         quaternions: vec![].into(),
         rows: vec![].into(),
         drivers: vec![].into(),

@@ -12,7 +12,7 @@ pub type Text = Cow<'static, str>;
 /// A list that is static in generated code and owned elsewhere.
 pub type List<T> = Cow<'static, [T]>;
 
-/// A tunable parameter, in the order of the input slice.
+/// A tunable parameter or an input, in the order of the input slice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterInfo {
     /// Name in the file.
@@ -21,6 +21,15 @@ pub struct ParameterInfo {
     pub unit: Text,
     /// Value in the file, in SI.
     pub default: f64,
+}
+
+/// What an input is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InputRole {
+    /// A signal that the file names.
+    Value,
+    /// The rate in time of the input before it, which a drive follows.
+    RateOfPrevious,
 }
 
 /// One scalar of the free coordinates or speeds, in order.
@@ -89,8 +98,10 @@ pub enum Motion {
 pub struct Description {
     /// Name of the mechanism.
     pub name: Text,
-    /// Tunable parameters.
+    /// Tunable parameters, then inputs with their defaults.
     pub parameters: List<ParameterInfo>,
+    /// Inputs: of the last so many parameters, what they are. They may change with time.
+    pub inputs: List<InputRole>,
     /// Free coordinates.
     pub coordinates: List<VariableInfo>,
     /// Free speeds.
@@ -190,6 +201,8 @@ pub struct GammaRates {
 pub struct Tables {
     /// Name, unit, default.
     pub parameters: &'static [(&'static str, &'static str, f64)],
+    /// See [`Description::inputs`].
+    pub inputs: &'static [InputRole],
     /// Name, unit, held.
     pub coordinates: &'static [(&'static str, &'static str, bool)],
     /// Name, unit, held.
@@ -211,6 +224,16 @@ pub struct Tables {
 }
 
 impl Description {
+    /// How many of the parameters are tunable ones; the others, behind them, are inputs.
+    pub fn tunable(&self) -> usize {
+        self.parameters.len().saturating_sub(self.inputs.len())
+    }
+
+    /// The inputs: name, SI unit and default of each, and what it is.
+    pub fn input_infos(&self) -> impl Iterator<Item = (&ParameterInfo, InputRole)> {
+        self.parameters[self.tunable()..].iter().zip(self.inputs.iter().copied())
+    }
+
     /// Of every kept row, its row among all; fewer than `count` where the description misses one.
     pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
@@ -240,6 +263,7 @@ impl Description {
         Self {
             name: name.into(),
             parameters: tables.parameters.iter().map(parameter).collect(),
+            inputs: tables.inputs.into(),
             coordinates: tables.coordinates.iter().map(variable).collect(),
             speeds: tables.speeds.iter().map(variable).collect(),
             motions: tables.motions.into(),

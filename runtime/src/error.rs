@@ -28,6 +28,42 @@ pub enum SetupError {
         /// Its value.
         value: f64,
     },
+    /// Samples of inputs that make no course.
+    #[error("row {row} of the inputs: {reason}; give finite numbers at rising times")]
+    Signals {
+        /// Row, from 1.
+        row: usize,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// Samples of an input that the mechanism does not have, or has already.
+    #[error(
+        "input `{name}` {}; the mechanism's inputs: {}",
+        if *.twice { "is given twice" } else { "does not exist" },
+        if .known.is_empty() { "none" } else { .known }
+    )]
+    Input {
+        /// Name that was given.
+        name: String,
+        /// Names that there are.
+        known: String,
+        /// Whether it was given twice.
+        twice: bool,
+    },
+    /// Inputs are known for another time than that of the run.
+    #[error(
+        "the inputs are known from {first} s to {last} s, the run is from {begin} s to {end} s; give inputs for all of it, or a shorter run"
+    )]
+    InputsEnd {
+        /// First and last time of the inputs [s].
+        first: f64,
+        /// Last time of the inputs [s].
+        last: f64,
+        /// Begin of the run [s].
+        begin: f64,
+        /// End of the run [s].
+        end: f64,
+    },
     /// A constant of a joint with clearance is out of range.
     #[error("joint `{joint}`: {reason}")]
     Contact {

@@ -15,6 +15,7 @@ use crate::description::Description;
 use crate::error::SetupError;
 use crate::layout::Layout;
 use crate::linear::dot;
+use crate::signals::Signals;
 use crate::system::{CONTACT_MOTION, Entry, STATES, SideBySide, Sizes, System};
 use derivative::Derivative;
 use questions::Questions;
@@ -60,6 +61,7 @@ impl<'a> Evaluator<'a> {
         };
         same("parameters", sizes.parameters, parameters.len())?;
         same("parameters in its description", sizes.parameters, description.parameters.len())?;
+        same("inputs at most", description.inputs.len().min(sizes.parameters), description.inputs.len())?;
         same("coordinates in its motions", sizes.coordinates, layout.coordinates)?;
         same("speeds in its motions", sizes.speeds, layout.speeds)?;
         same("coordinates in all its motions", sizes.all_coordinates, layout.all_coordinates)?;
@@ -91,7 +93,7 @@ impl<'a> Evaluator<'a> {
             clearances: Clearances::new(&description.contacts)?,
             contacts_known_at: None,
             derivative: Derivative::new(sizes, parameters),
-            questions: Questions::new(system, parameters),
+            questions: Questions::new(system, parameters, description.inputs.len()),
         })
     }
 
@@ -118,6 +120,35 @@ impl<'a> Evaluator<'a> {
     /// Values of the parameters.
     pub(crate) fn parameters(&self) -> &[f64] {
         self.questions.parameters()
+    }
+
+    /// Connects the inputs to signals; before that they have the values among the parameters.
+    pub fn connect(&mut self, signals: &'a dyn Signals) {
+        self.questions.connect(signals);
+        self.derivative.forget();
+    }
+
+    /// Gives the inputs values that hold from here on.
+    ///
+    /// # Errors
+    /// If there are not as many as the mechanism has inputs, or one is not finite.
+    pub fn set_inputs(&mut self, values: &[f64]) -> Result<(), SetupError> {
+        let expected = self.description.inputs.len();
+        if values.len() != expected {
+            return Err(SetupError::Length { what: "values of inputs", expected, found: values.len() });
+        }
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            let name = self.description.parameters[self.description.tunable() + at].name.to_string();
+            return Err(SetupError::Parameter { name, value: values[at] });
+        }
+        self.questions.set_inputs(values);
+        self.derivative.forget();
+        Ok(())
+    }
+
+    /// What the inputs are connected to.
+    pub(crate) fn signals(&self) -> Option<&'a dyn Signals> {
+        self.questions.signals()
     }
 
     /// Position, speed and acceleration of every driver, driver by driver.
@@ -353,8 +384,10 @@ impl<'a> Evaluator<'a> {
         let Forward { accelerations, multipliers, drives, .. } = self.derivative.forward();
         put_kept(&self.kept, multipliers, &mut self.multipliers);
         let (time, wrenches) = ([t], self.clearances.wrenches());
-        let parts = [&time, q, v, accelerations, &self.multipliers, drives, wrenches];
-        let mut left = &mut question[self.sizes.parameters..];
+        let first = self.questions.inputs.start;
+        let inputs = self.questions.inputs_at(t);
+        let parts = [inputs, &time, q, v, accelerations, &self.multipliers, drives, wrenches];
+        let mut left = &mut question[first..];
         for part in parts {
             let (places, rest) = left.split_at_mut(part.len());
             places.iter_mut().zip(part).for_each(|(place, value)| place[state] = *value);

@@ -65,6 +65,8 @@ mod projection;
 #[cfg(feature = "std")]
 mod record;
 #[cfg(feature = "std")]
+mod signals;
+#[cfg(feature = "std")]
 mod simulate;
 #[cfg(feature = "std")]
 mod singular_dynamics;
@@ -87,8 +89,8 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, ContactInfo, Description, DriverInfo, GammaRates, List, Motion, ParameterInfo, RowInfo,
-        Tables, Text, VariableInfo, WearInfo,
+        Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, List, Motion, ParameterInfo,
+        RowInfo, Tables, Text, VariableInfo, WearInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
@@ -99,10 +101,11 @@ pub use {
     layout::{Group, Layout},
     projection::{Correction, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::{Cells, Table, TableColumn, write_csv},
+    signals::{SampledSignals, Signals},
     simulate::{
         At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,
         RunWarning, Settings, Span, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue,
-        TurnRequests, TurnRunner, TurnState, simulate, turn_queue,
+        TurnRequests, TurnRunner, TurnState, simulate, simulate_with_inputs, turn_queue,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

@@ -1,5 +1,6 @@
 //! The only contract with generated code: entry points from flat inputs to flat outputs.
-//! In: parameters, time, coordinates, speeds. Out: what each [`Entry`] lists.
+//! In: parameters, time, coordinates, speeds. Out: what each [`Entry`] lists. Where parameters are named here, the
+//! mechanism's inputs stand behind them.
 //! Never knows how the numbers are made: compiled code and the interpreter implement the same trait.
 //!
 //! A *free* coordinate or speed is one that no driver prescribes. States hold the free ones only.
@@ -90,7 +91,7 @@ impl Entry {
 /// Counts that fix the layout of every entry's input and output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sizes {
-    /// Tunable parameters.
+    /// Tunable parameters and inputs.
     pub parameters: usize,
     /// Free coordinates `q` (4 for a quaternion).
     pub coordinates: usize,

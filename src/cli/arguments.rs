@@ -161,6 +161,9 @@ pub struct SimulateArguments {
     pub samples: u32,
     #[arg(long, value_name = "FILE", value_parser = output(), help = rows_help())]
     pub out: Option<PathBuf>,
+    /// Inputs over time: a CSV file with columns `t [s]` and `NAME [UNIT]` for inputs of [inputs]; others keep their defaults.
+    #[arg(long, value_name = "FILE.csv")]
+    pub inputs: Option<PathBuf>,
     /// Method [default: dopri5, with clearance rk43; rk4 if --step is given].
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,

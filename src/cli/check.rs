@@ -51,10 +51,16 @@ fn to_json(compiled: &Compiled, assemblies: &Assemblies, warnings: &[Value]) -> 
         },
         "modal_coordinates": analysis.modes,
         "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
-        "parameters": mechanism.parameters.iter().map(parameter_entry).collect::<Vec<_>>(),
+        "parameters": parameters(compiled, false).map(parameter_entry).collect::<Vec<_>>(),
+        "inputs": parameters(compiled, true).map(parameter_entry).collect::<Vec<_>>(),
         "wear_measures": wear_measure::entries(compiled.description()),
         "warnings": warnings,
     })
+}
+
+/// The parameters of the file, or its inputs.
+fn parameters(compiled: &Compiled, inputs: bool) -> impl Iterator<Item = &Parameter> {
+    compiled.mechanism.parameters.iter().filter(move |parameter| parameter.input == inputs)
 }
 
 fn flexible_entry(body: &Body) -> Option<Value> {
@@ -130,9 +136,11 @@ fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {
         let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
     }
     text.push_str(&wear_measure::text(compiled.description()));
-    if !mechanism.parameters.is_empty() {
-        let rows: Vec<_> = mechanism.parameters.iter().map(parameter_row).collect();
-        let _ = write!(text, "\nParameters\n{}", table(&["name", "value", "unit", ""], &rows));
+    for (title, column, inputs) in [("Parameters", "value", false), ("Inputs", "default", true)] {
+        let rows: Vec<_> = parameters(compiled, inputs).map(parameter_row).collect();
+        if !rows.is_empty() {
+            let _ = write!(text, "\n{title}\n{}", table(&["name", column, "unit", ""], &rows));
+        }
     }
     text
 }

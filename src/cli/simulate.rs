@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use linkwear::inputs::read_inputs;
 use linkwear::mechanism::Mechanism;
 use linkwear::number::number;
 use linkwear::progress::watched;
 use linkwear::table::write_table;
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate};
+use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate, simulate_with_inputs};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
@@ -31,6 +32,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let description = &mechanism.description;
     refuse_too_many(arguments.samples as usize, description)?;
+    let signals = arguments.inputs.as_deref().map(|file| read_inputs(file, description)).transpose()?;
     let span = span(arguments, description)?;
     let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));
     let settings = Settings::new(integrator, span, arguments.samples as usize);
@@ -38,7 +40,10 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let start = Instant::now();
     let system = mechanism.system();
     let parameters = &mechanism.parameters;
-    let result = watched(|watch| simulate(&*system, description, parameters, &settings, watch));
+    let result = watched(|watch| match &signals {
+        Some(signals) => simulate_with_inputs(&*system, description, parameters, signals, &settings, watch),
+        None => simulate(&*system, description, parameters, &settings, watch),
+    });
     let wall_seconds = start.elapsed().as_secs_f64();
 
     let run = result.map_err(|error| Failure::run(file, &error, None))?;

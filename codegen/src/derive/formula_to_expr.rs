@@ -7,8 +7,10 @@ use crate::model::{Formula, Function, Term};
 /// Values of parameters and time as expressions: numbers for what is folded, symbols for what stays.
 #[derive(Clone, Debug)]
 pub struct Inputs<'g> {
-    /// One per parameter of the file.
+    /// One per parameter of the file, then one per input.
     pub parameters: Vec<Expr<'g>>,
+    /// Inputs that drives follow, with their first and second rates in time.
+    pub rates: Vec<[Expr<'g>; 3]>,
     /// Time [s].
     pub time: Expr<'g>,
 }
@@ -17,6 +19,13 @@ impl<'g> Inputs<'g> {
     /// A formula over parameters and time.
     pub fn lower(&self, formula: &Formula) -> Expr<'g> {
         self.lower_with(formula, &|_| self.time.scope().zero())
+    }
+
+    /// Total derivative in time of what is over parameters, time, inputs and their first rates.
+    pub fn rate(&self, of: Expr<'g>) -> Expr<'g> {
+        let by_inputs =
+            self.rates.iter().flat_map(|[input, first, second]| [(input, first), (first, second)]);
+        by_inputs.fold(of.derivative(self.time), |sum, (input, rate)| sum + of.derivative(*input) * *rate)
     }
 
     /// A vector of formulas over parameters and time.

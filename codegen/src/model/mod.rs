@@ -40,7 +40,7 @@ pub enum Carrier {
 pub struct Mechanism {
     /// Name in the file.
     pub name: String,
-    /// Parameters in file order.
+    /// Parameters in file order, then inputs in file order.
     pub parameters: Vec<Parameter>,
     /// Gravity [m/s²] in W; formulas over parameters.
     pub gravity: [Formula; 3],
@@ -75,6 +75,8 @@ pub struct Parameter {
     pub written: Option<(f64, String)>,
     /// Stays a run-time field of the generated struct.
     pub tunable: bool,
+    /// A signal from outside, which may change with time; the value is its default.
+    pub input: bool,
     /// Not from the cited source but ours.
     pub assumed: bool,
     /// Where it is written.
@@ -133,7 +135,7 @@ pub struct Joint {
     pub at: PointId,
     /// The user wants the loop cut here.
     pub cut: bool,
-    /// Motion law of one coordinate, over parameters and t.
+    /// Motion law of one coordinate, over parameters, inputs and t.
     pub drives: Vec<Drive>,
     /// Viscous damping, springs and actuator forces, by coordinate.
     pub passive: Vec<Passive>,
@@ -157,7 +159,7 @@ pub struct Clearance {
 pub struct Drive {
     /// Which coordinate of the joint, from 0.
     pub coordinate: usize,
-    /// Position over parameters and t [rad or m].
+    /// Position over parameters, inputs and t [rad or m].
     pub law: Formula,
 }
 
@@ -248,7 +250,11 @@ impl Mechanism {
     pub fn parameter(&self, id: ParameterId) -> &Parameter {
         &self.parameters[id.index()]
     }
-    /// Values of all parameters in file order [SI], as [`Formula::value`] wants them.
+    /// Whether a drive follows this input, so that its rates are needed too.
+    pub fn drives_follow(&self, input: ParameterId) -> bool {
+        self.drives().any(|(_, drive)| drive.law.depends_on(&|id| id == input))
+    }
+    /// Values of all parameters and defaults of all inputs in file order [SI], as [`Formula::value`] wants them.
     pub fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.value).collect()
     }

@@ -34,6 +34,8 @@ pub struct File {
     pub closure: Option<Closure>,
     /// Named quantities.
     pub parameters: Table<Parameter>,
+    /// Signals from outside: they may change while the mechanism runs.
+    pub inputs: Table<Input>,
     /// Named points at the reference pose.
     pub points: Table<PointSpec>,
     /// Moving bodies.
@@ -189,6 +191,31 @@ impl Parameter {
             Self::Plain(_) => (false, false),
             Self::Marked(table) => (table.tunable, table.assumed),
         }
+    }
+}
+
+/// A signal from outside: a quantity that it has unless something else is connected.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "Input", untagged))]
+pub enum Input {
+    /// Its default with its unit.
+    #[serde(rename = "scalar", alias = "list")]
+    Plain(Quantity),
+    /// Unit and default apart.
+    #[serde(rename = "table")]
+    Table(InputTable),
+}
+
+tables! {
+    /// A signal with unit and default apart.
+    pub struct InputTable {
+        /// Unit of the default if that is a bare number, and of the same dimension if it is not.
+        pub unit: Option<Name>,
+        /// Value unless something else is connected; 0 by default.
+        pub default: Option<Quantity>,
+        /// What it is.
+        pub doc: Option<Doc>,
     }
 }
 

@@ -46,7 +46,7 @@ tables! {
         pub first: Option<PerBody>,
         /// Advance of a screw per turn.
         pub lead: Option<Quantity>,
-        /// Prescribed motion over parameters and t.
+        /// Prescribed motion over parameters, inputs and t.
         pub drive: Option<ByCoordinate>,
         /// Viscous damping.
         pub damping: Option<ByCoordinate>,

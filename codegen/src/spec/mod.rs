@@ -25,7 +25,10 @@ pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
 pub use dimension::Dimension;
-pub use file::{CheckSpec, ClearanceSpec, Closure, File, Parameter, ParameterTable, RepeatSpec, WearSpec};
+pub use file::{
+    CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable, RepeatSpec,
+    WearSpec,
+};
 pub use force::{Bodies, ByAxis, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, Written};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use parse::{Spec, parse};

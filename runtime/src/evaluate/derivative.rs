@@ -50,7 +50,7 @@ impl Derivative {
             return;
         }
         if !known {
-            self.move_to(t, q, v);
+            self.move_to(questions, (t, q, v));
         }
         let (state, answers) = self.input.split_at_mut(self.state_end);
         let (wrenches, contacts) = answers.split_at_mut(self.wrenches_end - self.state_end);
@@ -80,7 +80,7 @@ impl Derivative {
         if self.sizes.contacts > 0 {
             self.contacts(questions, clearances, (t, q, v));
         } else if !self.is_at(t, q, v) {
-            self.move_to(t, q, v);
+            self.move_to(questions, (t, q, v));
         }
         if !self.has_answer {
             let Questions { system, workspace, .. } = questions;
@@ -104,7 +104,9 @@ impl Derivative {
         first(coordinates) == first(q) && same_bits(coordinates, q) && same_bits(speeds, v)
     }
 
-    fn move_to(&mut self, t: f64, q: &[f64], v: &[f64]) {
+    fn move_to(&mut self, questions: &mut Questions<'_>, (t, q, v): (f64, &[f64], &[f64])) {
+        let inputs = questions.inputs.clone();
+        self.input[inputs].copy_from_slice(questions.inputs_at(t));
         let state = &mut self.input[self.sizes.parameters..self.state_end];
         state[0] = t;
         let (coordinates, speeds) = state[1..].split_at_mut(q.len());

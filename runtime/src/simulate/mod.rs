@@ -38,6 +38,7 @@ use crate::description::Description;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
 use crate::evaluate::Evaluator;
+use crate::signals::Signals;
 use crate::system::System;
 use crate::watch::Watch;
 use motion::ConstrainedMotion;
@@ -58,8 +59,32 @@ pub fn simulate(
     watch: Watch<'_>,
 ) -> Result<Run, RunError> {
     settings.check()?;
+    run(Evaluator::new(system, description, parameters)?, settings, watch)
+}
+
+/// As [`simulate`], with inputs that change in time.
+///
+/// # Errors
+/// Those of [`simulate`], and if the inputs are not known for the whole run.
+pub fn simulate_with_inputs<'a>(
+    system: &'a dyn System<f64>,
+    description: &'a Description,
+    parameters: &[f64],
+    signals: &'a dyn Signals,
+    settings: &Settings,
+    watch: Watch<'_>,
+) -> Result<Run, RunError> {
+    settings.check()?;
     let mut evaluator = Evaluator::new(system, description, parameters)?;
+    evaluator.connect(signals);
+    run(evaluator, settings, watch)
+}
+
+fn run(mut evaluator: Evaluator<'_>, settings: &Settings, watch: Watch<'_>) -> Result<Run, RunError> {
     let schedule = Schedule::new(&mut evaluator, settings)?;
+    if let Some(signals) = evaluator.signals() {
+        schedule.check_covered(signals.span())?;
+    }
     let start = assemble_static_contact(&mut evaluator, 0.0)?;
     let dynamics = Dynamics::new(evaluator, settings.singular_pivot);
     let mut motion = ConstrainedMotion::new(dynamics);

@@ -2,7 +2,7 @@
 //! Out: times [s].
 
 use super::settings::{Settings, Span};
-use crate::error::RunError;
+use crate::error::{RunError, SetupError};
 use crate::evaluate::Evaluator;
 use crate::scalar::Scalar;
 
@@ -24,6 +24,16 @@ impl Schedule {
         let start = end_of(evaluator, 0.0, settings.settle)?;
         let end = end_of(evaluator, start, settings.span)?;
         Ok(Self { begin: 0.0, start, end, samples: settings.samples })
+    }
+
+    /// Refuses a run that goes on where its inputs are not known.
+    pub(super) fn check_covered(&self, (first, last): (f64, f64)) -> Result<(), RunError> {
+        // Times written with twelve digits mean the same time.
+        let slack = 1e-11 * (self.end - self.begin);
+        if first <= self.begin + slack && self.end - slack <= last {
+            return Ok(());
+        }
+        Err(SetupError::InputsEnd { first, last, begin: self.begin, end: self.end }.into())
     }
 
     /// One turn of the turn driver from `begin`, without samples.

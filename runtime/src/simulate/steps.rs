@@ -76,7 +76,8 @@ fn run_adaptive<M: Method>(
     let mut between = state.to_vec();
     let mut method = begin_adaptive::<M>(motion, sampler, state, limits)?;
     while method.t() < sampler.schedule.end {
-        let outcome = method.step(motion, sampler.hard_stop(method.t()));
+        let stop = stop_at_kink(motion, sampler, method.t());
+        let outcome = method.step(motion, stop);
         sampler.statistics.rejected = method.rejected();
         outcome?;
         events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
@@ -84,6 +85,15 @@ fn run_adaptive<M: Method>(
     }
     state.copy_from_slice(method.y());
     Ok(())
+}
+
+/// Where the next step ends at the latest: no step leaps over a kink of an input.
+fn stop_at_kink(motion: &ConstrainedMotion<'_>, sampler: &Sampler<'_>, t: f64) -> f64 {
+    let stop = sampler.hard_stop(t);
+    let Some(signals) = motion.dynamics.evaluator.signals() else { return stop };
+    // Times that are the same but for rounding leave no step of a last bit.
+    let slack = 1e-12 * sampler.duration();
+    signals.next_kink(t + slack).filter(|kink| *kink < stop - slack).unwrap_or(stop)
 }
 
 /// Begins a schedule with a method, its tolerance and its longest step [s].

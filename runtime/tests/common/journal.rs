@@ -87,6 +87,7 @@ impl Journal {
             coordinates: vec![variable("R.x", "m"), variable("R.y", "m"), variable("R.q", "rad")].into(),
             speeds: vec![variable("R.vx", "m/s"), variable("R.vy", "m/s"), variable("R.v", "rad/s")].into(),
             motions: vec![scalar; 3].into(),
+            inputs: vec![].into(),
             quaternions: vec![].into(),
             rows: vec![].into(),
             drivers: vec![].into(),

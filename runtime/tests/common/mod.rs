@@ -127,6 +127,7 @@ impl<M: Model> Dense<M> {
             coordinates: variable("q", "rad", &q0).into(),
             speeds: variable("v", "rad/s", &v0).into(),
             motions: model.motions().into(),
+            inputs: vec![].into(),
             quaternions: vec![].into(),
             rows: (0..rows + dropped).map(row).collect(),
             drivers: (0..prescribed.len()).map(driver).collect(),

@@ -1,7 +1,7 @@
 //! The mechanism's description as a Rust expression.
 //! In: [`Description`]. Out: tokens. User text becomes string literals, which quote escapes.
 
-use linkwear_runtime::{Description, Motion};
+use linkwear_runtime::{Description, InputRole, Motion};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -26,6 +26,10 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         Motion::Rotation => quote!(#runtime::Motion::Rotation),
         Motion::Pose => quote!(#runtime::Motion::Pose),
     });
+    let inputs = own.inputs.iter().map(|role| match role {
+        InputRole::Value => quote!(#runtime::InputRole::Value),
+        InputRole::RateOfPrevious => quote!(#runtime::InputRole::RateOfPrevious),
+    });
     let quaternions = own.quaternions.iter().map(|index| Literal::usize_unsuffixed(*index));
     let rows = own.rows.iter().map(|row| {
         let (joint, meaning, angular, kept) = (&*row.joint, &*row.meaning, row.angular, index(row.kept));
@@ -43,6 +47,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     let turn_driver = index(own.turn_driver);
     let tables = [
         table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
+        table("INPUTS", quote!(#runtime::InputRole), inputs.collect()),
         table("COORDINATES", quote!((&str, &str, bool)), own.coordinates.iter().map(variable).collect()),
         table("SPEEDS", quote!((&str, &str, bool)), own.speeds.iter().map(variable).collect()),
         table("MOTIONS", quote!(#runtime::Motion), motions.collect()),
@@ -63,6 +68,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
                         #name,
                         #runtime::Tables {
                             parameters: &PARAMETERS,
+                            inputs: &INPUTS,
                             coordinates: &COORDINATES,
                             speeds: &SPEEDS,
                             motions: &MOTIONS,

@@ -152,6 +152,7 @@ mod tests {
         Description {
             name: "odd \"name\"\n".into(),
             parameters: Vec::new().into(),
+            inputs: Vec::new().into(),
             coordinates: Vec::new().into(),
             speeds: Vec::new().into(),
             motions: Vec::new().into(),

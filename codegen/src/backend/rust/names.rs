@@ -22,6 +22,7 @@ const TAKEN: &[&str] = &[
     "SIZES",
     "SOURCE_SHA256",
     "PARAMETERS",
+    "INPUTS",
     "COORDINATES",
     "SPEEDS",
     "MOTIONS",

@@ -4,10 +4,10 @@
 use nalgebra::DMatrix;
 
 use crate::expr::{Expr, Scope, Vec3};
-use crate::id::JointId;
+use crate::id::{JointId, ParameterId};
 use crate::model::Mechanism;
 
-use super::names::variable_names;
+use super::names::{INPUT_RATES, variable_names};
 use crate::derive::accelerations::accelerations;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
@@ -24,22 +24,36 @@ use crate::derive::motion::{ModalState, Motion};
 use crate::derive::plan::Guide;
 use crate::derive::relative_motion::Sums;
 
-/// Symbols of tunable parameters and time, numbers for the other parameters; and the tunable ones alone.
-pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Vec<Expr<'g>>) {
-    let mut tunable = Vec::new();
-    let parameters = mechanism
-        .parameters
-        .iter()
-        .map(|parameter| {
-            if parameter.tunable {
-                tunable.push(g.symbol(parameter.name.clone()));
-                tunable[tunable.len() - 1]
-            } else {
-                g.number(parameter.value)
+/// Symbols that every entry point takes besides the time: of tunable parameters, and of inputs with the rates that
+/// drives need.
+pub struct Given<'g> {
+    pub tunable: Vec<Expr<'g>>,
+    pub inputs: Vec<Expr<'g>>,
+}
+
+/// Symbols of tunable parameters, inputs and time, numbers for the other parameters; and what is given from outside.
+pub fn inputs<'g>(g: &'g Scope, mechanism: &Mechanism) -> (Inputs<'g>, Given<'g>) {
+    let mut given = Given { tunable: Vec::new(), inputs: Vec::new() };
+    let (mut parameters, mut rates) = (Vec::new(), Vec::new());
+    for (at, parameter) in mechanism.parameters.iter().enumerate() {
+        let symbol = |suffix: &str| g.symbol(parameter.name.clone() + suffix);
+        if parameter.input {
+            let input = symbol("");
+            given.inputs.push(input);
+            if mechanism.drives_follow(ParameterId::new(at)) {
+                let [first, second] = INPUT_RATES.map(|suffix| symbol(&suffix.replace('.', "_")));
+                given.inputs.extend([first, second]);
+                rates.push([input, first, second]);
             }
-        })
-        .collect();
-    (Inputs { parameters, time: g.symbol("t") }, tunable)
+            parameters.push(input);
+        } else if parameter.tunable {
+            given.tunable.push(symbol(""));
+            parameters.push(given.tunable[given.tunable.len() - 1]);
+        } else {
+            parameters.push(g.number(parameter.value));
+        }
+    }
+    (Inputs { parameters, rates, time: g.symbol("t") }, given)
 }
 
 /// A prescribed coordinate with its place and its law.
@@ -56,8 +70,8 @@ pub struct Driver<'g> {
 /// A mechanism with the symbols of its equations.
 pub struct Deriver<'g> {
     pub geometry: Geometry<'g>,
-    /// Symbols of the tunable parameters.
-    pub parameters: Vec<Expr<'g>>,
+    /// Symbols of tunable parameters and inputs.
+    pub given: Given<'g>,
     pub drivers: Vec<Driver<'g>>,
     /// Symbols of all coordinates, driven ones included.
     pub q_all: Vec<Expr<'g>>,
@@ -124,8 +138,8 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
             let Some(link) = geometry.linkage.link_of_coordinate(id, drive.coordinate) else { continue };
             let link = &geometry.linkage.links[link];
             let position = geometry.inputs.lower(&drive.law);
-            let speed = position.derivative(geometry.inputs.time);
-            let acceleration = speed.derivative(geometry.inputs.time);
+            let speed = geometry.inputs.rate(position);
+            let acceleration = geometry.inputs.rate(speed);
             drivers.push(Driver {
                 joint: id,
                 joint_coordinate: drive.coordinate,
@@ -140,7 +154,7 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 
 impl<'g> Deriver<'g> {
     /// Makes the symbols; without a guide all constraint rows are kept.
-    pub fn new(geometry: Geometry<'g>, parameters: Vec<Expr<'g>>, guide: Option<&Guide>) -> Self {
+    pub fn new(geometry: Geometry<'g>, given: Given<'g>, guide: Option<&Guide>) -> Self {
         let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
         let keep = guide.map_or_else(|| vec![true; rows.sum()], |guide| guide.keep.clone());
@@ -182,7 +196,7 @@ impl<'g> Deriver<'g> {
             .collect();
         Self {
             geometry,
-            parameters,
+            given,
             free_q: (0..q_all.len())
                 .filter(|index| drivers.iter().all(|driver| driver.coordinate != *index))
                 .collect(),

@@ -2,22 +2,24 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, Motion as MotionInfo, ParameterInfo, RowInfo, Sizes,
-    VariableInfo,
+    Channel, ContactInfo, Description, DriverInfo, InputRole, Motion as MotionInfo, ParameterInfo, RowInfo,
+    Sizes, VariableInfo,
 };
 
 use super::deriver::Deriver;
-use super::names::variable_names;
+use super::names::{INPUT_RATES, variable_names};
 use crate::derive::closure::CutRows;
 use crate::derive::geometry::Geometry;
 use crate::derive::linkage::Freedom;
 use crate::derive::start::StartValues;
-use crate::model::Coordinate;
+use crate::id::ParameterId;
+use crate::model::{Coordinate, Parameter};
+use crate::spec::Dimension;
 
 impl Deriver<'_> {
     pub(super) fn sizes(&self, channels: usize) -> Sizes {
         Sizes {
-            parameters: self.parameters.len(),
+            parameters: self.given.tunable.len() + self.given.inputs.len(),
             coordinates: self.free_q.len(),
             speeds: self.partition.free.len(),
             all_coordinates: self.q_all.len(),
@@ -49,18 +51,9 @@ impl Deriver<'_> {
                 })
                 .collect::<Vec<_>>()
         };
-        let parameters: Vec<ParameterInfo> = self
-            .geometry
-            .mechanism
-            .parameters
-            .iter()
-            .filter(|parameter| parameter.tunable)
-            .map(|parameter| ParameterInfo {
-                name: parameter.name.clone().into(),
-                unit: parameter.dimension.si_unit().into(),
-                default: parameter.value,
-            })
-            .collect();
+        let (inputs, roles) = self.input_infos();
+        let tunable = mechanism.parameters.iter().filter(|parameter| parameter.tunable);
+        let parameters: Vec<ParameterInfo> = tunable.map(parameter_info).chain(inputs).collect();
         let drivers: Vec<DriverInfo> = self
             .drivers
             .iter()
@@ -75,6 +68,7 @@ impl Deriver<'_> {
         Description {
             name: mechanism.name.clone().into(),
             parameters: parameters.into(),
+            inputs: roles.into(),
             coordinates: pick(&names.0, &self.free_q, &start.held_q).into(),
             speeds: pick(&names.1, &self.partition.free, &start.held_v).into(),
             motions: self.motions().into(),
@@ -85,6 +79,25 @@ impl Deriver<'_> {
             turn_driver,
             contacts: self.contact_infos().into(),
         }
+    }
+
+    /// The inputs, each with its rates behind it where a drive follows it, and what each of them is.
+    fn input_infos(&self) -> (Vec<ParameterInfo>, Vec<InputRole>) {
+        let mechanism = self.geometry.mechanism;
+        let (mut infos, mut roles) = (Vec::new(), Vec::new());
+        for (at, input) in mechanism.parameters.iter().enumerate().filter(|(_, parameter)| parameter.input) {
+            infos.push(parameter_info(input));
+            roles.push(InputRole::Value);
+            let mut dimension = Some(input.dimension);
+            for suffix in INPUT_RATES.iter().filter(|_| mechanism.drives_follow(ParameterId::new(at))) {
+                dimension = dimension.and_then(|of| of.over(Dimension::TIME));
+                let unit = dimension.map(Dimension::si_unit).unwrap_or_default();
+                let name = format!("{}{suffix}", input.name);
+                infos.push(ParameterInfo { name: name.into(), unit: unit.into(), default: 0.0 });
+                roles.push(InputRole::RateOfPrevious);
+            }
+        }
+        (infos, roles)
     }
 
     /// What the rows of all cuts forbid, and which of them are kept, by index among the kept ones.
@@ -136,5 +149,13 @@ impl Deriver<'_> {
             .filter(|link| matches!(link.freedom, Freedom::Ball | Freedom::Free))
             .filter_map(|link| self.free_q.iter().position(|i| *i == link.first_coordinate))
             .collect()
+    }
+}
+
+fn parameter_info(parameter: &Parameter) -> ParameterInfo {
+    ParameterInfo {
+        name: parameter.name.clone().into(),
+        unit: parameter.dimension.si_unit().into(),
+        default: parameter.value,
     }
 }

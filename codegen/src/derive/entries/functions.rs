@@ -3,7 +3,7 @@
 
 use linkwear_runtime::{Channel, Entry, RowInfo};
 
-use super::deriver::{Deriver, Instant};
+use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
 use super::row_axes::MOST_TO_COMPARE;
 use crate::derive::closure::CutRows;
@@ -36,10 +36,15 @@ pub(super) struct StateRates<'g> {
 
 impl<'g> Deriver<'g> {
     fn base_inputs(&self) -> Vec<Block> {
-        vec![
-            Block::vector("parameters", self.parameters.iter().copied()).doc("Tunable parameters, SI."),
-            Block::vector("t", [self.geometry.inputs.time]).doc("Time [s]."),
-        ]
+        let Given { tunable, inputs } = &self.given;
+        let mut blocks =
+            vec![Block::vector("parameters", tunable.iter().copied()).doc("Tunable parameters, SI.")];
+        if !inputs.is_empty() {
+            let doc = "Inputs, SI; behind one that a drive follows its first and second rate in time.";
+            blocks.push(Block::vector("inputs", inputs.iter().copied()).doc(doc));
+        }
+        blocks.push(Block::vector("t", [self.geometry.inputs.time]).doc("Time [s]."));
+        blocks
     }
 
     /// Inputs of the entry points that ask for the state, and those after it.

@@ -56,9 +56,9 @@ pub fn derive(
     let scope = Scope::new();
     let (functions, sizes, description) = {
         scope.begin_section("prescribed motion");
-        let (inputs, parameters) = inputs(&scope, mechanism);
+        let (inputs, given) = inputs(&scope, mechanism);
         let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-        results(&Deriver::new(geometry, parameters, guide), purpose)
+        results(&Deriver::new(geometry, given, guide), purpose)
     };
     Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
 }

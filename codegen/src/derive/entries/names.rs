@@ -7,6 +7,9 @@ use crate::model::{Coordinate, Mechanism};
 /// Names and units of all coordinates and of all speeds, in tree order.
 pub(super) type Names = (Vec<(String, &'static str)>, Vec<(String, &'static str)>);
 
+/// What the rates of an input are called behind its name: as those of a joint's coordinate.
+pub(super) const INPUT_RATES: [&str; 2] = [".v", ".a"];
+
 pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names {
     let (mut positions, mut speeds) = (Vec::new(), Vec::new());
     for link in &linkage.links {

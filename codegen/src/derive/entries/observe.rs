@@ -2,7 +2,7 @@
 //! In: link motion with true accelerations, multipliers, drive forces. Out: channels with expressions.
 //! Never knows files. Names and units follow the command line's contract for sampled output.
 
-use linkwear_runtime::Channel;
+use linkwear_runtime::{Channel, Text};
 
 use super::deriver::{Deriver, Instant};
 use super::names::{number_among, units};
@@ -64,13 +64,17 @@ impl<'a, 'g> Channels<'a, 'g> {
             let suffix = number_among(coordinates.len(), driver.joint_coordinate);
             list.push(format!("{}.drive{suffix}", data.name), unit, *force);
         }
+        let parameters = mechanism.parameters.iter().zip(&deriver.geometry.inputs.parameters);
+        for (input, value) in parameters.filter(|(parameter, _)| parameter.input) {
+            list.push(format!("{}.u", input.name), input.dimension.si_unit(), *value);
+        }
         list.multipliers();
         list.push("energy.kinetic".to_owned(), "J", energy[0]);
         list.push("energy.potential".to_owned(), "J", energy[1]);
         list
     }
 
-    fn push(&mut self, name: String, unit: &'static str, value: Expr<'g>) {
+    fn push(&mut self, name: String, unit: impl Into<Text>, value: Expr<'g>) {
         self.channels.push(Channel { name: name.into(), unit: unit.into(), wraps: false });
         self.values.push(value);
     }

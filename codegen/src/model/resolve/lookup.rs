@@ -27,7 +27,7 @@ impl Resolver<'_> {
             return None;
         }
         if let Some((thing, span)) = found {
-            let message = format!("{used_by} needs a {wanted}, but `{}` is a {}", name.value, thing.what());
+            let message = format!("{used_by} needs a {wanted}, but `{}` is {}", name.value, thing.a());
             let known = self.listed(pick, wanted);
             self.refuse(Code::WrongKindOfName, name.span, message).also(span, "declared here").help(known);
             return None;

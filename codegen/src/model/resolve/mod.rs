@@ -12,6 +12,7 @@ mod connect;
 mod flexible;
 mod forces;
 mod inertia;
+mod inputs;
 mod joint_model;
 mod joints;
 mod lookup;
@@ -78,6 +79,8 @@ impl Resolver<'_> {
         let name = self.mechanism_name(written);
         self.names.foresee(written);
         self.resolve_parameters(&written.parameters, overrides);
+        self.resolve_inputs(&written.inputs, overrides);
+        self.check_overrides(written, overrides);
         let (file, problems) = crate::spec::expand(written, &mut |count| {
             let count = self.formula(count, Some(Dimension::NONE), Allowed::CONSTANTS, "`count`");
             count.value(&self.values).filter(|count| count.is_finite())
@@ -162,9 +165,11 @@ impl Resolver<'_> {
         if self.has_errors() {
             return;
         }
-        for (position, (name, _)) in file.parameters.0.iter().enumerate() {
+        let parameters = file.parameters.0.iter().map(|(name, _)| ("parameter", name));
+        let all = parameters.chain(file.inputs.0.iter().map(|(name, _)| ("input", name)));
+        for (position, (what, name)) in all.enumerate() {
             if self.used.get(position) == Some(&false) {
-                let message = format!("nothing uses the parameter `{}`", name.value);
+                let message = format!("nothing uses the {what} `{}`", name.value);
                 self.refuse(Code::UnusedParameter, name.span, message)
                     .help("use it in a formula, or delete it");
             }

@@ -19,6 +19,8 @@ const RESERVED: &[(&str, &str)] = &[
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Thing {
     Parameter(ParameterId),
+    /// Among the parameters, behind them.
+    Input(ParameterId),
     Point(PointId),
     Body(BodyId),
     Joint(JointId),
@@ -29,11 +31,18 @@ impl Thing {
     pub(super) fn what(self) -> &'static str {
         match self {
             Self::Parameter(_) => "parameter",
+            Self::Input(_) => "input",
             Self::Point(_) => "point",
             Self::Body(_) => "body",
             Self::Joint(_) => "joint",
             Self::Force => "force",
         }
+    }
+
+    /// With its article.
+    pub(super) fn a(self) -> String {
+        let article = if self.what().starts_with('i') { "an" } else { "a" };
+        format!("{article} {}", self.what())
     }
 }
 
@@ -64,6 +73,7 @@ impl Names {
     /// Takes note of all names before anything is resolved: formulas ask whether a word is a name.
     pub(super) fn foresee(&mut self, file: &File) {
         self.foreseen.extend(file.parameters.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.inputs.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.points.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.joints.0.iter().map(|(name, _)| name.value.clone()));
     }
@@ -107,13 +117,12 @@ impl Names {
         }
         if let Some(earlier) = self.by_name.get(&name.value) {
             let (_, other, span) = &self.things[*earlier];
-            let message =
-                format!("the name `{}` is given to a {} and to a {}", name.value, other.what(), thing.what());
+            let message = format!("the name `{}` is given to {} and to {}", name.value, other.a(), thing.a());
             faults.push(
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, points, bodies, joints and forces share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints and forces share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;

@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::id::ParameterId;
 use crate::model;
 use crate::spec::{
-    At, Dimension, Expression, Form, Literal, Name, Parameter, Quantity, Table, Turning, as_written,
+    At, Dimension, Expression, File, Form, Literal, Name, Parameter, Quantity, Table, Turning, as_written,
     parse_expression,
 };
 
@@ -19,29 +19,48 @@ const LARGEST: usize = 2000;
 impl Resolver<'_> {
     pub(super) fn resolve_parameters(&mut self, table: &Table<Parameter>, overrides: &Overrides) {
         self.names.declare_table(table, |at| Thing::Parameter(ParameterId::new(at)), &mut self.diagnostics);
-        self.values = vec![f64::NAN; table.0.len()];
-        self.written_out = vec![None; table.0.len()];
-        self.used = vec![false; table.0.len()];
-        self.turning = vec![Turning::default(); table.0.len()];
+        self.make_room(table.0.len());
         self.parameters = table
             .0
             .iter()
             .map(|(name, parameter)| {
                 let (tunable, assumed) = parameter.value.marks();
-                let (name, span) = (name.value.clone(), name.span);
-                let (value, dimension) = (f64::NAN, Dimension::NONE);
-                model::Parameter { name, value, dimension, written: None, tunable, assumed, span }
+                model::Parameter { tunable, assumed, ..self.no_parameter(name) }
             })
             .collect();
-        self.check_overrides(table, overrides);
         for position in self.order(table) {
             let (name, parameter) = &table.0[position];
             self.resolve_parameter(position, name, parameter, overrides);
         }
     }
 
-    fn check_overrides(&mut self, table: &Table<Parameter>, overrides: &Overrides) {
-        let known = || table.0.iter().map(|(name, _)| name.value.as_str());
+    /// A parameter of which only the name is known.
+    pub(super) fn no_parameter(&self, name: &Name) -> model::Parameter {
+        model::Parameter {
+            name: name.value.clone(),
+            value: f64::NAN,
+            dimension: Dimension::NONE,
+            written: None,
+            tunable: false,
+            input: false,
+            assumed: false,
+            span: name.span,
+        }
+    }
+
+    /// Makes room for what is kept of every parameter.
+    pub(super) fn make_room(&mut self, parameters: usize) {
+        self.values.resize(parameters, f64::NAN);
+        self.written_out.resize(parameters, None);
+        self.used.resize(parameters, false);
+        self.turning.resize(parameters, Turning::default());
+    }
+
+    /// Reports overrides of what is neither a parameter nor an input.
+    pub(super) fn check_overrides(&mut self, file: &File, overrides: &Overrides) {
+        let parameters = || file.parameters.0.iter().map(|(name, _)| name);
+        let known =
+            || parameters().chain(file.inputs.0.iter().map(|(name, _)| name)).map(|name| &*name.value);
         for name in overrides.names() {
             if !known().any(|known| known == name) {
                 let message = format!("`--set {name}=...`: there is no parameter `{name}`");
@@ -71,19 +90,8 @@ impl Resolver<'_> {
                 .help(format!("write `{0} = \"120 mm\"` or `{0} = {{ value = \"120 mm\" }}`", name.value));
             return;
         };
-        let mut formula = self.formula(quantity, None, Allowed::PARAMETERS, &format!("`{}`", name.value));
-        self.turning[position] = self.turns_of(quantity).of;
-        self.parameters[position].written = written(quantity);
-        let given = overrides.0.iter().rev().find(|(given, _)| *given == name.value);
-        if let Some((_, text)) = given {
-            formula = self.overridden(name, text, position, formula);
-        }
-        let value = formula.value(&self.values).unwrap_or(f64::NAN);
-        let follows = self.is_tunable(&formula);
-        self.values[position] = value;
-        self.parameters[position].value = value;
-        self.parameters[position].dimension = formula.dimension;
-        if follows && !self.parameters[position].tunable {
+        let formula = self.settle_value(position, name, quantity, Allowed::PARAMETERS, overrides);
+        if self.is_tunable(&formula) && !self.parameters[position].tunable {
             if formula.term.size() > LARGEST {
                 let message =
                     format!("`{}` grows too large when written out in tunable parameters", name.value);
@@ -92,6 +100,29 @@ impl Resolver<'_> {
             }
             self.written_out[position] = Some(formula.term);
         }
+    }
+
+    /// Finds the value that is written, or the one that is given in its place.
+    pub(super) fn settle_value(
+        &mut self,
+        position: usize,
+        name: &Name,
+        quantity: &Quantity,
+        allowed: Allowed,
+        overrides: &Overrides,
+    ) -> model::Formula {
+        let mut formula = self.formula(quantity, None, allowed, &format!("`{}`", name.value));
+        self.turning[position] = self.turns_of(quantity).of;
+        self.parameters[position].written = written(quantity);
+        let given = overrides.0.iter().rev().find(|(given, _)| *given == name.value);
+        if let Some((_, text)) = given {
+            formula = self.overridden(name, text, position, formula);
+        }
+        let value = self.value(&formula);
+        self.values[position] = value;
+        self.parameters[position].value = value;
+        self.parameters[position].dimension = formula.dimension;
+        formula
     }
 
     /// The value of `--set name=text`: a quantity of the dimension that the parameter has in the file.

@@ -27,15 +27,15 @@ impl Allowed {
     pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false };
     /// All parameters.
     pub(super) const PARAMETERS: Self = Self { tunable: true, time: false, state: false };
-    /// Parameters and t.
+    /// Parameters, inputs and t.
     pub(super) const TIME: Self = Self { tunable: true, time: true, state: false };
-    /// Parameters, t, joint coordinates, points, and their speeds.
+    /// Parameters, inputs, t, joint coordinates, points, and their speeds.
     pub(super) const STATE: Self = Self { tunable: true, time: true, state: true };
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
-            (_, true) => "parameters, t, joint coordinates and points",
-            (true, false) => "parameters and t",
+            (_, true) => "parameters, inputs, t, joint coordinates and points",
+            (true, false) => "parameters, inputs and t",
             (false, false) => "parameters",
         }
     }

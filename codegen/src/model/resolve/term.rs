@@ -2,7 +2,7 @@
 
 use super::names::Thing;
 use super::quantity::{Here, Origin, Resolved};
-use super::resolver::Resolver;
+use super::resolver::{Reported, Resolver};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
 use crate::model::{Function, Term};
@@ -87,9 +87,9 @@ impl Resolver<'_> {
             return Some((Term::Time, Dimension::TIME));
         }
         match self.names.find(name) {
-            Some((Thing::Parameter(id), _)) => self.parameter_term(id, here),
+            Some((Thing::Parameter(id) | Thing::Input(id), _)) => self.parameter_term(id, here),
             Some((thing, span)) => {
-                let message = format!("`{name}` is a {}, not a number", thing.what());
+                let message = format!("`{name}` is {}, not a number", thing.a());
                 let help = match thing {
                     Thing::Point(_) => format!("write `{name}.x`, `{name}.y` or `{name}.z` for a coordinate"),
                     Thing::Joint(_) => format!("write `{name}.q` for the position, `{name}.v` for the speed"),
@@ -106,7 +106,10 @@ impl Resolver<'_> {
                 None
             }
             None => {
-                let known = self.names.known(|thing| matches!(thing, Thing::Parameter(_))).chain(["t", "pi"]);
+                let known = self
+                    .names
+                    .known(|thing| matches!(thing, Thing::Parameter(_) | Thing::Input(_)))
+                    .chain(["t", "pi"]);
                 let mut fault = self.unknown(name, "unknown parameter", here).did_you_mean(name, known);
                 if fault.help.is_empty() {
                     let list = allowed.list();
@@ -124,15 +127,20 @@ impl Resolver<'_> {
         Diagnostic::new(Code::UnknownName, message).at(self.span_of(here), label)
     }
 
-    fn refuse_not_allowed(&mut self, here: Here<'_>, what: &str) {
+    fn refuse_not_allowed(&mut self, here: Here<'_>, what: &str) -> Reported<'_> {
         let message = format!("{what} cannot be used here");
         let help = format!("here a formula can use {}", here.origin.allowed.list());
-        self.refuse_in(here, Code::NotAllowedHere, &message).help(help);
+        self.refuse_in(here, Code::NotAllowedHere, &message).help(help)
     }
 
     fn parameter_term(&mut self, id: ParameterId, here: Here<'_>) -> Resolved {
         self.used[id.index()] = true;
         let parameter = &self.parameters[id.index()];
+        if parameter.input && !here.origin.allowed.time {
+            let (what, declared) = (format!("the input `{}`", parameter.name), parameter.span);
+            self.refuse_not_allowed(here, &what).also(declared, "declared here");
+            return None;
+        }
         let (dimension, declared) = (parameter.dimension, parameter.span);
         let written_out = self.written_out[id.index()].clone();
         if !here.origin.allowed.tunable && (parameter.tunable || written_out.is_some()) {

@@ -35,7 +35,9 @@ impl Resolver<'_> {
             Form::Number { turning, .. } => *turning,
             Form::Name(name) if name == "pi" => Turning::ANGLE,
             Form::Name(name) => match self.names.find(name) {
-                Some((Thing::Parameter(id), _)) => self.turning.get(id.index()).copied().unwrap_or_default(),
+                Some((Thing::Parameter(id) | Thing::Input(id), _)) => {
+                    self.turning.get(id.index()).copied().unwrap_or_default()
+                }
                 _ => Turning::default(),
             },
             Form::Member(joint, _) => self.turning_of_joint(joint),

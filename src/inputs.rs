@@ -1,0 +1,93 @@
+//! Inputs of a mechanism from a CSV file: a column of time, a column with its unit for every input that is connected.
+//! In: a path, the description. Out: [`SampledSignals`] in SI. Never knows how they are used.
+
+use std::path::Path;
+
+use linkwear_codegen::diagnostic::nearest;
+use linkwear_codegen::spec::{Dimension, Form, parse_expression};
+use linkwear_runtime::{Description, InputRole, ParameterInfo, SampledSignals, SetupError};
+
+use crate::csv_table::{CsvError, CsvTable};
+
+/// Reads the inputs; columns are called as in the output of `simulate`, `torque [N m]`, that of the time `t [s]`.
+///
+/// # Errors
+/// [`CsvError`]: the file is no table, a column has no unit or one of another kind, or nothing has its name.
+pub fn read_inputs(file: &Path, description: &Description) -> Result<SampledSignals, CsvError> {
+    let table = CsvTable::read(file)?;
+    let mut times = None;
+    let mut columns = Vec::new();
+    for (place, title) in table.header().iter().enumerate() {
+        let (name, unit) = parts(title);
+        let fault = |message: String, help: String| table.fault_in_header(message, &help);
+        let in_si = |dimension: Dimension, example: &str| {
+            let unit = unit.ok_or_else(|| {
+                let help = format!("write its unit into the header: `{name} [{example}]`");
+                fault(format!("column `{title}` has no unit"), help)
+            })?;
+            let size = size_of(unit).filter(|(_, found)| *found == dimension).ok_or_else(|| {
+                let help = format!("a unit of the same kind as {example} is needed");
+                fault(format!("column `{title}`: `{unit}` is no unit of `{name}`"), help)
+            })?;
+            let values = table.numbers_at(place)?;
+            Ok::<Vec<f64>, CsvError>(values.into_iter().map(|value| value * size.0).collect())
+        };
+        if matches!(name, "t" | "time") {
+            if times.replace(in_si(Dimension::TIME, "s")?).is_some() {
+                return Err(fault("two columns give the time".to_owned(), "delete one of them".to_owned()));
+            }
+            continue;
+        }
+        let Some(input) = values(description).find(|input| matches_name(input, name)) else {
+            let known: Vec<&str> = values(description).map(|input| &*input.name).collect();
+            let help = match (nearest(name, known.iter().copied()), known.is_empty()) {
+                (Some(near), _) => format!("did you mean `{near}`?"),
+                (None, true) => "declare it in [inputs] of the mechanism's file".to_owned(),
+                (None, false) => format!("the inputs are {}; delete other columns", known.join(", ")),
+            };
+            return Err(fault(format!("the mechanism has no input `{name}`"), help));
+        };
+        // The SI unit of an input is written by the generator, so it reads back.
+        let dimension = size_of(&input.unit).map_or(Dimension::NONE, |(_, dimension)| dimension);
+        columns.push((input.name.to_string(), in_si(dimension, &input.unit)?));
+    }
+    let Some(times) = times else {
+        let help = "begin the header with `t [s]`".to_owned();
+        return Err(table.fault_in_header("no column gives the time".to_owned(), &help));
+    };
+    let lines: Vec<usize> = table.lines().collect();
+    SampledSignals::new(description, times, &columns).map_err(|error| {
+        let line = match error {
+            SetupError::Signals { row, .. } => lines.get(row - 1).copied(),
+            _ => None,
+        };
+        table.fault_at(line, error.to_string(), "one row per instant, times rising")
+    })
+}
+
+/// The inputs that a file can give; their rates follow.
+fn values(description: &Description) -> impl Iterator<Item = &ParameterInfo> {
+    description.input_infos().filter(|(_, role)| *role == InputRole::Value).map(|(info, _)| info)
+}
+
+/// `torque`, or `torque.u` as in the output of a run.
+fn matches_name(input: &ParameterInfo, name: &str) -> bool {
+    name.strip_suffix(".u").unwrap_or(name) == input.name
+}
+
+/// Name and unit of `torque [N m]`.
+fn parts(title: &str) -> (&str, Option<&str>) {
+    match title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {
+        Some((name, unit)) => (name.trim(), Some(unit.trim())),
+        None => (title.trim(), None),
+    }
+}
+
+/// Size of a unit in SI and its dimension.
+fn size_of(unit: &str) -> Option<(f64, Dimension)> {
+    let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
+    match parse_expression(&text, &|_| false).ok()?.form {
+        Form::Number { value, dimension, .. } => Some((value, dimension)),
+        _ => None,
+    }
+}
