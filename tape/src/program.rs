@@ -1,6 +1,6 @@
 //! All of a mechanism that a run needs. In: description, tapes. Out: [`Program`], whose parts fit each other.
 
-use linkwear_runtime::{Description, Entry, Layout, Sizes};
+use linkwear_runtime::{Description, Entry, InputRole, Layout, Sizes};
 
 use crate::interpreter::Interpreted;
 use crate::stored::{Damage, Stored, sealed, unsealed};
@@ -95,6 +95,11 @@ fn sizes(description: &Description, tapes: &[Tape]) -> Result<Sizes, Damage> {
     let coordinates = description.coordinates.len();
     let within = |first: &usize| first.checked_add(4).is_some_and(|end| end <= coordinates);
     fits(description.quaternions.iter().all(within), "a quaternion is outside the coordinates")?;
+    fits(description.inputs.len() <= description.parameters.len(), "there are more inputs than parameters")?;
+    // An input has no rates or two.
+    let mut inputs = description.inputs.chunk_by(|_, next| *next == InputRole::RateOfPrevious);
+    let whole = |input: &[InputRole]| input[0] == InputRole::Value && matches!(input.len(), 1 | 3);
+    fits(inputs.all(whole), "an input has too few or too many rates")?;
     let layout = Layout::new(&description.motions);
     let sizes = Sizes {
         parameters: description.parameters.len(),

@@ -3,8 +3,8 @@
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
 use linkwear_runtime::wear::{Area, Measure};
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, GammaRates, Motion, ParameterInfo, RowInfo, VariableInfo,
-    WearInfo,
+    Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, Motion, ParameterInfo, RowInfo,
+    VariableInfo, WearInfo,
 };
 
 use super::{Damage, Stored};
@@ -37,6 +37,7 @@ stored!(enum Strength {
 stored!(enum Onset { 0: Smoothed { speed }, 1: Ambrosio { lower, upper } });
 stored!(enum Stiffness { 0: Given(constant), 1: Hertz { modulus } });
 stored!(enum Motion { 0: Scalar { driver }, 1: Rotation, 2: Pose });
+stored!(enum InputRole { 0: Value, 1: RateOfPrevious });
 stored!(struct GammaRates { alpha, beta });
 stored!(struct ParameterInfo { name, unit, default });
 stored!(struct VariableInfo { name, unit, held });
@@ -52,5 +53,5 @@ stored!(struct ContactInfo {
     friction, wear,
 });
 stored!(struct Description {
-    name, parameters, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
+    name, parameters, inputs, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
 });
