@@ -1,14 +1,13 @@
-//! What a mechanism tells about itself: names, units, rows, channels. Written by the generator.
+//! What a mechanism tells about itself: names, units, rows, channels. Made of the generator's tables.
 //! Out: [`Description`]. Never knows equations or numbers of a run.
-//! Strings are `Cow` so that generated code can keep them in statics and the interpreter can own them.
+//! Lists are static in generated code and owned by the interpreter.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
-use crate::contact::{Onset, Restitution, Stiffness, Strength};
-use crate::wear::{Area, Measure};
+use crate::tables::{ContactInfo, InputRole, Motion, Tables};
+use crate::text::Text;
 
-/// Text that is static in generated code and owned elsewhere.
-pub type Text = Cow<'static, str>;
 /// A list that is static in generated code and owned elsewhere.
 pub type List<T> = Cow<'static, [T]>;
 
@@ -21,15 +20,6 @@ pub struct ParameterInfo {
     pub unit: Text,
     /// Value in the file, in SI.
     pub default: f64,
-}
-
-/// What an input is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InputRole {
-    /// A signal that the file names.
-    Value,
-    /// The rate in time of the input before it, which a drive follows.
-    RateOfPrevious,
 }
 
 /// One scalar of the free coordinates or speeds, in order.
@@ -76,23 +66,6 @@ pub struct Channel {
     pub wraps: bool,
 }
 
-/// How one group of coordinates moves with its speeds. In tree order, driven ones included.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
-    /// One coordinate, one speed: `q̇ = v`. Holds the driver's index if it is driven.
-    Scalar {
-        /// Index of the driver that prescribes it.
-        driver: Option<usize>,
-    },
-    /// Unit quaternion (scalar first) of the body's frame in W; speed: absolute angular velocity in
-    /// the body's own frame. 4 coordinates, 3 speeds.
-    Rotation,
-    /// Quaternion as in `Rotation`, then the position of the frame's origin in W; speeds: absolute
-    /// angular velocity, then absolute velocity of the origin, both in the body's own frame.
-    /// 7 coordinates, 6 speeds.
-    Pose,
-}
-
 /// Everything a program needs to run, record and explain a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
@@ -122,107 +95,6 @@ pub struct Description {
     pub contacts: List<ContactInfo>,
 }
 
-/// A joint with clearance: what the laws of contact, friction and wear need. SI.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ContactInfo {
-    /// The joint.
-    pub joint: Text,
-    /// A ball in a socket; else a journal in a bearing, free in the two directions across its axis.
-    pub ball: bool,
-    /// Radius of the journal or ball [m].
-    pub journal_radius: f64,
-    /// Length of the bearing [m]; for a ball the socket's diameter.
-    pub length: f64,
-    /// Elastic modulus E* of the pair [Pa].
-    pub modulus: f64,
-    /// Stiffness of the contact.
-    pub stiffness: Stiffness,
-    /// Law of restitution.
-    pub law: Restitution,
-    /// Coefficient of restitution.
-    pub restitution: f64,
-    /// Exponent of penetration in the normal force.
-    pub exponent: f64,
-    /// Least impact speed that damping is related to [m/s].
-    pub impact_speed_floor: f64,
-    /// Friction: strength, onset, slope over sliding speed [s/m]; nothing without friction.
-    pub friction: Option<(Strength, Onset, f64)>,
-    /// Wear; nothing if the joint does not wear.
-    pub wear: Option<WearInfo>,
-}
-
-/// How a joint wears, and when it has failed. SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WearInfo {
-    /// Dimensionless wear coefficient k of Archard's law.
-    pub coefficient: f64,
-    /// Hardness of the softer side [Pa].
-    pub hardness: f64,
-    /// Model of the contact area.
-    pub area: Area,
-    /// What of the depth by bearing angle counts as wear W; if nothing, W is the depth by the model of the area (with
-    /// `profile`, the mean).
-    pub measure: Option<Measure>,
-    /// Growth of the clearance per wear, gamma of `c + gamma dW`.
-    pub feedback: f64,
-    /// Feeds the worn profile back to the local gap, instead of the scalar clearance.
-    pub profile: bool,
-    /// Bearing angles of the profile.
-    pub bins: usize,
-    /// Wear at which the joint has failed, `W_crit` [m].
-    pub threshold: f64,
-    /// Revolutions that one cycle of the life stands for.
-    pub revolutions_per_cycle: f64,
-    /// Limit of mean pressure times sliding speed [Pa m/s], if one is known.
-    pub pressure_speed: Option<f64>,
-    /// Scatter of the wear increments; if nothing, only the mean is known.
-    pub scatter: Option<GammaRates>,
-}
-
-impl WearInfo {
-    /// Whether wear is kept by bearing angle.
-    pub fn keeps_profile(&self) -> bool {
-        self.profile || self.measure.is_some()
-    }
-}
-
-/// The Gamma process of wear, [CS (21)]: dW ~ Gamma(shape alpha dLambda, rate beta). W and Lambda in metres here.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GammaRates {
-    /// Shape per mean wear [1/m].
-    pub alpha: f64,
-    /// Rate [1/m].
-    pub beta: f64,
-}
-
-/// What generated code says about itself, as plain tables: names, units and flags in the order of the fields of
-/// [`ParameterInfo`], [`VariableInfo`], [`RowInfo`], [`DriverInfo`] and [`Channel`].
-#[derive(Clone, Copy, Debug)]
-pub struct Tables {
-    /// Name, unit, default.
-    pub parameters: &'static [(&'static str, &'static str, f64)],
-    /// See [`Description::inputs`].
-    pub inputs: &'static [InputRole],
-    /// Name, unit, held.
-    pub coordinates: &'static [(&'static str, &'static str, bool)],
-    /// Name, unit, held.
-    pub speeds: &'static [(&'static str, &'static str, bool)],
-    /// Groups of coordinates.
-    pub motions: &'static [Motion],
-    /// First coordinate of every quaternion.
-    pub quaternions: &'static [usize],
-    /// Joint, meaning, angular, kept.
-    pub rows: &'static [(&'static str, &'static str, bool, Option<usize>)],
-    /// Joint, angular.
-    pub drivers: &'static [(&'static str, bool)],
-    /// Name, unit, wraps.
-    pub channels: &'static [(&'static str, &'static str, bool)],
-    /// See [`Description::turn_driver`].
-    pub turn_driver: Option<usize>,
-    /// See [`Description::contacts`].
-    pub contacts: &'static [ContactInfo],
-}
-
 impl Description {
     /// How many of the parameters are tunable ones; the others, behind them, are inputs.
     pub fn tunable(&self) -> usize {
@@ -240,7 +112,7 @@ impl Description {
     }
 
     /// The description that the tables of generated code stand for.
-    pub fn from_tables(name: &'static str, tables: Tables) -> Self {
+    pub fn from_tables(tables: &Tables) -> Self {
         let variable = |&(name, unit, held): &(&'static str, &'static str, bool)| VariableInfo {
             name: name.into(),
             unit: unit.into(),
@@ -261,7 +133,7 @@ impl Description {
             wraps,
         };
         Self {
-            name: name.into(),
+            name: tables.name.into(),
             parameters: tables.parameters.iter().map(parameter).collect(),
             inputs: tables.inputs.into(),
             coordinates: tables.coordinates.iter().map(variable).collect(),
@@ -274,5 +146,24 @@ impl Description {
             turn_driver: tables.turn_driver,
             contacts: tables.contacts.into(),
         }
+    }
+}
+
+/// The description of a mechanism in generated code, made of its tables when it is first asked for.
+#[derive(Debug)]
+pub struct TabledDescription {
+    tables: &'static Tables,
+    made: OnceLock<Description>,
+}
+
+impl TabledDescription {
+    /// Of these tables.
+    pub const fn new(tables: &'static Tables) -> Self {
+        Self { tables, made: OnceLock::new() }
+    }
+
+    /// The description.
+    pub fn get(&self) -> &Description {
+        self.made.get_or_init(|| Description::from_tables(self.tables))
     }
 }

@@ -1,4 +1,4 @@
-//! The one line with which a program takes in what its build script generated.
+//! The one line with which a program takes in what its build script generated, and the one with which that describes itself.
 
 /// Includes the solver that `linkwear_codegen::Builder` generated for `mechanisms/<name>.toml`.
 /// Put it into a module of its own: `mod rssr { linkwear_runtime::include_mechanism!("rssr"); }`.
@@ -19,4 +19,24 @@ macro_rules! include_mechanism {
         #[allow(unused_imports)]
         pub use generated::*;
     };
+}
+
+/// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.
+#[cfg(feature = "std")]
+#[macro_export]
+macro_rules! describe_mechanism {
+    ($tables:ident) => {
+        /// Names and units of parameters, coordinates, rows and output columns.
+        pub fn description() -> &'static $crate::Description {
+            static DESCRIPTION: $crate::TabledDescription = $crate::TabledDescription::new(&$tables);
+            DESCRIPTION.get()
+        }
+    };
+}
+
+/// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.
+#[cfg(not(feature = "std"))]
+#[macro_export]
+macro_rules! describe_mechanism {
+    ($tables:ident) => {};
 }

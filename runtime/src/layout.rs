@@ -2,8 +2,8 @@
 //! In: the motions of a [`crate::Description`]. Out: index maps and updates on the manifold.
 //! Never knows equations.
 
-use crate::description::Motion;
 use crate::scalar::{Scalar, cross, dot};
+use crate::tables::Motion;
 
 /// One group of coordinates and speeds, with its places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

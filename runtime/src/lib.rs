@@ -1,7 +1,7 @@
 //! Runtime of linkwear: what generated solver code stands on.
 //!
 //! Generated code knows this crate; this crate knows nobody. The core (scalar, intrinsics, the
-//! [`System`] contract) is `no_std` and does not allocate; descriptions, integrators and recorders
+//! [`System`] contract, tables, laws of contact) is `no_std` and does not allocate; descriptions, integrators and recorders
 //! come with the default feature `std`.
 //!
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
@@ -21,13 +21,14 @@
 pub mod contact;
 mod dual;
 mod float;
-#[cfg(feature = "std")]
 mod include;
 mod intrinsic;
 mod named;
 mod scalar;
 mod sincos;
 mod system;
+mod tables;
+mod text;
 pub mod wear;
 
 #[cfg(feature = "std")]
@@ -78,6 +79,8 @@ pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
 pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System};
+pub use tables::{ContactInfo, GammaRates, InputRole, Motion, Tables, WearInfo};
+pub use text::Text;
 
 #[cfg(feature = "std")]
 pub use {
@@ -89,8 +92,7 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, List, Motion, ParameterInfo,
-        RowInfo, Tables, Text, VariableInfo, WearInfo,
+        Channel, Description, DriverInfo, List, ParameterInfo, RowInfo, TabledDescription, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},

@@ -1,8 +1,9 @@
 //! Inputs of a mechanism over time. In: samples by name. Out: values at any time, with the rates that drives need.
 //! Never knows where samples come from.
 
-use crate::description::{Description, InputRole};
+use crate::description::Description;
 use crate::error::SetupError;
+use crate::tables::InputRole;
 
 /// Inputs over time, in the order of [`Description::inputs`].
 pub trait Signals: Sync {

@@ -9,8 +9,7 @@ mod tape;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
-
+use linkwear_runtime::Text;
 use thiserror::Error;
 
 /// Why bytes are not what was written.
@@ -145,14 +144,14 @@ fn take<'a>(from: &mut &'a [u8], count: usize) -> Result<&'a [u8], Damage> {
     Ok(taken)
 }
 
-impl Stored for Cow<'static, str> {
+impl Stored for Text {
     fn write(&self, to: &mut Vec<u8>) {
         self.len().write(to);
         to.extend(self.as_bytes());
     }
 
     fn read(from: &mut &[u8]) -> Result<Self, Damage> {
-        String::read(from).map(Cow::Owned)
+        String::read(from).map(Self::from)
     }
 }
 

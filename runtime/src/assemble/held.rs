@@ -1,7 +1,8 @@
 //! Start values that the file demands: what they freeze, and how a message tells them.
 
-use crate::description::{Motion, VariableInfo};
+use crate::description::VariableInfo;
 use crate::evaluate::Evaluator;
+use crate::tables::Motion;
 
 /// A variable with both of its values, for a message: rounded to a millionth.
 fn wanted_and_reached(variable: &VariableInfo, wanted: f64, reached: f64) -> String {

@@ -5,9 +5,9 @@ use crate::contact::{
     Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
     SphericalMotion, Stiffness, Support, bearing_angle, positive,
 };
-use crate::description::{ContactInfo, WearInfo};
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
+use crate::tables::{ContactInfo, WearInfo};
 use crate::wear::{Archard, Grid, Load, Pair, Profile, ScalarFeedback};
 
 /// A joint with clearance and its laws.

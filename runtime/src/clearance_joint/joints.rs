@@ -3,9 +3,9 @@
 
 use super::joint::{Clearance, ContactState};
 use crate::contact::{ImpactMemory, crossing_speed};
-use crate::description::ContactInfo;
 use crate::error::SetupError;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
+use crate::tables::ContactInfo;
 use crate::wear::Profile;
 
 /// What belongs to a joint with clearance between two steps, besides coordinates and speeds: saved and

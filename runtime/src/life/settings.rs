@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::worn::WearState;
 use crate::contact::{OutOfRange, checked, positive};
-use crate::description::{ContactInfo, WearInfo};
+use crate::tables::{ContactInfo, WearInfo};
 use crate::wear::{ContactMeasure, Limits, Measure, Profile, ScalarFeedback};
 
 /// What counts as the wear W of a joint.
@@ -224,7 +224,7 @@ impl JointLife {
     /// If a number of the joint is out of range.
     pub fn of_contact(contact: &ContactInfo, clearance: f64) -> Result<Option<Self>, SettingsError> {
         let Some(wear) = contact.wear else { return Ok(None) };
-        let joint = contact.joint.clone().into_owned();
+        let joint = contact.joint.to_string();
         let feedback = if wear.profile {
             Feedback::Profile
         } else {

@@ -7,13 +7,13 @@ use std::ops::Range;
 use crate::assemble::{State, offset_columns};
 use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
-use crate::description::Motion;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
 use crate::evaluate::CLOSED;
 use crate::integrate::Problem;
 use crate::linear::{add_scaled, is_finite, largest};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
+use crate::tables::Motion;
 
 /// A projection may move coordinates or speeds by this part of what the step itself moved them...
 pub const BRANCH_PART: f64 = 0.1;

@@ -44,7 +44,7 @@ pub fn contact(info: &ContactInfo, runtime: &TokenStream) -> TokenStream {
     let wear = option(info.wear.as_ref().map(|info| wear(info, runtime)));
     quote! {
         #runtime::ContactInfo {
-            joint: ::std::borrow::Cow::Borrowed(#joint), ball: #ball, journal_radius: #radius, length: #length,
+            joint: #runtime::Text::fixed(#joint), ball: #ball, journal_radius: #radius, length: #length,
             modulus: #modulus, stiffness: #runtime::contact::Stiffness::#stiffness,
             law: #runtime::contact::Restitution::#restitution_law, restitution: #restitution, exponent: #exponent,
             impact_speed_floor: #floor, friction: #friction, wear: #wear,

@@ -1,4 +1,4 @@
-//! The mechanism's description as a Rust expression.
+//! The mechanism's description as tables, and the function that makes a `Description` of them.
 //! In: [`Description`]. Out: tokens. User text becomes string literals, which quote escapes.
 
 use linkwear_runtime::{Description, InputRole, Motion};
@@ -7,7 +7,7 @@ use quote::quote;
 
 use super::contact::{contact, option};
 
-/// A function that returns the description. Lists are tables of plain tuples, which read and format well.
+/// `TABLES` and `description()`. Lists are tables of plain tuples, which read and format well.
 pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     let name = &*own.name;
     let parameters = own.parameters.iter().map(|p| {
@@ -59,30 +59,22 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     ];
     quote! {
         #(#tables)*
-        /// Names and units of parameters, coordinates, rows and output columns.
-        #[must_use]
-        pub fn description() -> &'static #runtime::Description {
-            static DESCRIPTION: ::std::sync::LazyLock<#runtime::Description> =
-                ::std::sync::LazyLock::new(|| {
-                    #runtime::Description::from_tables(
-                        #name,
-                        #runtime::Tables {
-                            parameters: &PARAMETERS,
-                            inputs: &INPUTS,
-                            coordinates: &COORDINATES,
-                            speeds: &SPEEDS,
-                            motions: &MOTIONS,
-                            quaternions: &QUATERNIONS,
-                            rows: &ROWS,
-                            drivers: &DRIVERS,
-                            channels: &CHANNELS,
-                            turn_driver: #turn_driver,
-                            contacts: &CONTACTS,
-                        },
-                    )
-                });
-            &DESCRIPTION
-        }
+        /// Names and units of parameters, coordinates, rows and output columns; laws of contact.
+        pub static TABLES: #runtime::Tables = #runtime::Tables {
+            name: #name,
+            parameters: &PARAMETERS,
+            inputs: &INPUTS,
+            coordinates: &COORDINATES,
+            speeds: &SPEEDS,
+            motions: &MOTIONS,
+            quaternions: &QUATERNIONS,
+            rows: &ROWS,
+            drivers: &DRIVERS,
+            channels: &CHANNELS,
+            turn_driver: #turn_driver,
+            contacts: &CONTACTS,
+        };
+        #runtime::describe_mechanism!(TABLES);
     }
 }
 

@@ -31,7 +31,7 @@ const TAKEN: &[&str] = &[
     "DRIVERS",
     "CONTACTS",
     "CHANNELS",
-    "DESCRIPTION",
+    "TABLES",
     // Functions that are called beside the user's names.
     "angle_over_sine",
     "log_coefficient",
