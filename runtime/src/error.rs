@@ -85,6 +85,17 @@ pub enum SetupError {
         /// Radius of the journal or ball [m].
         journal_radius: f64,
     },
+    /// A law changed where the mechanism cannot follow at once.
+    #[error(
+        "{what} would jump by {jump:.3e} (m, rad, or per second) with the new values of the parameters; such values belong to a \
+         start: begin another simulation with them"
+    )]
+    Jump {
+        /// What would jump.
+        what: String,
+        /// How far [m, rad, m/s or rad/s].
+        jump: f64,
+    },
     /// A column is asked for that the run does not have.
     #[error(transparent)]
     NoColumn(#[from] NoColumn),

@@ -43,6 +43,21 @@ pub struct Evaluator<'a> {
     questions: Questions<'a>,
 }
 
+/// Whether values are as many as a mechanism has parameters, and finite.
+fn check_parameters(description: &Description, parameters: &[f64]) -> Result<(), SetupError> {
+    let (expected, found) = (description.parameters.len(), parameters.len());
+    if expected != found {
+        return Err(SetupError::Length { what: "parameters", expected, found });
+    }
+    match parameters.iter().position(|value| !value.is_finite()) {
+        Some(at) => {
+            let name = description.parameters[at].name.to_string();
+            Err(SetupError::Parameter { name, value: parameters[at] })
+        }
+        None => Ok(()),
+    }
+}
+
 impl<'a> Evaluator<'a> {
     /// Checks that the numbers fit and prepares the storage.
     ///
@@ -59,7 +74,6 @@ impl<'a> Evaluator<'a> {
         let same = |what, expected, found| {
             if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
         };
-        same("parameters", sizes.parameters, parameters.len())?;
         same("parameters in its description", sizes.parameters, description.parameters.len())?;
         same("inputs at most", description.inputs.len().min(sizes.parameters), description.inputs.len())?;
         same("coordinates in its motions", sizes.coordinates, layout.coordinates)?;
@@ -76,10 +90,7 @@ impl<'a> Evaluator<'a> {
         let rates = description.channels.iter().rposition(|channel| channel.wraps).map_or(0, |last| last + 2);
         same("channels with the rates of angles", rates.max(sizes.channels), sizes.channels)?;
         same("described joints with clearance", sizes.contacts, description.contacts.len())?;
-        if let Some(at) = parameters.iter().position(|value| !value.is_finite()) {
-            let name = description.parameters[at].name.to_string();
-            return Err(SetupError::Parameter { name, value: parameters[at] });
-        }
+        check_parameters(description, parameters)?;
         Ok(Self {
             description,
             layout,
@@ -115,6 +126,18 @@ impl<'a> Evaluator<'a> {
     /// For every kept row, its row in the description.
     pub fn kept(&self) -> &[usize] {
         &self.kept
+    }
+
+    /// Evaluates with other values of the parameters from here on.
+    ///
+    /// # Errors
+    /// If they are not finite, or not as many as the mechanism has; nothing has changed then.
+    pub fn set_parameters(&mut self, parameters: &[f64]) -> Result<(), SetupError> {
+        check_parameters(self.description, parameters)?;
+        self.questions.set_parameters(parameters);
+        self.derivative.set_parameters(parameters);
+        self.forget_contacts();
+        Ok(())
     }
 
     /// Values of the parameters.

@@ -89,6 +89,7 @@ pub use {
         offset_columns, place, resting_contacts,
     },
     bundle::{Bundle, Evaluate, StepPlan, TOTALS, WORKS},
+    clearance_joint::channels,
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
@@ -105,9 +106,10 @@ pub use {
     record::{Cells, Table, TableColumn, write_csv},
     signals::{SampledSignals, Signals},
     simulate::{
-        At, BRANCH_PART, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR, Peak, Run,
-        RunWarning, Settings, Span, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue,
-        TurnRequests, TurnRunner, TurnState, simulate, simulate_with_inputs, turn_queue,
+        At, BRANCH_PART, ContactEvent, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR,
+        KnownAngles, Peak, Run, RunWarning, Settings, Simulation, SimulationState, Span, StateSpace,
+        Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue, TurnRequests, TurnRunner, TurnState,
+        simulate, simulate_with_inputs, turn_queue,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

@@ -5,6 +5,7 @@
 
 mod description;
 mod parts;
+mod state;
 mod tape;
 #[cfg(test)]
 mod tests;

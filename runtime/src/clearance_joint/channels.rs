@@ -65,3 +65,8 @@ impl Channels {
         self.sources.iter().map(|(joint, of)| of(&contacts[*joint]))
     }
 }
+
+/// All columns of a mechanism as runs have them: those of its equations, then those of its contacts.
+pub fn channels(description: &Description) -> Vec<Channel> {
+    Channels::new(description).channels
+}

@@ -9,5 +9,6 @@ mod joint;
 mod joints;
 
 pub(crate) use channels::Channels;
+pub use channels::channels;
 pub use joint::{Clearance, ContactState, Response};
 pub use joints::{ClearanceState, Clearances};

@@ -65,6 +65,12 @@ impl Derivative {
         wrenches.copy_from_slice(clearances.wrenches());
     }
 
+    /// Other values of the parameters.
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.input[..parameters.len()].copy_from_slice(parameters);
+        self.forget();
+    }
+
     /// Contacts were put in place of those at the state of the input.
     pub(super) fn forget(&mut self) {
         (self.has_contacts, self.has_answer) = (false, false);

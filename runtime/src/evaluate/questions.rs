@@ -61,6 +61,11 @@ impl<'a> Questions<'a> {
         &self.input[..self.sizes.parameters]
     }
 
+    /// Other values of the parameters.
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.input[..parameters.len()].copy_from_slice(parameters);
+    }
+
     /// The answer at a time, for what follows the time in the input.
     pub(super) fn ask(&mut self, entry: Entry, t: f64, blocks: &[&[f64]]) -> &[f64] {
         self.inputs_at(t);

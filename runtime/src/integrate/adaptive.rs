@@ -75,6 +75,9 @@ pub trait Method {
 
     /// State at part `s` of the last accepted step.
     fn interpolate(&self, s: f64, y: &mut [f64]);
+
+    /// Shows every number that it stands on between two steps, in one order, to be read or put back.
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64));
 }
 
 /// A method whose steps can be made elsewhere: it needs no more of them than the slopes at their ends.
@@ -215,6 +218,26 @@ impl<M: Method> Adaptive<M> {
         self.accept(problem, (length, t), Estimate { error: estimate.error.min(1.0), ..estimate });
         self.control.limit(longest);
         Ok(())
+    }
+
+    /// Goes on from (`t`, `y`), which no step ended in: laws have changed there. Steps stay as long as they were.
+    ///
+    /// # Errors
+    /// What the problem reports.
+    pub fn go_on_from(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
+        self.method.begin(problem, t, y)?;
+        problem.reached(t, self.method.slope());
+        self.y.copy_from_slice(y);
+        self.control.go_on_from(t);
+        self.trouble = None;
+        Ok(())
+    }
+
+    /// Shows every number that it stands on between two steps, in one order, to be read or put back.
+    pub fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.y.iter_mut().chain(&mut self.next).for_each(&mut *visit);
+        self.method.visit_memory(visit);
+        self.control.visit_memory(visit);
     }
 
     /// Takes a step and estimates its error.

@@ -27,6 +27,11 @@ impl Cubics {
         }
     }
 
+    /// Shows every number that it stands on.
+    pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.0.iter_mut().flatten().for_each(visit);
+    }
+
     /// State at part `s` of the step; `further(i)` bends component i by a fourth power.
     pub(super) fn at(&self, s: f64, y: &mut [f64], further: impl Fn(usize) -> f64) {
         let r = 1.0 - s;

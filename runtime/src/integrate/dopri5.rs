@@ -135,6 +135,16 @@ impl Method for Dopri5 {
         self.rough.swap(0, 6);
     }
 
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.slopes.iter_mut().flatten().chain(&mut self.quartic).for_each(&mut *visit);
+        for rough in &mut self.rough {
+            let mut flag = f64::from(u8::from(*rough));
+            visit(&mut flag);
+            *rough = flag != 0.0;
+        }
+        self.cubics.visit_memory(visit);
+    }
+
     fn interpolate(&self, s: f64, y: &mut [f64]) {
         self.cubics.at(s, y, |i| self.quartic[i]);
     }

@@ -113,6 +113,11 @@ impl Method for Rk43 {
         self.slopes.swap(0, 4);
     }
 
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.slopes.iter_mut().flatten().for_each(&mut *visit);
+        self.cubics.visit_memory(visit);
+    }
+
     fn interpolate(&self, s: f64, y: &mut [f64]) {
         self.cubics.at(s, y, |_| 0.0);
     }

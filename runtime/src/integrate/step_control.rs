@@ -149,6 +149,19 @@ impl StepControl {
         Longest(self.step)
     }
 
+    /// Goes on from another time than that of the last step, with steps of the length that it would have proposed.
+    pub(super) fn go_on_from(&mut self, t: f64) {
+        (self.before, self.t, self.last_step) = (t, t, 0.0);
+    }
+
+    /// Shows every number that it stands on.
+    pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        let mut rejected = f64::from(u8::from(self.just_rejected));
+        let Self { before, t, step, last_step, last_error, .. } = self;
+        [before, t, step, last_step, last_error, &mut rejected].into_iter().for_each(visit);
+        self.just_rejected = rejected != 0.0;
+    }
+
     /// Of a step that was taken again.
     pub(super) fn limit(&mut self, Longest(step): Longest) {
         self.step = self.step.min(step);

@@ -64,6 +64,27 @@ impl Angles {
         self.knots.last().map(|knot| knot.t)
     }
 
+    /// Forgets what is known of times after `t`, within the last step.
+    pub(super) fn cut(&mut self, t: f64) {
+        let first = self.knots.first().map(|knot| knot.t);
+        self.knots.retain(|knot| knot.t <= t || Some(knot.t) == first);
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Times at which turns are known, with angle and rate of every place.
+    pub(super) fn known(&self) -> Vec<(f64, Vec<(f64, f64)>)> {
+        self.knots.iter().map(|knot| (knot.t, knot.values.clone())).collect()
+    }
+
+    /// Puts what was known back.
+    pub(super) fn put_back(&mut self, known: &[(f64, Vec<(f64, f64)>)]) {
+        self.knots = known.iter().map(|(t, values)| Knot { t: *t, values: values.clone() }).collect();
+    }
+
     /// Takes the columns at a later time over.
     ///
     /// # Errors

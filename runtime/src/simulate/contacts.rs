@@ -4,6 +4,7 @@
 
 use std::f64::consts::PI;
 
+use super::contact_event::ContactEvent;
 use super::motion::{ConstrainedMotion, Totals};
 use super::warning::RunWarning;
 use crate::clearance_joint::{Clearance, ContactState};
@@ -34,6 +35,8 @@ struct Track {
     probed_penetration: f64,
     frequency: f64,
     deepest: Depth,
+    /// Whether it touched at the last step.
+    touches: bool,
 }
 
 /// The largest depth of a contact so far [m], when [s], and the radial clearance there [m].
@@ -56,6 +59,10 @@ pub(super) struct Follower {
     probe: Vec<f64>,
     /// What every joint did, turn by turn.
     pub(super) measures: Vec<Vec<ContactMeasure>>,
+    /// Whether the present turn was followed from its begin.
+    whole_turn: bool,
+    /// Contacts that closed or opened, if anybody asks.
+    pub(super) events: Option<Vec<ContactEvent>>,
 }
 
 impl Follower {
@@ -76,6 +83,7 @@ impl Follower {
             probed_penetration: 0.0,
             frequency: 0.0,
             deepest: Depth::default(),
+            touches: false,
         };
         let mut follower = Self {
             tracks: evaluator.clearances().joints().iter().map(track).collect(),
@@ -85,6 +93,8 @@ impl Follower {
             longest_step: 0.0,
             probe: vec![0.0; evaluator.sizes().contacts * CONTACT_WRENCH + evaluator.sizes().speeds],
             measures: Vec::new(),
+            whole_turn: true,
+            events: None,
         };
         let (q, v, _) = motion.split(state);
         motion.dynamics.evaluator.evaluate_contacts(t, q, v);
@@ -92,9 +102,34 @@ impl Follower {
         for (track, totals) in follower.tracks.iter_mut().zip(motion.totals(state)) {
             track.last = totals;
         }
+        follower.note_touching(motion);
         follower.probe_frequencies(motion, state);
         follower.begin_turn(motion);
         Some(follower)
+    }
+
+    /// Goes on from a state that was put back; what the present turn has done so far is not known.
+    pub(super) fn resume(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
+        self.look_again(motion, t, state);
+        (self.t, self.whole_turn) = (t, false);
+        for (track, totals) in self.tracks.iter_mut().zip(motion.totals(state)) {
+            track.last = totals;
+        }
+        self.note_touching(motion);
+    }
+
+    /// The contacts of a state whose laws have changed.
+    pub(super) fn look_again(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
+        let (q, v, _) = motion.split(state);
+        motion.dynamics.evaluator.evaluate_contacts(t, q, v);
+        self.contacts.copy_from_slice(motion.dynamics.evaluator.clearances().contacts());
+    }
+
+    fn note_touching(&mut self, motion: &ConstrainedMotion<'_>) {
+        let states = motion.dynamics.evaluator.clearances().states();
+        for (track, state) in self.tracks.iter_mut().zip(states) {
+            track.touches = state.memory.touching > 0.5;
+        }
     }
 
     /// Accumulates an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
@@ -125,6 +160,15 @@ impl Follower {
             self.tracks.iter_mut().zip(&self.contacts).zip(joints).zip(totals)
         {
             track.accumulate(joint, (before, now), totals, step);
+        }
+        for (joint, (track, state)) in self.tracks.iter_mut().zip(clearances.states()).enumerate() {
+            let closes = state.memory.touching > 0.5;
+            if let Some(events) = &mut self.events
+                && closes != track.touches
+            {
+                events.push(ContactEvent { t, joint, closes });
+            }
+            track.touches = closes;
         }
         self.contacts.copy_from_slice(clearances.contacts());
         self.probe_frequencies(motion, state);
@@ -183,7 +227,11 @@ impl Follower {
                 observed: track.observed,
             }
         };
-        self.measures.push(self.tracks.iter_mut().map(measure).collect());
+        let measures = self.tracks.iter_mut().map(measure).collect();
+        if self.whole_turn {
+            self.measures.push(measures);
+        }
+        self.whole_turn = true;
         self.begin_turn(motion);
     }
 

@@ -46,8 +46,13 @@ pub(super) struct Guard {
 }
 
 impl Guard {
-    /// Begins at a state, for a run from `begin` to `end` [s].
-    pub(super) fn new(motion: &mut ConstrainedMotion<'_>, (begin, end): (f64, f64), state: &[f64]) -> Self {
+    /// Begins at a state, for a run from `begin` to `end` [s] of which these are the statistics so far.
+    pub(super) fn new(
+        motion: &mut ConstrainedMotion<'_>,
+        (begin, end): (f64, f64),
+        state: &[f64],
+        statistics: &Statistics,
+    ) -> Self {
         let span = end - begin;
         let speeds = motion.dynamics.evaluator.description().speeds.iter().enumerate();
         let mut guard = Self {
@@ -58,7 +63,7 @@ impl Guard {
             fastest_turning: 0.0,
             energy: 0.0,
             next_balance: begin + span / BALANCES,
-            window: (0, begin),
+            window: (statistics.steps + statistics.rejected, begin),
         };
         guard.note_speeds(motion, state);
         guard.note_driver(motion, begin);

@@ -1,4 +1,4 @@
-//! Runs generalised-alpha: shifted start, equal steps onto the samples, work by the trapezoidal rule
+//! Generalised-alpha: shifted start, equal steps onto the samples, work by the trapezoidal rule
 //! (order 2, as the method). In: a consistent start. Out: samples. Never knows the method's formulas.
 
 use super::motion::ConstrainedMotion;
@@ -8,55 +8,85 @@ use crate::error::RunError;
 use crate::integrate::{GeneralizedAlpha, Problem, Rk4};
 use crate::watch::Watch;
 
-pub(super) fn run_generalized_alpha(
-    motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler<'_>,
-    state: &mut [f64],
-    (longest, rho): (f64, f64),
-    watch: Watch<'_>,
-) -> Result<(), RunError> {
-    sampler.sample_at_start(motion, state)?;
-    let mut derivative = vec![0.0; state.len()];
-    let powers = state.len() - motion.first_integral();
-    let (mut before, mut now) = (vec![0.0; powers], vec![0.0; powers]);
-    let mut sampled = state.to_vec();
-    let mut method: Option<(GeneralizedAlpha, f64)> = None;
-    let (mut t, n) = (sampler.schedule.begin, motion.first_integral());
-    while let Some(target) = sampler.next_stop(t) {
-        let (from, steps) = (t, steps_between(t, target, longest));
-        // One step size up to the next stop; another one starts the method afresh, because its own
-        // accelerations belong to times that depend on the step.
-        let h = (target - from) / steps as f64;
-        let same = method.as_ref().is_some_and(|(_, known)| (h - known).abs() <= 1e-9 * h);
-        if !same {
-            method = Some((start(motion, t, state, (h, rho))?, h));
-        }
-        let Some((method, h)) = &mut method else { break };
-        motion.derivative(t, state, &mut derivative)?;
-        before.copy_from_slice(&derivative[n..]);
-        for i in 1..=steps {
-            let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
-            let spent = (method.iterations(), method.evaluations());
-            let outcome = method.step(&mut motion.dynamics.evaluator, t, *h);
-            sampler.statistics.newton_iterations += method.iterations() - spent.0;
-            sampler.statistics.evaluations += method.evaluations() - spent.1;
-            outcome?;
-            t = next;
-            take_over(motion, method, t, (state, &mut before, &mut now), *h)?;
-            let evaluator = &mut motion.dynamics.evaluator;
-            evaluator.closure(t, method.q(), method.v());
-            let open = evaluator.loop_error();
-            sampler.note_loop_error(motion, t, open)?;
-            sampler.follow_angles(motion, t, state, None)?;
-            sampler.step_done(motion, t, state)?;
-            if sampler.is_due(t) {
-                sampled.copy_from_slice(state);
-                sampler.sample(motion, t, &mut sampled)?;
-            }
-            sampler.report(t, watch)?;
-        }
+/// Generalised-alpha under way.
+pub(super) struct Implicit {
+    method: Option<(GeneralizedAlpha, f64)>,
+    longest: f64,
+    rho: f64,
+    t: f64,
+    derivative: Vec<f64>,
+    /// Powers at the begin and the end of a step.
+    before: Vec<f64>,
+    now: Vec<f64>,
+    sampled: Vec<f64>,
+}
+
+impl Implicit {
+    /// From a state, by the longest step [s] and the spectral radius at infinity.
+    pub(super) fn new(
+        motion: &ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+        (longest, rho): (f64, f64),
+    ) -> Self {
+        let powers = vec![0.0; state.len() - motion.first_integral()];
+        let (derivative, sampled) = (vec![0.0; state.len()], state.to_vec());
+        Self { method: None, longest, rho, t, derivative, before: powers.clone(), now: powers, sampled }
     }
-    Ok(())
+
+    /// Starts afresh at `t`: laws have changed there, or the state.
+    pub(super) fn begin_anew(&mut self, t: f64) {
+        (self.method, self.t) = (None, t);
+    }
+
+    /// Goes on to a time, with a sample there if it is asked for.
+    pub(super) fn advance(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &mut [f64],
+        (to, sampled): (f64, bool),
+        watch: Watch<'_>,
+    ) -> Result<(), RunError> {
+        let n = motion.first_integral();
+        while self.t < to {
+            let target = to.min(sampler.hard_stop(self.t));
+            let (from, steps) = (self.t, steps_between(self.t, target, self.longest));
+            // One step size up to the next stop; another one starts the method afresh, because its own
+            // accelerations belong to times that depend on the step.
+            let h = (target - from) / steps as f64;
+            let same = self.method.as_ref().is_some_and(|(_, known)| (h - known).abs() <= 1e-9 * h);
+            if !same {
+                self.method = Some((start(motion, self.t, state, (h, self.rho))?, h));
+            }
+            let Some((method, h)) = &mut self.method else { break };
+            motion.derivative(self.t, state, &mut self.derivative)?;
+            self.before.copy_from_slice(&self.derivative[n..]);
+            for i in 1..=steps {
+                let next =
+                    if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
+                let spent = (method.iterations(), method.evaluations());
+                let outcome = method.step(&mut motion.dynamics.evaluator, self.t, *h);
+                sampler.statistics.newton_iterations += method.iterations() - spent.0;
+                sampler.statistics.evaluations += method.evaluations() - spent.1;
+                outcome?;
+                self.t = next;
+                take_over(motion, method, next, (state, &mut self.before, &mut self.now), *h)?;
+                let evaluator = &mut motion.dynamics.evaluator;
+                evaluator.closure(next, method.q(), method.v());
+                let open = evaluator.loop_error();
+                sampler.note_loop_error(motion, next, open)?;
+                sampler.follow_angles(motion, next, state, None)?;
+                sampler.step_done(motion, next, state)?;
+                if sampled && next == to {
+                    self.sampled.copy_from_slice(state);
+                    sampler.sample(motion, next, &mut self.sampled)?;
+                }
+                sampler.report(next, watch)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// State and work at the end of a step.

@@ -4,6 +4,7 @@
 
 mod angles;
 mod bundle;
+mod contact_event;
 mod contacts;
 mod dead_point;
 mod events;
@@ -18,18 +19,24 @@ mod run;
 mod sampler;
 mod schedule;
 mod settings;
+mod simulation;
 mod singular_passage;
+mod state_space;
 mod steps;
+mod surface;
 mod turns;
 mod unbounded;
 mod warning;
 
 pub use bundle::{TurnBundle, TurnOutcome, TurnQueue, TurnRequests, turn_queue};
+pub use contact_event::ContactEvent;
 pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};
 pub use ideal::IdealJoint;
 pub use motion::{BRANCH_PART, JUMP_FLOOR};
 pub use run::{Run, Statistics};
 pub use settings::{Integrator, Settings, Span};
+pub use simulation::{KnownAngles, Simulation, SimulationState};
+pub use state_space::StateSpace;
 pub use turns::{TurnMeasures, TurnRunner, TurnState};
 pub use warning::RunWarning;
 
@@ -44,6 +51,7 @@ use crate::watch::Watch;
 use motion::ConstrainedMotion;
 use sampler::Sampler;
 use schedule::Schedule;
+use steps::Steps;
 
 /// Simulates from a consistent start at t = 0; journals with clearance touch there, see [`assemble_static_contact`].
 ///
@@ -81,7 +89,7 @@ pub fn simulate_with_inputs<'a>(
 }
 
 fn run(mut evaluator: Evaluator<'_>, settings: &Settings, watch: Watch<'_>) -> Result<Run, RunError> {
-    let schedule = Schedule::new(&mut evaluator, settings)?;
+    let schedule = Schedule::new(&mut evaluator, settings, 0.0)?;
     if let Some(signals) = evaluator.signals() {
         schedule.check_covered(signals.span())?;
     }
@@ -92,6 +100,28 @@ fn run(mut evaluator: Evaluator<'_>, settings: &Settings, watch: Watch<'_>) -> R
     let mut state = motion.join(&start);
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
     sampler.collect_extremes(&motion);
-    let stopped = steps::run(&mut motion, &mut sampler, &mut state, settings.integrator, watch);
+    let stopped = record(&mut motion, &mut sampler, &mut state, settings.integrator, watch);
     Ok(sampler.finish(&motion, warning::step_limits(settings.integrator), stopped.err()))
+}
+
+/// Runs a schedule to its end and records its samples.
+fn record(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &mut Sampler<'_>,
+    state: &mut [f64],
+    integrator: Integrator,
+    watch: Watch<'_>,
+) -> Result<(), RunError> {
+    let Schedule { begin, start, end, samples } = sampler.schedule;
+    let sampled = samples > 0 && start == begin;
+    let mut steps = Steps::begin(motion, sampler, state, integrator, sampled)?;
+    if sampled {
+        sampler.record(begin);
+    }
+    for index in usize::from(sampled)..samples {
+        let t = sampler.schedule.time(index);
+        steps.advance(motion, sampler, state, (t, true), watch)?;
+        sampler.record(t);
+    }
+    if samples == 0 { steps.advance(motion, sampler, state, (end, false), watch) } else { Ok(()) }
 }

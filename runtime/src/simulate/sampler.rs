@@ -1,6 +1,8 @@
 //! What is recorded along the way: sampled rows, unwrapped angles, energy balance, loop error, turns.
 //! In: states at steps and sample times. Out: a [`Run`]. Never knows integrators.
 
+mod continuation;
+
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
@@ -17,6 +19,7 @@ use super::singular_passage::Passages;
 use super::unbounded::Unbounded;
 use super::warning::{self, RunWarning};
 use crate::clearance_joint::Channels;
+use crate::description::Channel;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
 use crate::integrate::Problem;
@@ -43,7 +46,7 @@ pub(super) struct Sampler<'a> {
     columns: Channels,
     /// Columns at the state observed last.
     values: Vec<f64>,
-    angles: Angles,
+    pub(super) angles: Angles,
     /// A state within a step.
     inner: Vec<f64>,
     start_energy: f64,
@@ -73,7 +76,7 @@ impl<'a> Sampler<'a> {
         let columns = Channels::new(description);
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
-        let guard = Guard::new(motion, (begin, schedule.end), state);
+        let guard = Guard::new(motion, (begin, schedule.end), state, &Statistics::default());
         let (kinetic, potential) = motion.energy(begin, state);
         let (q, v, work) = motion.split(state);
         motion.energy_scale = motion.energy_scale.max(kinetic);
@@ -146,37 +149,16 @@ impl<'a> Sampler<'a> {
         Ok(())
     }
 
-    /// The time up to which steps may be spread evenly from `t`; `None` at the end.
-    pub(super) fn next_stop(&self, t: f64) -> Option<f64> {
-        let next = if self.times.len() < self.schedule.samples {
-            self.schedule.time(self.times.len())
-        } else {
-            self.schedule.end
-        };
-        let next = next.min(self.hard_stop(t));
-        if t < next { Some(next) } else { None }
-    }
-
-    /// The next sample time strictly before `t`.
-    pub(super) fn due_before(&self, t: f64) -> Option<f64> {
-        let time = self.schedule.time(self.times.len());
-        (self.times.len() < self.schedule.samples && time < t).then_some(time)
-    }
-
-    /// Whether a sample is due at exactly `t`.
-    pub(super) fn is_due(&self, t: f64) -> bool {
-        self.times.len() < self.schedule.samples && self.schedule.time(self.times.len()) == t
-    }
-
-    /// The state at the start: a sample unless the run settles first.
-    pub(super) fn sample_at_start(
+    /// The state at the start, a sample if `sampled`.
+    pub(super) fn see_start(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
         state: &[f64],
+        sampled: bool,
     ) -> Result<(), RunError> {
         let begin = self.schedule.begin;
         self.follow_angles(motion, begin, state, None)?;
-        if self.is_due(begin) {
+        if sampled {
             self.sample(motion, begin, &mut state.to_vec())?;
         } else {
             self.observe(motion, begin, state)?;
@@ -184,7 +166,7 @@ impl<'a> Sampler<'a> {
         self.look(motion, begin, state)
     }
 
-    /// Records a row; `state` is put onto the constraints first, if it is not there.
+    /// Evaluates the columns of a sample; `state` is put onto the constraints first, if it is not there.
     pub(super) fn sample(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
@@ -201,9 +183,23 @@ impl<'a> Sampler<'a> {
             return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
         }
         self.angles.unwrap(t, &mut self.values);
+        Ok(())
+    }
+
+    /// Columns of the last sample.
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Names and units of the columns.
+    pub(super) fn channels(&self) -> &[Channel] {
+        &self.columns.channels
+    }
+
+    /// Records the columns of the sample at `t` as a row.
+    pub(super) fn record(&mut self, t: f64) {
         self.times.push(t);
         self.rows.push(self.values.clone());
-        Ok(())
     }
 
     /// Notes an accepted step that ends in `state`.
@@ -300,7 +296,7 @@ impl<'a> Sampler<'a> {
         !self.angles.is_empty()
     }
 
-    /// Follows angles although there are no rows.
+    /// Follows angles although no rows are recorded.
     pub(super) fn watch_angles(&mut self) {
         self.angles = Angles::new(&self.columns.channels);
     }

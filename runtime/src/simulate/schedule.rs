@@ -20,10 +20,14 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    pub(super) fn new(evaluator: &mut Evaluator<'_>, settings: &Settings) -> Result<Self, RunError> {
-        let start = end_of(evaluator, 0.0, settings.settle)?;
+    pub(super) fn new(
+        evaluator: &mut Evaluator<'_>,
+        settings: &Settings,
+        begin: f64,
+    ) -> Result<Self, RunError> {
+        let start = end_of(evaluator, begin, settings.settle)?;
         let end = end_of(evaluator, start, settings.span)?;
-        Ok(Self { begin: 0.0, start, end, samples: settings.samples })
+        Ok(Self { begin, start, end, samples: settings.samples })
     }
 
     /// Refuses a run that goes on where its inputs are not known.

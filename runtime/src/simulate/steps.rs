@@ -1,15 +1,143 @@
-//! Runs a schedule to its end, step by step. In: a start, a method. Out: samples. Never knows how a start is found.
+//! Goes through a schedule, step by step. In: a start, a method, times. Out: states and samples at these times. Never knows
+//! how a start is found.
+//!
+//! An adaptive step mostly ends beyond the time that is asked for, and the state there comes from within it. Such a step
+//! is open: what follows from its end waits until no earlier time can be asked for.
 
+use super::implicit::Implicit;
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
-use super::{dead_point, events, implicit};
+use super::{dead_point, events};
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43};
 use crate::watch::Watch;
 
-/// Runs a schedule to its end with a method; `state` is then where it got.
+/// A method under way.
+pub(super) struct Steps {
+    integrator: Integrator,
+    method: Way,
+}
+
+/// By which method.
+enum Way {
+    Rk4 { method: Rk4, t: f64, longest: f64 },
+    Dopri5(Box<AdaptiveSteps<Dopri5>>),
+    Rk43(Box<AdaptiveSteps<Rk43>>),
+    Implicit(Box<Implicit>),
+}
+
+/// Adaptive steps, of which the last one may be open.
+struct AdaptiveSteps<M> {
+    method: Adaptive<M>,
+    open: bool,
+    between: Vec<f64>,
+}
+
+/// What is asked for: a time, and whether a sample is taken there.
+pub(super) type Wanted = (f64, bool);
+
+impl Steps {
+    /// Begins a schedule; `sampled`: with a sample at its begin.
+    pub(super) fn begin(
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &[f64],
+        integrator: Integrator,
+        sampled: bool,
+    ) -> Result<Self, RunError> {
+        let begin = sampler.schedule.begin;
+        let method = match integrator {
+            Integrator::Rk4 { step } => {
+                let seen = sampler.see_start(motion, state, sampled);
+                seen.map(|()| Way::Rk4 { method: Rk4::new(state.len()), t: begin, longest: step })
+            }
+            Integrator::Dopri5 { tolerance, max_step } => {
+                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
+                    .map(Way::Dopri5)
+            }
+            Integrator::Rk43 { tolerance, max_step } => {
+                motion.loosen(tolerance);
+                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled)).map(Way::Rk43)
+            }
+            Integrator::GeneralizedAlpha { step, rho } => {
+                let seen = sampler.see_start(motion, state, sampled);
+                seen.map(|()| Way::Implicit(Box::new(Implicit::new(motion, begin, state, (step, rho)))))
+            }
+        };
+        let method = method.map_err(|error| explain(motion, sampler, integrator, error))?;
+        Ok(Self { integrator, method })
+    }
+
+    /// Goes on to a time, up to which the schedule must reach; `state` is then the one there.
+    pub(super) fn advance(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &mut [f64],
+        wanted: Wanted,
+        watch: Watch<'_>,
+    ) -> Result<(), RunError> {
+        let outcome = match &mut self.method {
+            Way::Rk4 { method, t, longest } => {
+                advance_rk4(motion, sampler, (method, t, *longest), state, wanted, watch)
+            }
+            Way::Dopri5(steps) => steps.advance(motion, sampler, state, wanted, watch),
+            Way::Rk43(steps) => steps.advance(motion, sampler, state, wanted, watch),
+            Way::Implicit(method) => method.advance(motion, sampler, state, wanted, watch),
+        };
+        outcome.map_err(|error| explain(motion, sampler, self.integrator, error))
+    }
+
+    /// Ends an open step at `t` within it: the motion goes on otherwise from the state there.
+    pub(super) fn cut(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError> {
+        match &mut self.method {
+            Way::Dopri5(steps) => steps.cut(motion, sampler, t, state),
+            Way::Rk43(steps) => steps.cut(motion, sampler, t, state),
+            Way::Rk4 { .. } | Way::Implicit(_) => Ok(()),
+        }
+    }
+
+    /// Goes on from a state whose laws have changed.
+    pub(super) fn go_on_from(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError> {
+        match &mut self.method {
+            Way::Dopri5(steps) => steps.method.go_on_from(motion, t, state),
+            Way::Rk43(steps) => steps.method.go_on_from(motion, t, state),
+            Way::Rk4 { t: reached, .. } => {
+                *reached = t;
+                Ok(())
+            }
+            Way::Implicit(method) => {
+                method.begin_anew(t);
+                Ok(())
+            }
+        }
+    }
+
+    /// Shows every number that it stands on, to be read or put back at time `t`.
+    pub(super) fn visit_memory(&mut self, t: f64, visit: &mut dyn FnMut(&mut f64)) {
+        match &mut self.method {
+            Way::Dopri5(steps) => steps.visit_memory(visit),
+            Way::Rk43(steps) => steps.visit_memory(visit),
+            Way::Rk4 { t: reached, .. } => *reached = t,
+            Way::Implicit(method) => method.begin_anew(t),
+        }
+    }
+}
+
+/// Runs a schedule to its end with a method, without samples; `state` is then where it got.
 pub(super) fn run(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
@@ -17,73 +145,47 @@ pub(super) fn run(
     integrator: Integrator,
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    let outcome = match integrator {
-        Integrator::Rk4 { step } => run_rk4(motion, sampler, state, step, watch),
-        Integrator::Dopri5 { tolerance, max_step } => {
-            run_adaptive::<Dopri5>(motion, sampler, state, (tolerance, max_step), watch)
-        }
-        Integrator::Rk43 { tolerance, max_step } => {
-            motion.loosen(tolerance);
-            run_adaptive::<Rk43>(motion, sampler, state, (tolerance, max_step), watch)
-        }
-        Integrator::GeneralizedAlpha { step, rho } => {
-            implicit::run_generalized_alpha(motion, sampler, state, (step, rho), watch)
-        }
-    };
-    outcome.map_err(|error| {
-        let (t, reached) = &sampler.reached;
-        let q = motion.split(reached).0.to_vec();
-        sampler.passages.explain(integrator, dead_point::explain(motion, (*t, &q), error))
-    })
+    let mut steps = Steps::begin(motion, sampler, state, integrator, false)?;
+    steps.advance(motion, sampler, state, (sampler.schedule.end, false), watch)
 }
 
-/// Equal steps no longer than asked for, that land on every sample.
-fn run_rk4(
+/// Why a run failed, by where it had got.
+fn explain(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &Sampler<'_>,
+    integrator: Integrator,
+    error: RunError,
+) -> RunError {
+    let (t, reached) = &sampler.reached;
+    let q = motion.split(reached).0.to_vec();
+    sampler.passages.explain(integrator, dead_point::explain(motion, (*t, &q), error))
+}
+
+/// Equal steps no longer than asked for, that land on every time asked for.
+fn advance_rk4(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
+    (method, t, longest): (&mut Rk4, &mut f64, f64),
     state: &mut [f64],
-    longest: f64,
+    (to, sampled): Wanted,
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
-    let mut method = Rk4::new(state.len());
-    let mut t = sampler.schedule.begin;
-    sampler.sample_at_start(motion, state)?;
-    while let Some(target) = sampler.next_stop(t) {
-        let (from, steps) = (t, steps_between(t, target, longest));
+    while *t < to {
+        let target = to.min(sampler.hard_stop(*t));
+        let (from, steps) = (*t, steps_between(*t, target, longest));
         for i in 1..=steps {
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
-            method.step(motion, t, state, next - t)?;
-            t = next;
-            sampler.note_loop_error(motion, t, motion.projector.loop_error())?;
-            sampler.follow_angles(motion, t, state, None)?;
-            sampler.step_done(motion, t, state)?;
-            if sampler.is_due(t) {
-                sampler.sample(motion, t, state)?;
+            method.step(motion, *t, state, next - *t)?;
+            *t = next;
+            sampler.note_loop_error(motion, *t, motion.projector.loop_error())?;
+            sampler.follow_angles(motion, *t, state, None)?;
+            sampler.step_done(motion, *t, state)?;
+            if sampled && *t == to {
+                sampler.sample(motion, *t, state)?;
             }
-            sampler.report(t, watch)?;
+            sampler.report(*t, watch)?;
         }
     }
-    Ok(())
-}
-
-fn run_adaptive<M: Method>(
-    motion: &mut ConstrainedMotion<'_>,
-    sampler: &mut Sampler<'_>,
-    state: &mut [f64],
-    limits: (f64, Option<f64>),
-    watch: Watch<'_>,
-) -> Result<(), RunError> {
-    let mut between = state.to_vec();
-    let mut method = begin_adaptive::<M>(motion, sampler, state, limits)?;
-    while method.t() < sampler.schedule.end {
-        let stop = stop_at_kink(motion, sampler, method.t());
-        let outcome = method.step(motion, stop);
-        sampler.statistics.rejected = method.rejected();
-        outcome?;
-        events::stop_at_contact(motion, sampler, &mut method, &mut between)?;
-        after_step(motion, sampler, &method, &mut between, watch)?;
-    }
-    state.copy_from_slice(method.y());
     Ok(())
 }
 
@@ -101,21 +203,20 @@ pub(super) fn begin_adaptive<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     state: &[f64],
-    (tolerance, longest): (f64, Option<f64>),
+    ((tolerance, longest), sampled): ((f64, Option<f64>), bool),
 ) -> Result<Adaptive<M>, RunError> {
     let longest = longest.unwrap_or(sampler.duration() / 10.0);
     let span = (sampler.schedule.begin, sampler.schedule.end);
-    sampler.sample_at_start(motion, state)?;
+    sampler.see_start(motion, state, sampled)?;
     Adaptive::start(motion, span, state, tolerance, longest)
 }
 
-/// Notes what an accepted step shows, once it ends where a gap closes.
-pub(super) fn after_step<M: Method>(
+/// Notes what the inside of a step shows, once it ends where a gap closes.
+pub(super) fn look_back<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     method: &Adaptive<M>,
     between: &mut [f64],
-    watch: Watch<'_>,
 ) -> Result<(), RunError> {
     sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
     sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
@@ -123,14 +224,74 @@ pub(super) fn after_step<M: Method>(
         method.interpolate(t, between);
         sampler.look(motion, t, between)?;
     }
-    while let Some(t) = sampler.due_before(method.t()) {
-        method.interpolate(t, between);
-        sampler.sample(motion, t, between)?;
+    Ok(())
+}
+
+impl<M: Method> AdaptiveSteps<M> {
+    fn begin(
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &[f64],
+        settings: ((f64, Option<f64>), bool),
+    ) -> Result<Box<Self>, RunError> {
+        let method = begin_adaptive(motion, sampler, state, settings)?;
+        Ok(Box::new(Self { method, open: false, between: state.to_vec() }))
     }
-    sampler.step_done(motion, method.t(), method.y())?;
-    if sampler.is_due(method.t()) {
-        between.copy_from_slice(method.y());
-        sampler.sample(motion, method.t(), between)?;
+
+    fn advance(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &mut [f64],
+        (to, sampled): Wanted,
+        watch: Watch<'_>,
+    ) -> Result<(), RunError> {
+        let Self { method, open, between } = self;
+        loop {
+            if *open && to < method.t() {
+                method.interpolate(to, state);
+                return if sampled { sampler.sample(motion, to, state) } else { Ok(()) };
+            }
+            if *open {
+                *open = false;
+                sampler.step_done(motion, method.t(), method.y())?;
+                if sampled && to == method.t() {
+                    state.copy_from_slice(method.y());
+                    sampler.sample(motion, to, state)?;
+                }
+                sampler.report(method.t(), watch)?;
+                if sampled && to == method.t() {
+                    return Ok(());
+                }
+            }
+            if to <= method.t() {
+                state.copy_from_slice(method.y());
+                return if sampled { sampler.sample(motion, to, state) } else { Ok(()) };
+            }
+            let stop = stop_at_kink(motion, sampler, method.t());
+            let outcome = method.step(motion, stop);
+            sampler.statistics.rejected = method.rejected();
+            outcome?;
+            events::stop_at_contact(motion, sampler, method, between)?;
+            look_back(motion, sampler, method, between)?;
+            *open = true;
+        }
     }
-    sampler.report(method.t(), watch)
+
+    fn cut(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError> {
+        if std::mem::take(&mut self.open) { sampler.cut(motion, t, state) } else { Ok(()) }
+    }
+
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        let mut open = f64::from(u8::from(self.open));
+        visit(&mut open);
+        self.open = open != 0.0;
+        self.method.visit_memory(visit);
+    }
 }

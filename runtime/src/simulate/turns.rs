@@ -9,9 +9,10 @@ use super::sampler::Sampler;
 use super::schedule::Schedule;
 use super::settings::{Integrator, Settings, Span};
 use super::steps;
+use super::surface;
 use super::warning::RunWarning;
 use super::warning::step_limits;
-use crate::assemble::{State, assemble_static_contact, check_clearances, place};
+use crate::assemble::{State, assemble_static_contact, check_clearances};
 use crate::clearance_joint::{Clearance, ClearanceState};
 use crate::description::Description;
 use crate::dynamics::Dynamics;
@@ -159,15 +160,8 @@ impl<'a> TurnRunner<'a> {
             evaluator.clearances_mut().states_mut()[joint] = kept;
             return Err(error);
         }
-        if before[joint].gap < 0.0 {
-            let mut targets: Vec<_> = before.iter().map(|touch| Some(touch.offset)).collect();
-            let normal = before[joint].normal();
-            let penetration = before[joint].penetration();
-            let distance = evaluator.clearances().distance(joint, normal, penetration);
-            targets[joint] = Some(normal.map(|component| distance * component));
-            // Where loops do not let it, the journal finds its way through the settling turns.
-            let _ = place(evaluator, self.t, &mut self.state, &targets);
-        }
+        // Where loops do not let it, the journal finds its way through the settling turns.
+        surface::follow(evaluator, self.t, &mut self.state, &before);
         self.motion.learn_sizes(self.t, &self.state);
         Ok(())
     }

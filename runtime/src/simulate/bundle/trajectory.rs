@@ -9,7 +9,6 @@ use crate::integrate::{Adaptive, PARTS, Problem, Rk43};
 use crate::simulate::settings::Integrator;
 use crate::simulate::turns::{Turn, TurnRunner, TurnState};
 use crate::simulate::{events, steps};
-use crate::watch::Watch;
 
 /// A lane's place among the lanes.
 type Place<'l, 'a, const N: usize> = (&'l mut Lanes<'a, N>, usize);
@@ -74,7 +73,7 @@ impl<'a> Trajectory<'a> {
         let motion = &mut self.runner.motion;
         motion.loosen(tolerance);
         let mut method: Adaptive<Rk43> =
-            steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, (tolerance, max_step))?;
+            steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, ((tolerance, max_step), false))?;
         lanes.put_state(lane, method.y(), method.slope());
         lanes.put_settings(lane, motion, method.tolerance());
         let clearances = motion.dynamics.evaluator.clearances();
@@ -165,7 +164,10 @@ impl<'a> Trajectory<'a> {
         }
         let stopped =
             if is_suspect { events::stop_at_contact(motion, sampler, method, between) } else { Ok(()) };
-        let done = stopped.and_then(|()| steps::after_step(motion, sampler, method, between, Watch::NONE));
+        let done = stopped.and_then(|()| {
+            steps::look_back(motion, sampler, method, between)
+                .and_then(|()| sampler.step_done(motion, method.t(), method.y()))
+        });
         *after = match done {
             Err(_) => After::Failed,
             Ok(()) if method.t() != step.1 => After::Shortened,

@@ -1,0 +1,351 @@
+//! A run that is advanced from outside, as far as somebody asks: for programs that follow a machine, or are coupled to others.
+//! In: a mechanism, settings; then times, other parameters, readings of wear. Out: columns at the present time, events, states
+//! that can be kept and put back.
+
+use super::contact_event::ContactEvent;
+use super::motion::ConstrainedMotion;
+use super::run::Run;
+use super::sampler::Sampler;
+use super::schedule::Schedule;
+use super::settings::{Integrator, Settings};
+use super::steps::Steps;
+use super::surface;
+use super::warning::step_limits;
+use crate::assemble::{State, assemble_static_contact, check_clearances};
+use crate::clearance_joint::{ClearanceState, ContactState};
+use crate::description::{Channel, Description};
+use crate::dynamics::Dynamics;
+use crate::error::{RunError, SetupError};
+use crate::evaluate::{CLOSED, Evaluator};
+use crate::integrate::Problem;
+use crate::system::System;
+use crate::watch::Watch;
+use crate::wear::Profile;
+
+/// A driver may jump by this much with a parameter [rad, m, rad/s, m/s].
+const SAME_LAW: f64 = 1e-9;
+
+/// Angles on their turns: times, each with the angle and the rate of every column that wraps.
+pub type KnownAngles = Vec<(f64, Vec<(f64, f64)>)>;
+
+/// All that has to be kept to go on with a simulation, in the same bits (with generalised-alpha up to its error).
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SimulationState {
+    /// Present time [s].
+    pub t: f64,
+    /// Values of the parameters.
+    pub parameters: Vec<f64>,
+    /// What contacts remember and how far joints are worn.
+    pub joints: Vec<ClearanceState>,
+    /// Turns of angles that columns recompute.
+    pub angles: KnownAngles,
+    /// The state, and what solvers and methods remember.
+    pub memory: Vec<f64>,
+}
+
+/// A mechanism on its way through time, advanced as far as somebody asks.
+///
+/// [`super::simulate`] is a simulation advanced over its samples: both give the same bits.
+pub struct Simulation<'a> {
+    motion: ConstrainedMotion<'a>,
+    sampler: Sampler<'a>,
+    steps: Steps,
+    integrator: Integrator,
+    /// Present time and flat state.
+    t: f64,
+    state: Vec<f64>,
+    /// How far the schedule goes on at its end [s].
+    leg: f64,
+}
+
+impl<'a> Simulation<'a> {
+    /// From a consistent start at t = 0 through the settling; journals with clearance touch there.
+    ///
+    /// `settings.span` is how far it is meant to go: steps are a tenth of it at most, and end there. It may go on.
+    /// `settings.samples` is how many evenly spaced times will be asked for; any others may be.
+    ///
+    /// # Errors
+    /// As [`super::simulate`], and what stops a run while it settles.
+    pub fn start(
+        system: &'a dyn System<f64>,
+        description: &'a Description,
+        parameters: &[f64],
+        settings: &Settings,
+    ) -> Result<Self, RunError> {
+        Self::start_at(0.0, system, description, parameters, settings)
+    }
+
+    /// The same from another time [s].
+    ///
+    /// # Errors
+    /// As [`Self::start`].
+    pub fn start_at(
+        begin: f64,
+        system: &'a dyn System<f64>,
+        description: &'a Description,
+        parameters: &[f64],
+        settings: &Settings,
+    ) -> Result<Self, RunError> {
+        settings.check()?;
+        if !begin.is_finite() {
+            return Err(SetupError::Setting { name: "start time", value: begin, need: "finite" }.into());
+        }
+        let mut evaluator = Evaluator::new(system, description, parameters)?;
+        let schedule = Schedule::new(&mut evaluator, settings, begin)?;
+        let start = assemble_static_contact(&mut evaluator, begin)?;
+        let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, settings.singular_pivot));
+        motion.learn_sizes(begin, &start);
+        let mut state = motion.join(&start);
+        let mut sampler = Sampler::new(&mut motion, schedule, &state);
+        sampler.watch_angles();
+        if let Some(follower) = &mut sampler.follower {
+            follower.events = Some(Vec::new());
+        }
+        let sampled = schedule.start == schedule.begin;
+        let mut steps = Steps::begin(&mut motion, &mut sampler, &state, settings.integrator, sampled)?;
+        if !sampled {
+            let wanted = (schedule.start, true);
+            steps.advance(&mut motion, &mut sampler, &mut state, wanted, Watch::NONE)?;
+        }
+        let (t, leg, integrator) = (schedule.start, schedule.end - schedule.start, settings.integrator);
+        Ok(Self { motion, sampler, steps, integrator, t, state, leg })
+    }
+
+    /// Goes on to a time [s], not before the present one.
+    ///
+    /// # Errors
+    /// Why it cannot go on. The state is then no longer of use; one that was kept before can be put back.
+    pub fn advance(&mut self, to: f64, watch: Watch<'_>) -> Result<(), RunError> {
+        if !(to.is_finite() && to >= self.t) {
+            let need = "finite and not before the present time";
+            return Err(SetupError::Setting { name: "time to advance to", value: to, need }.into());
+        }
+        let Self { motion, sampler, steps, state, .. } = self;
+        while to > sampler.schedule.end {
+            let end = sampler.schedule.end;
+            steps.advance(motion, sampler, state, (end, false), watch)?;
+            sampler.extend(motion, (end, state), (end + self.leg).max(to));
+        }
+        steps.advance(motion, sampler, state, (to, true), watch)?;
+        self.t = to;
+        Ok(())
+    }
+
+    /// Present time [s].
+    pub const fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Free coordinates at the present time.
+    pub fn coordinates(&self) -> &[f64] {
+        self.motion.split(&self.state).0
+    }
+
+    /// Free speeds at the present time.
+    pub fn speeds(&self) -> &[f64] {
+        self.motion.split(&self.state).1
+    }
+
+    /// Derivatives of coordinates, then of speeds, at the present time.
+    ///
+    /// # Errors
+    /// If they have no value there.
+    pub fn derivatives(&mut self) -> Result<Vec<f64>, RunError> {
+        let mut slope = vec![0.0; self.state.len()];
+        let aside = self.motion.dynamics.aside();
+        let found = self.motion.derivative(self.t, &self.state, &mut slope);
+        self.motion.dynamics.resume(aside);
+        slope.truncate(self.motion.first_integral());
+        found.map(|()| slope)
+    }
+
+    /// Names and units of [`Self::values`]: columns of the mechanism, then those of its contacts.
+    pub fn channels(&self) -> &[Channel] {
+        self.sampler.channels()
+    }
+
+    /// Columns at the present time, in the order of [`Self::channels`].
+    pub fn values(&self) -> &[f64] {
+        self.sampler.values()
+    }
+
+    /// Values of the parameters.
+    pub fn parameters(&self) -> &[f64] {
+        self.motion.dynamics.evaluator.parameters()
+    }
+
+    /// Contacts that closed or opened since they were asked for last.
+    pub fn take_events(&mut self) -> Vec<ContactEvent> {
+        let events = self.sampler.follower.as_mut().and_then(|follower| follower.events.as_mut());
+        events.map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Other values of the parameters from the present time on. Journals that touch follow their bearings; all else stays
+    /// where it is and as fast.
+    ///
+    /// # Errors
+    /// If values are no numbers, a clearance is none, or drivers or loops would jump; nothing has changed then. Else what
+    /// stops a run.
+    pub fn set_parameters(&mut self, parameters: &[f64]) -> Result<(), RunError> {
+        let before = self.parameters().to_vec();
+        if before == parameters {
+            return Ok(());
+        }
+        self.change(
+            |evaluator| evaluator.set_parameters(parameters),
+            |evaluator| {
+                let _ = evaluator.set_parameters(&before);
+            },
+        )
+    }
+
+    /// Present radial clearances with their mean wear [m], joint by joint.
+    pub fn clearances(&mut self) -> Vec<f64> {
+        self.contacts().iter().map(|touch| touch.clearance).collect()
+    }
+
+    /// Every contact at the present time.
+    pub fn contacts(&mut self) -> &[ContactState] {
+        let (q, v, _) = self.motion.split(&self.state);
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        evaluator.evaluate_contacts(self.t, q, v);
+        evaluator.clearances().contacts()
+    }
+
+    /// Sets how far a joint is worn: radial clearance [m] on top of that of the parameters, and a depth by bearing angle on
+    /// top of both. A journal in contact follows the surface.
+    ///
+    /// # Errors
+    /// As [`Self::set_parameters`], or if there is no such joint.
+    pub fn set_worn(&mut self, joint: usize, worn: f64, profile: Option<Profile>) -> Result<(), RunError> {
+        let states = self.motion.dynamics.evaluator.clearances().states();
+        let Some(kept) = states.get(joint).cloned() else {
+            let what = "joints with clearance";
+            return Err(SetupError::Length { what, expected: states.len(), found: joint + 1 }.into());
+        };
+        self.change(
+            |evaluator| {
+                let state = &mut evaluator.clearances_mut().states_mut()[joint];
+                (state.worn, state.profile) = (worn, profile);
+                Ok(())
+            },
+            |evaluator| evaluator.clearances_mut().states_mut()[joint] = kept,
+        )
+    }
+
+    /// Changes laws at the present time; `undo` takes that back where the mechanism does not bear it.
+    fn change(
+        &mut self,
+        change: impl FnOnce(&mut Evaluator<'a>) -> Result<(), SetupError>,
+        undo: impl FnOnce(&mut Evaluator<'a>),
+    ) -> Result<(), RunError> {
+        let Self { motion, sampler, steps, t, state, .. } = self;
+        let (q, v, _) = motion.split(state);
+        let mut now = State { q: q.to_vec(), v: v.to_vec() };
+        let evaluator = &mut motion.dynamics.evaluator;
+        evaluator.evaluate_contacts(*t, &now.q, &now.v);
+        let before = evaluator.clearances().contacts().to_vec();
+        let laws = evaluator.prescribed(*t).to_vec();
+        change(evaluator)?;
+        if let Err(error) = laws_go_on(evaluator, (*t, &now), &laws, motion.arm) {
+            undo(&mut motion.dynamics.evaluator);
+            return Err(error.into());
+        }
+        steps.cut(motion, sampler, *t, state)?;
+        surface::follow(&mut motion.dynamics.evaluator, *t, &mut now, &before);
+        state[..now.q.len()].copy_from_slice(&now.q);
+        state[now.q.len()..][..now.v.len()].copy_from_slice(&now.v);
+        steps.go_on_from(motion, *t, state)?;
+        sampler.watch_from(motion, (*t, state));
+        if let Some(follower) = &mut sampler.follower {
+            follower.look_again(motion, *t, state);
+        }
+        sampler.sample(motion, *t, &mut state.clone())
+    }
+
+    /// Everything that has to be kept to go on from here.
+    pub fn state(&mut self) -> SimulationState {
+        let mut memory = Vec::new();
+        self.visit_memory(&mut |number| memory.push(*number));
+        self.motion.visit_memory(&mut |number| memory.push(*number));
+        SimulationState {
+            t: self.t,
+            parameters: self.parameters().to_vec(),
+            joints: self.motion.dynamics.evaluator.clearances().states().to_vec(),
+            angles: self.sampler.angles.known(),
+            memory,
+        }
+    }
+
+    /// Goes on from a kept state, whatever happened since.
+    ///
+    /// # Errors
+    /// If it does not belong to this mechanism and method; nothing has changed then.
+    pub fn restore(&mut self, kept: &SimulationState) -> Result<(), SetupError> {
+        let mut length = 0;
+        self.visit_memory(&mut |_| length += 1);
+        self.motion.visit_memory(&mut |_| length += 1);
+        let same = |what, expected, found| {
+            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
+        };
+        same("numbers of a state", length, kept.memory.len())?;
+        let joints = self.motion.dynamics.evaluator.clearances().states().len();
+        same("joints with clearance", joints, kept.joints.len())?;
+        let angles = self.sampler.angles.count();
+        for (_, values) in &kept.angles {
+            same("angles of a state", angles, values.len())?;
+        }
+        self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
+        self.t = kept.t;
+        let mut numbers = kept.memory.iter();
+        let mut put = |number: &mut f64| *number = numbers.next().copied().unwrap_or(*number);
+        self.visit_memory(&mut put);
+        self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept.joints);
+        self.sampler.angles.put_back(&kept.angles);
+        self.sampler.resume(&mut self.motion);
+        // Last: looking at the state has changed what solvers remember.
+        self.motion.visit_memory(&mut put);
+        Ok(())
+    }
+
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.state.iter_mut().for_each(&mut *visit);
+        self.steps.visit_memory(self.t, visit);
+        self.sampler.visit_memory(visit);
+    }
+
+    /// Cost, quality and measured turns of all that was simulated; there are no rows.
+    pub fn finish(self) -> Run {
+        self.sampler.finish(&self.motion, step_limits(self.integrator), None)
+    }
+}
+
+/// Whether the mechanism can go on at a state with laws that have changed.
+pub(super) fn laws_go_on(
+    evaluator: &mut Evaluator<'_>,
+    (t, state): (f64, &State),
+    laws: &[f64],
+    arm: f64,
+) -> Result<(), SetupError> {
+    let now = evaluator.prescribed(t).to_vec();
+    for (driver, (now, before)) in now.chunks_exact(3).zip(laws.chunks_exact(3)).enumerate() {
+        for (now, before) in now.iter().zip(before).take(2) {
+            let jump = (now - before).abs();
+            // What is not a number is no law.
+            let same = jump <= SAME_LAW * before.abs().max(1.0);
+            if !same {
+                let what = format!("the driver of {}", evaluator.description().drivers[driver].joint);
+                return Err(SetupError::Jump { what, jump });
+            }
+        }
+    }
+    evaluator.closure(t, &state.q, &state.v);
+    let open = evaluator.loop_error();
+    let closed = open.part(arm) <= CLOSED;
+    if !closed {
+        let what = format!("joint {}", evaluator.joint_of_row(open.worst));
+        return Err(SetupError::Jump { what, jump: open.metres.max(open.radians) });
+    }
+    check_clearances(evaluator, t, state)
+}
