@@ -1,4 +1,9 @@
-//! Compiles the shipped mechanisms, as a user's build script does.
+//! Compiles the shipped mechanisms, as a user's build script does, and the library inside units of FMI, which the command
+//! line hands out.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 macro_rules! mechanisms {
     ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
@@ -11,4 +16,43 @@ include!("mechanisms/shipped.rs");
 fn main() {
     let files = NAMES.iter().map(|name| format!("mechanisms/{name}.toml"));
     files.fold(linkwear_codegen::Builder::new(), |builder, file| builder.mechanism(file)).write_or_exit();
+    if env::var_os("CARGO_FEATURE_CLI").is_some() {
+        unit_library();
+    }
+}
+
+/// The crate `fmu` as a library of its own, which cargo has compiled to run this script.
+fn unit_library() {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo says where to write"));
+    let system = env::var("CARGO_CFG_TARGET_OS").unwrap_or_default();
+    let ending = match &*system {
+        "windows" => ".dll",
+        "macos" => ".dylib",
+        _ => ".so",
+    };
+    // For another processor there is none: this script runs here.
+    let same = env::var_os("TARGET") == env::var_os("HOST");
+    let beside = out.ancestors().nth(3).map(|profile| profile.join("deps"));
+    let found = beside.filter(|_| same).and_then(|folder| newest(&folder, ending));
+    let library = out.join("unit-library");
+    match found {
+        Some(file) => drop(fs::copy(file, library).expect("the library can be copied")),
+        None => {
+            println!(
+                "cargo::warning=the library of the crate `fmu` is not found: `linkwear fmu` will write no units"
+            );
+            fs::write(library, []).expect("OUT_DIR can be written");
+        }
+    }
+}
+
+/// The library compiled last: cargo leaves older ones of other settings.
+fn newest(folder: &Path, ending: &str) -> Option<PathBuf> {
+    let files = fs::read_dir(folder).ok()?.filter_map(Result::ok);
+    let libraries = files.filter(|file| {
+        let name = file.file_name().to_string_lossy().into_owned();
+        name.trim_start_matches("lib").starts_with("linkwear_fmu") && name.ends_with(ending)
+    });
+    let made = libraries.filter_map(|file| Some((file.metadata().ok()?.modified().ok()?, file.path())));
+    made.max().map(|(_, path)| path)
 }

@@ -9,6 +9,7 @@ mod cost;
 mod equations;
 mod failure;
 mod fit;
+mod fmu;
 mod generate;
 mod input;
 mod life;
@@ -52,6 +53,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Equations(arguments) => equations::run(arguments),
         Command::Cost(input) => cost::run(input),
         Command::Generate(arguments) => generate::run(arguments),
+        Command::Fmu(arguments) => fmu::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),

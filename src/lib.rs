@@ -21,6 +21,8 @@ pub mod cost;
 pub mod csv_table;
 pub mod files;
 #[cfg(feature = "cli")]
+pub mod fmu;
+#[cfg(feature = "cli")]
 pub mod inputs;
 pub mod life;
 pub mod mechanism;

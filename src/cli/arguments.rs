@@ -66,6 +66,9 @@ pub enum Command {
     #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \
                       linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check")]
     Generate(GenerateArguments),
+    /// Write a unit of FMI 3.0, for co-simulation and model exchange in tools of other makers.
+    #[command(after_help = "Example:\n  linkwear fmu mechanisms/rssr.toml -o rssr.fmu")]
+    Fmu(FmuArguments),
     /// Turn the mechanism and record what happens.
     #[command(
         after_help = "Example:\n  linkwear simulate mechanisms/rssr_rigid.toml --turns 2 --out rssr.csv"
@@ -148,6 +151,18 @@ pub struct GenerateArguments {
     /// Write nothing; fail if OUT.rs is not what would be written.
     #[arg(long, requires = "out")]
     pub check: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct FmuArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// File to write.
+    #[arg(short, long, value_name = "X.fmu", value_parser = output())]
+    pub out: PathBuf,
+    /// Replace a file that is no unit.
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,0 +1,34 @@
+//! `fmu`: a unit of FMI 3.0 of a mechanism.
+
+use std::io::Write as _;
+use std::time::Instant;
+
+use linkwear::files::{WriteError, write_whole};
+use linkwear::fmu;
+use serde_json::json;
+
+use super::answer::Answer;
+use super::arguments::FmuArguments;
+use super::failure::Failure;
+use super::input::{check_output, load};
+use super::table::duration;
+
+pub fn run(arguments: &FmuArguments) -> Result<Answer, Failure> {
+    let out = &arguments.out;
+    check_output(&arguments.input.file, Some(out))?;
+    if out.exists() && !arguments.force && !fmu::is_unit(out) {
+        return Err(WriteError::Exists(out.clone()).into());
+    }
+    let start = Instant::now();
+    let (compiled, warnings) = load(&arguments.input)?;
+    let bytes = fmu::unit(&compiled).map_err(|error| Failure::usage(error, "see docs/fmi.md"))?;
+    write_whole(out, |file| file.write_all(&bytes))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let text =
+        format!("{}: written, {} kB in {}", out.display(), bytes.len().div_ceil(1000), duration(seconds));
+    let json = json!({
+        "name": compiled.mechanism.name, "file": out.display().to_string(), "bytes": bytes.len(),
+        "seconds": seconds, "warnings": warnings,
+    });
+    Ok(Answer { text, json })
+}

@@ -1,0 +1,264 @@
+//! Units of FMI 3.0 under a driver in C, whose types and signatures are those of the standard: the bits of `simulate`, kept
+//! states, model exchange with events, derivatives, wrong calls. FMPy looks at them where it is installed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use linkwear::fmu;
+use linkwear_codegen::{Compiled, Options, SourceFile, compile};
+use linkwear_fmu::{PROGRAM_FILE, Unit, Variable, Variables};
+use linkwear_native::Native;
+use linkwear_runtime::{Integrator, Settings, Span, Watch, channels, simulate};
+
+fn compiled(name: &str) -> Compiled {
+    let path = format!("mechanisms/{name}.toml");
+    let text = fs::read_to_string(&path).expect("a mechanism");
+    compile(&SourceFile { name: path, text }, &Options::default()).expect("no errors")
+}
+
+/// A unit, unpacked.
+struct Unpacked {
+    folder: tempfile::TempDir,
+    compiled: Compiled,
+    unit: Unit,
+    library: PathBuf,
+}
+
+/// Files of an archive, by its directory at the end.
+fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let short = |at: usize| usize::from(u16::from_le_bytes([archive[at], archive[at + 1]]));
+    let long = |at: usize| short(at) + (short(at + 2) << 16);
+    let end = archive.len() - 22;
+    let (count, mut at) = (short(end + 10), long(end + 16));
+    let mut files = Vec::new();
+    for _ in 0..count {
+        assert_eq!(&archive[at..at + 4], b"PK\x01\x02");
+        let (method, packed, size, name, head) =
+            (short(at + 10), long(at + 20), long(at + 24), short(at + 28), long(at + 42));
+        let title = String::from_utf8(archive[at + 46..at + 46 + name].to_vec()).expect("a name");
+        let begin = head + 30 + short(head + 26) + short(head + 28);
+        let stored = &archive[begin..begin + packed];
+        let content = match method {
+            0 => stored.to_vec(),
+            _ => miniz_oxide::inflate::decompress_to_vec(stored).expect("deflated"),
+        };
+        assert_eq!(content.len(), size);
+        files.push((title, content));
+        at += 46 + name;
+    }
+    files
+}
+
+impl Unpacked {
+    fn new(name: &str) -> Self {
+        let compiled = compiled(name);
+        let folder = tempfile::tempdir().expect("a folder");
+        let bytes = fmu::unit(&compiled).expect("a unit");
+        fs::write(folder.path().join("unit.fmu"), &bytes).expect("written");
+        let mut library = PathBuf::new();
+        for (name, content) in files(&bytes) {
+            let path = folder.path().join(&name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            fs::write(&path, content).expect("written");
+            if name.starts_with("binaries/") {
+                library = path;
+            }
+        }
+        let program = fs::read(folder.path().join("resources").join(PROGRAM_FILE)).expect("a program");
+        let unit = Unit::from_bytes(&program).expect("a unit");
+        Self { folder, compiled, unit, library }
+    }
+
+    fn variables(&self) -> Variables {
+        Variables::new(&self.unit, &channels(self.compiled.description()))
+    }
+
+    /// Runs the driver: mode, stop time, tolerance, rows, further arguments.
+    fn drive(
+        &self,
+        driver: &Path,
+        mode: &str,
+        (stop, tolerance, rows): (f64, f64, usize),
+        more: &[&str],
+    ) -> Output {
+        let first = self.variables().reference(Variable::Output(0));
+        let mut command = Command::new(driver);
+        command.arg(&self.library).arg(self.folder.path().join("resources/")).arg(&self.unit.token).arg(mode);
+        command.args([stop.to_string(), tolerance.to_string(), rows.to_string(), first.to_string()]);
+        let outputs = channels(self.compiled.description()).len();
+        command.arg(outputs.to_string()).args(more).env("DRIVER_VERBOSE", "1");
+        let output = command.output().expect("the driver runs");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{mode}: {:?} {told}", output.status);
+        output
+    }
+
+    fn integrator(&self) -> Integrator {
+        Integrator::adaptive(self.compiled.description(), None)
+    }
+}
+
+/// Rows of hexadecimal numbers as the driver prints them.
+fn rows(output: &Output) -> Vec<Vec<f64>> {
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.lines().map(|line| line.split(' ').map(hexadecimal).collect()).collect()
+}
+
+/// A number as `%a` prints it.
+fn hexadecimal(text: &str) -> f64 {
+    let (sign, rest) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+    let rest = rest.strip_prefix("0x").expect("hexadecimal");
+    let (digits, power) = rest.split_once('p').expect("a power");
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let bits = u64::from_str_radix(&format!("{whole}{part}"), 16).expect("digits");
+    let power: i32 = power.parse::<i32>().expect("a power") - 4 * part.len() as i32;
+    // In two halves: powers of subnormal numbers have none themselves.
+    sign * bits as f64 * 2.0_f64.powi(power / 2) * 2.0_f64.powi(power - power / 2)
+}
+
+fn driver(sanitized: bool) -> &'static Path {
+    static DRIVERS: [OnceLock<PathBuf>; 2] = [OnceLock::new(), OnceLock::new()];
+    DRIVERS[usize::from(sanitized)].get_or_init(|| {
+        let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("fmu_driver_{sanitized}"));
+        let mut compiler = Command::new("cc");
+        compiler.args(["-std=gnu11", "-Wall", "-Wextra", "-Werror", "-O1", "-g"]);
+        if sanitized {
+            compiler.args(["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"]);
+        }
+        let done = compiler.arg("tests/fmu/driver.c").arg("-o").arg(&out).args(["-ldl", "-lm"]).output();
+        let done = done.expect("a C compiler");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        out
+    })
+}
+
+#[test]
+fn co_simulation_gives_the_bits_of_simulate() {
+    for (name, stop) in [("pendulum", 0.7), ("rssr_rigid", 0.5), ("rssr_flexible", 0.25), ("rssr", 0.25)] {
+        let unpacked = Unpacked::new(name);
+        let (compiled, integrator) = (&unpacked.compiled, unpacked.integrator());
+        let settings = Settings::new(integrator, Span::Time(stop), 101);
+        let system = Native::new(compiled.tapes(), compiled.sizes()).expect("machine code");
+        let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE);
+        let run = run.expect("it runs");
+        let tolerance = integrator.tolerance().expect("a tolerance");
+        let found = rows(&unpacked.drive(driver(false), "cs", (stop, tolerance, 101), &[]));
+        assert_eq!(found.len(), 101);
+        for ((t, expected), found) in run.times.iter().zip(&run.rows).zip(&found) {
+            assert_eq!(found[0], *t);
+            assert_eq!(&found[1..], expected, "{name} at {t} s");
+        }
+    }
+}
+
+#[test]
+fn kept_states_go_on_with_the_same_bits_in_any_instance() {
+    for name in ["rssr_flexible", "rssr"] {
+        let unpacked = Unpacked::new(name);
+        let tolerance = unpacked.integrator().tolerance().expect("a tolerance");
+        let found = rows(&unpacked.drive(driver(false), "states", (0.2, tolerance, 20), &[]));
+        assert_eq!(found.len(), 60);
+        assert_eq!(found[..20], found[20..40], "{name}");
+        assert_eq!(found[..20], found[40..], "{name}");
+    }
+}
+
+#[test]
+fn model_exchange_with_a_tools_own_method_gives_the_trajectory() {
+    // Steps of the driver; part of each column's largest value, by rows of the unit's own method at a tolerance of 1e-10: they
+    // lie within its steps, where their error is some hundred times that, and with clearance a step of the driver mixes both sides
+    // of an onset.
+    for (name, stop, steps, within) in
+        [("pendulum", 0.5, 10, 1e-8), ("rssr_rigid", 0.2, 10, 1e-6), ("rssr", 0.02, 200, 1e-5)]
+    {
+        let unpacked = Unpacked::new(name);
+        let own = rows(&unpacked.drive(driver(false), "cs", (stop, 1e-10, 51), &[]));
+        let steps: i32 = steps;
+        let theirs = rows(&unpacked.drive(driver(false), "me", (stop, 1e-10, 51), &[&steps.to_string()]));
+        let channels = channels(unpacked.compiled.description());
+        for (column, channel) in channels.iter().enumerate().map(|(place, channel)| (place + 1, channel)) {
+            let size = own.iter().fold(1e-6_f64, |most, row| most.max(row[column].abs()));
+            for (own, theirs) in own.iter().zip(&theirs) {
+                let off = (own[column] - theirs[column]).abs() / size;
+                assert!(off < within, "{name} {} at {}: {off:e}", channel.name, own[0]);
+            }
+        }
+    }
+}
+
+#[test]
+fn derivatives_along_directions_are_those_of_differences() {
+    for name in ["rssr_flexible", "rssr"] {
+        let unpacked = Unpacked::new(name);
+        let output = unpacked.drive(driver(false), "derivatives", (0.1, 1e-9, 2), &[]);
+        let text = String::from_utf8_lossy(&output.stdout);
+        let numbers: Vec<f64> = text.lines().map(|line| line.parse().expect("a number")).collect();
+        // Central differences over 1e-6 of the sizes: rounding of 1e-10 of large derivatives, and the third one.
+        assert!(numbers[0] < 1e-4, "{name}: {text}");
+        assert!(numbers[1] < 1e-12, "{name}: {text}");
+    }
+}
+
+#[test]
+fn wrong_calls_are_told_and_nothing_breaks() {
+    let unpacked = Unpacked::new("rssr");
+    for sanitized in [false, true] {
+        let output = unpacked.drive(driver(sanitized), "wrong", (0.5, 1e-6, 2), &[]);
+        let messages: u32 = String::from_utf8_lossy(&output.stdout).trim().parse().expect("a count");
+        assert!(messages > 20, "{messages}");
+    }
+    unpacked.drive(driver(true), "states", (0.05, 1e-6, 3), &[]);
+    unpacked.drive(driver(true), "me", (0.01, 1e-6, 3), &["1000"]);
+    unpacked.drive(driver(true), "derivatives", (0.1, 1e-6, 2), &[]);
+}
+
+#[test]
+fn a_unit_is_the_same_bytes_every_time_and_tells_itself_from_others() {
+    let (one, two) = (compiled("rssr_rigid"), compiled("pendulum"));
+    assert_eq!(fmu::unit(&one), fmu::unit(&one));
+    let tokens = [&one, &two].map(|mechanism| {
+        let bytes = fmu::unit(mechanism).expect("a unit");
+        let program =
+            files(&bytes).into_iter().find(|(name, _)| name.ends_with(PROGRAM_FILE)).expect("a program");
+        Unit::from_bytes(&program.1).expect("a unit").token
+    });
+    assert_ne!(tokens[0], tokens[1]);
+}
+
+/// `pip install fmpy`; `FMPY_PYTHON` names a Python that has it.
+#[test]
+fn fmpy_finds_no_fault_and_gets_the_trajectory() {
+    let python = std::env::var("FMPY_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let has = Command::new(&python).args(["-c", "import fmpy"]).output();
+    if !has.is_ok_and(|has| has.status.success()) {
+        println!("skipped: {python} has no fmpy");
+        return;
+    }
+    for name in ["rssr_flexible", "rssr"] {
+        let unpacked = Unpacked::new(name);
+        let file = unpacked.folder.path().join("unit.fmu");
+        let done = Command::new(&python)
+            .arg("tests/fmu/fmpy_run.py")
+            .arg(&file)
+            .arg("0.2")
+            .output()
+            .expect("Python");
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let tolerance = unpacked.integrator().tolerance().expect("a tolerance");
+        let own = rows(&unpacked.drive(driver(false), "cs", (0.2, tolerance, 201), &[]));
+        let text = String::from_utf8_lossy(&done.stdout);
+        let theirs: Vec<Vec<f64>> = text
+            .lines()
+            .map(|line| line.split(' ').map(|x| x.parse().expect("a number")).collect())
+            .collect();
+        assert_eq!(theirs.len(), 201, "{name}");
+        for (own, theirs) in own.iter().zip(&theirs) {
+            for (own, theirs) in own.iter().zip(theirs) {
+                // Its times are sums of steps: they differ in the last place, and forces with them.
+                assert!((own - theirs).abs() <= 1e-6 * own.abs().max(1e-3), "{name}: {own} {theirs}");
+            }
+        }
+    }
+}
