@@ -20,10 +20,13 @@
 
 pub mod contact;
 mod dual;
+pub mod elementary;
 mod float;
 mod include;
 mod intrinsic;
 mod named;
+#[cfg(test)]
+mod pair;
 mod scalar;
 mod sincos;
 mod system;

@@ -35,6 +35,55 @@ pub trait Scalar:
     fn lt(self, other: Self) -> Self::Mask;
     /// `yes` where `mask` holds, else `no`; both are evaluated.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// The magnitude of `self` with the sign of `other`, zeros included; of `other` without one, as it comes.
+    #[inline]
+    fn with_sign_of(self, other: Self) -> Self {
+        let (zero, size) = (Self::constant(0.0), self.abs());
+        let inverse = Self::constant(1.0) / other;
+        let is_below = Self::select(inverse.lt(zero), Self::constant(-1.0), other);
+        Self::select(is_below.lt(zero), -size, size)
+    }
+
+    /// 2 to the power of `self`, a whole number from -1022 to 1023; anything, if it is no such number.
+    #[inline]
+    fn power_of_two(self) -> Self {
+        let c = Self::constant;
+        let (mut rest, mut power) = (self + c(1022.0), c(f64::MIN_POSITIVE));
+        for bit in (0..=10).rev() {
+            // In two factors: 2^1024 is no number.
+            let (part, root) = (f64::from(1_u32 << bit), power_of_two_at(1 << bit >> 1));
+            let factor = if bit == 0 { 2.0 } else { root };
+            let twice = if bit == 0 { 1.0 } else { root };
+            let is_left = rest.lt(c(part));
+            power = Self::select(is_left, power, power * c(factor) * c(twice));
+            rest = Self::select(is_left, rest, rest - c(part));
+        }
+        power
+    }
+
+    /// A significand in [1, 2) and the exponent of the power of two that it is multiplied by, of a positive normal number;
+    /// anything, if it is no such number.
+    #[inline]
+    fn split_exponent(self) -> (Self, Self) {
+        let c = Self::constant;
+        let (mut significand, mut exponent) = (self, c(0.0));
+        for part in (0..10).rev().map(|bit| 1_i32 << bit) {
+            let (power, inverse) = (power_of_two_at(part), power_of_two_at(-part));
+            let is_below = significand.lt(c(power));
+            significand = Self::select(is_below, significand, significand * c(inverse));
+            exponent = Self::select(is_below, exponent, exponent + c(f64::from(part)));
+            let is_small = significand.lt(c(power_of_two_at(1 - part)));
+            significand = Self::select(is_small, significand * c(power), significand);
+            exponent = Self::select(is_small, exponent - c(f64::from(part)), exponent);
+        }
+        (significand, exponent)
+    }
+}
+
+/// 2 to a power from -1022 to 1023.
+fn power_of_two_at(power: i32) -> f64 {
+    f64::from_bits(u64::from((power + 1023).unsigned_abs()) << 52)
 }
 
 /// Scalar product.

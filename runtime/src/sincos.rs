@@ -86,40 +86,7 @@ fn kernel_cos<T: Scalar>(x: T, low: T) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Unevaluated sum of two doubles: about 31 decimal digits, the oracle of these tests.
-    #[derive(Clone, Copy)]
-    struct Pair(f64, f64);
-
-    fn exact_sum(a: f64, b: f64) -> Pair {
-        let s = a + b;
-        let t = s - a;
-        Pair(s, (a - (s - t)) + (b - t))
-    }
-
-    fn exact_product(a: f64, b: f64) -> Pair {
-        let p = a * b;
-        Pair(p, f64::mul_add(a, b, -p))
-    }
-
-    impl Pair {
-        fn plus(self, other: Self) -> Self {
-            let s = exact_sum(self.0, other.0);
-            let t = exact_sum(self.1, other.1);
-            let u = exact_sum(s.0, s.1 + t.0);
-            exact_sum(u.0, u.1 + t.1)
-        }
-        fn times(self, other: Self) -> Self {
-            let p = exact_product(self.0, other.0);
-            exact_sum(p.0, p.1 + (self.0 * other.1 + self.1 * other.0))
-        }
-        fn over(self, divisor: f64) -> Self {
-            let q = self.0 / divisor;
-            let p = exact_product(q, divisor);
-            let rest = ((self.0 - p.0) - p.1) + self.1;
-            exact_sum(q, rest / divisor)
-        }
-    }
+    use crate::pair::{Pair, exact_product, ulps};
 
     /// Taylor series of sine and cosine in double-double after an exact reduction with 4 words of pi/2.
     fn oracle(x: f64) -> (Pair, Pair) {
@@ -129,17 +96,8 @@ mod tests {
             let p = exact_product(-k, word);
             r = r.plus(p);
         }
-        let z = r.times(r);
-        let series = |first: Pair, offset: f64| {
-            let (mut term, mut sum) = (first, first);
-            for n in 1..16 {
-                let n = 2.0 * f64::from(n) + offset;
-                term = term.times(z).over(-(n * (n - 1.0)));
-                sum = sum.plus(term);
-            }
-            sum
-        };
-        let (s, c) = (series(r, 1.0), series(Pair(1.0, 0.0), 0.0));
+        let z = r.times(Pair(-r.0, -r.1));
+        let (s, c) = (Pair::alternate_series(r, z, 1.0), Pair::alternate_series(Pair(1.0, 0.0), z, 0.0));
         let minus = |p: Pair| Pair(-p.0, -p.1);
         match (k as i64).rem_euclid(4) {
             0 => (s, c),
@@ -147,12 +105,6 @@ mod tests {
             2 => (minus(s), minus(c)),
             _ => (minus(c), s),
         }
-    }
-
-    /// Error in units of the last place of the exact value.
-    fn ulps(value: f64, exact: Pair) -> f64 {
-        let spacing = f64::from_bits(exact.0.abs().to_bits() + 1) - exact.0.abs();
-        (((value - exact.0) - exact.1) / spacing).abs()
     }
 
     fn worst(x: f64) -> f64 {
