@@ -3,8 +3,10 @@
 
 use std::sync::OnceLock;
 
-use linkwear_runtime::{Description, Entry, Sizes};
+use linkwear_runtime::clearance_joint::Clearances;
+use linkwear_runtime::{Description, Entry, Evaluator, Sizes, assemble_static_contact};
 
+use crate::backend::c::{self, CFiles, CInput};
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
@@ -124,6 +126,31 @@ impl Compiled {
             description: &self.description,
             sizes: self.sizes(),
             runtime_path,
+        })
+    }
+
+    /// Begin of every name in [`Self::c_files`].
+    pub fn c_prefix(&self) -> String {
+        c::prefix(&self.description.name)
+    }
+
+    /// Source and header of C99; `header_name` is the name of the header's file, as the source includes it.
+    pub fn c_files(&self, header_name: &str) -> CFiles {
+        let clearances = Clearances::new(&self.description.contacts).unwrap_or_default();
+        let system = self.interpreter();
+        let start = Evaluator::new(&system, &self.description, &self.parameters())
+            .ok()
+            .and_then(|mut evaluator| assemble_static_contact(&mut evaluator, 0.0).ok());
+        let start = start.map(|state| [state.q, state.v].concat());
+        c::emit(&CInput {
+            source_name: &self.file_name(),
+            source_sha256: &self.source.sha256(),
+            header_name,
+            tapes: self.tapes(),
+            description: &self.description,
+            sizes: self.sizes(),
+            joints: clearances.joints(),
+            start: start.as_deref(),
         })
     }
 

@@ -169,8 +169,8 @@ impl Clearance {
     }
 
     /// K at a clearance [m], [N/m^n].
-    pub fn stiffness(&self, clearance: f64) -> f64 {
-        self.stiffness.value(self.radius, clearance)
+    pub fn stiffness<T: Scalar>(&self, clearance: T) -> T {
+        self.stiffness.value(T::constant(self.radius), clearance)
     }
 
     /// Penetration [m] of a contact at rest that carries `force` [N] at a clearance [m].

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use crate::expr::{Binary, Unary};
 use crate::tape::{Op, Operand, Part, Statement, Tape};
 
-use super::comment::one_line;
+use super::super::comment::one_line;
 use super::names::Names;
 
 /// Longer lines go through the formatter, which breaks them; shorter ones it would leave as they are (it has 89 columns).

@@ -4,10 +4,11 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::tape::{Block, Split, Tape};
+use crate::tape::{Split, Tape};
 
+use super::super::comment::one_line;
+use super::super::interface::{blocks, cost};
 use super::body;
-use super::comment::{count_text, one_line};
 use super::format::format_items;
 
 /// Name of the macro that stands for a function's statements until its frame is formatted.
@@ -76,31 +77,9 @@ fn bounds(inputs: usize, outputs: usize, slots: usize) -> TokenStream {
 }
 
 fn documentation(tape: &Tape, split: &Split) -> Vec<String> {
-    let mut lines = vec![format!(" {}", one_line(&tape.doc)), String::new()];
-    let mut list = |title: &str, blocks: &[Block]| {
-        let mut first = 0;
-        for block in blocks {
-            let end = first + block.len();
-            let range = if first == end { "empty".to_owned() } else { format!("{first}..{end}") };
-            first = end;
-            let text = format!("{}{}", block.doc, block.cited());
-            lines.push(format!(
-                " - `{title}[{range}]` {} ({}): {}",
-                block.name,
-                block.shape(),
-                one_line(&text.replace('[', "\\[").replace(']', "\\]"))
-            ));
-        }
-    };
-    list("x", &tape.inputs);
-    list("y", &tape.outputs);
-    lines.push(String::new());
-    lines.push(format!(
-        " {} in {} {}; `w` holds {} values between parts.",
-        count_text(&tape.operations()),
-        split.parts.len(),
-        if split.parts.len() == 1 { "part" } else { "parts" },
-        split.slots
-    ));
-    lines
+    let escape = |text: &str| text.replace('[', "\\[").replace(']', "\\]");
+    let mut lines = vec![one_line(&tape.doc), String::new()];
+    lines.extend(blocks(tape, escape));
+    lines.extend([String::new(), cost(tape, split)]);
+    lines.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") }).collect()
 }

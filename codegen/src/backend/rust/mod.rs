@@ -2,7 +2,6 @@
 //! In: [`EmitInput`]. Out: source text, the same bytes every time. Never knows mechanics.
 
 mod body;
-mod comment;
 mod contact;
 mod describe;
 mod format;
@@ -15,7 +14,7 @@ use quote::{format_ident, quote};
 
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
-use comment::one_line;
+use super::comment::one_line;
 use format::format_items;
 use names::Names;
 

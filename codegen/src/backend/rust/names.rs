@@ -1,9 +1,9 @@
 //! Identifiers for generated code: unique, valid, as close to the reader's names as possible.
 //! In: labels. Out: identifiers.
 
-use std::collections::{HashMap, HashSet};
-
 use proc_macro2::{Ident, Span};
+
+use super::super::names::{Unique, plain};
 
 /// Words that are Rust identifiers to `syn` but cannot be bound in generated code. A name of the user's that is one of
 /// them gets an underscore, as a keyword does; a test compiles a mechanism with all of them.
@@ -39,11 +39,7 @@ const TAKEN: &[&str] = &[
 
 /// A valid identifier made of a name; keywords get an underscore.
 fn clean(name: &str) -> String {
-    let mut text: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
-    if text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit()) || text == "_" {
-        text.insert(0, 'n');
-    }
+    let mut text = plain(name);
     // No keyword has a digit or an underscore inside; most names here have, and are not parsed.
     let may_be_keyword = text.bytes().all(|byte| byte.is_ascii_alphabetic());
     if (may_be_keyword && syn::parse_str::<Ident>(&text).is_err()) || TAKEN.contains(&text.as_str()) {
@@ -54,27 +50,12 @@ fn clean(name: &str) -> String {
 
 /// Hands out names that are unique within one function or struct.
 #[derive(Default)]
-pub struct Names {
-    used: HashSet<String>,
-    /// The last number that was tried for a name.
-    numbers: HashMap<String, u32>,
-}
+pub struct Names(Unique);
 
 impl Names {
     /// The name, or the name with a number if it is taken.
     pub fn unique(&mut self, wanted: &str) -> String {
-        let base = clean(wanted);
-        if self.used.insert(base.clone()) {
-            return base;
-        }
-        let number = self.numbers.entry(base.clone()).or_insert(1);
-        loop {
-            *number += 1;
-            let name = format!("{base}_{number}");
-            if self.used.insert(name.clone()) {
-                return name;
-            }
-        }
+        self.0.of(clean(wanted))
     }
 
     /// The same as a token.

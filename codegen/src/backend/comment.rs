@@ -1,4 +1,4 @@
-//! Texts of comments.
+//! Texts of comments, in every language.
 
 use crate::tape::Operations;
 
