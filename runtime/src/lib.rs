@@ -89,7 +89,7 @@ pub use text::Text;
 pub use {
     assemble::{
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
-        offset_columns, place, resting_contacts,
+        motion_sizes, offset_columns, place, resting_contacts,
     },
     bundle::{Bundle, Evaluate, StepPlan, TOTALS, WORKS},
     clearance_joint::channels,

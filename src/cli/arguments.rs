@@ -64,7 +64,8 @@ pub enum Command {
     Cost(Input),
     /// Write the specialised source code.
     #[command(after_help = "Examples:\n  linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs\n  \
-                      linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check")]
+                      linkwear generate mechanisms/rssr_rigid.toml -o rssr.rs --check\n  \
+                      linkwear generate mechanisms/rssr_rigid.toml --target c -o rssr")]
     Generate(GenerateArguments),
     /// Write a unit of FMI 3.0, for co-simulation and model exchange in tools of other makers.
     #[command(after_help = "Example:\n  linkwear fmu mechanisms/rssr.toml -o rssr.fmu")]
@@ -145,12 +146,16 @@ pub struct EquationsArguments {
 pub struct GenerateArguments {
     #[command(flatten)]
     pub input: Input,
-    /// File to write; without it the source goes to stdout.
-    #[arg(short, long, value_name = "OUT.rs", value_parser = output())]
+    /// File of rust, stem of c (STEM.c, STEM.h), folder of c-abi; without it Rust goes to stdout.
+    #[arg(short, long, value_name = "OUT", value_parser = output())]
     pub out: Option<PathBuf>,
-    /// Write nothing; fail if OUT.rs is not what would be written.
+    /// Write nothing; fail if a file is not what would be written.
     #[arg(long, requires = "out")]
     pub check: bool,
+    /// rust: source for build scripts and checked-in code. c: C99 source and header, for controllers where no Rust goes. c-abi: a
+    /// crate that makes a library with a header.
+    #[arg(long, value_enum, default_value_t = Target::Rust, requires_ifs = [("c", "out"), ("c-abi", "out")])]
+    pub target: Target,
 }
 
 #[derive(Debug, Args)]
@@ -374,6 +379,14 @@ pub enum IntegratorName {
     Rk43,
     #[value(name = "generalized-alpha")]
     GeneralizedAlpha,
+}
+
+/// What `generate` writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    Rust,
+    C,
+    CAbi,
 }
 
 #[derive(Debug, Args)]

@@ -1,17 +1,18 @@
-//! `generate`: the specialised source, to a file or to stdout.
+//! `generate`: the specialised source of a target, to files or to stdout.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{Read as _, Write as _};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use linkwear::files::write_whole;
+use linkwear::files::{WriteError, write_whole};
+use linkwear_codegen::Compiled;
 use linkwear_codegen::compile::FunctionCount;
 use linkwear_codegen::tape::Operations;
 use serde_json::{Value, json};
 
 use super::answer::Answer;
-use super::arguments::GenerateArguments;
+use super::arguments::{GenerateArguments, Target};
 use super::equations::operations;
 use super::failure::Failure;
 use super::input::{check_output, load};
@@ -19,15 +20,23 @@ use super::table::{count, duration, plural, table};
 
 pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let out = arguments.out.as_deref();
-    check_output(&arguments.input.file, out.filter(|_| !arguments.check))?;
     let start = Instant::now();
     let (compiled, warnings) = load(&arguments.input)?;
-    let source = compiled.rust_source();
+    let files = files(&compiled, arguments)?;
+    if let (Target::CAbi, Some(folder), false) = (arguments.target, out, arguments.check) {
+        let source = folder.join("src");
+        fs::create_dir_all(&source).map_err(WriteError::of(&source))?;
+    }
+    for (path, _) in &files {
+        check_output(&arguments.input.file, path.as_deref().filter(|_| !arguments.check))?;
+    }
     let seconds = start.elapsed().as_secs_f64();
-    match (out, arguments.check) {
-        (Some(out), true) => compare(out, &source)?,
-        (Some(out), false) => write_whole(out, |file| file.write_all(source.as_bytes()))?,
-        (None, _) => {}
+    for (path, text) in &files {
+        match (path, arguments.check) {
+            (Some(path), true) => compare(path, text)?,
+            (Some(path), false) => write_whole(path, |file| file.write_all(text.as_bytes()))?,
+            (None, _) => {}
+        }
     }
     let functions = compiled.operations();
     let statements: usize = functions.iter().map(|function| function.statements).sum();
@@ -40,20 +49,54 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         "entry_points": functions.iter().map(entry).collect::<Vec<_>>(),
         "warnings": warnings,
     });
-    let Some(out) = out else {
+    let written: Vec<_> = files.iter().filter_map(|(path, _)| path.as_ref()).collect();
+    json["files"] = written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().into();
+    let (Some(_), [first, ..]) = (out, &written[..]) else {
+        let source = files.into_iter().map(|(_, text)| text).collect::<String>();
         json["source"] = source.clone().into();
         return Ok(Answer { text: source, json });
     };
+    let others: String = written[1..].iter().map(|path| format!(", {}", path.display())).collect();
     let rows: Vec<_> = functions.iter().map(row).collect();
     let text = format!(
-        "{}: {}, {} in {}\n\n{}",
-        out.display(),
+        "{}{others}: {}, {} in {}\n\n{}",
+        first.display(),
         if arguments.check { "up to date" } else { "written" },
         plural(statements as u64, "statement", "statements"),
         duration(seconds),
         table(&["function", "operations", "statements", "parts"], &rows)
     );
     Ok(Answer { text, json })
+}
+
+/// What is written where; without a place it goes to stdout.
+fn files(
+    compiled: &Compiled,
+    arguments: &GenerateArguments,
+) -> Result<Vec<(Option<PathBuf>, String)>, Failure> {
+    match (arguments.target, arguments.out.as_deref()) {
+        (Target::Rust, out) => Ok(vec![(out.map(Path::to_path_buf), compiled.rust_source())]),
+        (Target::C, Some(stem)) => {
+            let name = stem.file_name().and_then(|name| name.to_str());
+            // The source includes the header by this name, in which C has no escapes.
+            let name = name.filter(|name| !name.contains(['"', '\\', '\n', '\r']));
+            let name = name.ok_or_else(|| {
+                let help = "give a stem such as `rssr`: rssr.c and rssr.h are written";
+                Failure::usage("the stem is no name that C can include", help)
+            })?;
+            let files = compiled.c_files(&format!("{name}.h"));
+            let beside = |extension: &str| Some(stem.with_file_name(format!("{name}.{extension}")));
+            Ok(vec![(beside("h"), files.header), (beside("c"), files.source)])
+        }
+        (Target::CAbi, Some(folder)) => {
+            let files = compiled.c_crate().into_iter();
+            Ok(files.map(|(path, text)| (Some(folder.join(path)), text)).collect())
+        }
+        (Target::C | Target::CAbi, None) => {
+            let help = "give -o STEM for c (STEM.c, STEM.h), -o FOLDER for c-abi";
+            Err(Failure::usage("several files have no place on stdout", help))
+        }
+    }
 }
 
 fn entry(function: &FunctionCount) -> Value {

@@ -4,9 +4,9 @@
 use std::sync::OnceLock;
 
 use linkwear_runtime::clearance_joint::Clearances;
-use linkwear_runtime::{Description, Entry, Evaluator, Sizes, assemble_static_contact};
+use linkwear_runtime::{Description, Entry, Evaluator, Sizes, assemble_static_contact, motion_sizes};
 
-use crate::backend::c::{self, CFiles, CInput};
+use crate::backend::c::{self, CFiles, CInput, Start};
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
@@ -136,13 +136,24 @@ impl Compiled {
 
     /// Source and header of C99; `header_name` is the name of the header's file, as the source includes it.
     pub fn c_files(&self, header_name: &str) -> CFiles {
+        self.as_c(header_name, c::emit)
+    }
+
+    /// A crate with an interface of C: where each file lies in its folder, what is in it.
+    pub fn c_crate(&self) -> Vec<(String, String)> {
+        self.as_c("", |input| c::emit_crate(input, self.rust_source()))
+    }
+
+    fn as_c<R>(&self, header_name: &str, emit: impl FnOnce(&CInput<'_>) -> R) -> R {
         let clearances = Clearances::new(&self.description.contacts).unwrap_or_default();
         let system = self.interpreter();
-        let start = Evaluator::new(&system, &self.description, &self.parameters())
-            .ok()
-            .and_then(|mut evaluator| assemble_static_contact(&mut evaluator, 0.0).ok());
-        let start = start.map(|state| [state.q, state.v].concat());
-        c::emit(&CInput {
+        let start =
+            Evaluator::new(&system, &self.description, &self.parameters()).ok().and_then(|mut evaluator| {
+                let start = assemble_static_contact(&mut evaluator, 0.0).ok()?;
+                let row_lengths = evaluator.row_lengths().to_vec();
+                Some(Start { state: [start.q, start.v].concat(), row_lengths })
+            });
+        emit(&CInput {
             source_name: &self.file_name(),
             source_sha256: &self.source.sha256(),
             header_name,
@@ -150,7 +161,7 @@ impl Compiled {
             description: &self.description,
             sizes: self.sizes(),
             joints: clearances.joints(),
-            start: start.as_deref(),
+            start: start.as_ref(),
         })
     }
 

@@ -1,6 +1,7 @@
 //! C99 of every shipped mechanism: it compiles without a warning and gives the interpreter's bits; its step is that of a run.
 
 mod compiler;
+mod rates;
 mod run;
 
 use std::fs;
@@ -81,7 +82,7 @@ fn every_entry_point_of_every_shipped_mechanism_gives_the_interpreter_s_bits() {
 fn cpp_includes_the_header_and_links_with_the_source() {
     let compiled = shipped("rssr");
     let Some(found) = compiler::cpp("cpp", &compiled, include_str!("include.cpp")) else { return };
-    assert_eq!(String::from_utf8(found).unwrap(), "rssr R1 speed Hz\n");
+    assert_eq!(String::from_utf8(found).unwrap(), "rssr R1 speed 1/s\n");
 }
 
 #[test]

@@ -5,16 +5,14 @@
 
 int main(void)
 {
-    double asked[2], parameters[PFX_PARAMETERS + 1], y[PFX_STATE] = {0.0};
+    double asked[2], parameters[PFX_PARAMETERS + 1] = {0.0}, y[PFX_STATE] = {0.0};
     pfx_memory memory;
     double t = 0.0;
     int i, status;
     if (fread(asked, sizeof asked[0], 2, stdin) != 2) {
         return 1;
     }
-    for (i = 0; i < PFX_PARAMETERS; ++i) {
-        parameters[i] = pfx_parameter_table[i].value;
-    }
+    SET_PARAMETERS
     for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
         y[i] = pfx_start_state[i];
     }

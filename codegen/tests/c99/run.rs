@@ -1,15 +1,26 @@
 //! Steps of C beside steps of the runtime.
 
 use linkwear_codegen::Compiled;
-use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
+use linkwear_runtime::{Integrator, Layout, Motion, Settings, Span, Watch, simulate};
 
 use super::compiler::{Built, build};
 use super::shipped;
 
 /// The driver that steps a mechanism.
 pub fn driver(compiled: &Compiled) -> String {
+    filled(include_str!("run.c"), compiled)
+}
+
+/// A driver with the names of a mechanism.
+pub fn filled(template: &str, compiled: &Compiled) -> String {
     let prefix = compiled.c_prefix();
-    include_str!("run.c")
+    let set = if compiled.sizes().parameters > 0 {
+        "pfx_set_parameters(&pfx_default_parameters, parameters);"
+    } else {
+        ""
+    };
+    template
+        .replace("SET_PARAMETERS", set)
         .replace("pfx_", &format!("{prefix}_"))
         .replace("PFX_", &format!("{}_", prefix.to_ascii_uppercase()))
 }
@@ -33,12 +44,12 @@ fn columns(compiled: &Compiled, step: f64, count: usize) -> Vec<(usize, Vec<f64>
     let (system, description) = (compiled.interpreter(), compiled.description());
     let run = simulate(&system, description, &compiled.parameters(), &settings, Watch::NONE).unwrap();
     assert!(run.stopped.is_none(), "{:?}", run.stopped);
-    let names =
-        description.coordinates.iter().chain(description.speeds.iter()).map(|variable| &*variable.name);
-    names
-        .enumerate()
-        .filter_map(|(place, name)| run.column(name).ok().map(|column| (place, column)))
-        .collect()
+    // Of a quaternion the columns have another: that of the joint, not of the body.
+    let layout = Layout::new(&description.motions);
+    let scalars = layout.free().filter(|group| matches!(group.motion, Motion::Scalar { .. }));
+    let places = scalars.flat_map(|group| [group.coordinate, description.coordinates.len() + group.speed]);
+    let names: Vec<_> = description.coordinates.iter().chain(description.speeds.iter()).collect();
+    places.filter_map(|place| run.column(&names[place].name).ok().map(|column| (place, column))).collect()
 }
 
 /// Largest difference between steps of C and a run, relative to values above 1, and how many columns were compared.
@@ -49,6 +60,16 @@ fn difference(name: &str, step: f64, count: usize) -> Option<(f64, usize)> {
     let mut worst = None;
     for built in built {
         let states = steps(&built, &compiled, step, count);
+        for (place, column) in &columns {
+            let first = states.iter().zip(&column[1..]).position(|(state, value)| state[*place] != *value);
+            if let Some(first) = first {
+                println!(
+                    "{name} place {place} from step {first}: {} {}",
+                    states[first][*place],
+                    column[first + 1]
+                );
+            }
+        }
         let most = columns.iter().flat_map(|(place, column)| {
             let pairs = states.iter().zip(&column[1..]);
             pairs.map(|(state, value)| (state[*place] - value).abs() / value.abs().max(1.0))

@@ -16,6 +16,6 @@ mod units;
 mod within_clearance;
 
 pub use consistent::{assemble, assemble_with, close_loops};
-pub use offset::offset_columns;
+pub use offset::{motion_sizes, offset_columns};
 pub use state::State;
 pub use static_contact::{assemble_static_contact, check_clearances, place, resting_contacts};

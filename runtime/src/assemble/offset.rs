@@ -1,5 +1,6 @@
 //! How journals move in their bearings with the free speeds. In: a position. Out: columns and places of the offsets.
 
+use super::state::State;
 use crate::evaluate::Evaluator;
 use crate::system::CONTACT_MOTION;
 
@@ -31,4 +32,20 @@ pub(super) fn offset_places(
 ) -> Vec<(usize, usize)> {
     let joints = evaluator.clearances().joints().iter().enumerate().filter(|(joint, _)| counts(*joint));
     joints.flat_map(|(joint, law)| (0..law.freedoms()).map(move |axis| (joint, axis))).collect()
+}
+
+/// Natural size of the motion along every free speed at a state: 1, unless it moves a journal in its bearing by more than its
+/// clearance. Corrections are smallest relative to it.
+pub fn motion_sizes(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Vec<f64> {
+    let mut sizes = vec![1.0; state.v.len()];
+    let columns = offset_columns(evaluator, t, &state.q);
+    evaluator.evaluate_contacts(t, &state.q, &state.v);
+    for (column, touch) in columns.iter().zip(evaluator.clearances().contacts()) {
+        for row in column {
+            for (size, moved) in sizes.iter_mut().zip(row) {
+                *size = size.min(touch.clearance / moved.abs());
+            }
+        }
+    }
+    sizes
 }

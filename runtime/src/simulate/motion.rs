@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use crate::assemble::{State, offset_columns};
+use crate::assemble::{State, motion_sizes};
 use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
 use crate::dynamics::Dynamics;
@@ -214,19 +214,10 @@ impl<'a> ConstrainedMotion<'a> {
         if self.contacts == 0 {
             return;
         }
-        let columns = offset_columns(&mut self.dynamics.evaluator, t, &state.q);
-        self.dynamics.evaluator.evaluate_contacts(t, &state.q, &state.v);
-        let (evaluator, sizes) = (&self.dynamics.evaluator, &mut self.sizes);
-        sizes.fill(1.0);
-        for (column, touch) in columns.iter().zip(evaluator.clearances().contacts()) {
-            for row in column {
-                for (size, moved) in sizes.iter_mut().zip(row) {
-                    *size = size.min(touch.clearance / moved.abs());
-                }
-            }
-        }
+        self.sizes = motion_sizes(&mut self.dynamics.evaluator, t, state);
+        let (evaluator, sizes) = (&self.dynamics.evaluator, &self.sizes);
         let (coordinates, speeds) = self.scales.split_at_mut(self.coordinates);
-        for (scale, size) in speeds.iter_mut().zip(&*sizes) {
+        for (scale, size) in speeds.iter_mut().zip(sizes) {
             *scale = (size * CONTACT_RATE).min(1.0);
         }
         for group in evaluator.layout().free() {

@@ -134,7 +134,8 @@ fn recorded(
     let recorder = Recorder::default();
     let output = recorder.id(run([recorder.input(0), recorder.input(1)]));
     let recording = recorder.finish();
-    let (statements, results) = recording.statements(&[output], |index| arguments[index].to_owned());
+    let (statements, results) =
+        recording.statements(&[output], |index| arguments.get(index).copied().unwrap_or_default().to_owned());
     let list: Vec<String> = arguments.iter().map(|argument| format!("double {argument}")).collect();
     let text = format!(
         "/* {doc} */\nstatic double {}({})\n{{\n{statements}    return {};\n}}\n",

@@ -18,7 +18,7 @@ const CORRECTIONS: usize = 6;
 
 /// What is declared, without guards.
 pub fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape], splits: &[Split]) -> String {
-    let mut text = lengths(sizes);
+    let mut text = lengths(sizes, true);
     text.push_str(&places(description));
     text.push_str(&parameters(description));
     text.push_str(describe::TYPES);
@@ -30,7 +30,8 @@ pub fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape], sp
     text + include_str!("step.h")
 }
 
-fn lengths(sizes: &Sizes) -> String {
+/// Lengths of all arrays; `steps`: those of steps and scratch too.
+pub fn lengths(sizes: &Sizes, steps: bool) -> String {
     let counts = [
         ("PARAMETERS", sizes.parameters, "tunable parameters"),
         ("COORDINATES", sizes.coordinates, "free coordinates q"),
@@ -61,7 +62,8 @@ fn lengths(sizes: &Sizes) -> String {
         ("CORRECTIONS", CORRECTIONS, "corrections of positions in a step at most"),
     ];
     let mut text = "/* Lengths. */\nenum {\n".to_owned();
-    for (name, count, doc) in counts {
+    const OF_STEPS: [&str; 5] = ["WORKSPACE", "STATE", "CONTACT_MEMORY", "CONTACT_ANSWER", "CORRECTIONS"];
+    for (name, count, doc) in counts.into_iter().filter(|(name, ..)| steps || !OF_STEPS.contains(name)) {
         let _ = writeln!(text, "    /* {doc} */\n    PFX_{name} = {count},");
     }
     text.push_str("    /* numbers that every entry point reads and writes */\n");
@@ -76,7 +78,7 @@ fn lengths(sizes: &Sizes) -> String {
 }
 
 /// Places by name.
-fn places(description: &Description) -> String {
+pub fn places(description: &Description) -> String {
     let contacts = description.contacts.iter().map(|contact| contact.joint.to_string());
     let lists: [(&str, &str, Vec<String>); 6] = [
         (

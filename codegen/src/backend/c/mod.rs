@@ -3,6 +3,7 @@
 //!
 //! Elementary functions and laws of contact are the runtime's own, run on a scalar that writes down what is done with it.
 
+mod abi;
 mod body;
 mod describe;
 mod elementary;
@@ -23,6 +24,7 @@ use linkwear_runtime::{Description, Sizes};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
+pub use names::prefix;
 use text::{comment, literal, number};
 
 /// What is emitted.
@@ -41,8 +43,17 @@ pub struct CInput<'a> {
     pub sizes: Sizes,
     /// Joints with clearance.
     pub joints: &'a [Clearance],
-    /// Coordinates and speeds to begin with, if they are known.
-    pub start: Option<&'a [f64]>,
+    /// What a run begins with, if it is known.
+    pub start: Option<&'a Start>,
+}
+
+/// A consistent start at t = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Coordinates and speeds.
+    pub state: Vec<f64>,
+    /// Natural size of the motion along every speed.
+    pub sizes: Vec<f64>,
 }
 
 /// Both files.
@@ -54,9 +65,9 @@ pub struct CFiles {
     pub header: String,
 }
 
-/// Begin of every name in the files of a mechanism.
-pub fn prefix(mechanism: &str) -> String {
-    names::clean(mechanism).trim_end_matches('_').to_owned()
+/// A crate with an interface of C, `mechanism` being the mechanism's Rust source: where each file lies, what is in it.
+pub fn emit_crate(input: &CInput<'_>, mechanism: String) -> Vec<(String, String)> {
+    abi::crate_files(&banner(input), input.tapes, input.description, &input.sizes, mechanism)
 }
 
 /// Source and header of a mechanism.
@@ -121,8 +132,17 @@ fn source(input: &CInput<'_>, sizes: &Sizes, splits: &[Split], named: &dyn Fn(St
     );
     own.push_str(&parameters(input.description));
     if let Some(start) = input.start {
-        let numbers: Vec<String> = start.iter().map(|value| format!("    {}", number(*value))).collect();
-        let _ = write!(own, "const double pfx_start_state[] = {{\n{}\n}};\n\n", numbers.join(",\n"));
+        let list = |numbers: &[f64]| {
+            numbers.iter().map(|value| format!("    {}", number(*value))).collect::<Vec<_>>().join(",\n")
+        };
+        let _ = write!(own, "const double pfx_start_state[] = {{\n{}\n}};\n\n", list(&start.state));
+    }
+    if sizes.rows > 0 {
+        let doc = "Natural size of the motion along every speed: small where it moves a journal in its bearing.";
+        let known = input.start.map(|start| start.sizes.clone());
+        let list: Vec<String> =
+            known.unwrap_or_else(|| vec![1.0; sizes.speeds]).iter().map(|size| number(*size)).collect();
+        let _ = write!(own, "/* {doc} */\nstatic const double pfx_sizes[] = {{{}}};\n\n", list.join(", "));
     }
     // What users write is in the tables: nothing is put for a prefix there.
     text.push_str(&named(own));

@@ -178,6 +178,11 @@ pub fn clean(name: &str) -> String {
     text
 }
 
+/// Begin of every name in the files of a mechanism.
+pub fn prefix(mechanism: &str) -> String {
+    clean(mechanism).trim_end_matches('_').to_owned()
+}
+
 /// Hands out names that are unique within one function or list.
 #[derive(Default)]
 pub struct Names(Unique);

@@ -155,7 +155,7 @@ typedef struct {
 static int pfx_factor(const double *jacobian, const pfx_memory *memory, pfx_gram *gram)
 {
     double most[2] = {0.0, 0.0};
-    double work[PFX_ROWS];
+    double work[PFX_ROWS] = {0.0};
     double smallest = HUGE_VAL;
     double largest = 0.0;
     int i, j;
@@ -170,7 +170,7 @@ static int pfx_factor(const double *jacobian, const pfx_memory *memory, pfx_gram
         length = length < DBL_MIN ? DBL_MIN : length;
         gram->scales[i] = 1.0 / length;
         for (j = 0; j < PFX_SPEEDS; ++j) {
-            gram->rows[PFX_SPEEDS * i + j] = jacobian[PFX_SPEEDS * i + j] * gram->scales[i];
+            gram->rows[PFX_SPEEDS * i + j] = jacobian[PFX_SPEEDS * i + j] * (gram->scales[i] * pfx_sizes[j]);
         }
     }
     for (i = 0; i < PFX_ROWS; ++i) {
@@ -226,6 +226,9 @@ static void pfx_solve(const pfx_gram *gram, const double *residual, double *delt
         for (j = 0; j < PFX_SPEEDS; ++j) {
             delta[j] += right[i] * gram->rows[PFX_SPEEDS * i + j];
         }
+    }
+    for (j = 0; j < PFX_SPEEDS; ++j) {
+        delta[j] *= pfx_sizes[j];
     }
 }
 
@@ -300,10 +303,12 @@ static int pfx_put_on(const double *parameters, double t, double *y, double stri
 int pfx_begin(const double *parameters, double t, double *y, pfx_memory *memory)
 {
     int i;
+//? rows
     for (i = 0; i < PFX_ROWS; ++i) {
         memory->largest_pivots[i] = 0.0;
         memory->row_lengths[i] = 0.0;
     }
+//.
     for (i = 0; i < PFX_CONTACT_MEMORY * PFX_CONTACTS; ++i) {
         memory->contacts[i] = 0.0;
     }
@@ -321,6 +326,14 @@ int pfx_begin(const double *parameters, double t, double *y, pfx_memory *memory)
     }
 //.
 //? rows
+    {
+        double loops[PFX_CLOSURE_OUT];
+        pfx_normalize(y);
+        pfx_loops(parameters, t, y, loops, memory);
+        if (pfx_largest(loops, PFX_ALL_ROWS + PFX_ROWS) <= 1e-9) {
+            return PFX_DONE;
+        }
+    }
     return pfx_put_on(parameters, t, y, 1.0, memory);
 //? no rows
     (void)parameters;
@@ -337,7 +350,7 @@ int pfx_rk4_step(const double *parameters, double t, double step, double *y, pfx
     double answer[PFX_DERIVATIVE_OUT];
     double laws[PFX_CONTACT_ANSWER * PFX_CONTACTS + 1];
 //? contacts
-    double depths[2 * PFX_CONTACTS];
+    double depths[2 * PFX_CONTACTS] = {0.0};
 //.
 //? rows
     double nearness = 1.0;

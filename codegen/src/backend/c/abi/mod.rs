@@ -1,0 +1,74 @@
+//! A crate with an interface of C around the Rust source of a mechanism, for programs that link with Rust. In: a mechanism's source,
+//! description, layout. Out: files. Never knows mechanics.
+
+use std::fmt::Write;
+
+use linkwear_runtime::{Description, Entry, Sizes};
+
+use crate::tape::Tape;
+
+use super::super::interface::blocks;
+use super::super::names::plain;
+use super::header;
+use super::names::prefix;
+use super::text::{block, comment};
+
+/// A file of the crate: where it lies, what is in it.
+pub type CrateFile = (String, String);
+
+/// All files of the crate, `mechanism` being the mechanism's Rust source.
+pub fn crate_files(
+    banner: &str,
+    tapes: &[Tape],
+    description: &Description,
+    sizes: &Sizes,
+    mechanism: String,
+) -> Vec<CrateFile> {
+    let lower = prefix(&description.name);
+    let upper = lower.to_ascii_uppercase();
+    let named = |text: &str| text.replace("pfx_", &format!("{lower}_")).replace("PFX_", &format!("{upper}_"));
+    let pairs = |pairs: &mut dyn Iterator<Item = (&str, &str)>| {
+        pairs.map(|(name, unit)| format!("\n    [c{name:?}, c{unit:?}],")).collect::<String>()
+    };
+    let parameters = pairs(&mut description.parameters.iter().map(|own| (&*own.name, &*own.unit)));
+    let channels = pairs(&mut description.channels.iter().map(|own| (&*own.name, &*own.unit)));
+    let entries: String =
+        Entry::ALL.iter().map(|entry| format!("    pfx_{} => {entry:?},\n", entry.name())).collect();
+    let library = named(&include_str!("lib.rs.txt").replace("ENTRIES", &entries))
+        .replace("`NAME`", &format!("`{}`", comment(&description.name)))
+        .replace("PARAMETER_COUNT", &description.parameters.len().to_string())
+        .replace("CHANNEL_COUNT", &description.channels.len().to_string())
+        .replace("PARAMETER_NAMES", &parameters)
+        .replace("CHANNEL_NAMES", &channels);
+    let manifest = include_str!("Cargo.toml.txt")
+        .replace("NAME", &plain(&lower))
+        .replace("VERSION", env!("CARGO_PKG_VERSION"));
+    let declared = declarations(description, sizes, tapes);
+    let guarded = format!(
+        "{banner}#ifndef {upper}_H\n#define {upper}_H\n\n#include <stddef.h>\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n{}\n\
+         #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
+        named(&declared)
+    );
+    vec![
+        ("Cargo.toml".to_owned(), manifest),
+        ("src/lib.rs".to_owned(), library),
+        ("src/mechanism.rs".to_owned(), mechanism),
+        (format!("{lower}.h"), guarded),
+    ]
+}
+
+fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape]) -> String {
+    let mut text = header::lengths(sizes, false) + &header::places(description);
+    text.push_str(include_str!("status.h"));
+    for tape in tapes {
+        let mut lines = vec![tape.doc.clone(), String::new()];
+        lines.extend(blocks(tape, str::to_owned).iter().map(|line| line.replace('`', "")));
+        let _ = writeln!(
+            text,
+            "{}int pfx_{}(const double *x, size_t inputs, double *y, size_t outputs);\n",
+            block(&lines),
+            tape.name
+        );
+    }
+    text + include_str!("functions.h")
+}
