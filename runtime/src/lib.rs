@@ -88,8 +88,8 @@ pub use text::Text;
 #[cfg(feature = "std")]
 pub use {
     assemble::{
-        State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops,
-        motion_sizes, offset_columns, place, resting_contacts,
+        State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops, motion_sizes,
+        offset_columns, place, resting_contacts,
     },
     bundle::{Bundle, Evaluate, StepPlan, TOTALS, WORKS},
     clearance_joint::channels,

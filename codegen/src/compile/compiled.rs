@@ -150,8 +150,8 @@ impl Compiled {
         let start =
             Evaluator::new(&system, &self.description, &self.parameters()).ok().and_then(|mut evaluator| {
                 let start = assemble_static_contact(&mut evaluator, 0.0).ok()?;
-                let row_lengths = evaluator.row_lengths().to_vec();
-                Some(Start { state: [start.q, start.v].concat(), row_lengths })
+                let sizes = motion_sizes(&mut evaluator, 0.0, &start);
+                Some(Start { state: [start.q, start.v].concat(), sizes })
             });
         emit(&CInput {
             source_name: &self.file_name(),

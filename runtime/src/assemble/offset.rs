@@ -37,7 +37,7 @@ pub(super) fn offset_places(
 /// Natural size of the motion along every free speed at a state: 1, unless it moves a journal in its bearing by more than its
 /// clearance. Corrections are smallest relative to it.
 pub fn motion_sizes(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Vec<f64> {
-    let mut sizes = vec![1.0; state.v.len()];
+    let mut sizes = vec![1.0_f64; state.v.len()];
     let columns = offset_columns(evaluator, t, &state.q);
     evaluator.evaluate_contacts(t, &state.q, &state.v);
     for (column, touch) in columns.iter().zip(evaluator.clearances().contacts()) {

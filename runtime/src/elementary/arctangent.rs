@@ -6,9 +6,9 @@ use crate::scalar::Scalar;
 
 /// Angles as the sum of two: atan(1/2), pi/4, pi/2, pi.
 const ATAN_HALF: (f64, f64) = (4.636_476_090_008_060_935_15e-1, 2.269_877_745_296_168_709_24e-17);
-const EIGHTH: (f64, f64) = (7.853_981_633_974_482_789_99e-1, 3.061_616_997_868_383_017_93e-17);
-const QUARTER: (f64, f64) = (1.570_796_326_794_896_558_00, 6.123_233_995_736_766_035_87e-17);
-const HALF: (f64, f64) = (3.141_592_653_589_793_116_00, 1.224_646_799_147_353_207_17e-16);
+const EIGHTH: (f64, f64) = (core::f64::consts::FRAC_PI_4, 3.061_616_997_868_383_017_93e-17);
+const QUARTER: (f64, f64) = (core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766_035_87e-17);
+const HALF: (f64, f64) = (core::f64::consts::PI, 1.224_646_799_147_353_207_17e-16);
 
 /// Tangents at which the reduction changes.
 const LOW: f64 = 0.4375;

@@ -155,7 +155,7 @@ fn pair() -> (String, BTreeSet<Function>) {
     let text = format!(
         "/* Sine and cosine of an angle [rad], at most 1 ulp off up to 1e6. */\n\
          typedef struct {{\n    double sine;\n    double cosine;\n}} sine_cosine_pair;\n\n\
-         static sine_cosine_pair sine_cosine(double a)\n{{\n    sine_cosine_pair pair;\n{statements}    \
+         static LINKWEAR_INLINE sine_cosine_pair sine_cosine(double a)\n{{\n    sine_cosine_pair pair;\n{statements}    \
          pair.sine = {};\n    pair.cosine = {};\n    return pair;\n}}\n",
         results[0], results[1]
     );

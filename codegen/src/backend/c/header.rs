@@ -18,7 +18,7 @@ const CORRECTIONS: usize = 6;
 
 /// What is declared, without guards.
 pub fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape], splits: &[Split]) -> String {
-    let mut text = lengths(sizes, true);
+    let mut text = lengths(description, sizes, true);
     text.push_str(&places(description));
     text.push_str(&parameters(description));
     text.push_str(describe::TYPES);
@@ -31,9 +31,10 @@ pub fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape], sp
 }
 
 /// Lengths of all arrays; `steps`: those of steps and scratch too.
-pub fn lengths(sizes: &Sizes, steps: bool) -> String {
+pub fn lengths(description: &Description, sizes: &Sizes, steps: bool) -> String {
     let counts = [
-        ("PARAMETERS", sizes.parameters, "tunable parameters"),
+        ("PARAMETERS", sizes.parameters, "tunable parameters, then inputs"),
+        ("INPUTS", description.inputs.len(), "of these the last: inputs, which may change from step to step"),
         ("COORDINATES", sizes.coordinates, "free coordinates q"),
         ("SPEEDS", sizes.speeds, "free speeds v"),
         ("ALL_COORDINATES", sizes.all_coordinates, "all coordinates, driven ones included"),

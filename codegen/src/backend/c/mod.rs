@@ -118,6 +118,15 @@ const PREAMBLE: &str = "\
 #ifdef __clang__
 #pragma STDC FP_CONTRACT OFF
 #endif
+
+/* Where doubles are in hardware, the sine among other operations takes less time than a call. */
+#ifndef LINKWEAR_INLINE
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__))
+#define LINKWEAR_INLINE __inline__ __attribute__((always_inline))
+#else
+#define LINKWEAR_INLINE
+#endif
+#endif
 ";
 
 fn source(input: &CInput<'_>, sizes: &Sizes, splits: &[Split], named: &dyn Fn(String) -> String) -> String {
@@ -138,7 +147,8 @@ fn source(input: &CInput<'_>, sizes: &Sizes, splits: &[Split], named: &dyn Fn(St
         let _ = write!(own, "const double pfx_start_state[] = {{\n{}\n}};\n\n", list(&start.state));
     }
     if sizes.rows > 0 {
-        let doc = "Natural size of the motion along every speed: small where it moves a journal in its bearing.";
+        let doc =
+            "Natural size of the motion along every speed: small where it moves a journal in its bearing.";
         let known = input.start.map(|start| start.sizes.clone());
         let list: Vec<String> =
             known.unwrap_or_else(|| vec![1.0; sizes.speeds]).iter().map(|size| number(*size)).collect();

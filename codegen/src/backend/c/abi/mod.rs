@@ -58,7 +58,7 @@ pub fn crate_files(
 }
 
 fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape]) -> String {
-    let mut text = header::lengths(sizes, false) + &header::places(description);
+    let mut text = header::lengths(description, sizes, false) + &header::places(description);
     text.push_str(include_str!("status.h"));
     for tape in tapes {
         let mut lines = vec![tape.doc.clone(), String::new()];
