@@ -76,7 +76,7 @@ impl SampledSignals {
             }
         }
         let roles = &description.inputs;
-        let course = |(at, (info, role)): (usize, (&crate::ParameterInfo, InputRole))| {
+        let course = |(at, (info, role)): (usize, (&crate::description::ParameterInfo, InputRole))| {
             let given = columns.iter().find(|(name, _)| info.name == *name).map(|(_, values)| values.clone());
             let has_rates = roles.get(at + 1) == Some(&InputRole::RateOfPrevious);
             match (role, given) {
