@@ -1,0 +1,3 @@
+fn main() {
+    linkwear_codegen::Builder::new().mechanism("../../mechanisms/rssr.toml").write_or_exit();
+}
