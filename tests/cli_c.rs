@@ -91,11 +91,13 @@ fn is_there(program: &str) -> bool {
 /// A folder with what a reader of the page has.
 fn reader(name: &str) -> Folder {
     let folder = Folder::new(name);
-    fs::create_dir_all(folder.0.join("cortex-m")).unwrap();
+    for part in ["cortex-m", "mechanisms"] {
+        fs::create_dir_all(folder.0.join(part)).unwrap();
+    }
     for file in ["main.c", "library.c", "cortex-m/main.c", "cortex-m/link.ld"] {
         fs::copy(format!("examples/c/{file}"), folder.0.join(file)).unwrap();
     }
-    fs::copy("mechanisms/rssr_rigid.toml", folder.0.join("rssr_rigid.toml")).unwrap();
+    fs::copy("mechanisms/rssr_rigid.toml", folder.0.join("mechanisms/rssr_rigid.toml")).unwrap();
     folder
 }
 

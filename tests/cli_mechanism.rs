@@ -127,6 +127,11 @@ fn generate_writes_what_check_then_accepts() {
     assert_eq!(folder.names(), ["pendulum.rs"]);
     let fresh = linkwear(&["generate", "mechanisms/pendulum.toml", "-o", &out, "--check"]);
     assert_eq!(fresh.code, 0, "{}", fresh.err);
+    // From wherever the file is named.
+    let elsewhere =
+        folder.write("pendulum.toml", &std::fs::read_to_string("mechanisms/pendulum.toml").unwrap());
+    let fresh = linkwear(&["generate", &elsewhere, "-o", &out, "--check"]);
+    assert_eq!(fresh.code, 0, "{}", fresh.err);
 
     let stale = folder.read("pendulum.rs").replacen("pub ", "pub(crate) ", 1);
     folder.write("pendulum.rs", &stale);

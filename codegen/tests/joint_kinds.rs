@@ -5,10 +5,15 @@ mod source;
 use linkwear_codegen::model::JOINT_KINDS;
 use source::files_with;
 
+/// Lines where the word means something else: a keyword of C alone on its line, and the variability of an FMI parameter.
+fn is_another_word(line: &str) -> bool {
+    line.trim() == "\"inline\"," || line.contains("{ \"fixed\" } else { \"tunable\" }")
+}
+
 #[test]
 fn a_kind_is_named_in_the_table_and_in_the_file_format_only() {
     let names: Vec<String> = JOINT_KINDS.iter().map(|kind| format!("\"{}\"", kind.name)).collect();
-    let named = files_with(|line| names.iter().any(|name| line.contains(name)));
+    let named = files_with(|line| !is_another_word(line) && names.iter().any(|name| line.contains(name)));
     assert_eq!(named, ["codegen/src/model/joint_kind.rs", "codegen/src/spec/joint.rs"]);
 }
 

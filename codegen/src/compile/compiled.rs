@@ -120,7 +120,7 @@ impl Compiled {
     /// As [`Compiled::rust_source`], with another path to the runtime crate.
     pub fn rust_source_for(&self, runtime_path: &str) -> String {
         emit(&EmitInput {
-            source_name: &self.file_name(),
+            source_name: self.file_name(),
             source_sha256: &self.source.sha256(),
             tapes: self.tapes(),
             description: &self.description,
@@ -154,7 +154,7 @@ impl Compiled {
                 Some(Start { state: [start.q, start.v].concat(), sizes })
             });
         emit(&CInput {
-            source_name: &self.file_name(),
+            source_name: self.file_name(),
             source_sha256: &self.source.sha256(),
             header_name,
             tapes: self.tapes(),
@@ -165,9 +165,8 @@ impl Compiled {
         })
     }
 
-    /// Last two parts of the source's path: enough to find it, nothing about the machine.
-    fn file_name(&self) -> String {
-        let parts: Vec<&str> = self.source.name.split(['/', '\\']).filter(|part| !part.is_empty()).collect();
-        parts[parts.len().saturating_sub(2)..].join("/")
+    /// The source's name without its folders: the same bytes from wherever it is named.
+    fn file_name(&self) -> &str {
+        self.source.name.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or_default()
     }
 }

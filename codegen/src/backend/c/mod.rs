@@ -29,7 +29,7 @@ use text::{comment, literal, number};
 
 /// What is emitted.
 pub struct CInput<'a> {
-    /// Path of the source as the header names it: relative, so that output is reproducible.
+    /// Name of the source's file as the header has it: without folders, so that the bytes do not depend on them.
     pub source_name: &'a str,
     /// SHA-256 of the source's bytes, in hexadecimal.
     pub source_sha256: &'a str,
