@@ -12,7 +12,7 @@ fn code_without_std_gives_the_bits_of_code_with_it() {
     let ask = |entry: Entry, state: &[f64]| {
         let input = [&mechanism.parameters()[..], &[0.0], state].concat();
         let mut answer = vec![0.0; rssr_rigid::SIZES.output(entry)];
-        mechanism.evaluate(entry, &input, &mut answer, &mut vec![0.0; rssr_rigid::SIZES.workspace]);
+        mechanism.evaluate(entry, &input, &mut answer, &mut [0.0; rssr_rigid::SIZES.workspace]);
         answer
     };
     let state = ask(Entry::Start, &[]);

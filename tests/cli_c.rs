@@ -130,7 +130,7 @@ fn the_page_s_c99_project_prints_what_the_page_shows() {
     let table = fs::read_to_string(&rows).unwrap();
     let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let place = lines.next().unwrap().iter().position(|name| name.starts_with("R4.q")).unwrap();
-    let angle: f64 = lines.last().unwrap()[place].parse().unwrap();
+    let angle: f64 = lines.next_back().unwrap()[place].parse().unwrap();
     assert!(shown.starts_with(&format!("R4.q = {angle:.12} rad\n")), "{angle} {shown}");
 }
 

@@ -24,6 +24,7 @@
 )]
 
 mod edge;
+mod fault;
 mod instance;
 mod loaded;
 mod needs;
@@ -31,7 +32,9 @@ mod sensitivity;
 mod unit;
 mod variables;
 
-pub use instance::{Fault, Instance, Interface, Kept, Times};
+pub use fault::Fault;
+pub use instance::kept::Kept;
+pub use instance::{Instance, Interface, Times};
 pub use loaded::Loaded;
 pub use needs::belongs_to_start;
 pub use unit::{Constant, PROGRAM_FILE, Unit};

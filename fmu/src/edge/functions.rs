@@ -8,7 +8,9 @@ use std::ptr;
 
 use super::caller::{Log, LogMessage, Status, put, read, room, text, write};
 use super::registry::{enter, handle, leave, with};
-use crate::instance::{Fault, Instance, Interface, Kept, Times};
+use crate::fault::Fault;
+use crate::instance::kept::Kept;
+use crate::instance::{Instance, Interface, Times};
 use crate::loaded::Loaded;
 
 fn missing() -> Fault {

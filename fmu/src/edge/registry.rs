@@ -8,7 +8,9 @@ use std::ptr;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::caller::{Log, Status};
-use crate::instance::{Fault, Instance, Kept};
+use crate::fault::Fault;
+use crate::instance::Instance;
+use crate::instance::kept::Kept;
 
 /// An instance with what its caller keeps in it.
 pub struct Held {

@@ -6,7 +6,7 @@ use std::ffi::{c_char, c_void};
 
 use super::caller::Status;
 use super::registry::with;
-use crate::instance::Fault;
+use crate::fault::Fault;
 
 /// Exports functions that are not supported; those whose second number is a count of variables have an answer for none.
 macro_rules! unsupported {
