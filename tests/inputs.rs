@@ -4,6 +4,8 @@
 mod command;
 
 use command::{Folder, linkwear};
+use linkwear::mechanism::Mechanism;
+use linkwear_runtime::{Settings, Simulation, Span, Watch};
 
 /// An arm pushed by a torque and a load.
 const MOTOR: &str = r#"
@@ -130,6 +132,34 @@ fn a_short_pulse_is_not_leapt_over() {
     let inertia = mass * (0.3_f64.powi(2) / 3.0 + 0.01_f64.powi(2) / 4.0);
     // Steps end at every row, so the impulse is exact but for the tolerance of the method, 1e-9.
     assert!((value(&row, "A.v [rad/s]") * inertia - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn a_simulation_takes_inputs_as_they_come() {
+    let folder = Folder::new("inputs-steps");
+    let file = folder.path("m.toml");
+    std::fs::write(&file, MOTOR).unwrap();
+    let mechanism = Mechanism::read(&file).unwrap();
+    let (system, description) = (mechanism.system(), &mechanism.description);
+    let samples = samples(&folder, "t [s],torque [N m]", 2000, |t| format!("{t},{}", (5.0 * t).sin()));
+    let exact = last_row(&folder, MOTOR, &["--inputs", &samples]);
+    let settings = Settings { span: Span::Time(2.0), samples: 0, ..Settings::default() };
+    let mut errors = Vec::new();
+    for steps in [200, 400] {
+        let h = 2.0 / f64::from(steps);
+        let mut run = Simulation::start(&*system, description, &mechanism.parameters, &settings).unwrap();
+        for step in 0..steps {
+            // A controller that holds its torque for a step: the value in its middle.
+            let mut parameters = mechanism.parameters.clone();
+            parameters[description.tunable()] = (5.0 * h * (f64::from(step) + 0.5)).sin();
+            run.set_parameters(&parameters).unwrap();
+            run.advance(h * f64::from(step + 1), Watch::NONE).unwrap();
+        }
+        let angle = run.channels().iter().position(|channel| channel.name == *"A.q").unwrap();
+        errors.push((run.values()[angle] - value(&exact, "A.q [rad]")).abs());
+    }
+    // Held in the middle of steps a torque is off by the square of their length: a fourth at half the length.
+    assert!(errors[0] < 5e-3 && errors[1] < 0.3 * errors[0], "{errors:?}");
 }
 
 #[test]
