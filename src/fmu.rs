@@ -61,8 +61,8 @@ pub fn unit(mechanism: &Compiled) -> Result<Vec<u8>, UnitError> {
         unit: one.dimension.si_unit(),
         value: one.value,
     });
-    let mut unit = Unit { program, constants: constants.collect(), token: String::new() };
-    unit.token = token(&unit);
+    let mut unit = Unit { program, constants: constants.collect(), instantiation_token: String::new() };
+    unit.instantiation_token = instantiation_token(&unit);
     let name = &unit.program.description().name;
     let stop = turn(mechanism).unwrap_or(ONE_SECOND);
     let mut archive = Archive::new();
@@ -81,7 +81,7 @@ pub fn is_unit(file: &Path) -> bool {
 }
 
 /// Tells a unit from all others, by what is in it.
-fn token(unit: &Unit) -> String {
+fn instantiation_token(unit: &Unit) -> String {
     let digest = Hash::hash(&unit.to_bytes());
     let hex: String = digest.iter().take(16).map(|byte| format!("{byte:02x}")).collect();
     format!("{{{}-{}-{}-{}-{}}}", &hex[..8], &hex[8..12], &hex[12..16], &hex[16..20], &hex[20..])

@@ -85,7 +85,8 @@ impl Unpacked {
     ) -> Output {
         let first = self.variables().reference(Variable::Output(0));
         let mut command = Command::new(driver);
-        command.arg(&self.library).arg(self.folder.path().join("resources/")).arg(&self.unit.token).arg(mode);
+        command.arg(&self.library).arg(self.folder.path().join("resources/"));
+        command.args([&*self.unit.instantiation_token, mode]);
         command.args([stop.to_string(), tolerance.to_string(), rows.to_string(), first.to_string()]);
         let outputs = channels(self.compiled.description()).len();
         command.arg(outputs.to_string()).args(more).env("DRIVER_VERBOSE", "1");
@@ -222,7 +223,7 @@ fn a_unit_is_the_same_bytes_every_time_and_tells_itself_from_others() {
         let bytes = fmu::unit(mechanism).expect("a unit");
         let program =
             files(&bytes).into_iter().find(|(name, _)| name.ends_with(PROGRAM_FILE)).expect("a program");
-        Unit::from_bytes(&program.1).expect("a unit").token
+        Unit::from_bytes(&program.1).expect("a unit").instantiation_token
     });
     assert_ne!(tokens[0], tokens[1]);
 }

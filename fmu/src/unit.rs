@@ -25,11 +25,11 @@ pub struct Unit {
     /// What cannot change any more.
     pub constants: Vec<Constant>,
     /// Tells this unit from all others, as the model description does.
-    pub token: String,
+    pub instantiation_token: String,
 }
 
 linkwear_tape::stored!(struct Constant { name, unit, value });
-linkwear_tape::stored!(struct Unit { program, constants, token });
+linkwear_tape::stored!(struct Unit { program, constants, instantiation_token });
 
 impl Unit {
     /// As bytes.

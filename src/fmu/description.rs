@@ -82,7 +82,7 @@ fn rows(unit: &Unit) -> Vec<Row> {
 /// The file `modelDescription.xml`; `stop`: end of the default experiment [s].
 pub fn model_description(unit: &Unit, stop: f64) -> String {
     let description = unit.program.description();
-    let (name, token) = (escaped(&description.name), escaped(&unit.token));
+    let (name, token) = (escaped(&description.name), escaped(&unit.instantiation_token));
     let rows = rows(unit);
     let tolerance =
         Integrator::adaptive(description, None).tolerance().unwrap_or(Integrator::SMOOTH_TOLERANCE);

@@ -38,7 +38,7 @@ unsafe fn instantiate(wanted: Wanted) -> *mut c_void {
     let made = catch_unwind(|| {
         let folder = resources.ok_or("there is no path of resources")?;
         let loaded = Loaded::from_resources(Path::new(folder))?;
-        if token != Some(&*loaded.unit.token) {
+        if token != Some(&*loaded.unit.instantiation_token) {
             return Err("the instantiation token is that of another unit".to_owned());
         }
         Ok((Instance::new(loaded, interface), loaded))

@@ -4,6 +4,7 @@
 
 mod angles;
 mod bundle;
+mod changed_laws;
 mod contact_event;
 mod contacts;
 mod dead_point;

@@ -2,6 +2,7 @@
 //! In: a mechanism, settings; then times, other parameters, readings of wear. Out: columns at the present time, events, states
 //! that can be kept and put back.
 
+use super::changed_laws;
 use super::contact_event::ContactEvent;
 use super::motion::ConstrainedMotion;
 use super::run::Run;
@@ -11,19 +12,16 @@ use super::settings::{Integrator, Settings};
 use super::steps::Steps;
 use super::surface;
 use super::warning::step_limits;
-use crate::assemble::{State, assemble_static_contact, check_clearances};
+use crate::assemble::{State, assemble_static_contact};
 use crate::clearance_joint::{ClearanceState, ContactState};
 use crate::description::{Channel, Description};
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
-use crate::evaluate::{CLOSED, Evaluator};
+use crate::evaluate::Evaluator;
 use crate::integrate::Problem;
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::Profile;
-
-/// A driver may jump by this much with a parameter [rad, m, rad/s, m/s].
-const SAME_LAW: f64 = 1e-9;
 
 /// Angles on their turns: times, each with the angle and the rate of every column that wraps.
 pub type KnownAngles = Vec<(f64, Vec<(f64, f64)>)>;
@@ -42,6 +40,18 @@ pub struct SimulationState {
     pub angles: KnownAngles,
     /// The state, and what solvers and methods remember.
     pub memory: Vec<f64>,
+}
+
+impl SimulationState {
+    /// Refuses a state of other lengths: of its memory, of the joints with clearance, of the angles.
+    pub(super) fn fits(&self, memory: usize, joints: usize, angles: usize) -> Result<(), SetupError> {
+        let same = |what, expected, found| {
+            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
+        };
+        same("numbers of a state", memory, self.memory.len())?;
+        same("joints with clearance", joints, self.joints.len())?;
+        self.angles.iter().try_for_each(|(_, values)| same("angles of a state", angles, values.len()))
+    }
 }
 
 /// A mechanism on its way through time, advanced as far as somebody asks.
@@ -243,15 +253,8 @@ impl<'a> Simulation<'a> {
         let Self { motion, sampler, steps, t, state, .. } = self;
         let (q, v, _) = motion.split(state);
         let mut now = State { q: q.to_vec(), v: v.to_vec() };
-        let evaluator = &mut motion.dynamics.evaluator;
-        evaluator.evaluate_contacts(*t, &now.q, &now.v);
-        let before = evaluator.clearances().contacts().to_vec();
-        let laws = evaluator.prescribed(*t).to_vec();
-        change(evaluator)?;
-        if let Err(error) = laws_go_on(evaluator, (*t, &now), &laws, motion.arm) {
-            undo(&mut motion.dynamics.evaluator);
-            return Err(error.into());
-        }
+        let (evaluator, arm) = (&mut motion.dynamics.evaluator, motion.arm);
+        let before = changed_laws::change(evaluator, (*t, &now), arm, change, undo)?;
         steps.cut(motion, sampler, *t, state)?;
         surface::follow(&mut motion.dynamics.evaluator, *t, &mut now, &before);
         state[..now.q.len()].copy_from_slice(&now.q);
@@ -286,16 +289,8 @@ impl<'a> Simulation<'a> {
         let mut length = 0;
         self.visit_memory(&mut |_| length += 1);
         self.motion.visit_memory(&mut |_| length += 1);
-        let same = |what, expected, found| {
-            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
-        };
-        same("numbers of a state", length, kept.memory.len())?;
         let joints = self.motion.dynamics.evaluator.clearances().states().len();
-        same("joints with clearance", joints, kept.joints.len())?;
-        let angles = self.sampler.angles.count();
-        for (_, values) in &kept.angles {
-            same("angles of a state", angles, values.len())?;
-        }
+        kept.fits(length, joints, self.sampler.angles.count())?;
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
         self.t = kept.t;
         let mut numbers = kept.memory.iter();
@@ -319,33 +314,4 @@ impl<'a> Simulation<'a> {
     pub fn finish(self) -> Run {
         self.sampler.finish(&self.motion, step_limits(self.integrator), None)
     }
-}
-
-/// Whether the mechanism can go on at a state with laws that have changed.
-pub(super) fn laws_go_on(
-    evaluator: &mut Evaluator<'_>,
-    (t, state): (f64, &State),
-    laws: &[f64],
-    arm: f64,
-) -> Result<(), SetupError> {
-    let now = evaluator.prescribed(t).to_vec();
-    for (driver, (now, before)) in now.chunks_exact(3).zip(laws.chunks_exact(3)).enumerate() {
-        for (now, before) in now.iter().zip(before).take(2) {
-            let jump = (now - before).abs();
-            // What is not a number is no law.
-            let same = jump <= SAME_LAW * before.abs().max(1.0);
-            if !same {
-                let what = format!("the driver of {}", evaluator.description().drivers[driver].joint);
-                return Err(SetupError::Jump { what, jump });
-            }
-        }
-    }
-    evaluator.closure(t, &state.q, &state.v);
-    let open = evaluator.loop_error();
-    let closed = open.part(arm) <= CLOSED;
-    if !closed {
-        let what = format!("joint {}", evaluator.joint_of_row(open.worst));
-        return Err(SetupError::Jump { what, jump: open.metres.max(open.radians) });
-    }
-    check_clearances(evaluator, t, state)
 }

@@ -4,8 +4,8 @@
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::Schedule;
-use super::simulation::{SimulationState, laws_go_on};
-use super::{settings::Settings, surface};
+use super::simulation::SimulationState;
+use super::{changed_laws, settings::Settings, surface};
 use crate::assemble::{State, assemble_static_contact};
 use crate::clearance_joint::ContactState;
 use crate::description::{Channel, Description};
@@ -207,14 +207,15 @@ impl<'a> StateSpace<'a> {
         let mut now = State { q: q.to_vec(), v: v.to_vec() };
         let (t, arm) = (self.t, self.motion.arm);
         let evaluator = &mut self.motion.dynamics.evaluator;
-        evaluator.evaluate_contacts(t, &now.q, &now.v);
-        let before = evaluator.clearances().contacts().to_vec();
-        let laws = evaluator.prescribed(t).to_vec();
-        evaluator.set_parameters(parameters)?;
-        if let Err(error) = laws_go_on(evaluator, (t, &now), &laws, arm) {
-            evaluator.set_parameters(&kept)?;
-            return Err(error);
-        }
+        let before = changed_laws::change(
+            evaluator,
+            (t, &now),
+            arm,
+            |evaluator| evaluator.set_parameters(parameters),
+            |evaluator| {
+                let _ = evaluator.set_parameters(&kept);
+            },
+        )?;
         surface::follow(evaluator, t, &mut now, &before);
         evaluator.evaluate_contacts(t, &now.q, &now.v);
         self.contacts.copy_from_slice(evaluator.clearances().contacts());
@@ -244,14 +245,7 @@ impl<'a> StateSpace<'a> {
     pub fn restore(&mut self, kept: &SimulationState) -> Result<(), SetupError> {
         let mut length = self.state.len();
         self.motion.visit_memory(&mut |_| length += 1);
-        let same = |what, expected, found| {
-            if expected == found { Ok(()) } else { Err(SetupError::Length { what, expected, found }) }
-        };
-        same("numbers of a state", length, kept.memory.len())?;
-        same("joints with clearance", self.contacts.len(), kept.joints.len())?;
-        for (_, values) in &kept.angles {
-            same("angles of a state", self.sampler.angles.count(), values.len())?;
-        }
+        kept.fits(length, self.contacts.len(), self.sampler.angles.count())?;
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
         self.t = kept.t;
         let (state, memory) = kept.memory.split_at(self.state.len());
