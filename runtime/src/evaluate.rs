@@ -151,24 +151,6 @@ impl<'a> Evaluator<'a> {
         self.derivative.forget();
     }
 
-    /// Gives the inputs values that hold from here on.
-    ///
-    /// # Errors
-    /// If there are not as many as the mechanism has inputs, or one is not finite.
-    pub fn set_inputs(&mut self, values: &[f64]) -> Result<(), SetupError> {
-        let expected = self.description.inputs.len();
-        if values.len() != expected {
-            return Err(SetupError::Length { what: "values of inputs", expected, found: values.len() });
-        }
-        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-            let name = self.description.parameters[self.description.tunable() + at].name.to_string();
-            return Err(SetupError::Parameter { name, value: values[at] });
-        }
-        self.questions.set_inputs(values);
-        self.derivative.forget();
-        Ok(())
-    }
-
     /// What the inputs are connected to.
     pub(crate) fn signals(&self) -> Option<&'a dyn Signals> {
         self.questions.signals()

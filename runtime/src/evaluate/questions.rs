@@ -40,12 +40,6 @@ impl<'a> Questions<'a> {
         self.signals
     }
 
-    /// Values of the inputs from here on.
-    pub(super) fn set_inputs(&mut self, values: &[f64]) {
-        self.signals = None;
-        self.input[self.inputs.clone()].copy_from_slice(values);
-    }
-
     /// Values of the inputs at a time.
     #[inline]
     pub(super) fn inputs_at(&mut self, t: f64) -> &[f64] {
