@@ -21,7 +21,6 @@ mod simulate;
 mod summary;
 mod table;
 mod value;
-mod wear_measure;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -56,6 +55,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Fmu(arguments) => fmu::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),
+        Command::Merge(arguments) => life::merged(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),

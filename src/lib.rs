@@ -16,6 +16,7 @@
 )]
 
 pub mod backend;
+mod checksum;
 pub mod cost;
 #[cfg(feature = "cli")]
 pub mod csv_table;
@@ -24,6 +25,7 @@ pub mod files;
 pub mod fmu;
 #[cfg(feature = "cli")]
 pub mod inputs;
+pub mod journal;
 pub mod life;
 pub mod mechanism;
 pub mod mechanisms;
@@ -31,6 +33,7 @@ pub mod number;
 #[cfg(feature = "cli")]
 pub mod progress;
 pub mod table;
+pub mod wear_measure;
 
 pub use linkwear_codegen as codegen;
 pub use linkwear_native as native;

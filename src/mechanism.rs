@@ -1,19 +1,20 @@
 //! A mechanism ready to run. In: a file, or a mechanism compiled into the program. Out: [`Mechanism`].
 //! Never knows what is done with it.
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fmt, io};
 
-use hmac_sha256::Hash;
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::Refusal;
 use linkwear_runtime::{Description, StepPlan, System};
-use serde_json::{Map, Value, json};
+use serde_json::json;
 use thiserror::Error;
 
 use crate::backend::{Backend, BackendError, Equations, Lanes};
+use crate::checksum::sha256;
+use crate::journal::{Identity, VERSION};
 use crate::mechanisms::SHIPPED;
 
 /// A mechanism that cannot be run.
@@ -94,17 +95,14 @@ impl Mechanism {
         Self { description, parameters, warnings, origin, equations }
     }
 
-    /// What the version is called in [`Self::identity`].
-    pub(crate) const VERSION_KEY: &'static str = "the version of linkwear";
-
     /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
-    pub(crate) fn identity(&self) -> Map<String, Value> {
+    pub(crate) fn identity(&self) -> Identity {
         let Origin { file, tapes } = &self.origin;
         let tapes = tapes.as_ref().map(sha256).unwrap_or_default();
         let parameters = self.description.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
-        let mut entries = Map::new();
-        entries.insert(Self::VERSION_KEY.to_owned(), json!(env!("CARGO_PKG_VERSION")));
+        let mut entries = Identity::new();
+        entries.insert(VERSION.to_owned(), json!(env!("CARGO_PKG_VERSION")));
         entries.insert("the hash of the file".to_owned(), json!(file));
         entries.extend(parameters);
         entries.insert("the hash of the equations".to_owned(), json!(tapes));
@@ -133,20 +131,6 @@ impl Mechanism {
     pub const fn refusal(&self) -> Option<&Refusal> {
         self.equations.refusal()
     }
-}
-
-/// SHA-256 of all that a value says of itself.
-fn sha256(value: &impl fmt::Debug) -> String {
-    struct Sink(Hash);
-    impl fmt::Write for Sink {
-        fn write_str(&mut self, text: &str) -> fmt::Result {
-            self.0.update(text.as_bytes());
-            Ok(())
-        }
-    }
-    let mut sink = Sink(Hash::new());
-    let _ = fmt::write(&mut sink, format_args!("{value:?}"));
-    sink.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The text of a mechanism's file.

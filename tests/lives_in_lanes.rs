@@ -1,10 +1,10 @@
-//! Random lives with full coupling: the same bits in lanes as alone, on any number of threads, in any ranges of their numbers.
+//! Random lives with full coupling: the same bits in lanes as alone, on any number of threads, in any shards.
 
 use std::num::NonZero;
 use std::path::Path;
 
 use linkwear::backend::Backend;
-use linkwear::life::{Coupling, LifeStudy, Trajectories};
+use linkwear::life::{Coupling, LifeStudy, Shard, Trajectories};
 use linkwear::mechanism::Mechanism;
 use linkwear_codegen::{Options, SourceFile};
 
@@ -20,11 +20,11 @@ fn mechanism(backend: Backend) -> Mechanism {
 }
 
 /// Lives in cycles, by their bits.
-fn lives(mechanism: &Mechanism, threads: usize, (first, count): (u64, u64)) -> Vec<u64> {
+fn lives(mechanism: &Mechanism, threads: usize, count: u64, shard: Option<Shard>) -> Vec<u64> {
     let study = LifeStudy {
         coupling: Some(Coupling::Full),
         trajectories: Trajectories::Count(count),
-        first,
+        shard,
         threads: NonZero::new(threads),
         ..LifeStudy::new(mechanism)
     };
@@ -32,13 +32,13 @@ fn lives(mechanism: &Mechanism, threads: usize, (first, count): (u64, u64)) -> V
 }
 
 #[test]
-fn lives_are_the_same_alone_side_by_side_and_in_ranges() {
+fn lives_are_the_same_alone_side_by_side_and_in_shards() {
     let native = mechanism(Backend::Native);
-    let all = lives(&native, 1, (0, 11));
+    let all = lives(&native, 1, 11, None);
     assert_eq!(all.len(), 11);
-    assert_eq!(lives(&native, 2, (0, 11)), all, "two threads");
-    let ranges = [(0, 1), (1, 7), (8, 3)].map(|range| lives(&native, 2, range));
-    assert_eq!(ranges.concat(), all, "ranges");
+    assert_eq!(lives(&native, 2, 11, None), all, "two threads");
+    let shards = (1..=3).flat_map(|index| lives(&native, 2, 11, Shard::new(index, 3).ok()));
+    assert_eq!(shards.collect::<Vec<_>>(), all, "shards");
     // Compiled code has no lanes: one life after the other.
-    assert_eq!(lives(&mechanism(Backend::Compiled), 1, (0, 3)), all[..3], "alone");
+    assert_eq!(lives(&mechanism(Backend::Compiled), 1, 3, None), all[..3], "alone");
 }

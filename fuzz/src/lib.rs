@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use linkwear::csv_table::CsvTable;
-use linkwear::life::Journal;
+use linkwear::life::LifeJournal;
 use linkwear_codegen::flexible::ModalData;
 use linkwear_codegen::input::Reach;
 use linkwear_codegen::model::{Overrides, resolve};
@@ -148,7 +148,7 @@ pub fn journal(bytes: &[u8]) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("life.journal");
     fs::write(&file, bytes).expect("a file");
-    let resumed = Journal::resume(folder.path()).map(drop);
+    let resumed = LifeJournal::resume(folder.path()).map(drop);
     let kept = fs::read(&file).expect("a file");
     match resumed {
         Ok(()) => assert!(bytes.starts_with(&kept)),

@@ -97,6 +97,7 @@ impl WearInfo {
 
 /// The Gamma process of wear, [CS (21)]: dW ~ Gamma(shape alpha dLambda, rate beta). W and Lambda in metres here.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GammaRates {
     /// Shape per mean wear [1/m].
     pub alpha: f64,

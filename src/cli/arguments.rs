@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear::backend::Backend;
-use linkwear::life::Coupling;
+use linkwear::life::{Coupling, Shard};
 use linkwear::table::FORMATS;
 use linkwear_codegen::Closure;
 use linkwear_codegen::render::TextFormat;
@@ -80,6 +80,10 @@ pub enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
+    /// Put the shards of a life together: the same files as if it had been undivided.
+    #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml --shard 1/2 --out a\n  \
+                      linkwear life mechanisms/rssr.toml --shard 2/2 --out b\n  linkwear merge a b --out life")]
+    Merge(MergeArguments),
     /// The paper's case study is a program of its own; this says how to run it.
     #[command(hide = true, disable_help_flag = true)]
     CaseStudy {
@@ -250,6 +254,10 @@ pub struct LifeArguments {
     /// --trajectories, extend it.
     #[arg(long, requires = "out")]
     pub resume: bool,
+    /// Live the I-th of N nearly equal parts of the random lives, I from 1, on a machine of its own; `merge` puts the folders
+    /// together.
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with = "mean")]
+    pub shard: Option<Shard>,
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
@@ -257,6 +265,16 @@ pub struct LifeArguments {
     /// interpreter; `auto` takes the first that there is.
     #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
     pub backend: Backend,
+}
+
+#[derive(Debug, Args)]
+pub struct MergeArguments {
+    /// Folders of `life --shard I/N --out DIR`, one for each shard, in any order; the same one may be given again.
+    #[arg(required = true, value_name = "DIR")]
+    pub shards: Vec<PathBuf>,
+    /// Folder for life.json, cycles.csv and lives.csv; must be new or empty.
+    #[arg(long, value_name = "DIR", value_parser = output())]
+    pub out: PathBuf,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use linkwear::number::number;
+use linkwear::wear_measure::{paragraph, wear_measures};
 use linkwear_codegen::Compiled;
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
 use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate};
@@ -14,7 +15,6 @@ use super::arguments::Input;
 use super::failure::Failure;
 use super::input::load;
 use super::table::{plural, short_table, table};
-use super::wear_measure;
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
@@ -53,7 +53,7 @@ fn to_json(compiled: &Compiled, assemblies: &Assemblies, warnings: &[Value]) -> 
         "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
         "parameters": parameters(compiled, false).map(parameter_entry).collect::<Vec<_>>(),
         "inputs": parameters(compiled, true).map(parameter_entry).collect::<Vec<_>>(),
-        "wear_measures": wear_measure::entries(compiled.description()),
+        "wear_measures": wear_measures(compiled.description()),
         "warnings": warnings,
     })
 }
@@ -135,7 +135,7 @@ fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {
         let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
         let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
     }
-    text.push_str(&wear_measure::text(compiled.description()));
+    text.push_str(&paragraph(&wear_measures(compiled.description())));
     for (title, column, inputs) in [("Parameters", "value", false), ("Inputs", "default", true)] {
         let rows: Vec<_> = parameters(compiled, inputs).map(parameter_row).collect();
         if !rows.is_empty() {

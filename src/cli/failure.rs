@@ -10,7 +10,8 @@ use clap::error::ErrorKind;
 use linkwear::backend::BackendError;
 use linkwear::csv_table::CsvError;
 use linkwear::files::{WriteError, print};
-use linkwear::life::JournalError;
+use linkwear::journal::JournalError;
+use linkwear::life::MergeError;
 use linkwear::mechanism::LoadError;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
 use linkwear_gamma::FitFileError;
@@ -135,6 +136,48 @@ impl Failure {
         Self::new("C0013", Some(file), &error, help)
     }
 
+    /// Shards of a life cannot be put together.
+    pub fn merge(error: MergeError) -> Self {
+        let help = match &error {
+            MergeError::NoShard(folder) => {
+                let help = "give folders of `life --shard I/N --out DIR`";
+                return Self::new("C0014", Some(folder), &error, help);
+            }
+            MergeError::Journal(JournalError::OtherRun { file, what, was, is }) => {
+                let message = format!(
+                    "`{}` is of another study than the shards before it: {what} is {was} here, {is} there",
+                    file.display()
+                );
+                let help = "merge shards of one study alone: same file, options, seed and version";
+                return Self::new("C0014", Some(file), message, help);
+            }
+            MergeError::Journal(
+                JournalError::Damaged { file, .. } | JournalError::OtherVersion { file, .. },
+            ) => {
+                return Self::new(
+                    "C0014",
+                    Some(file),
+                    &error,
+                    "make this shard anew, by the version that made the others",
+                );
+            }
+            MergeError::Journal(JournalError::Write(WriteError::System { file, .. })) => {
+                return Self::new("C0014", Some(file), &error, "check the folder");
+            }
+            MergeError::Journal(_) => String::new(),
+            MergeError::Missing { command, .. } => command.as_ref().map_or_else(
+                || "give the folders of all shards".to_owned(),
+                |command| format!("make it by `{command}`, or give its folder too"),
+            ),
+            MergeError::Differ { second, .. } => {
+                let help = "one of them is of another build: make both anew by the same program";
+                return Self::new("C0014", Some(second), &error, help);
+            }
+            MergeError::Nothing => "give the folders of all shards".to_owned(),
+        };
+        Self::new("C0014", None, &error, help)
+    }
+
     /// A file with data or results is wrong; at a line, counted from 1, if the fault has a place.
     pub fn data(file: &Path, line: Option<usize>, message: impl Display, help: impl Display) -> Self {
         // Other messages name their file.
@@ -235,8 +278,13 @@ pub fn entries(diagnostics: &Diagnostics) -> Vec<Value> {
 
 /// Warnings for machines: those of the file, then those of what was done with it, under one code.
 pub fn warnings<T: Display>(of_file: &Diagnostics, code: &str, later: &[T]) -> Vec<Value> {
+    remarks(entries(of_file), code, later)
+}
+
+/// The same, where those of the file are read already.
+pub fn remarks<T: Display>(of_file: Vec<Value>, code: &str, later: &[T]) -> Vec<Value> {
     let later = later.iter().map(|warning| json!({ "code": code, "message": warning.to_string() }));
-    entries(of_file).into_iter().chain(later).collect()
+    of_file.into_iter().chain(later).collect()
 }
 
 /// Reports what clap says about arguments it could not read; help and version are not errors.

@@ -7,20 +7,21 @@ mod output;
 
 use std::path::Path;
 
-use linkwear::life::{Cause, Journal, LifeError, LifeStudy, Trajectories};
+use linkwear::files::claim_folder;
+use linkwear::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
 use linkwear::progress::watched;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 
 use self::fits::fits;
 use super::answer::Answer;
-use super::arguments::LifeArguments;
+use super::arguments::{LifeArguments, MergeArguments};
 use super::failure::Failure;
 use super::input::load_mechanism;
 
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
     let folder = arguments.out.as_deref();
-    let open = if arguments.resume { Journal::resume } else { Journal::create };
+    let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
     let journal = folder.map(open).transpose().map_err(Failure::journal)?;
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
@@ -44,6 +45,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
         threads: arguments.threads,
         fits,
         shared_factor: arguments.shared_factor,
+        shard: arguments.shard,
         ..LifeStudy::new(&mechanism)
     };
     let cost =
@@ -57,9 +59,67 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     });
     let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
     life.warnings.extend(warnings);
-    let answer = output::answer(&study, &life);
-    folder.map_or(Ok(()), |folder| folder::write(folder, &life, &answer.json))?;
+    if let Some(note) = life.thread_note.take() {
+        eprintln!("warning: {note}");
+    }
+    let answer = output::answer(&LifeFacts::new(&study), &life);
+    match (folder, study.shard) {
+        (Some(folder), Some(shard)) => {
+            let part = LifePart::new(&study, command(std::env::args()), life);
+            part.map_or(Ok(()), |part| part.write(folder, &study))?;
+            Ok(output::of_shard(answer, shard))
+        }
+        (Some(folder), None) => {
+            folder::write(folder, &life, &answer.json).map(|()| answer).map_err(Failure::from)
+        }
+        (None, _) => Ok(answer),
+    }
+}
+
+/// The lives of all shards as one.
+pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
+    let (facts, life) = merge(&arguments.shards).map_err(Failure::merge)?;
+    claim_folder(&arguments.out)?;
+    let answer = output::answer(&facts, &life);
+    folder::write(&arguments.out, &life, &answer.json)?;
     Ok(answer)
+}
+
+/// The command that was given, with `{shard}` and `{out}` in the place of what differs from shard to shard.
+fn command(arguments: impl Iterator<Item = String>) -> String {
+    let mut words = vec!["linkwear".to_owned()];
+    let mut arguments = arguments.skip(1);
+    while let Some(argument) = arguments.next() {
+        let (name, value) = match argument.split_once('=') {
+            Some((name, value)) if name.starts_with("--") => (name.to_owned(), Some(value.to_owned())),
+            _ => (argument.clone(), None),
+        };
+        let place = match &*name {
+            "--shard" => "{shard}",
+            "--out" => "{out}",
+            "--resume" => continue,
+            "--format" => {
+                drop(value.or_else(|| arguments.next()));
+                continue;
+            }
+            _ => {
+                words.push(quoted(&argument));
+                continue;
+            }
+        };
+        drop(value.or_else(|| arguments.next()));
+        words.extend([name, place.to_owned()]);
+    }
+    words.join(" ")
+}
+
+/// A word as a shell takes it for one.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%@".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
@@ -75,6 +135,10 @@ fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
             let message = "--shared-factor spreads random lives, and none are asked for";
             let help = "add --trajectories 16; with full coupling every life costs a run of the dynamics";
             return Failure::usage(message, help);
+        }
+        Cause::NothingToShare => {
+            let help = "add --trajectories 1000; with full coupling every life costs a run of the dynamics";
+            return Failure::usage("--shard parts random lives, and none are asked for", help);
         }
         Cause::SharedFactor(_) => return Failure::usage(&cause, "give a smaller --shared-factor"),
         Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),

@@ -5,18 +5,22 @@ use std::ops::Range;
 
 use linkwear_gamma::life::{CountedLives, LifeError};
 use linkwear_runtime::life::FailureEvent;
+use serde::{Deserialize, Serialize};
 
 /// Lives up to which each is kept, so that statistics are exact: 32 MB of them. More are counted.
 pub const LISTED_LIVES: u64 = 1_000_000;
 
 /// Numbers of lives in parts of at most so many.
-pub(super) fn parts(count: u64, most: u64) -> impl Iterator<Item = Range<u64>> {
-    let most = most.max(1);
-    (0..count.div_ceil(most)).map(move |part| part * most..count.min((part + 1).saturating_mul(most)))
+pub(super) fn parts(lives: Range<u64>, most: u64) -> impl Iterator<Item = Range<u64>> {
+    let (most, count) = (most.max(1), lives.end.saturating_sub(lives.start));
+    (0..count.div_ceil(most)).map(move |part| {
+        let first = lives.start + part * most;
+        first..lives.end.min(first.saturating_add(most))
+    })
 }
 
 /// Ends of lives, counted.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct CountedEnds {
     cycles: CountedLives,
     whole_cycles: u128,

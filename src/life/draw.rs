@@ -25,11 +25,15 @@ const SHIFTED_BY_DYNAMICS: u64 = 4;
 /// Ends of lives by their numbers.
 type Numbered = Vec<(u64, FailureEvent)>;
 
-/// Lives to draw: which of them, of how many in all.
+/// Lives to draw.
 struct Part {
     batch: Batch,
+    /// All that are to be drawn.
+    all: Range<u64>,
+    /// Those to draw now.
     lives: Range<u64>,
-    of: u64,
+    /// Whether the journal keeps them: lives that are not listed are as fast lived again as read.
+    is_kept: bool,
 }
 
 impl Plan<'_> {
@@ -43,16 +47,17 @@ impl Plan<'_> {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
         let failed =
             |(cause, lives): (Cause, Numbered)| LifeError { lives, ..self.error(cause, &result.cycles) };
+        // Shards agree on what they tell: it goes by the lives of all.
         let is_listed = count <= self.study.listed;
+        let all = self.study.shard.map_or(0..count, |shard| shard.numbers(count));
+        let length = (all.end - all.start) as f64;
         let (mut counted, mut lives) = (CountedEnds::default(), Vec::new());
         // More than are listed go in parts of as many, which are counted and forgotten.
-        for part in parts(count, self.study.listed) {
-            let [start, length] =
-                [part.start, part.end - part.start].map(|lives| lives as f64 / count as f64);
-            let watch = |done: f64| self.watch.report(start + length * done);
-            let first = self.study.first;
-            let lives_of_part = first.saturating_add(part.start)..first.saturating_add(part.end);
-            let part = Part { batch: 0, lives: lives_of_part, of: count };
+        for part in parts(all.clone(), self.study.listed) {
+            let [start, share] =
+                [part.start - all.start, part.end - part.start].map(|lives| lives as f64 / length);
+            let watch = |done: f64| self.watch.report(start + share * done);
+            let part = Part { batch: 0, all: all.clone(), lives: part, is_kept: is_listed };
             lives =
                 self.draw_by((scale, threads), &process.draw(), part, Watch::new(&watch)).map_err(failed)?;
             if !is_listed {
@@ -66,13 +71,16 @@ impl Plan<'_> {
             Coupling::Full => SHIFTED_BY_DYNAMICS,
         };
         let mut batch = 0;
-        let by_fits = process.uncertainty(&mut |shifted| {
+        let mut by_fits = |shifted: &GammaDraw| {
             batch += 1;
             let few = count.min(few);
-            let part = Part { batch, lives: 0..few, of: few };
+            let part = Part { batch, all: 0..few, lives: 0..few, is_kept: few <= self.study.listed };
             let lives = self.draw_by((scale, threads), shifted, part, self.between)?;
             Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
-        });
+        };
+        // Of shards the first asks for all.
+        let is_asked = self.study.shard.is_none_or(|shard| shard.index == 1);
+        let by_fits = if is_asked { process.uncertainty(&mut by_fits) } else { Ok(None) };
         let by_fits = by_fits.map_err(|(cause, _)| failed((cause, lives.clone())))?;
         // One life has no statistics: the budget stays that of the mean path.
         if count > 1 {
@@ -83,9 +91,9 @@ impl Plan<'_> {
         let missing = self.missing_threads.load(Ordering::Relaxed);
         if missing > 0 {
             let (given, of) = (threads.get() - missing, threads);
-            result.warnings.push(format!(
-                "the system gave {given} of {of} threads: the lives are the same, and took longer"
-            ));
+            let note =
+                format!("the system gave {given} of {of} threads: the lives are the same, and took longer");
+            result.thread_note = Some(note);
         }
         Ok(())
     }
@@ -95,24 +103,23 @@ impl Plan<'_> {
         &self,
         (scale, threads): (Scale<'_, S, E>, NonZero<usize>),
         draw: &GammaDraw,
-        Part { batch, lives, of }: Part,
+        Part { batch, all, lives, is_kept }: Part,
         watch: Watch<'_>,
     ) -> Result<Numbered, (Cause, Numbered)> {
         let mut settings = self.settings.clone();
         settings.keep_cycles = false;
-        let done = lives.start.saturating_sub(self.study.first);
+        let done = lives.start - all.start;
         let run = MonteCarlo { settings: &settings, draw, trajectories: lives, threads };
         let none = KnownLives::new();
         let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
         let keep = |ends: &[(u64, FailureEvent)]| {
-            // Lives that are not listed are as fast lived again as read.
-            if let Some(journal) = self.journal.filter(|_| of <= self.study.listed) {
+            if let Some(journal) = self.journal.filter(|_| is_kept) {
                 journal.keep_lives(batch, ends);
             }
         };
         let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);
         self.missing_threads.fetch_max(missing_threads, Ordering::Relaxed);
-        let lives = Some((failures.len() + usize::try_from(done).unwrap_or(0), of));
+        let lives = Some((failures.len() + usize::try_from(done).unwrap_or(0), all.end - all.start));
         let cause = match ended {
             Ended::Complete => return Ok(failures),
             Ended::Cancelled => Cause::Interrupted { trajectory: None, lives },

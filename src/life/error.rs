@@ -7,7 +7,7 @@ use linkwear_runtime::RunError;
 use linkwear_runtime::life::{CycleRecord, FailureEvent, SettingsError};
 use thiserror::Error;
 
-use super::journal::JournalError;
+use crate::journal::JournalError;
 
 /// A life that was not lived to its end, with the cycles of the mean path and the random lives that were completed.
 #[derive(Debug, Error)]
@@ -56,6 +56,9 @@ pub enum Cause {
     /// A shared factor is given, but only the mean path is lived.
     #[error("a shared factor spreads random lives, and none are asked for")]
     NoRandomLives,
+    /// A shard is asked for, but only the mean path is lived.
+    #[error("a shard is a part of the random lives, and none are asked for")]
+    NothingToShare,
     /// The shared factor scatters too much for a mean life to exist.
     #[error(transparent)]
     SharedFactor(LawError),

@@ -1,6 +1,6 @@
 //! The life of a mechanism whose joints wear: one mean path, random lives by their Gamma processes, statistics with
 //! errors. In: a [`Mechanism`](crate::mechanism::Mechanism). Out: [`LifeResult`]. Never touches terminals, and no file but its
-//! [`Journal`].
+//! [`LifeJournal`].
 //!
 //! [`LifeStudy::new`] has the defaults of `linkwear life`; change its fields to ask for something else, then
 //! [`LifeStudy::run`].
@@ -9,11 +9,14 @@ mod cost;
 mod counted;
 mod draw;
 mod error;
+mod facts;
 mod fit;
 mod journal;
+mod part;
 mod process;
 mod result;
 mod run;
+mod shard;
 mod side_by_side;
 mod source;
 mod steady;
@@ -22,9 +25,12 @@ mod study;
 pub use cost::Cost;
 pub use counted::{CountedEnds, LISTED_LIVES};
 pub use error::{Cause, LifeError};
+pub use facts::LifeFacts;
 pub use fit::{JointFit, UnfitForLife};
-pub use journal::{Journal, JournalError};
+pub use journal::LifeJournal;
+pub use part::{LifePart, MergeError, merge};
 pub use process::JointProcess;
 pub use result::LifeResult;
+pub use shard::{Shard, ShardError};
 pub use steady::TurnErrors;
 pub use study::{Coupling, LifeStudy, Trajectories};

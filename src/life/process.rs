@@ -5,6 +5,7 @@ use linkwear_gamma::life::{Estimate, LifeError as LawError};
 use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean, PER_METRE};
 use linkwear_gamma::series::SharedFactor;
 use linkwear_runtime::{Description, GammaRates};
+use serde::{Deserialize, Serialize};
 
 use super::error::Cause;
 use super::fit::JointFit;
@@ -14,7 +15,7 @@ use super::study::{LifeStudy, Trajectories};
 const STEP: f64 = 0.02;
 
 /// alpha and beta of a joint, and where they are from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct JointProcess {
     /// The joint.
     pub joint: String,

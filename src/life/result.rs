@@ -3,6 +3,7 @@
 
 use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics};
 use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
+use serde::{Deserialize, Serialize};
 
 use super::counted::CountedEnds;
 use super::process::JointProcess;
@@ -10,7 +11,7 @@ use super::steady::TurnErrors;
 use super::study::Coupling;
 
 /// A life to the failure threshold, in cycles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct LifeResult {
     /// The wearing joints.
     pub joints: Vec<JointLife>,
@@ -35,6 +36,9 @@ pub struct LifeResult {
     pub measurements: u64,
     /// What was doubtful.
     pub warnings: Vec<String>,
+    /// What was odd about the machine, not about the life.
+    #[serde(skip)]
+    pub thread_note: Option<String>,
     /// Standard error of the mean life by the covariances of fits, if there are any [cycles].
     pub parameter_error: Option<f64>,
     /// What turns that are not steady do to the life of the joint that ends the mean path.
@@ -44,6 +48,27 @@ pub struct LifeResult {
 }
 
 impl LifeResult {
+    /// In what another shard of the same study differs although it may not; nothing if it is as it must be.
+    pub(super) fn differs(&self, other: &Self) -> Option<&'static str> {
+        let same = [
+            ("the joints", self.joints == other.joints),
+            ("the mean path", self.end == other.end && self.cycles == other.cycles),
+            ("the processes of wear", self.process == other.process),
+            ("the table of wear", self.table == other.table && self.measurements == other.measurements),
+            ("how lives are told", self.counted.is_some() == other.counted.is_some()),
+        ];
+        same.iter().find(|(_, is_same)| !is_same).map(|(what, _)| *what)
+    }
+
+    /// With the lives of the next shard.
+    pub(super) fn joined(mut self, next: Self) -> Self {
+        self.lives.extend(next.lives);
+        if let (Some(all), Some(more)) = (&mut self.counted, &next.counted) {
+            all.merge(more);
+        }
+        self
+    }
+
     /// Names of the wearing joints.
     pub fn names(&self) -> Vec<String> {
         self.joints.iter().map(|joint| joint.joint.clone()).collect()

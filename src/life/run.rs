@@ -16,7 +16,7 @@ use linkwear_runtime::life::{
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
 use super::error::{Cause, LifeError};
-use super::journal::Journal;
+use super::journal::LifeJournal;
 use super::process::Process;
 use super::result::LifeResult;
 use super::source::KeptSource;
@@ -52,7 +52,7 @@ impl LifeStudy<'_> {
     ///
     /// # Errors
     /// As [`Self::run_watched`], and [`Cause::Journal`].
-    pub fn run_kept(&self, journal: &Journal, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+    pub fn run_kept(&self, journal: &LifeJournal, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
         let result = self.run_with(Some(journal), watch);
         match (journal.failure(), result) {
             (Some(error), Err(stopped)) => Err(LifeError { cause: Box::new(error.into()), ..stopped }),
@@ -61,9 +61,9 @@ impl LifeStudy<'_> {
         }
     }
 
-    fn run_with(&self, journal: Option<&Journal>, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
+    fn run_with(&self, journal: Option<&LifeJournal>, watch: Watch<'_>) -> Result<LifeResult, LifeError> {
         let may_go_on = |flow: ControlFlow<()>| {
-            if journal.is_some_and(Journal::has_failed) { ControlFlow::Break(()) } else { flow }
+            if journal.is_some_and(LifeJournal::has_failed) { ControlFlow::Break(()) } else { flow }
         };
         let [last, next] = [0.0_f64, FIRST].map(|part| AtomicU64::new(part.to_bits()));
         let tell = |part: f64| {
@@ -122,7 +122,7 @@ pub(super) struct Plan<'s> {
     pub settings: LifeSettings,
     pub coupling: Coupling,
     pub(super) process: Option<Process>,
-    pub(super) journal: Option<&'s Journal>,
+    pub(super) journal: Option<&'s LifeJournal>,
     /// Random lives; none for the mean path alone.
     pub trajectories: Option<u64>,
     pub threads: NonZero<usize>,
@@ -137,7 +137,7 @@ impl<'s> Plan<'s> {
     pub fn new(
         study: &'s LifeStudy<'s>,
         source: &DynamicsSource<'_>,
-        journal: Option<&'s Journal>,
+        journal: Option<&'s LifeJournal>,
         (watch, between): (Watch<'s>, Watch<'s>),
     ) -> Result<Self, Cause> {
         let mut settings = LifeSettings::new(source.joints()?);
@@ -155,6 +155,9 @@ impl<'s> Plan<'s> {
         let trajectories = process.as_ref().and_then(|_| study.trajectories.count(coupling));
         if trajectories.is_none() && study.shared_factor.is_some() {
             return Err(Cause::NoRandomLives);
+        }
+        if trajectories.is_none() && study.shard.is_some() {
+            return Err(Cause::NothingToShare);
         }
         let threads = study.threads.or_else(|| available_parallelism().ok()).unwrap_or(NonZero::<usize>::MIN);
         let threads = threads.min(NonZero::new(limits::THREADS.most).unwrap_or(threads));
@@ -240,6 +243,7 @@ impl<'s> Plan<'s> {
             table: None,
             measurements: state.measurements,
             warnings,
+            thread_note: None,
             parameter_error: self.process.as_ref().and_then(by_fit),
             turn_errors: TurnErrors { settling: None, averaging: None },
             seconds_per_revolution: None,

@@ -5,19 +5,19 @@ use linkwear_runtime::life::{JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, RunError, RunWarning, Steadiness, TurnState};
 
-use super::journal::{Journal, Measurement};
+use super::journal::{LifeJournal, Measurement};
 use super::steady::{Steady, TurnErrors};
 
 /// Revolutions of a system, kept.
 pub(super) struct KeptSource<'a> {
     source: DynamicsSource<'a>,
-    journal: Option<&'a Journal>,
+    journal: Option<&'a LifeJournal>,
     /// Wear [m] and steadiness of the joints at each measurement until now.
     seen: Vec<(Vec<f64>, Vec<Steadiness>)>,
 }
 
 impl<'a> KeptSource<'a> {
-    pub fn new(source: DynamicsSource<'a>, journal: Option<&'a Journal>) -> Self {
+    pub fn new(source: DynamicsSource<'a>, journal: Option<&'a LifeJournal>) -> Self {
         Self { source, journal, seen: Vec::new() }
     }
 

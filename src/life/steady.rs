@@ -5,6 +5,7 @@
 //! spent near it: half the way to the measurements on either side.
 
 use linkwear_runtime::Steadiness;
+use serde::{Deserialize, Serialize};
 
 /// One measurement of a joint.
 pub(super) struct Steady {
@@ -14,7 +15,7 @@ pub(super) struct Steady {
 }
 
 /// Relative errors of a life; nothing where no two turns could be compared.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct TurnErrors {
     /// What one more turn to settle would change, all measurements together: those that drift alike add.
     pub settling: Option<f64>,

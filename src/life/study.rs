@@ -3,14 +3,18 @@
 use std::num::NonZero;
 
 use linkwear_runtime::RevolutionSettings;
-use serde_json::{Map, Value, json};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
+use super::shard::Shard;
+use crate::journal::Identity;
 use crate::mechanism::Mechanism;
 
 /// Where the wear of a revolution is from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Coupling {
     /// From a table over the clearance, measured once with the dynamics.
     Table,
@@ -56,9 +60,9 @@ pub struct LifeStudy<'m> {
     pub feedback: bool,
     /// Random lives beside the mean path.
     pub trajectories: Trajectories,
-    /// Number of the first random life. A life depends on the seed and its number alone: ranges of numbers that are lived apart,
-    /// on any machines, are together the lives of one study.
-    pub first: u64,
+    /// The part of the random lives that is lived here. None: all. A life depends on the seed and its number alone: shards that
+    /// are lived apart, on any machines, are together the lives of one study; [`merge`](super::merge) puts them together.
+    pub shard: Option<Shard>,
     /// Lives up to which each is kept and told; more are counted in bins, the same on any number of threads.
     pub listed: u64,
     /// Seed of the random numbers: the same seed gives the same bits on any number of threads.
@@ -82,7 +86,7 @@ impl<'m> LifeStudy<'m> {
             coupling: None,
             feedback: true,
             trajectories: Trajectories::Default,
-            first: 0,
+            shard: None,
             listed: LISTED_LIVES,
             seed: 1,
             threads: None,
@@ -92,7 +96,7 @@ impl<'m> LifeStudy<'m> {
     }
 
     /// All that decides the numbers of a life but the number of random lives, in words that a difference is told by.
-    pub(super) fn identity(&self, coupling: Coupling) -> Map<String, Value> {
+    pub(super) fn identity(&self, coupling: Coupling) -> Identity {
         let mut entries = self.mechanism.identity();
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
         let own = [
@@ -108,6 +112,9 @@ impl<'m> LifeStudy<'m> {
             ("the shared factor", json!(self.shared_factor)),
         ];
         entries.extend(own.map(|(name, value)| (name.to_owned(), value)));
+        if let Some(shard) = self.shard {
+            entries.insert("the shard".to_owned(), json!(shard.to_string()));
+        }
         for fit in &self.fits {
             let together = self.fits.iter().position(|one| one.from == fit.from);
             let value = json!(format!("{:?}, of place {together:?}", fit.estimate));

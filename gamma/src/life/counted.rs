@@ -6,6 +6,8 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::LifeError;
 
 /// Bits of a double below those of its bin.
@@ -19,7 +21,7 @@ const WHOLE: f64 = 18_446_744_073_709_551_616.0;
 const LARGEST: f64 = 1_099_511_627_776.0;
 
 /// Counts of lives. A decade of lives takes 27 MB at most, however many they are.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct CountedLives {
     /// Counts of 2^12 bins each, where there are any.
     pages: BTreeMap<u32, Vec<u64>>,

@@ -10,6 +10,7 @@ use crate::wear::{ContactMeasure, Limits, Measure, Profile, ScalarFeedback};
 
 /// What counts as the wear W of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WearOf {
     /// The depth by the model of the contact area.
     Depth,
@@ -39,6 +40,7 @@ impl WearOf {
 
 /// What wear does to the geometry.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Feedback {
     /// The clearance grows: c_(n+1) = c_n + gamma dW_n.
     Scalar(ScalarFeedback),
@@ -77,6 +79,7 @@ impl WearStep {
 
 /// A wearing joint over its life. SI.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointLife {
     /// Its name.
     pub joint: String,

@@ -28,6 +28,7 @@ impl Measure {
 
 /// Feedback of wear to the clearance by one factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScalarFeedback {
     gamma: f64,
 }

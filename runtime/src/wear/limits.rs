@@ -8,6 +8,7 @@ use crate::scalar::Scalar;
 
 /// Limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// Hardness H of the softer body [Pa].
     pub hardness: f64,

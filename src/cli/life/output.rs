@@ -2,17 +2,17 @@
 
 use std::fmt::Write as _;
 
-use linkwear::life::{Cost, Coupling, JointProcess, LifeResult, LifeStudy};
+use linkwear::life::{Cost, Coupling, JointProcess, LifeFacts, LifeResult, Shard};
 use linkwear::number::number;
+use linkwear::wear_measure::paragraph;
 use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::{Value, json};
 
 use super::super::answer::Answer;
-use super::super::failure::warnings;
+use super::super::failure::remarks;
 use super::super::table::{count, table};
-use super::super::wear_measure;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
@@ -23,12 +23,23 @@ const HOUR: f64 = 3600.0;
 const YEAR: f64 = 8766.0 * HOUR;
 
 /// The answer.
-pub fn answer(study: &LifeStudy<'_>, life: &LifeResult) -> Answer {
+pub fn answer(facts: &LifeFacts, life: &LifeResult) -> Answer {
     let statistics = life.statistics();
     Answer {
-        text: to_text(study, life, statistics.as_ref()),
-        json: to_json(study, life, statistics.as_ref()),
+        text: to_text(facts, life, statistics.as_ref()),
+        json: to_json(facts, life, statistics.as_ref()),
     }
+}
+
+/// The answer of a shard, said to be one.
+pub fn of_shard(answer: Answer, shard: Shard) -> Answer {
+    let text = format!(
+        "shard {shard}: what follows is of its lives alone; `linkwear merge` puts the lives of all shards together\n\n{}",
+        answer.text
+    );
+    let mut json = answer.json;
+    json["shard"] = json!({ "index": shard.index, "of": shard.of });
+    Answer { text, json }
 }
 
 /// Cycles alone, of a life that stopped.
@@ -80,8 +91,7 @@ fn about(seconds: f64) -> String {
     format!("{:.1} {unit}", seconds / size)
 }
 
-fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeStatistics>) -> Value {
-    let mechanism = study.mechanism;
+fn to_json(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatistics>) -> Value {
     let names = life.names();
     let joint = life.failed_joint();
     let cycles: Vec<Value> = life.cycles.iter().map(|cycle| cycle_entry(&names, cycle)).collect();
@@ -90,8 +100,8 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         lives.map_or(life.mean(), |quantile| quantile.value)
     });
     let mut answer = json!({
-        "name": mechanism.description.name,
-        "backend": mechanism.backend(),
+        "name": facts.name,
+        "backend": facts.backend,
         "coupling": match life.coupling { Coupling::Table => "table", Coupling::Full => "full" },
         "mean": life.mean(),
         "std": statistics.map_or(0.0, |lives| lives.std().value),
@@ -100,7 +110,7 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         "mean_whole_cycles": life.mean_whole_cycles(),
         "trajectories": life.random_lives().max(1),
         "random": life.random_lives() > 0,
-        "seed": study.seed,
+        "seed": facts.seed,
         "mean_path": {
             "cycles": life.end.cycles, "whole_cycles": life.end.whole_cycles, "step_error": life.step_error,
         },
@@ -108,12 +118,12 @@ fn to_json(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
         "revolutions_per_cycle": joint.revolutions_per_cycle,
         "revolutions": life.mean() * joint.revolutions_per_cycle,
         "parameters": life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect::<Value>()),
-        "shared_factor": study.shared_factor,
+        "shared_factor": facts.shared_factor,
         "table_error": life.table_error(),
         "measurements": life.measurements,
         "cycles": cycles,
-        "wear_measures": wear_measure::entries(&mechanism.description),
-        "warnings": warnings(&mechanism.warnings, "life", &life.warnings),
+        "wear_measures": facts.wear_measures,
+        "warnings": remarks(facts.warnings.clone(), "life", &life.warnings),
     });
     if let Some(seconds) = life.seconds_per_cycle() {
         let time =
@@ -165,17 +175,17 @@ fn reliability(lives: &LifeStatistics) -> Value {
     points.collect()
 }
 
-fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeStatistics>) -> String {
+fn to_text(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatistics>) -> String {
     let names = life.names();
     let joint = life.failed_joint();
     let mut text = format!(
         "{}: on its mean path {} fails after {:.3} cycles ({} whole), {} revolutions; {}\n",
-        study.mechanism.description.name,
+        facts.name,
         joint.joint,
         life.end.cycles,
         life.end.whole_cycles,
         number(life.end.cycles * joint.revolutions_per_cycle),
-        study.mechanism.backend(),
+        facts.backend,
     );
     if let Some(seconds) = life.seconds_per_cycle() {
         let (path, turn) = (life.end.cycles * seconds, seconds / joint.revolutions_per_cycle);
@@ -186,12 +196,12 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
             number(turn)
         );
     }
-    text.push_str(&wear_measure::text(&study.mechanism.description));
+    text.push_str(&paragraph(&facts.wear_measures));
     let joints = life.process.as_deref().unwrap_or_default();
     if joints.iter().any(|joint| joint.from.is_some()) {
         joints.iter().for_each(|joint| text.push_str(&process_line(joint)));
     }
-    text.push_str(&statistics.map_or_else(String::new, |lives| scatter(study, life, lives)));
+    text.push_str(&statistics.map_or_else(String::new, |lives| scatter(facts, life, lives)));
     let _ = write!(text, "\n{}", cycles_table(&names, &life.cycles));
     if let Some(error) = life.table_error() {
         let _ = writeln!(
@@ -216,7 +226,7 @@ fn to_text(study: &LifeStudy<'_>, life: &LifeResult, statistics: Option<&LifeSta
     text
 }
 
-fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> String {
+fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> String {
     let (mean, std, cov) = (lives.mean(), lives.std(), lives.cov());
     let seconds = life.seconds_per_cycle();
     let time = |cycles: f64| seconds.map_or_else(String::new, |seconds| hours(cycles * seconds));
@@ -242,7 +252,7 @@ fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> 
     .into_iter()
     .flatten()
     .collect();
-    let head = format!("{} random lives, seed {}", lives.count(), study.seed);
+    let head = format!("{} random lives, seed {}", lives.count(), facts.seed);
     let time = if seconds.is_some() { "hours" } else { "" };
     let head = [head.as_str(), "cycles, +- standard error", "95 %", time];
     let mut text = format!("\n{}", table(&head, &rows));
@@ -252,7 +262,7 @@ fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> 
             text,
             "\nmore than {} lives are counted in bins: the mean is exact, quantiles and spread are those of lives each off by {:.1e} of \
              itself at most; no lives.csv",
-            count(study.listed),
+            count(facts.listed),
             CountedLives::ERROR
         );
     }
@@ -262,7 +272,7 @@ fn scatter(study: &LifeStudy<'_>, life: &LifeResult, lives: &LifeStatistics) -> 
         let parts: Vec<String> = parts.map(|(name, part)| format!("{name} {:.1} %", 100.0 * part)).collect();
         let _ = writeln!(text, "\nfirst to fail: {}", parts.join(", "));
     }
-    if let Some(cov) = study.shared_factor {
+    if let Some(cov) = facts.shared_factor {
         let _ =
             writeln!(text, "\nin each life all wear runs by one factor, of coefficient of variation {cov}");
     }
