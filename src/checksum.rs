@@ -18,6 +18,11 @@ pub(crate) fn sha256(value: &impl fmt::Debug) -> String {
     hexadecimal(&sink.0.finalize())
 }
 
+/// SHA-256 of bytes.
+pub(crate) fn sha256_of(bytes: &[u8]) -> String {
+    hexadecimal(&Hash::hash(bytes))
+}
+
 /// Two digits a byte.
 pub(crate) fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()

@@ -4,10 +4,11 @@
 
 mod answer;
 mod arguments;
+pub mod ask;
 mod check;
 mod cost;
 mod equations;
-mod failure;
+pub mod failure;
 mod fit;
 mod fmu;
 mod generate;

@@ -10,6 +10,8 @@ use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
 use thiserror::Error;
 
+use crate::checksum::sha256_of;
+
 /// Letters of a cell or of a list of names that are shown.
 const SHOWN: [usize; 2] = [40, 300];
 
@@ -46,6 +48,7 @@ pub struct CsvTable<'a> {
     header: Vec<String>,
     /// Line and cells.
     rows: Vec<(usize, StringRecord)>,
+    sha256: String,
 }
 
 impl<'a> CsvTable<'a> {
@@ -85,7 +88,12 @@ impl<'a> CsvTable<'a> {
         }
         let first = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
         let head = text.lines().position(first).map_or(1, |at| at + 1);
-        Ok(Self { file, head, header, rows })
+        Ok(Self { file, head, header, rows, sha256: sha256_of(text.as_bytes()) })
+    }
+
+    /// SHA-256 of the text.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
     }
 
     /// The line of each row.

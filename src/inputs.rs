@@ -1,7 +1,5 @@
 //! Inputs of a mechanism from a CSV file: a column of time, a column with its unit for every input that is connected.
-//! In: a path, the description. Out: [`SampledSignals`] in SI. Never knows how they are used.
-
-use std::path::Path;
+//! In: a table, the description. Out: [`SampledSignals`] in SI. Never knows how they are used.
 
 use linkwear_codegen::diagnostic::nearest;
 use linkwear_codegen::spec::{Dimension, Form, parse_expression};
@@ -13,8 +11,7 @@ use crate::csv_table::{CsvError, CsvTable};
 ///
 /// # Errors
 /// [`CsvError`]: the file is no table, a column has no unit or one of another kind, or nothing has its name.
-pub fn read_inputs(file: &Path, description: &Description) -> Result<SampledSignals, CsvError> {
-    let table = CsvTable::read(file)?;
+pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<SampledSignals, CsvError> {
     let mut times = None;
     let mut columns = Vec::new();
     for (place, title) in table.header().iter().enumerate() {

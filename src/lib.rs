@@ -16,7 +16,10 @@
 )]
 
 pub mod backend;
+pub mod batch;
 mod checksum;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod cost;
 #[cfg(feature = "cli")]
 pub mod csv_table;
@@ -32,6 +35,7 @@ pub mod mechanisms;
 pub mod number;
 #[cfg(feature = "cli")]
 pub mod progress;
+pub mod provenance;
 pub mod table;
 pub mod wear_measure;
 

@@ -1,4 +1,4 @@
-//! The command line of linkwear. Everything it does is in [`cli`].
+//! The command line of linkwear. Everything it does is in [`linkwear::cli`].
 
 #![deny(
     clippy::unwrap_used,
@@ -9,8 +9,6 @@
     clippy::unreachable
 )]
 
-mod cli;
-
 fn main() -> std::process::ExitCode {
-    cli::run()
+    linkwear::cli::run()
 }

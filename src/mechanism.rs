@@ -6,16 +6,17 @@ use std::path::{Path, PathBuf};
 
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::Tape;
-use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
+use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::Refusal;
 use linkwear_runtime::{Description, StepPlan, System};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 use thiserror::Error;
 
 use crate::backend::{Backend, BackendError, Equations, Lanes};
 use crate::checksum::sha256;
 use crate::journal::{Identity, VERSION};
 use crate::mechanisms::SHIPPED;
+use crate::provenance::Provenance;
 
 /// A mechanism that cannot be run.
 #[derive(Debug, Error)]
@@ -55,6 +56,8 @@ pub struct Mechanism {
 struct Origin {
     /// Hash of the file.
     file: String,
+    /// How it was compiled, as far as that is not the default.
+    options: Map<String, Value>,
     /// Their tapes: hashing them takes longer than writing their machine code, and few ask.
     tapes: Option<Vec<Tape>>,
 }
@@ -76,7 +79,8 @@ impl Mechanism {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
         let equations = Equations::choose(&compiled, options, backend)?;
         let warnings = located_warnings(&compiled);
-        let origin = Origin { file: source.sha256(), tapes: Some(compiled.tapes().to_vec()) };
+        let tapes = Some(compiled.tapes().to_vec());
+        let origin = Origin { file: source.sha256(), options: told(options), tapes };
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 
@@ -84,7 +88,7 @@ impl Mechanism {
     pub fn shipped(name: &str) -> Option<Self> {
         let shipped = SHIPPED.iter().find(|shipped| shipped.name == name)?;
         let mechanism = Self::new((shipped.description)().clone(), Equations::compiled(shipped.system));
-        let origin = Origin { file: shipped.source_sha256.to_owned(), tapes: None };
+        let origin = Origin { file: shipped.source_sha256.to_owned(), ..Origin::default() };
         Some(Self { origin, ..mechanism })
     }
 
@@ -97,7 +101,7 @@ impl Mechanism {
 
     /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
     pub(crate) fn identity(&self) -> Identity {
-        let Origin { file, tapes } = &self.origin;
+        let Origin { file, tapes, .. } = &self.origin;
         let tapes = tapes.as_ref().map(sha256).unwrap_or_default();
         let parameters = self.description.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
@@ -108,6 +112,16 @@ impl Mechanism {
         entries.insert("the hash of the equations".to_owned(), json!(tapes));
         entries.insert("the hash of the laws and names".to_owned(), json!(sha256(&self.description)));
         entries
+    }
+
+    /// What a result is of that it gives with a seed and options, SI.
+    pub fn provenance(&self, seed: Option<u64>, options: Value) -> Provenance {
+        let mut provenance = Provenance::new(self.origin.file.clone(), seed, options);
+        provenance.options.extend(self.origin.options.clone());
+        let parameters = self.description.parameters.iter().zip(&self.parameters);
+        provenance.parameters =
+            parameters.map(|(known, value)| (known.name.to_string(), json!(value))).collect();
+        provenance
     }
 
     /// Its equations, for one thread.
@@ -131,6 +145,22 @@ impl Mechanism {
     pub const fn refusal(&self) -> Option<&Refusal> {
         self.equations.refusal()
     }
+}
+
+/// Options of a compilation as results tell them.
+pub fn told(options: &Options) -> Map<String, Value> {
+    let Options { closure, overrides, rigid, .. } = options;
+    let set = || overrides.iter().map(|(name, value)| (name.clone(), json!(value))).collect::<Map<_, _>>();
+    let closure = closure.map(|closure| match closure {
+        Closure::Joint => "joint",
+        Closure::Log => "log",
+    });
+    let entries = [
+        ("closure", closure.map(Value::from)),
+        ("rigid", rigid.then_some(Value::Bool(true))),
+        ("set", (!overrides.is_empty()).then(|| Value::Object(set()))),
+    ];
+    entries.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
 /// The text of a mechanism's file.

@@ -38,4 +38,7 @@ macro_rules! mechanisms {
     };
 }
 
+#[cfg(feature = "shipped")]
 include!("../mechanisms/shipped.rs");
+#[cfg(not(feature = "shipped"))]
+mechanisms! {}

@@ -1,6 +1,7 @@
 //! What a subcommand answers, for people and for machines. Never knows how it came about.
 
-use linkwear::files::{WriteError, print};
+use crate::files::{WriteError, print};
+use crate::provenance::{Provenance, sealed};
 use serde_json::Value;
 
 use super::arguments::Format;
@@ -15,6 +16,11 @@ pub struct Answer {
 }
 
 impl Answer {
+    /// With the format of its JSON, and what it is of if that has a name.
+    pub fn new(text: String, json: Value, provenance: Option<&Provenance>) -> Self {
+        Self { text, json: sealed(json, provenance) }
+    }
+
     /// Prints the form that was asked for.
     pub fn print(&self, format: Format) -> Result<(), WriteError> {
         match format {

@@ -3,10 +3,10 @@
 use std::num::NonZero;
 use std::path::PathBuf;
 
+use crate::backend::Backend;
+use crate::life::{Coupling, Shard};
+use crate::table::FORMATS;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use linkwear::backend::Backend;
-use linkwear::life::{Coupling, Shard};
-use linkwear::table::FORMATS;
 use linkwear_codegen::Closure;
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};

@@ -2,24 +2,37 @@
 
 use std::fmt::Write as _;
 
-use linkwear::number::number;
-use linkwear::wear_measure::{paragraph, wear_measures};
-use linkwear_codegen::Compiled;
+use crate::mechanism::told;
+use crate::number::number;
+use crate::provenance::Provenance;
+use crate::wear_measure::{paragraph, wear_measures};
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
 use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate};
 use linkwear_codegen::spec::Dimension;
+use linkwear_codegen::{Compiled, Options};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
 use super::arguments::Input;
 use super::failure::Failure;
-use super::input::load;
+use super::input::{load, options};
 use super::table::{plural, short_table, table};
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
+    Ok(answer(&compiled, &options(input, false), &warnings))
+}
+
+/// What a compiled mechanism is.
+pub fn answer(compiled: &Compiled, options: &Options, warnings: &[Value]) -> Answer {
     let assemblies = compiled.assemblies();
-    Ok(Answer { text: text(&compiled, &assemblies), json: to_json(&compiled, &assemblies, &warnings) })
+    let description = compiled.description();
+    let mut provenance = Provenance::new(compiled.source.sha256(), None, Value::Null);
+    provenance.options = told(options);
+    let parameters = description.parameters.iter();
+    provenance.parameters = parameters.map(|known| (known.name.to_string(), json!(known.default))).collect();
+    let json = to_json(compiled, &assemblies, warnings);
+    Answer::new(text(compiled, &assemblies), json, Some(&provenance))
 }
 
 fn to_json(compiled: &Compiled, assemblies: &Assemblies, warnings: &[Value]) -> Value {

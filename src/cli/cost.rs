@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use linkwear::backend::{Backend, Equations};
-use linkwear::cost::{EntryCost, Nanoseconds, entry_costs};
-use linkwear::progress::watched;
+use crate::backend::{Backend, Equations};
+use crate::cost::{EntryCost, Nanoseconds, entry_costs};
+use crate::progress::watched;
 use linkwear_codegen::tape::Operations;
 use linkwear_codegen::{Compiled, Options};
 use linkwear_runtime::{Integrator, Settings, Span, simulate};
@@ -41,7 +41,7 @@ pub fn run(input: &Input) -> Result<Answer, Failure> {
         },
         "warnings": warnings,
     });
-    Ok(Answer { text: text(&compiled.mechanism.name, &entries, &turn), json })
+    Ok(Answer::new(text(&compiled.mechanism.name, &entries, &turn), json, None))
 }
 
 fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<Turn, Failure> {

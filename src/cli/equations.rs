@@ -22,7 +22,7 @@ pub fn run(arguments: &EquationsArguments) -> Result<Answer, Failure> {
         "name": compiled.mechanism.name, "outputs": meant.map(entry).collect::<Vec<_>>(), "text": text,
         "warnings": warnings,
     });
-    Ok(Answer { text, json })
+    Ok(Answer::new(text, json, None))
 }
 
 fn entry(output: &OutputInfo) -> Value {

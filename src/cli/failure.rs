@@ -1,18 +1,19 @@
 //! What went wrong, for people and for machines, and the exit code that says whose fault it was.
 //! In: errors of every stage. Out: text on stderr or `{"errors": [..]}` on stdout.
 
-use std::fmt::{Display, Write as _};
+use std::fmt::{self, Display, Write as _};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use crate::backend::BackendError;
+use crate::csv_table::CsvError;
+use crate::files::{WriteError, print};
+use crate::journal::JournalError;
+use crate::life::MergeError;
+use crate::mechanism::LoadError;
+use crate::provenance::sealed;
 use clap::error::ErrorKind;
-use linkwear::backend::BackendError;
-use linkwear::csv_table::CsvError;
-use linkwear::files::{WriteError, print};
-use linkwear::journal::JournalError;
-use linkwear::life::MergeError;
-use linkwear::mechanism::LoadError;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
 use linkwear_gamma::FitFileError;
 use linkwear_runtime::RunError;
@@ -191,6 +192,16 @@ impl Failure {
         move |error| Self::data(file, error.line, &error.message, &error.cure)
     }
 
+    /// What is wrong, as machines read it: objects of code, file, line, column, message and help.
+    pub fn errors(&self) -> &[Value] {
+        &self.errors
+    }
+
+    /// Whether the question is wrong; else the file, the data or the run.
+    pub fn is_usage(&self) -> bool {
+        self.exit == USAGE
+    }
+
     /// Says it, and returns the exit code.
     pub fn report(&self, format: Format) -> ExitCode {
         // A reader of stdout who has gone away cannot be told; the exit code still says it.
@@ -200,7 +211,7 @@ impl Failure {
                 eprintln!("{}", self.text);
             }
             Format::Json => {
-                let mut answer = json!({ "errors": self.errors });
+                let mut answer = sealed(json!({ "errors": self.errors }), None);
                 if let Some(cycles) = &self.cycles {
                     answer["cycles"] = cycles.json.clone();
                 }
@@ -210,6 +221,14 @@ impl Failure {
         ExitCode::from(self.exit)
     }
 }
+
+impl Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+impl std::error::Error for Failure {}
 
 impl From<Diagnostics> for Failure {
     fn from(wrong: Diagnostics) -> Self {
@@ -302,7 +321,7 @@ pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
 }
 
 /// What clap says before its usage lines, in one line.
-fn first_paragraph(text: &str) -> String {
+pub(super) fn first_paragraph(text: &str) -> String {
     let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
     lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
 }

@@ -7,9 +7,12 @@ mod report;
 
 use std::io::Write as _;
 
-use linkwear::files::write_whole;
+use crate::csv_table::CsvTable;
+use crate::files::write_whole;
+use crate::provenance::{Provenance, sealed};
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
 use linkwear_gamma::fit::{FitError, LikelihoodRatio, likelihood_ratio};
+use serde_json::json;
 
 use self::analysis::{Analysis, model, rounding};
 use self::read::{Group, groups};
@@ -20,7 +23,12 @@ use super::input::check_output;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
     check_output(&arguments.file, arguments.out.as_deref())?;
-    let groups = groups(arguments)?;
+    answer(arguments, &CsvTable::read(&arguments.file)?)
+}
+
+/// The fit of a table.
+pub fn answer(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Answer, Failure> {
+    let groups = groups(arguments, table)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
     let data = observe(arguments, &all)?;
@@ -35,11 +43,23 @@ pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
         }
     }
     let test = ratio(&pooled, &parts);
+    let provenance = provenance(arguments, table);
     if let Some(out) = &arguments.out {
-        let text = pooled.file.to_json();
+        let text = sealed(pooled.file.to_json(), Some(&provenance));
         write_whole(out, |file| writeln!(file, "{text:#}"))?;
     }
-    Ok(report::answer(arguments, &pooled, &parts, test))
+    Ok(report::answer(arguments, &pooled, &parts, test, &provenance))
+}
+
+/// What a fit is of.
+fn provenance(arguments: &FitArguments, table: &CsvTable<'_>) -> Provenance {
+    let options = json!({
+        "unit": arguments.unit, "wear": arguments.wear, "exposure": arguments.exposure, "lambda": arguments.lambda,
+        "process": arguments.process.name(), "power_law": arguments.power_law, "groups": arguments.groups,
+        "from_zero": arguments.from_zero, "resolution": arguments.resolution, "gauge": arguments.gauge,
+        "covariates": arguments.covariate, "one_unit": arguments.one_unit, "bootstrap": arguments.bootstrap,
+    });
+    Provenance::new(table.sha256().to_owned(), Some(arguments.seed), options)
 }
 
 /// Groups with parameters of their own against one process for all.

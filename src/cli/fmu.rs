@@ -3,8 +3,8 @@
 use std::io::Write as _;
 use std::time::Instant;
 
-use linkwear::files::{WriteError, write_whole};
-use linkwear::fmu;
+use crate::files::{WriteError, write_whole};
+use crate::fmu;
 use serde_json::json;
 
 use super::answer::Answer;
@@ -30,5 +30,5 @@ pub fn run(arguments: &FmuArguments) -> Result<Answer, Failure> {
         "name": compiled.mechanism.name, "file": out.display().to_string(), "bytes": bytes.len(),
         "seconds": seconds, "warnings": warnings,
     });
-    Ok(Answer { text, json })
+    Ok(Answer::new(text, json, None))
 }

@@ -5,7 +5,7 @@ use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use linkwear::files::{WriteError, write_whole};
+use crate::files::{WriteError, write_whole};
 use linkwear_codegen::Compiled;
 use linkwear_codegen::compile::FunctionCount;
 use linkwear_codegen::tape::Operations;
@@ -54,7 +54,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let (Some(_), [first, ..]) = (out, &written[..]) else {
         let source = files.into_iter().map(|(_, text)| text).collect::<String>();
         json["source"] = source.clone().into();
-        return Ok(Answer { text: source, json });
+        return Ok(Answer::new(source, json, None));
     };
     let others: String = written[1..].iter().map(|path| format!(", {}", path.display())).collect();
     let rows: Vec<_> = functions.iter().map(row).collect();
@@ -66,7 +66,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         duration(seconds),
         table(&["function", "operations", "statements", "parts"], &rows)
     );
-    Ok(Answer { text, json })
+    Ok(Answer::new(text, json, None))
 }
 
 /// What is written where; without a place it goes to stdout.

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use linkwear::backend::Backend;
-use linkwear::files::{WriteError, check_target};
-use linkwear::mechanism::{Mechanism, located_warnings, read_source};
+use crate::backend::Backend;
+use crate::files::{WriteError, check_target};
+use crate::mechanism::{Mechanism, located_warnings, read_source};
 use linkwear_codegen::input::{Reach, read_text};
-use linkwear_codegen::{Compiled, Diagnostics, Options, compile, limits};
+use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_gamma::FitFile;
 use serde_json::Value;
 
@@ -15,10 +15,16 @@ use super::failure::{Failure, entries};
 
 /// Reads and compiles, with overrides and closure as asked; prints warnings, and returns them as machines read them.
 pub fn load(input: &Input) -> Result<(Compiled, Vec<Value>), Failure> {
-    let compiled = compile(&read_source(&input.file)?, &options(input, false))?;
-    let warnings = located_warnings(&compiled);
+    let (compiled, warnings) = compiled(input, &read_source(&input.file)?)?;
     print_warnings(&warnings);
     Ok((compiled, entries(&warnings)))
+}
+
+/// Compiles, with overrides and closure as asked.
+pub fn compiled(input: &Input, source: &SourceFile) -> Result<(Compiled, Diagnostics), Failure> {
+    let compiled = compile(source, &options(input, false))?;
+    let warnings = located_warnings(&compiled);
+    Ok((compiled, warnings))
 }
 
 /// Reads, compiles and chooses a back end; prints warnings. `rigid` takes flexible bodies as rigid.

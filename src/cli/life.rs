@@ -3,13 +3,14 @@
 
 mod fits;
 mod folder;
-mod output;
+pub mod output;
 
 use std::path::Path;
 
-use linkwear::files::claim_folder;
-use linkwear::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
-use linkwear::progress::watched;
+use crate::files::claim_folder;
+use crate::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
+use crate::mechanism::Mechanism;
+use crate::progress::watched;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 
 use self::fits::fits;
@@ -23,6 +24,40 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let folder = arguments.out.as_deref();
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
     let journal = folder.map(open).transpose().map_err(Failure::journal)?;
+    let (study, warnings) = study(arguments, &mechanism)?;
+    let cost =
+        watched(|watch| study.cost(watch)).map_err(|error| failed(&arguments.input.file, error, folder))?;
+    if let Some(cost) = cost {
+        eprintln!("{}", output::cost(&cost));
+    }
+    let lived = watched(|watch| match &journal {
+        Some(journal) => study.run_kept(journal, watch),
+        None => study.run_watched(watch),
+    });
+    let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
+    life.warnings.extend(warnings);
+    if let Some(note) = life.thread_note.take() {
+        eprintln!("warning: {note}");
+    }
+    let answer = output::answer(&LifeFacts::new(&study, life.coupling), &life);
+    match (folder, study.shard) {
+        (Some(folder), Some(shard)) => {
+            let part = LifePart::new(&study, command(std::env::args()), life);
+            part.map_or(Ok(()), |part| part.write(folder, &study))?;
+            Ok(output::of_shard(answer, shard))
+        }
+        (Some(folder), None) => {
+            folder::write(folder, &life, &answer.json).map(|()| answer).map_err(Failure::from)
+        }
+        (None, _) => Ok(answer),
+    }
+}
+
+/// What is asked for, and what is doubtful about its fits.
+pub fn study<'m>(
+    arguments: &LifeArguments,
+    mechanism: &'m Mechanism,
+) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
@@ -46,34 +81,9 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
         fits,
         shared_factor: arguments.shared_factor,
         shard: arguments.shard,
-        ..LifeStudy::new(&mechanism)
+        ..LifeStudy::new(mechanism)
     };
-    let cost =
-        watched(|watch| study.cost(watch)).map_err(|error| failed(&arguments.input.file, error, folder))?;
-    if let Some(cost) = cost {
-        eprintln!("{}", output::cost(&cost));
-    }
-    let lived = watched(|watch| match &journal {
-        Some(journal) => study.run_kept(journal, watch),
-        None => study.run_watched(watch),
-    });
-    let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
-    life.warnings.extend(warnings);
-    if let Some(note) = life.thread_note.take() {
-        eprintln!("warning: {note}");
-    }
-    let answer = output::answer(&LifeFacts::new(&study), &life);
-    match (folder, study.shard) {
-        (Some(folder), Some(shard)) => {
-            let part = LifePart::new(&study, command(std::env::args()), life);
-            part.map_or(Ok(()), |part| part.write(folder, &study))?;
-            Ok(output::of_shard(answer, shard))
-        }
-        (Some(folder), None) => {
-            folder::write(folder, &life, &answer.json).map(|()| answer).map_err(Failure::from)
-        }
-        (None, _) => Ok(answer),
-    }
+    Ok((study, warnings))
 }
 
 /// The lives of all shards as one.
@@ -124,7 +134,7 @@ fn quoted(word: &str) -> String {
 
 /// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
 /// the error.
-fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
+pub fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
     let LifeError { cause, joints, cycles, lives } = error;
     let cause = *cause;
     if let Cause::Journal(error) = cause {

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use linkwear::files::{WriteError, write_whole};
+use crate::files::{WriteError, write_whole};
 use serde_json::json;
 
 use super::answer::Answer;
@@ -26,7 +26,7 @@ pub fn run(arguments: &NewArguments) -> Result<Answer, Failure> {
     write_whole(&path, |file| file.write_all(starter.as_bytes()))?;
     let shown = path.display();
     let text = format!("{shown} written. Next:\n  linkwear check {shown}\n  linkwear simulate {shown}");
-    Ok(Answer { text, json: json!({ "file": shown.to_string() }) })
+    Ok(Answer::new(text, json!({ "file": shown.to_string() }), None))
 }
 
 fn is_name(text: &str) -> bool {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use crate::files::WriteError;
 use clap::CommandFactory;
-use linkwear::files::WriteError;
 use serde_json::json;
 
 use super::answer::Answer;
@@ -25,7 +25,7 @@ pub fn manual() -> Result<Answer, Failure> {
 
 fn answer(text: &[u8]) -> Answer {
     let text = String::from_utf8_lossy(text).into_owned();
-    Answer { json: json!({ "text": text }), text }
+    Answer::new(text.clone(), json!({ "text": text }), None)
 }
 
 /// The answer is JSON whatever the format.

@@ -2,11 +2,15 @@
 
 use std::fmt::Write as _;
 
-use linkwear::csv_table::CsvTable;
-use linkwear::number::number;
-use linkwear_gamma::Prediction;
+use crate::checksum::sha256;
+use crate::csv_table::CsvTable;
+use crate::number::number;
+use crate::provenance::Provenance;
 use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Reading};
 use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState};
+use linkwear_gamma::{FitFile, Prediction};
+
+use serde_json::{Value, json};
 
 use super::answer::Answer;
 use super::arguments::PredictArguments;
@@ -18,7 +22,11 @@ use super::table::table;
 const STRIDE: usize = 5;
 
 pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
-    let fit = read_fit(&arguments.fit)?;
+    answer(arguments, &read_fit(&arguments.fit)?)
+}
+
+/// The prediction by a fit.
+pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Failure> {
     // Inspections update the fit's own law; without them the interval of lives asks for more.
     let estimate = match arguments.inspections {
         Some(_) => fit.estimate(&arguments.covariate),
@@ -26,13 +34,23 @@ pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
     };
     let estimate = estimate.map_err(Failure::fit(&arguments.fit))?;
     let state = state(arguments, &estimate)?;
-    let mut answer = predict(arguments, estimate, &state)?;
+    let inspections = arguments.inspections.as_deref().map(CsvTable::read).transpose()?;
+    let inspections = inspections.as_ref();
+    let mut answer = predict(arguments, estimate, &state, inspections)?;
     for (at, (name, value)) in arguments.covariate.iter().enumerate() {
         let join = if at == 0 { " at" } else { "," };
         let _ = write!(answer.from, "{join} {name} = {value}");
     }
     answer.warnings.splice(0..0, fit.warning().map(str::to_owned));
-    Ok(Answer { text: to_text(&answer), json: answer.to_json() })
+    let options = json!({
+        "threshold": arguments.threshold, "current": arguments.current, "at": arguments.at,
+        "covariates": arguments.covariate.iter().map(|(name, value)| (name.clone(), json!(value))).collect::<Value>(),
+        "rate": arguments.rate, "gauge": arguments.gauge, "flat_prior": arguments.flat_prior,
+        "particles": arguments.gauge.map(|_| arguments.particles), "draws": arguments.draws,
+        "inspections_sha256": inspections.map(CsvTable::sha256),
+    });
+    let provenance = Provenance::new(sha256(fit), Some(arguments.seed), options);
+    Ok(Answer::new(to_text(&answer), answer.to_json(), Some(&provenance)))
 }
 
 fn state(arguments: &PredictArguments, estimate: &Estimate) -> Result<OperatingState, Failure> {
@@ -52,15 +70,15 @@ fn predict(
     arguments: &PredictArguments,
     estimate: Estimate,
     state: &OperatingState,
+    inspections: Option<&CsvTable<'_>>,
 ) -> Result<Prediction, Failure> {
-    let Some(file) = &arguments.inspections else {
+    let (Some(file), Some(table)) = (&arguments.inspections, inspections) else {
         let draws = |count| Method::Draws { count: count as usize, seed: arguments.seed };
         let method = arguments.draws.map_or(Method::Delta, draws);
         return Prediction::by_fit(&estimate, state, method).map_err(|error| asked(arguments, &error));
     };
     // clap asks for both with --inspections.
     let (time, wear) = (arguments.time.as_deref(), arguments.wear.as_deref());
-    let table = CsvTable::read(file)?;
     let times = table.numbers(time.unwrap_or_default())?.into_iter();
     let readings =
         times.zip(table.numbers(wear.unwrap_or_default())?).map(|(time, wear)| Reading { time, wear });

@@ -3,14 +3,18 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use linkwear::inputs::read_inputs;
-use linkwear::mechanism::Mechanism;
-use linkwear::number::number;
-use linkwear::progress::watched;
-use linkwear::table::write_table;
+use crate::csv_table::CsvTable;
+use crate::inputs::read_inputs;
+use crate::mechanism::Mechanism;
+use crate::number::number;
+use crate::progress::watched;
+use crate::provenance::Provenance;
+use crate::table::write_table;
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{Description, Integrator, Run, Settings, Span, simulate, simulate_with_inputs};
+use linkwear_runtime::{
+    Description, Integrator, Run, SampledSignals, Settings, Span, Watch, simulate, simulate_with_inputs,
+};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
@@ -26,27 +30,14 @@ const DEFAULT_STEP: f64 = 1e-4;
 const DEFAULT_RHO: f64 = 0.8;
 
 pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
-    let integrator = integrator(arguments)?;
+    integrator(arguments)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
     let is_stream = check_output(file, out)?;
     let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
-    let description = &mechanism.description;
-    refuse_too_many(arguments.samples as usize, description)?;
-    let signals = arguments.inputs.as_deref().map(|file| read_inputs(file, description)).transpose()?;
-    let span = span(arguments, description)?;
-    let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));
-    let settings = Settings::new(integrator, span, arguments.samples as usize);
-
+    let asked = Simulation::new(arguments, &mechanism)?;
     let start = Instant::now();
-    let system = mechanism.system();
-    let parameters = &mechanism.parameters;
-    let result = watched(|watch| match &signals {
-        Some(signals) => simulate_with_inputs(&*system, description, parameters, signals, &settings, watch),
-        None => simulate(&*system, description, parameters, &settings, watch),
-    });
-    let wall_seconds = start.elapsed().as_secs_f64();
-
-    let run = result.map_err(|error| Failure::run(file, &error, None))?;
+    let run = watched(|watch| asked.run(watch))?;
+    let (settings, wall_seconds) = (asked.settings, start.elapsed().as_secs_f64());
     if let Some(error) = &run.stopped {
         // A file that they were meant for is left as it was.
         let name = |out: &Path| if is_stream { out.to_path_buf() } else { partial_name(out) };
@@ -55,10 +46,68 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
         return Err(Failure::run(file, error, partial));
     }
     out.map_or(Ok(()), |out| write_table(out, &run.table()))?;
-    Ok(Answer {
-        text: to_text(out, &mechanism, &run, &settings, wall_seconds),
-        json: to_json(out, &mechanism, &run, wall_seconds),
-    })
+    let text = to_text(out, &mechanism, &run, &settings, wall_seconds);
+    let provenance = asked.provenance();
+    Ok(Answer::new(text, to_json(out, &mechanism, &run, wall_seconds), Some(&provenance)))
+}
+
+/// What is to be simulated, and how.
+pub struct Simulation<'a> {
+    file: &'a Path,
+    mechanism: &'a Mechanism,
+    signals: Option<SampledSignals>,
+    inputs_sha256: Option<String>,
+    settings: Settings,
+    samples: usize,
+}
+
+impl<'a> Simulation<'a> {
+    pub fn new(arguments: &'a SimulateArguments, mechanism: &'a Mechanism) -> Result<Self, Failure> {
+        let integrator = integrator(arguments)?;
+        let description = &mechanism.description;
+        refuse_too_many(arguments.samples as usize, description)?;
+        let inputs = arguments.inputs.as_deref().map(CsvTable::read).transpose()?;
+        let signals = inputs.as_ref().map(|table| read_inputs(table, description)).transpose()?;
+        let inputs_sha256 = inputs.map(|table| table.sha256().to_owned());
+        let span = span(arguments, description)?;
+        let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));
+        let samples = arguments.samples as usize;
+        let settings = Settings::new(integrator, span, samples);
+        Ok(Self { file: &arguments.input.file, mechanism, signals, inputs_sha256, settings, samples })
+    }
+
+    /// What the run is of.
+    pub fn provenance(&self) -> Provenance {
+        let Settings { integrator, span, .. } = &self.settings;
+        let (name, step, tolerance) = match *integrator {
+            Integrator::Rk4 { step } => ("rk4", Some(step), None),
+            Integrator::GeneralizedAlpha { step, .. } => ("generalized-alpha", Some(step), None),
+            Integrator::Dopri5 { tolerance, .. } => ("dopri5", None, Some(tolerance)),
+            Integrator::Rk43 { tolerance, .. } => ("rk43", None, Some(tolerance)),
+        };
+        let (turns, time) = match *span {
+            Span::Turns(turns) => (Some(turns), None),
+            Span::Time(time) => (None, Some(time)),
+        };
+        let options = json!({
+            "integrator": name, "step_s": step, "tolerance": tolerance, "turns": turns, "time_s": time,
+            "samples": self.samples, "inputs_sha256": self.inputs_sha256,
+        });
+        self.mechanism.provenance(None, options)
+    }
+
+    /// The run, perhaps stopped on its way.
+    pub fn run(&self, watch: Watch<'_>) -> Result<Run, Failure> {
+        let Mechanism { description, parameters, .. } = self.mechanism;
+        let system = self.mechanism.system();
+        let result = match &self.signals {
+            Some(signals) => {
+                simulate_with_inputs(&*system, description, parameters, signals, &self.settings, watch)
+            }
+            None => simulate(&*system, description, parameters, &self.settings, watch),
+        };
+        result.map_err(|error| Failure::run(self.file, &error, None))
+    }
 }
 
 fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Failure> {
@@ -118,7 +167,8 @@ fn partial_name(out: &Path) -> PathBuf {
     out.with_file_name(name)
 }
 
-fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
+/// What is told of a run, for machines.
+pub fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
     let numbers = &run.statistics;
     let description = &mechanism.description;
     json!({

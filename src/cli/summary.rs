@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use linkwear::number::number;
+use crate::number::number;
 use linkwear_runtime::{At, Description, Extremes, Peak, Run};
 use serde_json::{Value, json};
 

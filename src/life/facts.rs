@@ -4,7 +4,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::study::LifeStudy;
+use super::study::{Coupling, LifeStudy};
+use crate::provenance::Provenance;
 use crate::wear_measure::{WearMeasure, wear_measures};
 
 /// Facts of a study, the same in all its shards.
@@ -22,13 +23,15 @@ pub struct LifeFacts {
     pub shared_factor: Option<f64>,
     /// Measure of wear of each joint that wears.
     pub wear_measures: Vec<WearMeasure>,
+    /// What the result is of.
+    pub provenance: Provenance,
     /// Remarks on the mechanism's file, as machines read them.
     pub warnings: Vec<Value>,
 }
 
 impl LifeFacts {
-    /// Of a study.
-    pub fn new(study: &LifeStudy<'_>) -> Self {
+    /// Of a study, lived with this coupling.
+    pub fn new(study: &LifeStudy<'_>, coupling: Coupling) -> Self {
         let mechanism = study.mechanism;
         let warnings = mechanism.warnings.entries();
         Self {
@@ -37,6 +40,7 @@ impl LifeFacts {
             seed: study.seed,
             listed: study.listed,
             shared_factor: study.shared_factor,
+            provenance: study.provenance(coupling),
             wear_measures: wear_measures(&mechanism.description),
             warnings: warnings.iter().map(|entry| serde_json::json!(entry)).collect(),
         }

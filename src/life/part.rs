@@ -71,7 +71,13 @@ impl LifePart {
     /// Of a study that was lived; nothing if it has no shard. `command` is that of [`Self::command`].
     pub fn new(study: &LifeStudy<'_>, command: String, result: LifeResult) -> Option<Self> {
         let trajectories = study.trajectories.count(result.coupling)?;
-        Some(Self { shard: study.shard?, trajectories, command, facts: LifeFacts::new(study), result })
+        Some(Self {
+            shard: study.shard?,
+            trajectories,
+            command,
+            facts: LifeFacts::new(study, result.coupling),
+            result,
+        })
     }
 
     /// Writes it into a folder, whole or not at all, with what identifies its study.

@@ -2,15 +2,17 @@
 
 use std::num::NonZero;
 
-use linkwear_runtime::RevolutionSettings;
+use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
 use super::shard::Shard;
+use crate::checksum::sha256;
 use crate::journal::Identity;
 use crate::mechanism::Mechanism;
+use crate::provenance::Provenance;
 
 /// Where the wear of a revolution is from.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
@@ -93,6 +95,31 @@ impl<'m> LifeStudy<'m> {
             fits: Vec::new(),
             shared_factor: None,
         }
+    }
+
+    /// What a result is of.
+    pub(super) fn provenance(&self, coupling: Coupling) -> Provenance {
+        let RevolutionSettings { integrator, settle, average } = &self.revolutions;
+        let (step, tolerance) = match *integrator {
+            Integrator::Rk4 { step } | Integrator::GeneralizedAlpha { step, .. } => (Some(step), None),
+            Integrator::Dopri5 { tolerance, .. } | Integrator::Rk43 { tolerance, .. } => {
+                (None, Some(tolerance))
+            }
+        };
+        let fit = |fit: &JointFit| (fit.joint.clone(), json!(sha256(&fit.estimate)));
+        let fits = self.fits.iter().map(fit).collect::<Map<_, _>>();
+        let options = json!({
+            "coupling": coupling,
+            "trajectories": self.trajectories.count(coupling),
+            "step_s": step,
+            "tolerance": tolerance,
+            "settle": settle,
+            "average": average,
+            "feedback": self.feedback,
+            "shared_factor": self.shared_factor,
+            "fits_sha256": (!fits.is_empty()).then_some(fits),
+        });
+        self.mechanism.provenance(Some(self.seed), options)
     }
 
     /// All that decides the numbers of a life but the number of random lives, in words that a difference is told by.

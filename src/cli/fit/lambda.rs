@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use linkwear::csv_table::CsvTable;
+use crate::csv_table::CsvTable;
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
 use linkwear_gamma::life::Clock;

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use linkwear::csv_table::CsvTable;
+use crate::csv_table::CsvTable;
 use linkwear_gamma::data::Reading;
 
 use super::super::arguments::FitArguments;
@@ -19,11 +19,10 @@ pub struct Group {
 }
 
 /// All readings, by group in order of first appearance.
-pub fn groups(arguments: &FitArguments) -> Result<Vec<Group>, Failure> {
-    let table = CsvTable::read(&arguments.file)?;
+pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Group>, Failure> {
     let units = table.texts(&arguments.unit)?;
     let wears = table.numbers(&arguments.wear)?;
-    let exposures = clock(arguments, &table)?;
+    let exposures = clock(arguments, table)?;
     let covariates = arguments.covariate.iter().map(|name| table.numbers(name));
     let covariates = covariates.collect::<Result<Vec<_>, _>>()?;
     let names = match &arguments.groups {

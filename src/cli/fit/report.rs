@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use linkwear::number::number;
+use crate::number::number;
+use crate::provenance::Provenance;
 use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
 use linkwear_gamma::process::Process;
 use serde_json::{Value, json};
@@ -18,6 +19,7 @@ pub fn answer(
     pooled: &Analysis,
     groups: &[Analysis],
     test: Option<LikelihoodRatio>,
+    provenance: &Provenance,
 ) -> Answer {
     let mut json = one(arguments, pooled);
     if !groups.is_empty() {
@@ -44,7 +46,7 @@ pub fn answer(
             number(test.p_value)
         );
     }
-    Answer { text, json }
+    Answer::new(text, json, Some(provenance))
 }
 
 /// Probability of so bad a fit below which its reader is warned: a true process is called bad in one fit of a hundred.

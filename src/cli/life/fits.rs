@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use linkwear::life::JointFit;
+use crate::life::JointFit;
 use linkwear_runtime::Description;
 
 use super::super::failure::Failure;

@@ -3,9 +3,9 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use linkwear::files::{WriteError, write_whole};
-use linkwear::life::LifeResult;
-use linkwear::table::write_table;
+use crate::files::{WriteError, write_whole};
+use crate::life::LifeResult;
+use crate::table::write_table;
 use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 use linkwear_runtime::{Cells, Table};
 use serde_json::Value;

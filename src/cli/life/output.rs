@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use linkwear::life::{Cost, Coupling, JointProcess, LifeFacts, LifeResult, Shard};
-use linkwear::number::number;
-use linkwear::wear_measure::paragraph;
+use crate::life::{Cost, Coupling, JointProcess, LifeFacts, LifeResult, Shard};
+use crate::number::number;
+use crate::wear_measure::paragraph;
 use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
@@ -25,10 +25,8 @@ const YEAR: f64 = 8766.0 * HOUR;
 /// The answer.
 pub fn answer(facts: &LifeFacts, life: &LifeResult) -> Answer {
     let statistics = life.statistics();
-    Answer {
-        text: to_text(facts, life, statistics.as_ref()),
-        json: to_json(facts, life, statistics.as_ref()),
-    }
+    let text = to_text(facts, life, statistics.as_ref());
+    Answer::new(text, to_json(facts, life, statistics.as_ref()), Some(&facts.provenance))
 }
 
 /// The answer of a shard, said to be one.

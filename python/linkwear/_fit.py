@@ -1,0 +1,100 @@
+"""Processes of wear from readings, and predictions by them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _linkwear
+from ._results import Record
+from ._words import words
+
+if TYPE_CHECKING:
+    import pandas
+
+#: What data are called that are given as arrays.
+DATA = "<data>"
+
+
+def fit(
+    data: str | os.PathLike[str] | Mapping[str, Any] | pandas.DataFrame,
+    *,
+    unit: str,
+    wear: str,
+    exposure: str | None = None,
+    **options: Any,
+) -> Fit:
+    """Fits a process of wear by maximum likelihood.
+
+    ``data`` is the path of a CSV file, a data frame, or arrays by name; ``unit``, ``wear`` and ``exposure`` are names of columns. Further
+    options are those of ``linkwear fit``: ``lambda_``, ``process``, ``power_law``, ``groups``, ``from_zero``, ``resolution``, ``gauge``,
+    ``covariate``, ``one_unit``, ``compare``, ``bootstrap``, ``seed``. Units are those of the data.
+
+    Raises FileError with the line, UsageError.
+    """
+    if "lambda_" in options:
+        options["lambda"] = options.pop("lambda_")
+    said = words({"unit": unit, "wear": wear, "exposure": exposure, **options})
+    name, table = _table(data)
+    return Fit(json.loads(_linkwear.fit(said, name, table)))
+
+
+def load_fit(path: str | os.PathLike[str]) -> Fit:
+    """The fit in a file of ``linkwear fit --out``, or of :meth:`Fit.save`."""
+    return Fit(json.loads(Path(path).read_text()))
+
+
+def _table(data: Any) -> tuple[str, str]:
+    if isinstance(data, (str, os.PathLike)):
+        return os.fspath(data), Path(data).read_text()
+    columns = {str(name): list(data[name]) for name in data}
+    lengths = {len(values) for values in columns.values()}
+    if len(lengths) > 1:
+        raise ValueError(f"columns have different lengths: {sorted(lengths)}")
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    # Texts of doubles are the shortest that read back as the same numbers.
+    writer.writerows(zip(*columns.values()))
+    return DATA, text.getvalue()
+
+
+class Fit(Record):
+    """A fit: what ``linkwear fit --format json`` prints as attributes, ``fit.alpha``, ``fit.log_likelihood``."""
+
+    def predict(self, *, threshold: float, current: float | None = None, **options: Any) -> Prediction:
+        """The remaining life to a wear ``threshold`` from the wear ``current``, in the units of the data.
+
+        Further options are those of ``linkwear predict``: ``at``, ``covariate``, ``rate``, ``inspections``, ``time``, ``wear``, ``gauge``,
+        ``flat_prior``, ``particles``, ``draws``, ``seed``.
+        """
+        covariates = options.get("covariate")
+        if isinstance(covariates, Mapping):
+            options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
+        said = words({"threshold": threshold, "current": current, **options})
+        return Prediction(json.loads(_linkwear.predict(said, "fit", json.dumps(self._keys))))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes it for ``linkwear predict`` and :func:`load_fit`."""
+        Path(path).write_text(json.dumps(self._keys, indent=2) + "\n")
+
+    def plot(self, ax: Any | None = None) -> Any:
+        """Probability paper: what was measured against what the process says."""
+        from ._plot import fit as drawn
+
+        return drawn(self, ax)
+
+
+class Prediction(Record):
+    """A remaining life: what ``linkwear predict --format json`` prints as attributes, ``prediction.mean``, ``prediction.interval95.lower``."""
+
+    def plot(self, ax: Any | None = None) -> Any:
+        """Reliability over time, with its band."""
+        from ._plot import prediction
+
+        return prediction(self, ax)

@@ -1,0 +1,364 @@
+//! An entry point at many states at once. In: a compiled mechanism, numbers by quantity. Out: the answers, the same bits as one state
+//! after the other; derivatives by dual numbers. Never knows what states are for.
+
+use linkwear_codegen::Compiled;
+use linkwear_codegen::tape::Interpreted;
+use linkwear_native::{Lanes, Native};
+use linkwear_runtime::{CONTACT_MOTION, CONTACT_WRENCH, Description, Dual, Entry, Sizes, System};
+use thiserror::Error;
+
+/// Numbers that do not fit an entry.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum BatchError {
+    /// There are too few or too many quantities.
+    #[error("{entry} takes {expected} quantities, and {found} are given")]
+    Quantities {
+        /// The entry.
+        entry: &'static str,
+        /// How many it takes.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A quantity has neither one value nor one for each state.
+    #[error("quantity {quantity} has {found} values for {states} states")]
+    States {
+        /// Its place, from 0.
+        quantity: usize,
+        /// States asked for.
+        states: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// The room for the answers has another size.
+    #[error("the answers are {expected} numbers, and there is room for {found}")]
+    Room {
+        /// Numbers of all answers.
+        expected: usize,
+        /// Numbers there is room for.
+        found: usize,
+    },
+}
+
+/// A part of the input or output of an entry: what it is called, and the names of its quantities.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quantities {
+    /// `parameters`, `t`, `q`, `v`, ..
+    pub group: &'static str,
+    /// A name for each.
+    pub names: Vec<String>,
+}
+
+/// The entry points of a mechanism, for many states.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    way: Way,
+    interpreter: Interpreted,
+    sizes: Sizes,
+    description: Description,
+}
+
+/// States that are evaluated together.
+#[derive(Clone, Debug)]
+enum Way {
+    Eight(Lanes<8>),
+    Four(Lanes<4>),
+    Alone(Native),
+    Interpreted,
+}
+
+/// Bytes of a line of the cache.
+const LINE: usize = 64;
+
+/// Numbers enough for so many values, wherever lines of the cache begin.
+pub(crate) fn room<const N: usize>(length: usize) -> Vec<f64> {
+    vec![0.0; length * N + LINE / size_of::<f64>()]
+}
+
+/// The values from where a line of the cache begins.
+pub(crate) fn aligned<const N: usize>(numbers: &mut [f64]) -> &mut [[f64; N]] {
+    let first = numbers.as_ptr().align_offset(LINE).min(numbers.len());
+    numbers[first..].as_chunks_mut().0
+}
+
+impl Batch {
+    /// On as many lanes as this processor has; by the interpreter where it has no machine code.
+    pub fn new(mechanism: &Compiled) -> Self {
+        let (tapes, sizes) = (mechanism.tapes(), mechanism.sizes());
+        let way = Lanes::new(tapes, sizes).map(Way::Eight);
+        let way = way.or_else(|_| Lanes::new(tapes, sizes).map(Way::Four));
+        let way = way.or_else(|_| Native::new(tapes, sizes).map(Way::Alone)).unwrap_or(Way::Interpreted);
+        Self {
+            way,
+            interpreter: mechanism.interpreter(),
+            sizes,
+            description: mechanism.description().clone(),
+        }
+    }
+
+    /// States side by side.
+    pub fn lanes(&self) -> usize {
+        match self.way {
+            Way::Eight(_) => 8,
+            Way::Four(_) => 4,
+            Way::Alone(_) | Way::Interpreted => 1,
+        }
+    }
+
+    /// Counts that fix what entries take and give.
+    pub fn sizes(&self) -> Sizes {
+        self.sizes
+    }
+
+    /// Names, units, rows, columns of the mechanism.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// What an entry takes, in its order.
+    pub fn inputs(&self, entry: Entry) -> Vec<Quantities> {
+        let (known, sizes) = (&self.description, self.sizes);
+        let named = |group, names: Vec<String>| Quantities { group, names };
+        let wrenches = || named("wrenches", self.of_contacts(&WRENCH));
+        let mut all = vec![
+            named("parameters", known.parameters.iter().map(|one| one.name.to_string()).collect()),
+            named("t", vec!["t".to_owned()]),
+        ];
+        let variables = [
+            named("q", known.coordinates.iter().map(|one| one.name.to_string()).collect()),
+            named("v", known.speeds.iter().map(|one| one.name.to_string()).collect()),
+        ];
+        match entry {
+            Entry::Prescribed | Entry::Start => {}
+            Entry::EquationsOfMotion => all.extend([
+                named("all_q", numbered("q", sizes.all_coordinates)),
+                named("all_v", numbered("v", sizes.all_speeds)),
+                wrenches(),
+            ]),
+            _ => all.extend(variables),
+        }
+        match entry {
+            Entry::ForwardDynamics | Entry::Accelerations => all.push(wrenches()),
+            Entry::Rates => all.push(named("drive_forces", self.drivers())),
+            Entry::Observe => all.extend([
+                named("accelerations", numbered("a", sizes.speeds)),
+                named("multipliers", numbered("lambda", sizes.all_rows)),
+                named("drive_forces", self.drivers()),
+                wrenches(),
+            ]),
+            Entry::Derivative => {
+                all.extend([wrenches(), named("contact_motion", self.of_contacts(&MOTION))]);
+                all.push(named("held", numbered("held", sizes.held)));
+            }
+            _ => {}
+        }
+        all
+    }
+
+    /// What an entry gives, in its order.
+    pub fn outputs(&self, entry: Entry) -> Vec<Quantities> {
+        let (known, sizes) = (&self.description, self.sizes);
+        let named = |group, names: Vec<String>| Quantities { group, names };
+        let speeds = |suffix: &str| known.speeds.iter().map(|one| format!("{}{suffix}", one.name)).collect();
+        let kept = || numbered("row", sizes.rows);
+        let answer = || {
+            vec![
+                named("accelerations", speeds("'")),
+                named("multipliers", numbered("lambda", sizes.rows)),
+                named("drive_forces", self.drivers()),
+                named("pivots", kept()),
+            ]
+        };
+        let rates =
+            || named("q_rates", known.coordinates.iter().map(|one| format!("{}'", one.name)).collect());
+        let powers = || named("powers", ["supplied", "dissipated"].map(str::to_owned).to_vec());
+        match entry {
+            Entry::Prescribed => vec![named("prescribed", numbered("driver", 3 * sizes.drivers))],
+            Entry::Start => vec![
+                named("q", known.coordinates.iter().map(|one| one.name.to_string()).collect()),
+                named("v", known.speeds.iter().map(|one| one.name.to_string()).collect()),
+            ],
+            Entry::ForwardDynamics => answer(),
+            Entry::Accelerations => vec![named("accelerations", speeds("'")), named("pivots", kept())],
+            Entry::Rates => vec![rates(), powers()],
+            Entry::Closure => vec![
+                named("residuals", numbered("row", sizes.all_rows)),
+                named("velocity_residuals", kept()),
+                named("jacobian", numbered("J", sizes.rows * sizes.speeds)),
+            ],
+            Entry::Energy => vec![named("energy", ["kinetic", "potential"].map(str::to_owned).to_vec())],
+            Entry::Observe => {
+                vec![named(
+                    "channels",
+                    known.channels.iter().map(|one| format!("{} [{}]", one.name, one.unit)).collect(),
+                )]
+            }
+            Entry::EquationsOfMotion => {
+                let n = sizes.all_speeds;
+                vec![
+                    named("mass_triangle", numbered("M", n * (n + 1) / 2)),
+                    named("bias_forces", numbered("h", n)),
+                    named("constraints", numbered("C", sizes.all_rows * (n + 2))),
+                ]
+            }
+            Entry::Contacts => {
+                vec![
+                    named("contact_motion", self.of_contacts(&MOTION)),
+                    named("held", numbered("held", sizes.held)),
+                ]
+            }
+            Entry::Derivative => {
+                let mut all = vec![rates()];
+                all.extend(answer());
+                all.push(powers());
+                all
+            }
+        }
+    }
+
+    fn drivers(&self) -> Vec<String> {
+        self.description.drivers.iter().map(|one| one.joint.to_string()).collect()
+    }
+
+    fn of_contacts(&self, quantities: &[&str]) -> Vec<String> {
+        let contacts = self.description.contacts.iter();
+        contacts.flat_map(|one| quantities.iter().map(move |name| format!("{}.{name}", one.joint))).collect()
+    }
+
+    /// Evaluates an entry at so many states. A quantity is one value for all of them or one for each. The answers lie one
+    /// quantity after the other, each with the values of all states.
+    ///
+    /// # Errors
+    /// [`BatchError`].
+    pub fn evaluate(
+        &self,
+        entry: Entry,
+        inputs: &[&[f64]],
+        states: usize,
+        outputs: &mut [f64],
+    ) -> Result<(), BatchError> {
+        let (expected, found) = (self.sizes.input(entry), inputs.len());
+        if expected != found {
+            return Err(BatchError::Quantities { entry: entry.name(), expected, found });
+        }
+        for (quantity, values) in inputs.iter().enumerate() {
+            if values.len() != 1 && values.len() != states {
+                return Err(BatchError::States { quantity, states, found: values.len() });
+            }
+        }
+        let (expected, found) = (self.sizes.output(entry) * states, outputs.len());
+        if expected != found {
+            return Err(BatchError::Room { expected, found });
+        }
+        if states == 0 {
+            return Ok(());
+        }
+        match &self.way {
+            Way::Eight(lanes) => in_lanes(lanes, entry, inputs, (states, outputs)),
+            Way::Four(lanes) => in_lanes(lanes, entry, inputs, (states, outputs)),
+            Way::Alone(system) => alone(system, entry, inputs, (states, outputs)),
+            Way::Interpreted => alone(&self.interpreter, entry, inputs, (states, outputs)),
+        }
+        Ok(())
+    }
+
+    /// Derivatives of all answers at one state by some of the quantities, by dual numbers: for each of these quantities all answers.
+    ///
+    /// # Errors
+    /// [`BatchError::Quantities`].
+    pub fn derivatives(
+        &self,
+        entry: Entry,
+        input: &[f64],
+        by: &[usize],
+    ) -> Result<Vec<Vec<f64>>, BatchError> {
+        let (expected, found) = (self.sizes.input(entry), input.len());
+        if expected != found || by.iter().any(|at| *at >= found) {
+            return Err(BatchError::Quantities { entry: entry.name(), expected, found });
+        }
+        let system: &dyn System<Dual<f64>> = &self.interpreter;
+        let sizes = system.sizes();
+        let none = Dual::new(0.0, 0.0);
+        let (mut output, mut workspace) = (vec![none; sizes.output(entry)], vec![none; sizes.workspace]);
+        let mut duals: Vec<Dual<f64>> = input.iter().map(|value| Dual::new(*value, 0.0)).collect();
+        let slopes = by.iter().map(|at| {
+            duals[*at].derivative = 1.0;
+            system.evaluate(entry, &duals, &mut output, &mut workspace);
+            duals[*at].derivative = 0.0;
+            output.iter().map(|dual| dual.derivative).collect()
+        });
+        Ok(slopes.collect())
+    }
+}
+
+/// Components of a contact's motion, as [`CONTACT_MOTION`] has them.
+const MOTION: [&str; CONTACT_MOTION] = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "clearance"];
+/// Components of a contact's wrench, as [`CONTACT_WRENCH`] has them.
+const WRENCH: [&str; CONTACT_WRENCH] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
+
+fn numbered(stem: &str, count: usize) -> Vec<String> {
+    (1..=count).map(|number| format!("{stem}{number}")).collect()
+}
+
+/// States of which all numbers are near at a time: each quantity is read and written in stretches that memory likes.
+const NEAR: usize = 128;
+
+/// As many states as there are lanes at a time; the last ones share theirs with copies of one of them.
+fn in_lanes<const N: usize>(
+    lanes: &Lanes<N>,
+    entry: Entry,
+    inputs: &[&[f64]],
+    (states, outputs): (usize, &mut [f64]),
+) {
+    let sizes = lanes.sizes();
+    let (takes, gives, blocks) = (inputs.len(), sizes.output(entry), NEAR / N);
+    // Block after block, each with all quantities.
+    let [mut input, mut output] = [blocks * takes, blocks * gives].map(room::<N>);
+    let (input, output) = (aligned::<N>(&mut input), aligned::<N>(&mut output));
+    let mut workspace = vec![[0.0; N]; sizes.workspace];
+    for (at, values) in inputs.iter().enumerate() {
+        if let [one] = values {
+            input.iter_mut().skip(at).step_by(takes).for_each(|place| *place = [*one; N]);
+        }
+    }
+    for first in (0..states).step_by(NEAR) {
+        let count = NEAR.min(states - first);
+        for (at, values) in inputs.iter().enumerate().filter(|(_, values)| values.len() != 1) {
+            let (whole, rest) = values[first..first + count].as_chunks::<N>();
+            let mut places = input.iter_mut().skip(at).step_by(takes);
+            whole.iter().zip(&mut places).for_each(|(values, place)| *place = *values);
+            if let (Some(value), Some(place)) = (rest.first(), places.next()) {
+                *place = [*value; N];
+                place[..rest.len()].copy_from_slice(rest);
+            }
+        }
+        for block in 0..count.div_ceil(N) {
+            let input = &input[block * takes..][..takes];
+            lanes.evaluate(entry, input, &mut output[block * gives..][..gives], &mut workspace);
+        }
+        for (at, answers) in outputs.chunks_exact_mut(states).enumerate() {
+            let (whole, rest) = answers[first..first + count].as_chunks_mut::<N>();
+            let mut values = output.iter().skip(at).step_by(gives);
+            whole.iter_mut().zip(&mut values).for_each(|(place, values)| *place = *values);
+            if let Some(values) = values.next() {
+                let length = rest.len();
+                rest.copy_from_slice(&values[..length]);
+            }
+        }
+    }
+}
+
+fn alone(system: &dyn System<f64>, entry: Entry, inputs: &[&[f64]], (states, outputs): (usize, &mut [f64])) {
+    let sizes = system.sizes();
+    let mut input = vec![0.0; inputs.len()];
+    let (mut output, mut workspace) = (vec![0.0; sizes.output(entry)], vec![0.0; sizes.workspace]);
+    for state in 0..states {
+        for (place, values) in input.iter_mut().zip(inputs) {
+            *place = values[state.min(values.len() - 1)];
+        }
+        system.evaluate(entry, &input, &mut output, &mut workspace);
+        for (answers, value) in outputs.chunks_exact_mut(states).zip(&output) {
+            answers[state] = *value;
+        }
+    }
+}

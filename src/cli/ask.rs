@@ -1,0 +1,179 @@
+//! Questions in the words of the command line, answered within a program: what doors in other languages stand on, so that a question
+//! has the same options, the same answer and the same faults everywhere. In: words, texts in the place of files. Out: results with
+//! their JSON, or a [`Failure`]. Never prints, and writes no file.
+
+use std::path::{Path, PathBuf};
+
+use clap::Parser as _;
+use linkwear_codegen::SourceFile;
+use linkwear_gamma::FitFile;
+use linkwear_runtime::{Run, Watch};
+use serde_json::Value;
+
+use super::arguments::{Arguments, Command, Input};
+use super::failure::{Failure, entries, first_paragraph};
+use super::{check, fit, input, life, predict, simulate};
+use crate::csv_table::CsvTable;
+use crate::life::{LifeFacts, LifeJournal, LifePart, LifeResult};
+use crate::mechanism::Mechanism;
+use crate::provenance::sealed;
+
+/// A run and what is told of it.
+#[derive(Debug)]
+pub struct Simulated {
+    /// The run, to its end.
+    pub run: Run,
+    /// As `simulate --format json` has it.
+    pub json: Value,
+}
+
+/// A life and what is told of it.
+#[derive(Debug)]
+pub struct Lived {
+    /// What became of it.
+    pub result: LifeResult,
+    /// As `life --format json` has it.
+    pub json: Value,
+}
+
+/// `check`, of a text.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism.
+pub fn check(words: &[String], source: &SourceFile) -> Result<Value, Failure> {
+    let Command::Check(input) = parsed("check", words, &source.name)? else { return Err(no_such_words()) };
+    let (compiled, warnings) = input::compiled(&input, source)?;
+    Ok(check::answer(&compiled, &input::options(&input, false), &entries(&warnings)).json)
+}
+
+/// A mechanism ready to run, with `--set`, `--closure` and `--allow-outside-data` of the words.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism.
+pub fn compile(words: &[String], source: &SourceFile) -> Result<linkwear_codegen::Compiled, Failure> {
+    let Command::Check(input) = parsed("check", words, &source.name)? else { return Err(no_such_words()) };
+    Ok(input::compiled(&input, source)?.0)
+}
+
+/// `simulate`, of a text.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism; a run that does not come to its end.
+pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<Simulated, Failure> {
+    let Command::Simulate(arguments) = parsed("simulate", words, &source.name)? else {
+        return Err(no_such_words());
+    };
+    nothing_written(arguments.out.as_deref())?;
+    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
+    let asked = simulate::Simulation::new(&arguments, &mechanism)?;
+    let begin = std::time::Instant::now();
+    let run = asked.run(watch)?;
+    if let Some(error) = &run.stopped {
+        return Err(Failure::run(&arguments.input.file, error, None));
+    }
+    let json = simulate::to_json(None, &mechanism, &run, begin.elapsed().as_secs_f64());
+    Ok(Simulated { run, json: sealed(json, Some(&asked.provenance())) })
+}
+
+/// `life`, of a text.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism; a life that cannot be lived to its end.
+pub fn life(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<Lived, Failure> {
+    let Command::Life(arguments) = parsed("life", words, &source.name)? else { return Err(no_such_words()) };
+    nothing_written(arguments.out.as_deref())?;
+    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
+    let (study, warnings) = life::study(&arguments, &mechanism)?;
+    let lived = study.run_watched(watch);
+    let mut result = lived.map_err(|error| life::failed(&arguments.input.file, error, None))?;
+    result.warnings.extend(warnings);
+    let json = life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json;
+    Ok(Lived { result, json })
+}
+
+/// `life --shard I/N --out DIR --resume`, of a text: what was lived before in the folder is taken over.
+///
+/// # Errors
+/// As [`life`]; a folder that cannot be written, or that is of another study.
+pub fn shard(
+    words: &[String],
+    source: &SourceFile,
+    (shard, folder): (&str, &str),
+    watch: Watch<'_>,
+) -> Result<(), Failure> {
+    let own = ["--shard", shard, "--out", folder, "--resume"].map(str::to_owned);
+    let Command::Life(arguments) = parsed("life", &[words, &own].concat(), &source.name)? else {
+        return Err(no_such_words());
+    };
+    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
+    let folder = Path::new(folder);
+    let journal = LifeJournal::resume(folder).map_err(Failure::journal)?;
+    let (study, warnings) = life::study(&arguments, &mechanism)?;
+    let lived = study.run_kept(&journal, watch);
+    let mut result = lived.map_err(|error| life::failed(&arguments.input.file, error, Some(folder)))?;
+    result.warnings.extend(warnings);
+    let part = LifePart::new(&study, String::new(), result);
+    Ok(part.map_or(Ok(()), |part| part.write(folder, &study))?)
+}
+
+/// `merge`, of the folders of all shards.
+///
+/// # Errors
+/// What cannot be put together.
+pub fn merge(shards: &[String]) -> Result<Lived, Failure> {
+    let folders: Vec<PathBuf> = shards.iter().map(PathBuf::from).collect();
+    let (facts, result) = crate::life::merge(&folders).map_err(Failure::merge)?;
+    let json = life::output::answer(&facts, &result).json;
+    Ok(Lived { result, json })
+}
+
+/// `fit`, of a table of readings as CSV; `name` is said where it is at fault.
+///
+/// # Errors
+/// Wrong words; wrong data; no estimate.
+pub fn fit(words: &[String], name: &str, table: &str) -> Result<Value, Failure> {
+    let Command::Fit(arguments) = parsed("fit", words, name)? else { return Err(no_such_words()) };
+    nothing_written(arguments.out.as_deref())?;
+    Ok(fit::answer(&arguments, &CsvTable::parse(Path::new(name), table)?)?.json)
+}
+
+/// `predict`, by the JSON of a fit.
+///
+/// # Errors
+/// Wrong words; a fit that is none; a question without an answer.
+pub fn predict(words: &[String], name: &str, fit: &str) -> Result<Value, Failure> {
+    let Command::Predict(arguments) = parsed("predict", words, name)? else { return Err(no_such_words()) };
+    let fit = FitFile::parse(fit).map_err(Failure::fit(Path::new(name)))?;
+    Ok(predict::answer(&arguments, &fit)?.json)
+}
+
+/// The words of a subcommand, its file last.
+fn parsed(subcommand: &str, words: &[String], file: &str) -> Result<Command, Failure> {
+    let head = ["linkwear", subcommand].map(str::to_owned);
+    let tail = ["--", file].map(str::to_owned);
+    let parsed = Arguments::try_parse_from(head.iter().chain(words).chain(&tail));
+    parsed.map(|parsed| parsed.command).map_err(|error| {
+        let text = error.render().to_string();
+        Failure::usage(first_paragraph(&text), text.trim_end())
+    })
+}
+
+/// Words such as `--help` name no question.
+fn no_such_words() -> Failure {
+    Failure::usage("these words ask nothing", "give options of the subcommand")
+}
+
+fn nothing_written(out: Option<&Path>) -> Result<(), Failure> {
+    match out {
+        Some(_) => Err(Failure::usage("--out: nothing is written here", "write the result that is returned")),
+        None => Ok(()),
+    }
+}
+
+fn mechanism(
+    input: &Input,
+    source: &SourceFile,
+    (rigid, backend): (bool, crate::backend::Backend),
+) -> Result<Mechanism, Failure> {
+    Ok(Mechanism::compile(source, &input::options(input, rigid), backend)?)
+}
