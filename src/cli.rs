@@ -24,10 +24,12 @@ mod table;
 mod value;
 
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
 
+use crate::table::is_stdout;
 use answer::Answer;
 use arguments::{Arguments, Command, Format};
 use failure::Failure;
@@ -41,6 +43,10 @@ pub fn run() -> ExitCode {
         Err(error) => return failure::wrong_arguments(&error, format),
     };
     let format = if format == Format::Json { format } else { parsed.format };
+    if format == Format::Json && rows(&parsed.command).is_some_and(is_stdout) {
+        let (message, help) = ("--out -: stdout has one JSON object and nothing else", "give --out a file");
+        return Failure::usage(message, help).report(format);
+    }
     match answer(&parsed.command).and_then(|answer| Ok(answer.print(format)?)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(format),
@@ -64,6 +70,14 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Schema => Ok(packaging::schema()),
         Command::Completions { shell } => Ok(packaging::completions(*shell)),
         Command::Man => packaging::manual(),
+    }
+}
+
+/// Where rows go.
+fn rows(command: &Command) -> Option<&Path> {
+    match command {
+        Command::Simulate(arguments) => arguments.out.as_deref(),
+        _ => None,
     }
 }
 

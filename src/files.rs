@@ -45,6 +45,22 @@ pub fn print(text: &impl Display) -> Result<(), WriteError> {
     }
 }
 
+/// Hands stdout to what writes rows. A closed pipe is no failure.
+///
+/// # Errors
+/// As [`print`].
+pub fn write_stdout(
+    fill: impl FnOnce(&mut BufWriter<io::Stdout>) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let mut out = BufWriter::new(io::stdout());
+    match fill(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(WriteError::of(Path::new("stdout"))(error))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Creates a folder, or takes one that is empty.
 ///
 /// # Errors

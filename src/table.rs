@@ -1,14 +1,22 @@
 //! Tables as files, in the format that the extension names. A format is a file of this folder and its entry in
-//! [`FORMATS`]; command line and help find it there.
+//! [`FORMATS`]; command line and help find it there. In: a table, what it is of. Out: a file, and beside it what the format has no
+//! room for. Never knows what the numbers mean.
 
+mod about;
 mod npy;
+#[cfg(feature = "parquet")]
+mod parquet;
 
+use std::ffi::OsString;
+use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use linkwear_runtime::{Table, write_csv};
+use serde_json::Value;
 
-use crate::files::{WriteError, write_whole};
+use crate::files::{WriteError, check_target, write_stdout, write_whole};
+use crate::provenance::Provenance;
 
 /// A format of tables.
 pub struct TableFormat {
@@ -16,22 +24,77 @@ pub struct TableFormat {
     pub extension: &'static str,
     /// What it is for.
     pub purpose: &'static str,
-    /// Writes a whole file.
-    pub write: fn(&mut dyn Write, &Table<'_>) -> io::Result<()>,
+    /// Writes a whole file, with what is known about it where the format has room for that.
+    pub write: fn(&mut (dyn Write + Send), &Table<'_>, &Value) -> io::Result<()>,
+    /// Whether it has.
+    pub has_room: bool,
 }
 
 /// All formats; the first is taken where the extension is none of these.
-pub static FORMATS: [TableFormat; 2] = [
-    TableFormat { extension: "csv", purpose: "text", write: write_csv },
-    TableFormat { extension: "npy", purpose: "NumPy structured array", write: npy::write },
+pub static FORMATS: &[TableFormat] = &[
+    TableFormat {
+        extension: "csv",
+        purpose: "text",
+        write: |out, table, _| write_csv(out, table),
+        has_room: false,
+    },
+    TableFormat {
+        extension: "npy",
+        purpose: "NumPy structured array",
+        write: |out, table, _| npy::write(out, table),
+        has_room: false,
+    },
+    #[cfg(feature = "parquet")]
+    TableFormat { extension: "parquet", purpose: "Apache Parquet", write: parquet::write, has_room: true },
 ];
 
-/// Writes a table to a file that is there whole or not at all.
+/// Whether rows go to stdout, as text and alone.
+pub fn is_stdout(file: &Path) -> bool {
+    file == Path::new("-")
+}
+
+/// The format of a file.
+fn format(file: &Path) -> &'static TableFormat {
+    let is_named = |format: &&TableFormat| file.extension().is_some_and(|given| given == format.extension);
+    FORMATS.iter().find(is_named).unwrap_or(&FORMATS[0])
+}
+
+/// Writes a table to a file that is there whole or not at all, and what it is of: in the file where its format has room, else beside
+/// it in `<file>-metadata.json`, by the W3C's standard "CSV on the Web". A stream has the rows
+/// alone, as has stdout for `-`.
 ///
 /// # Errors
 /// As [`write_whole`].
-pub fn write_table(file: &Path, table: &Table<'_>) -> Result<(), WriteError> {
-    let is_named = |format: &&TableFormat| file.extension().is_some_and(|given| given == format.extension);
-    let format = FORMATS.iter().find(is_named).unwrap_or(&FORMATS[0]);
-    write_whole(file, |out| (format.write)(out, table))
+pub fn write_table(
+    file: &Path,
+    table: &Table<'_>,
+    provenance: Option<&Provenance>,
+) -> Result<(), WriteError> {
+    if is_stdout(file) {
+        return write_stdout(|out| write_csv(out, table));
+    }
+    let format = format(file);
+    let beside = (!format.has_room && !check_target(file)?).then(|| beside(file));
+    // A signal that ends the program waits until both are there.
+    #[cfg(feature = "cli")]
+    let _held = crate::progress::Held::new();
+    write_whole(file, |out| {
+        (format.write)(out, table, &about::in_file(table, provenance))?;
+        out.flush()?;
+        // What is said of the rows before goes with them.
+        match beside.as_deref().map(fs::remove_file) {
+            Some(Err(error)) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    })?;
+    let Some(beside) = beside else { return Ok(()) };
+    let about = about::beside(file, table, provenance);
+    write_whole(&beside, |out| writeln!(out, "{about:#}"))
+}
+
+/// Where readers of "CSV on the Web" look for what is said of a file.
+fn beside(file: &Path) -> PathBuf {
+    let mut name = OsString::from(file);
+    name.push("-metadata.json");
+    name.into()
 }

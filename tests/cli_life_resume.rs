@@ -15,7 +15,8 @@ const LIFE: [&str; 9] =
     ["life", "mechanisms/rssr.toml", "--rigid", "--step", "5e-5", "--settle", "0", "--seed", "7"];
 const RANDOM: [&str; 4] = ["--trajectories", "3000", "--format", "json"];
 const FULL: [&str; 5] = ["--coupling", "full", "--mean", "--format", "json"];
-const RESULTS: [&str; 3] = ["life.json", "cycles.csv", "lives.csv"];
+const RESULTS: [&str; 5] =
+    ["life.json", "cycles.csv", "cycles.csv-metadata.json", "lives.csv", "lives.csv-metadata.json"];
 
 fn arguments<'a>(more: &[&'a str], out: &'a str) -> Vec<&'a str> {
     [&LIFE[..], more, &["--out", out]].concat()

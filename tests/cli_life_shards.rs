@@ -21,7 +21,8 @@ const LIFE: [&str; 11] = [
     "--format",
     "json",
 ];
-const RESULTS: [&str; 3] = ["life.json", "cycles.csv", "lives.csv"];
+const RESULTS: [&str; 5] =
+    ["life.json", "cycles.csv", "cycles.csv-metadata.json", "lives.csv", "lives.csv-metadata.json"];
 
 /// Lives a shard, and returns its folder.
 fn shard(folder: &Folder, name: &str, shard: &str, more: &[&str]) -> String {

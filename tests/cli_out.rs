@@ -57,7 +57,9 @@ fn a_replaced_file_keeps_its_permissions_and_a_new_one_has_those_of_the_umask() 
         let plain = folder.write("plain", "");
         assert_eq!(mode(&new), mode(&plain), "{writer:?}");
     }
-    assert_eq!(folder.names(), ["new0", "new1", "new2", "old0", "old1", "old2", "plain"]);
+    let rows = ["new0", "new0-metadata.json", "new1", "new2"];
+    let old = ["old0", "old0-metadata.json", "old1", "old2", "plain"];
+    assert_eq!(folder.names(), [&rows[..], &old].concat());
 }
 
 #[test]
@@ -99,6 +101,8 @@ fn what_is_no_file_and_no_stream_is_refused_before_the_work() {
         }
         let answer = linkwear(&with(writer, &missing));
         assert!(answer.code == 1 && answer.err.contains("C0003"), "{}", answer.err);
+    }
+    for writer in &WRITERS[1..] {
         let answer = linkwear(&with(writer, "-"));
         assert!(answer.code == 2 && answer.err.contains("/dev/stdout"), "{}", answer.err);
     }
@@ -144,6 +148,38 @@ fn stdout_by_name_has_the_rows_and_then_the_answer_in_a_pipe_and_in_a_file() {
 }
 
 #[test]
+fn a_dash_is_stdout_with_the_rows_and_nothing_else() {
+    let folder = Folder::new("dash");
+    let rows =
+        ["simulate", "mechanisms/slider_crank_clearance.toml", "--samples", "5", "--time", "0.01", "--out"];
+    let file = folder.path("rows.csv");
+    assert_eq!(linkwear(&with(&rows, &file)).code, 0);
+    let answer = linkwear(&with(&rows, "-"));
+    assert_eq!((answer.code, answer.out), (0, folder.read("rows.csv")), "{}", answer.err);
+    // A file may have this name all the same.
+    let own = fs::canonicalize("mechanisms/pendulum.toml").expect("a file");
+    let own = own.to_str().expect("UTF-8");
+    assert_eq!(
+        folder.linkwear(&["simulate", own, "--samples", "2", "--time", "0.1", "--out", "./-"]).code,
+        0
+    );
+    assert!(folder.read("-").starts_with("t [s],"));
+    for json in [&["--format", "json"][..], &["--format=json"]] {
+        let answer = linkwear(&[&with(&rows, "-")[..], json].concat());
+        assert_eq!((answer.code, answer.errors()[0]["code"].as_str()), (2, Some("C0001")));
+    }
+    let line =
+        format!("\"$0\" simulate {PENDULUM} --samples 100000 --time 0.001 --step 1e-4 --out - | head -1");
+    let head = shell(&line);
+    assert!(
+        head.status.success() && head.stderr.is_empty() && head.stdout.starts_with(b"t [s],"),
+        "{head:?}"
+    );
+    let full = shell(&format!("\"$0\" simulate {PENDULUM} --out - > /dev/full"));
+    assert_eq!(full.status.code(), Some(1));
+}
+
+#[test]
 fn a_pipe_by_name_hands_the_rows_to_its_reader() {
     let folder = Folder::new("fifo");
     let pipe = folder.path("pipe");
@@ -185,6 +221,6 @@ fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().expect("kill").success());
     let _ = child.wait_with_output();
-    assert_eq!(folder.names(), ["rows.csv"]);
+    assert_eq!(folder.names(), ["rows.csv", "rows.csv-metadata.json"]);
     assert!(folder.read("rows.csv").lines().count() == 400_001);
 }

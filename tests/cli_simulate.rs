@@ -3,6 +3,7 @@
 mod command;
 
 use command::{Folder, linkwear};
+use serde_json::Value;
 
 const PENDULUM: &str = "mechanisms/pendulum.toml";
 const RSSR: &str = "mechanisms/rssr_rigid.toml";
@@ -77,7 +78,7 @@ fn rows_are_evenly_spaced_with_both_ends() {
         assert!((row[0] - 0.05 * index as f64).abs() < 1e-15);
         assert!(row.iter().all(|value| value.is_finite()));
     }
-    assert_eq!(folder.names(), ["p.csv"]);
+    assert_eq!(folder.names(), ["p.csv", "p.csv-metadata.json"]);
 }
 
 #[test]
@@ -99,6 +100,40 @@ fn an_array_of_numpy_has_the_columns_and_the_numbers_of_the_csv() {
     assert_eq!(values.chunks(8).map(value).collect::<Vec<_>>(), rows.concat());
     let help = linkwear(&["simulate", "--help"]).out;
     assert!(help.contains(".csv (text), .npy (NumPy structured array)"), "{help}");
+}
+
+/// What the file's bits are as a table: `src/table/parquet.rs`, and `tests/parquet_readers.py` by programs of other makers.
+#[cfg(feature = "parquet")]
+#[test]
+fn a_parquet_file_has_what_is_known_about_the_table_within_and_a_csv_file_beside() {
+    use serde_json::json;
+
+    let folder = Folder::new("parquet");
+    for name in ["p.csv", "p.parquet", "q.parquet"] {
+        let out = folder.path(name);
+        let answer = linkwear(&["simulate", PENDULUM, "--time", "0.1", "--samples", "11", "--out", &out]);
+        assert_eq!(answer.code, 0, "{}", answer.err);
+    }
+    assert_eq!(folder.names(), ["p.csv", "p.csv-metadata.json", "p.parquet", "q.parquet"]);
+    let bytes = std::fs::read(folder.path("p.parquet")).expect("a file");
+    assert_eq!(bytes, std::fs::read(folder.path("q.parquet")).expect("a file"));
+    assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
+    let beside: Value = serde_json::from_str(&folder.read("p.csv-metadata.json")).expect("JSON");
+    assert_eq!((&beside["@context"], &beside["url"]), (&json!("http://www.w3.org/ns/csvw"), &json!("p.csv")));
+    let (titles, _) = table(&folder.read("p.csv"));
+    let columns = beside["tableSchema"]["columns"].as_array().expect("columns");
+    assert_eq!(
+        columns.iter().map(|column| column["titles"].as_str().unwrap_or("")).collect::<Vec<_>>(),
+        titles
+    );
+    let column = json!({ "name": "hinge.q", "titles": "hinge.q [rad]", "datatype": "double", "unit": "rad" });
+    assert!(columns.contains(&column), "{columns:?}");
+    let answer =
+        linkwear(&["simulate", PENDULUM, "--time", "0.1", "--samples", "11", "--format", "json"]).json();
+    assert_eq!((&beside["format"], &beside["provenance"]), (&answer["format"], &answer["provenance"]));
+    // The same is in the other file, found as text: it is not compressed.
+    let within = json!({ "format": 1, "columns": columns, "provenance": answer["provenance"] }).to_string();
+    assert!(bytes.windows(within.len()).any(|window| window == within.as_bytes()));
 }
 
 #[test]
@@ -204,7 +239,7 @@ fn an_interrupt_keeps_what_was_computed() {
     assert_eq!(folder.read("rows.csv"), "complete rows of an earlier run");
     let (header, rows) = table(&folder.read("rows.partial.csv"));
     assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == header.len()));
-    assert_eq!(folder.names(), ["rows.csv", "rows.partial.csv"]);
+    assert_eq!(folder.names(), ["rows.csv", "rows.partial.csv", "rows.partial.csv-metadata.json"]);
 }
 
 #[test]
@@ -217,11 +252,10 @@ fn peaks_are_those_of_the_steps_however_many_rows_there_are() {
             linkwear(&all).json()
         };
         let few = answer("2");
-        let forces = |answer: &serde_json::Value| -> Vec<(f64, f64)> {
+        let forces = |answer: &Value| -> Vec<(f64, f64)> {
             let peaks = answer["peaks"].as_array().expect("a list").iter();
-            let both = |peak: &serde_json::Value| {
-                ["force_N", "force_time_s"].map(|key| peak[key].as_f64().expect("a number"))
-            };
+            let both =
+                |peak: &Value| ["force_N", "force_time_s"].map(|key| peak[key].as_f64().expect("a number"));
             peaks.map(both).map(|[force, time]| (force, time)).collect()
         };
         let expected = forces(&few);

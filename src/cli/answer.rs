@@ -24,6 +24,8 @@ impl Answer {
     /// Prints the form that was asked for.
     pub fn print(&self, format: Format) -> Result<(), WriteError> {
         match format {
+            // What was asked for is on stdout already.
+            Format::Text if self.text.is_empty() => Ok(()),
             Format::Text => print(&self.text.trim_end()),
             Format::Json => print(&self.json),
         }

@@ -40,7 +40,7 @@ fn rows_help() -> String {
     let formats = FORMATS.iter().map(|format| format!(".{} ({})", format.extension, format.purpose));
     let formats = formats.collect::<Vec<_>>().join(", ");
     format!(
-        "File for the rows: {formats}; any other name is taken as the first. It appears only when it is complete"
+        "File for the rows: {formats}; any other name is taken as the first; `-` is stdout. It appears only when it is complete"
     )
 }
 
@@ -183,7 +183,7 @@ pub struct SimulateArguments {
     /// Rows of the output, evenly spaced over the run, both ends included.
     #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
     pub samples: u32,
-    #[arg(long, value_name = "FILE", value_parser = output(), help = rows_help())]
+    #[arg(long, value_name = "FILE", help = rows_help())]
     pub out: Option<PathBuf>,
     /// Inputs over time: a CSV file with columns `t [s]` and `NAME [UNIT]` for inputs of [inputs]; others keep their defaults.
     #[arg(long, value_name = "FILE.csv")]

@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::backend::Backend;
 use crate::files::{WriteError, check_target};
 use crate::mechanism::{Mechanism, located_warnings, read_source};
+use crate::table::is_stdout;
 use linkwear_codegen::input::{Reach, read_text};
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_gamma::FitFile;
@@ -53,6 +54,9 @@ fn print_warnings(warnings: &Diagnostics) {
 /// Refuses, before the work, what cannot be written and to write over the input. True if the output is a stream.
 pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure> {
     let Some(output) = output else { return Ok(false) };
+    if is_stdout(output) {
+        return Ok(true);
+    }
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
         _ => Ok(check_target(output)?),

@@ -39,7 +39,8 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     if let Some(note) = life.thread_note.take() {
         eprintln!("warning: {note}");
     }
-    let answer = output::answer(&LifeFacts::new(&study, life.coupling), &life);
+    let facts = LifeFacts::new(&study, life.coupling);
+    let answer = output::answer(&facts, &life);
     match (folder, study.shard) {
         (Some(folder), Some(shard)) => {
             let part = LifePart::new(&study, command(std::env::args()), life);
@@ -47,7 +48,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
             Ok(output::of_shard(answer, shard))
         }
         (Some(folder), None) => {
-            folder::write(folder, &life, &answer.json).map(|()| answer).map_err(Failure::from)
+            folder::write(folder, &facts, &life, &answer.json).map(|()| answer).map_err(Failure::from)
         }
         (None, _) => Ok(answer),
     }
@@ -91,7 +92,7 @@ pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
     let (facts, life) = merge(&arguments.shards).map_err(Failure::merge)?;
     claim_folder(&arguments.out)?;
     let answer = output::answer(&facts, &life);
-    folder::write(&arguments.out, &life, &answer.json)?;
+    folder::write(&arguments.out, &facts, &life, &answer.json)?;
     Ok(answer)
 }
 
@@ -159,7 +160,10 @@ pub fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
              --fit and --shared-factor out"
         ),
         _ if cycles.is_empty() => String::new(),
-        _ => match folder.map(|folder| folder::write_parts(folder, &joints, (&cycles, &lives))).transpose() {
+        _ => match folder
+            .map(|folder| folder::write_parts(folder, &joints, (&cycles, &lives), None))
+            .transpose()
+        {
             Err(error) => return error.into(),
             Ok(Some(path)) => {
                 format!("{} cycles were completed before; they are in `{}`", cycles.len(), path.display())

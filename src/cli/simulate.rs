@@ -9,7 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::number::number;
 use crate::progress::watched;
 use crate::provenance::Provenance;
-use crate::table::write_table;
+use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{
@@ -42,12 +42,18 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
         // A file that they were meant for is left as it was.
         let name = |out: &Path| if is_stream { out.to_path_buf() } else { partial_name(out) };
         let partial = out.filter(|_| !run.rows.is_empty()).map(name);
-        partial.as_deref().map_or(Ok(()), |partial| write_table(partial, &run.table()))?;
+        partial
+            .as_deref()
+            .map_or(Ok(()), |partial| write_table(partial, &run.table(), Some(&asked.provenance())))?;
         return Err(Failure::run(file, error, partial));
     }
-    out.map_or(Ok(()), |out| write_table(out, &run.table()))?;
-    let text = to_text(out, &mechanism, &run, &settings, wall_seconds);
     let provenance = asked.provenance();
+    out.map_or(Ok(()), |out| write_table(out, &run.table(), Some(&provenance)))?;
+    if out.is_some_and(is_stdout) {
+        run.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        return Ok(Answer::new(String::new(), Value::Null, None));
+    }
+    let text = to_text(out, &mechanism, &run, &settings, wall_seconds);
     Ok(Answer::new(text, to_json(out, &mechanism, &run, wall_seconds), Some(&provenance)))
 }
 

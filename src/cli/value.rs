@@ -18,7 +18,7 @@ pub fn one_of<T: Clone + Send + Sync + 'static>(
     })
 }
 
-/// A path to write to; `-`, which other programs take for stdout, is none.
+/// A path to write to; `-`, which is stdout where rows are written, is none: stdout has the answer.
 pub fn output() -> impl TypedValueParser<Value = PathBuf> {
     OsStringValueParser::new().try_map(|name| {
         let cure =

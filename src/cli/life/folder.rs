@@ -1,19 +1,20 @@
-//! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent.
+//! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent, the tables with what they are of.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::files::{WriteError, write_whole};
-use crate::life::LifeResult;
+use crate::life::{LifeFacts, LifeResult};
+use crate::provenance::Provenance;
 use crate::table::write_table;
 use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 use linkwear_runtime::{Cells, Table};
 use serde_json::Value;
 
 /// Everything.
-pub fn write(folder: &Path, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
+pub fn write(folder: &Path, facts: &LifeFacts, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
     let lives: Vec<_> = (0..).zip(life.lives.iter().copied()).collect();
-    write_parts(folder, &life.names(), (&life.cycles, &lives))?;
+    write_parts(folder, &life.names(), (&life.cycles, &lives), Some(&facts.provenance))?;
     write_whole(&folder.join("life.json"), |file| writeln!(file, "{answer:#}"))
 }
 
@@ -22,21 +23,23 @@ pub fn write_parts(
     folder: &Path,
     names: &[String],
     (cycles, lives): (&[CycleRecord], &[(u64, FailureEvent)]),
+    provenance: Option<&Provenance>,
 ) -> Result<PathBuf, WriteError> {
-    let path = write_cycles(folder, names, cycles)?;
+    let path = folder.join("cycles.csv");
+    write_table(&path, &cycles_table(names, cycles), provenance)?;
     if !lives.is_empty() {
         let table = Table { exponents: false, ..Table::new(lives.len()) }
             .column("trajectory", "", Cells::counts(|row| lives[row].0))
             .column("life", "cycles", Cells::numbers(|row| lives[row].1.cycles))
             .column("whole cycles", "", Cells::counts(|row| lives[row].1.whole_cycles))
             .column("failed joint", "", Cells::names(|row| &names[lives[row].1.joint]));
-        write_table(&folder.join("lives.csv"), &table)?;
+        write_table(&folder.join("lives.csv"), &table, provenance)?;
     }
     Ok(path)
 }
 
 /// The cycles of the mean path.
-fn write_cycles(folder: &Path, joints: &[String], cycles: &[CycleRecord]) -> Result<PathBuf, WriteError> {
+fn cycles_table<'a>(joints: &[String], cycles: &'a [CycleRecord]) -> Table<'a> {
     let mut table = Table { exponents: false, ..Table::new(cycles.len()) }
         .column("cycle", "", Cells::counts(|row| cycles[row].cycle))
         .column("used", "1", Cells::numbers(|row| cycles[row].used));
@@ -46,7 +49,5 @@ fn write_cycles(folder: &Path, joints: &[String], cycles: &[CycleRecord]) -> Res
             table = table.column(format!("{name}.{}", column.symbol), column.unit, Cells::numbers(value));
         }
     }
-    let path = folder.join("cycles.csv");
-    write_table(&path, &table)?;
-    Ok(path)
+    table
 }
