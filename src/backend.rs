@@ -2,6 +2,7 @@
 //! Out: [`Equations`], or why there are none. Never knows what they are used for.
 
 use std::fmt;
+use std::sync::Arc;
 
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Options};
@@ -66,9 +67,10 @@ const NATIVE: &str = "native";
 type Make = dyn Fn() -> Box<dyn System<f64>> + Send + Sync;
 
 /// Equations on a back end; every thread makes a system of its own.
+#[derive(Clone)]
 pub struct Equations {
     name: &'static str,
-    make: Box<Make>,
+    make: Arc<Make>,
     refusal: Option<Refusal>,
 }
 
@@ -81,13 +83,13 @@ impl fmt::Debug for Equations {
 impl Equations {
     /// Of a mechanism that a program compiled in, `|| Box::new(my_mechanism::Mechanism::default())`.
     pub fn compiled(make: impl Fn() -> Box<dyn System<f64>> + Send + Sync + 'static) -> Self {
-        Self { name: "compiled", make: Box::new(make), refusal: None }
+        Self { name: "compiled", make: Arc::new(make), refusal: None }
     }
 
     /// By interpreting the tapes.
     pub fn interpreted(mechanism: &Compiled) -> Self {
         let system = mechanism.interpreter();
-        Self { name: "interpreter", make: Box::new(move || Box::new(system.clone())), refusal: None }
+        Self { name: "interpreter", make: Arc::new(move || Box::new(system.clone())), refusal: None }
     }
 
     /// As machine code, written now.
@@ -96,7 +98,7 @@ impl Equations {
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
         let system = Native::new(mechanism.tapes(), mechanism.sizes())?;
-        Ok(Self { name: NATIVE, make: Box::new(move || Box::new(system.clone())), refusal: None })
+        Ok(Self { name: NATIVE, make: Arc::new(move || Box::new(system.clone())), refusal: None })
     }
 
     /// Of a mechanism, compiled with these options, on the back end that is asked for.

@@ -14,11 +14,14 @@ mod fmu;
 mod generate;
 mod input;
 mod life;
+mod merge;
 mod new;
+mod options;
 mod packaging;
 mod plot;
 mod predict;
 mod simulate;
+mod study;
 mod summary;
 mod table;
 mod value;
@@ -62,7 +65,8 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Fmu(arguments) => fmu::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),
-        Command::Merge(arguments) => life::merged(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
+        Command::Study(arguments) => study::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
@@ -77,6 +81,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
 fn rows(command: &Command) -> Option<&Path> {
     match command {
         Command::Simulate(arguments) => arguments.out.as_deref(),
+        Command::Study(arguments) => arguments.out.as_deref(),
         _ => None,
     }
 }

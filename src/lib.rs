@@ -33,9 +33,12 @@ pub mod life;
 pub mod mechanism;
 pub mod mechanisms;
 pub mod number;
+mod parts;
 #[cfg(feature = "cli")]
 pub mod progress;
 pub mod provenance;
+pub mod shard;
+pub mod study;
 pub mod table;
 pub mod wear_measure;
 

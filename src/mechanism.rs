@@ -3,6 +3,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::Tape;
@@ -38,7 +39,7 @@ pub enum LoadError {
 }
 
 /// Equations with all that is known about them.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mechanism {
     /// Names, units, columns, laws of contact and wear. The equations do not know these laws: changed here, they are
     /// changed.
@@ -52,14 +53,14 @@ pub struct Mechanism {
 }
 
 /// What equations are from, where they were compiled from a file.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Origin {
     /// Hash of the file.
     file: String,
     /// How it was compiled, as far as that is not the default.
     options: Map<String, Value>,
     /// Their tapes: hashing them takes longer than writing their machine code, and few ask.
-    tapes: Option<Vec<Tape>>,
+    tapes: Option<Arc<Vec<Tape>>>,
 }
 
 impl Mechanism {
@@ -79,7 +80,7 @@ impl Mechanism {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
         let equations = Equations::choose(&compiled, options, backend)?;
         let warnings = located_warnings(&compiled);
-        let tapes = Some(compiled.tapes().to_vec());
+        let tapes = Some(Arc::new(compiled.tapes().to_vec()));
         let origin = Origin { file: source.sha256(), options: told(options), tapes };
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }

@@ -15,6 +15,7 @@ fn help_of_every_subcommand_has_an_example() {
         "simulate",
         "life",
         "merge",
+        "study",
         "fit",
         "predict",
         "new",

@@ -53,6 +53,10 @@ pub const THREADS: Limit = Limit { what: "threads", most: 1_024, help: "give as 
 pub const ROW_NUMBERS: Limit =
     Limit { what: "numbers in rows", most: 150_000_000, help: "take fewer rows, or split the span" };
 
+/// Points of a parameter study: their rows stand in memory until they are written.
+pub const STUDY_POINTS: Limit =
+    Limit { what: "points", most: 1_000_000, help: "vary less finely, or sample with --sample sobol:N" };
+
 /// Copies that one `[repeat]` group makes: more are a slip of the pen.
 pub const CELLS: Limit = Limit { what: "cells", most: 10_000, help: "split the mechanism" };
 

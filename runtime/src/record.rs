@@ -88,7 +88,8 @@ impl Run {
     }
 }
 
-/// Writes a line of titles and one line per row. Numbers are the shortest that read back to the same bits.
+/// Writes a line of titles and one line per row. Numbers are the shortest that read back to the same bits; what is not a number is
+/// an empty cell.
 ///
 /// # Errors
 /// What the writer reports.
@@ -103,6 +104,7 @@ pub fn write_csv(writer: &mut dyn Write, table: &Table<'_>) -> io::Result<()> {
                 writer.write_all(b",")?;
             }
             match &column.cells {
+                Cells::Numbers(value) if value(row).is_nan() => {}
                 Cells::Numbers(value) if table.exponents => write_number(writer, value(row))?,
                 Cells::Numbers(value) => write!(writer, "{}", value(row))?,
                 Cells::Counts(value) => write!(writer, "{}", value(row))?,
@@ -129,6 +131,19 @@ fn write_number(writer: &mut dyn Write, value: f64) -> io::Result<()> {
 mod tests {
     use super::*;
     use crate::description::Channel;
+
+    #[test]
+    fn a_number_that_is_not_there_is_an_empty_cell() {
+        let values = [1.5, f64::NAN];
+        let table = Table::new(2).column("x", "m", Cells::numbers(|row| values[row])).column(
+            "name",
+            "",
+            Cells::names(|row| ["a", "b"][row]),
+        );
+        let mut text = Vec::new();
+        write_csv(&mut text, &table).expect("a vector takes every byte");
+        assert_eq!(text, b"x [m],name\n1.5,a\n,b\n");
+    }
 
     #[test]
     fn numbers_read_back_to_the_same_bits() {

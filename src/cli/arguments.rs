@@ -3,24 +3,15 @@
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use crate::backend::Backend;
-use crate::life::{Coupling, Shard};
-use crate::table::FORMATS;
+use crate::life::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use linkwear_codegen::Closure;
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::value::{assignment, covariate, one_of, output, positive, threads};
+use super::options::{EquationsChoice, Input, LivesArguments, MotionArguments, rows_help};
+use super::study::StudyArguments;
+use super::value::{covariate, one_of, output, positive, threads};
 
-const BACKENDS: [(&str, Backend); 4] = [
-    ("auto", Backend::Auto),
-    ("compiled", Backend::Compiled),
-    ("native", Backend::Native),
-    ("interpreter", Backend::Interpreter),
-];
-const CLOSURES: [(&str, Closure); 2] = [("joint", Closure::Joint), ("log", Closure::Log)];
-const COUPLINGS: [(&str, Coupling); 2] = [("table", Coupling::Table), ("full", Coupling::Full)];
 const NOTATIONS: [(&str, TextFormat); 3] =
     [("text", TextFormat::Text), ("markdown", TextFormat::Markdown), ("latex", TextFormat::Latex)];
 
@@ -33,15 +24,6 @@ pub struct Arguments {
     pub format: Format,
     #[command(subcommand)]
     pub command: Command,
-}
-
-/// The formats of tables as the program has them.
-fn rows_help() -> String {
-    let formats = FORMATS.iter().map(|format| format!(".{} ({})", format.extension, format.purpose));
-    let formats = formats.collect::<Vec<_>>().join(", ");
-    format!(
-        "File for the rows: {formats}; any other name is taken as the first; `-` is stdout. It appears only when it is complete"
-    )
 }
 
 /// For whom the answer is.
@@ -80,10 +62,18 @@ pub enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
-    /// Put the shards of a life together: the same files as if it had been undivided.
+    /// Put the shards of a life or of a study together: the same files as if it had been undivided.
     #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml --shard 1/2 --out a\n  \
-                      linkwear life mechanisms/rssr.toml --shard 2/2 --out b\n  linkwear merge a b --out life")]
+                      linkwear life mechanisms/rssr.toml --shard 2/2 --out b\n  linkwear merge a b --out life\n\n\
+                      Parts of a study are files: linkwear merge part1 part2 --out table.csv")]
     Merge(MergeArguments),
+    /// Run and live a mechanism at many points: grids, lists and quasi-random samples over its parameters.
+    #[command(
+        after_help = "Examples:\n  linkwear study mechanisms/rssr_rigid.toml --vary speed=1Hz..4Hz:4 --of peak.R1.drive,max_loop_error_m\n  \
+                      linkwear study mechanisms/rssr.toml --rigid --vary c0=5um..20um --vary k_wear=1e-8,2e-8 \\\n    \
+                      --sample sobol:16 --of life.mean,life.p10 --out lives.csv"
+    )]
+    Study(StudyArguments),
     /// The paper's case study is a program of its own; this says how to run it.
     #[command(hide = true, disable_help_flag = true)]
     CaseStudy {
@@ -116,22 +106,6 @@ pub enum Command {
     /// Print the manual page (troff).
     #[command(after_help = "Example:\n  linkwear man > linkwear.1")]
     Man,
-}
-
-/// A mechanism file and changes to it.
-#[derive(Debug, Args)]
-pub struct Input {
-    /// Mechanism (TOML).
-    pub file: PathBuf,
-    /// Override a parameter; units as in the file: --set speed="10 Hz". Repeatable.
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
-    pub overrides: Vec<(String, String)>,
-    /// How loops are closed: only the rows a cut joint takes away, or six rows of a logarithm.
-    #[arg(long, value_parser = one_of(CLOSURES))]
-    pub closure: Option<Closure>,
-    /// Let the mechanism name files of data outside its folder.
-    #[arg(long)]
-    pub allow_outside_data: bool,
 }
 
 #[derive(Debug, Args)]
@@ -179,74 +153,25 @@ pub struct SimulateArguments {
     #[command(flatten)]
     pub input: Input,
     #[command(flatten)]
-    pub length: LengthArguments,
-    /// Rows of the output, evenly spaced over the run, both ends included.
-    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
-    pub samples: u32,
+    pub motion: MotionArguments,
     #[arg(long, value_name = "FILE", help = rows_help())]
     pub out: Option<PathBuf>,
-    /// Inputs over time: a CSV file with columns `t [s]` and `NAME [UNIT]` for inputs of [inputs]; others keep their defaults.
-    #[arg(long, value_name = "FILE.csv")]
-    pub inputs: Option<PathBuf>,
-    /// Method [default: dopri5, with clearance rk43; rk4 if --step is given].
-    #[arg(long, value_enum)]
-    pub integrator: Option<IntegratorName>,
-    /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
-    pub step: Option<f64>,
-    /// Accuracy of dopri5, relative to every value [default: 1e-9]; of rk43, of the wear integral [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = positive)]
-    pub tol: Option<f64>,
-    /// What runs the equations, with the same results: machine code written now, code that was compiled in, the
-    /// interpreter; `auto` takes the first that there is.
-    #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
-    pub backend: Backend,
-    /// Take flexible bodies as rigid. No effect on a mechanism without flexible bodies.
-    #[arg(long)]
-    pub rigid: bool,
+    #[command(flatten)]
+    pub equations: EquationsChoice,
 }
 
 #[derive(Debug, Args)]
 pub struct LifeArguments {
     #[command(flatten)]
     pub input: Input,
-    /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
-    pub trajectories: Option<u64>,
-    /// Take alpha and beta from a fit instead of [wear]; its covariance enters the error budget. Wear and Lambda of its
-    /// data must be in um, Lambda from `life` (`fit --lambda life.json`). With several wearing joints: once for each.
-    #[arg(long, value_name = "[JOINT=]FIT.json")]
-    pub fit: Vec<String>,
-    /// Coefficient of variation of a random wear-rate factor (Gamma law, mean 1) common to all joints of a life.
-    #[arg(long, value_name = "COV", value_parser = positive, conflicts_with = "mean")]
-    pub shared_factor: Option<f64>,
-    /// Seed of the random numbers; the same seed gives the same bits on any number of threads.
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
-    /// Only the mean path: every increment of wear is its mean.
-    #[arg(long)]
-    pub mean: bool,
-    /// Source of the wear per revolution: a table made once, or the dynamics at every wear step [default: table, or full where a worn profile is fed back].
-    #[arg(long, value_parser = one_of(COUPLINGS))]
-    pub coupling: Option<Coupling>,
-    /// Take flexible bodies as rigid.
-    #[arg(long)]
-    pub rigid: bool,
-    /// Wear does not open the clearance.
-    #[arg(long)]
-    pub no_feedback: bool,
+    #[command(flatten)]
+    pub lives: LivesArguments,
     /// Relative error of the wear integral of a revolution [default: 1e-6].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
     /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
     pub step: Option<f64>,
-    /// Revolutions to settle after each change of clearance, before measuring [default: until two of them wear alike].
-    #[arg(long, value_name = "N")]
-    pub settle: Option<u32>,
-    /// Revolutions to average, at least; of a motion that never settles more are taken, unless --settle is given.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub average: u32,
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
     #[arg(long, value_name = "DIR", value_parser = output())]
     pub out: Option<PathBuf>,
@@ -261,19 +186,18 @@ pub struct LifeArguments {
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
-    /// What runs the equations, with the same results: machine code written now, code that was compiled in, the
-    /// interpreter; `auto` takes the first that there is.
-    #[arg(long, value_parser = one_of(BACKENDS), default_value = "auto")]
-    pub backend: Backend,
+    #[command(flatten)]
+    pub equations: EquationsChoice,
 }
 
 #[derive(Debug, Args)]
 pub struct MergeArguments {
-    /// Folders of `life --shard I/N --out DIR`, one for each shard, in any order; the same one may be given again.
-    #[arg(required = true, value_name = "DIR")]
+    /// Folders of `life --shard I/N --out DIR`, or files of `study --shard I/N --out FILE`, one for each shard, in any order; the
+    /// same one may be given again.
+    #[arg(required = true, value_name = "DIR|FILE")]
     pub shards: Vec<PathBuf>,
-    /// Folder for life.json, cycles.csv and lives.csv; must be new or empty.
-    #[arg(long, value_name = "DIR", value_parser = output())]
+    /// Of a life: folder for life.json, cycles.csv and lives.csv; must be new or empty. Of a study: file for the table.
+    #[arg(long, value_name = "DIR|FILE", value_parser = output())]
     pub out: PathBuf,
 }
 
@@ -376,27 +300,6 @@ pub struct FitArguments {
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE", value_parser = output())]
     pub out: Option<PathBuf>,
-}
-
-/// How long to run: at most one of the two.
-#[derive(Debug, Args)]
-#[group(multiple = false)]
-pub struct LengthArguments {
-    /// Turns of the first driven revolute joint [default: 1, if there is one].
-    #[arg(long, value_name = "N", value_parser = positive)]
-    pub turns: Option<f64>,
-    /// Time [s] [default: 1, if no revolute joint is driven].
-    #[arg(long, value_name = "T", value_parser = positive)]
-    pub time: Option<f64>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum IntegratorName {
-    Rk4,
-    Dopri5,
-    Rk43,
-    #[value(name = "generalized-alpha")]
-    GeneralizedAlpha,
 }
 
 /// What `generate` writes.

@@ -10,13 +10,13 @@ use linkwear_gamma::FitFile;
 use linkwear_runtime::{Run, Watch};
 use serde_json::Value;
 
-use super::arguments::{Arguments, Command, Input};
+use super::arguments::{Arguments, Command};
 use super::failure::{Failure, entries, first_paragraph};
-use super::{check, fit, input, life, predict, simulate};
+use super::{check, fit, input, life, predict, simulate, study};
 use crate::csv_table::CsvTable;
 use crate::life::{LifeFacts, LifeJournal, LifePart, LifeResult};
-use crate::mechanism::Mechanism;
 use crate::provenance::sealed;
+use crate::study::StudyResult;
 
 /// A run and what is told of it.
 #[derive(Debug)]
@@ -33,6 +33,15 @@ pub struct Lived {
     /// What became of it.
     pub result: LifeResult,
     /// As `life --format json` has it.
+    pub json: Value,
+}
+
+/// A study and what is told of it.
+#[derive(Debug)]
+pub struct Studied {
+    /// What became of it.
+    pub result: StudyResult,
+    /// As `study --format json` has it.
     pub json: Value,
 }
 
@@ -64,8 +73,8 @@ pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Resu
         return Err(no_such_words());
     };
     nothing_written(arguments.out.as_deref())?;
-    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
-    let asked = simulate::Simulation::new(&arguments, &mechanism)?;
+    let mechanism = input::of_source(&arguments.input, source, arguments.equations)?;
+    let asked = simulate::Simulation::new(&arguments.input.file, &arguments.motion, &mechanism)?;
     let begin = std::time::Instant::now();
     let run = asked.run(watch)?;
     if let Some(error) = &run.stopped {
@@ -82,7 +91,7 @@ pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Resu
 pub fn life(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<Lived, Failure> {
     let Command::Life(arguments) = parsed("life", words, &source.name)? else { return Err(no_such_words()) };
     nothing_written(arguments.out.as_deref())?;
-    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
+    let mechanism = input::of_source(&arguments.input, source, arguments.equations)?;
     let (study, warnings) = life::study(&arguments, &mechanism)?;
     let lived = study.run_watched(watch);
     let mut result = lived.map_err(|error| life::failed(&arguments.input.file, error, None))?;
@@ -105,7 +114,7 @@ pub fn shard(
     let Command::Life(arguments) = parsed("life", &[words, &own].concat(), &source.name)? else {
         return Err(no_such_words());
     };
-    let mechanism = mechanism(&arguments.input, source, (arguments.rigid, arguments.backend))?;
+    let mechanism = input::of_source(&arguments.input, source, arguments.equations)?;
     let folder = Path::new(folder);
     let journal = LifeJournal::resume(folder).map_err(Failure::journal)?;
     let (study, warnings) = life::study(&arguments, &mechanism)?;
@@ -125,6 +134,22 @@ pub fn merge(shards: &[String]) -> Result<Lived, Failure> {
     let (facts, result) = crate::life::merge(&folders).map_err(Failure::merge)?;
     let json = life::output::answer(&facts, &result).json;
     Ok(Lived { result, json })
+}
+
+/// `study`, of a text.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism; points at none of which there is anything.
+pub fn study(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<Studied, Failure> {
+    let Command::Study(arguments) = parsed("study", words, &source.name)? else {
+        return Err(no_such_words());
+    };
+    nothing_written(arguments.out.as_deref())?;
+    let result = study::asked(&arguments, source, |study| {
+        study.run(watch).map_err(|error| study::failed(&arguments, error))
+    })?;
+    let json = study::output::answer(&result, Some(&arguments.input.file))?.json;
+    Ok(Studied { result, json })
 }
 
 /// `fit`, of a table of readings as CSV; `name` is said where it is at fault.
@@ -168,12 +193,4 @@ fn nothing_written(out: Option<&Path>) -> Result<(), Failure> {
         Some(_) => Err(Failure::usage("--out: nothing is written here", "write the result that is returned")),
         None => Ok(()),
     }
-}
-
-fn mechanism(
-    input: &Input,
-    source: &SourceFile,
-    (rigid, backend): (bool, crate::backend::Backend),
-) -> Result<Mechanism, Failure> {
-    Ok(Mechanism::compile(source, &input::options(input, rigid), backend)?)
 }

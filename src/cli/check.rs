@@ -13,9 +13,9 @@ use linkwear_codegen::{Compiled, Options};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
-use super::arguments::Input;
 use super::failure::Failure;
 use super::input::{load, options};
+use super::options::Input;
 use super::table::{plural, short_table, table};
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {

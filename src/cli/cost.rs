@@ -11,10 +11,10 @@ use linkwear_runtime::{Integrator, Settings, Span, simulate};
 use serde_json::{Map, Value, json};
 
 use super::answer::Answer;
-use super::arguments::Input;
 use super::equations::operations;
 use super::failure::Failure;
 use super::input::{load, options};
+use super::options::Input;
 use super::table::{count, duration, plural, short_table, table};
 
 /// A turn of the first driven revolute joint, else a second, by the adaptive method.

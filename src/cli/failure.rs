@@ -13,6 +13,7 @@ use crate::journal::JournalError;
 use crate::life::MergeError;
 use crate::mechanism::LoadError;
 use crate::provenance::sealed;
+use crate::study::{LIFE_FAILED, RUN_FAILED};
 use clap::error::ErrorKind;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
 use linkwear_gamma::FitFileError;
@@ -87,8 +88,8 @@ impl Failure {
     }
 
     /// A name given on the command line does not exist.
-    pub fn unknown_name(name: &str, known: &[String]) -> Self {
-        let message = format!("there is no output or function `{name}`");
+    pub fn unknown_name(what: &str, name: &str, known: &[String]) -> Self {
+        let message = format!("there is no {what} `{name}`");
         Self::new("C0006", None, message, suggestion(name, known))
     }
 
@@ -101,13 +102,23 @@ impl Failure {
             RunError::Interrupted { t } => {
                 Self::new("C0009", Some(file), format!("stopped on request at t = {t} s"), help)
             }
-            error => Self::new("C0008", Some(file), error, help),
+            error => Self::new(RUN_FAILED, Some(file), error, help),
         }
     }
 
     /// A life could not be lived to its end.
     pub fn life(file: &Path, message: impl Display, help: impl Display, cycles: Option<Answer>) -> Self {
-        Self { cycles: cycles.map(Box::new), ..Self::new("C0010", Some(file), message, help) }
+        Self { cycles: cycles.map(Box::new), ..Self::new(LIFE_FAILED, Some(file), message, help) }
+    }
+
+    /// A study was stopped by Ctrl-C.
+    pub fn stopped_study(file: &Path, message: impl Display, help: impl Display) -> Self {
+        Self::new("C0009", Some(file), message, help)
+    }
+
+    /// Nothing could be run at any point of a study.
+    pub fn empty_study(file: Option<&Path>, message: impl Display, help: impl Display) -> Self {
+        Self::new("C0015", file, message, help)
     }
 
     /// A run that was interrupted cannot be gone on with.
@@ -137,12 +148,12 @@ impl Failure {
         Self::new("C0013", Some(file), &error, help)
     }
 
-    /// Shards of a life cannot be put together.
+    /// Shards cannot be put together.
     pub fn merge(error: MergeError) -> Self {
         let help = match &error {
-            MergeError::NoShard(folder) => {
-                let help = "give folders of `life --shard I/N --out DIR`";
-                return Self::new("C0014", Some(folder), &error, help);
+            MergeError::NoShard { place, .. } => {
+                let help = "give folders of `life --shard I/N --out DIR`, or files of `study --shard I/N --out FILE`";
+                return Self::new("C0014", Some(place), &error, help);
             }
             MergeError::Journal(JournalError::OtherRun { file, what, was, is }) => {
                 let message = format!(
@@ -167,14 +178,14 @@ impl Failure {
             }
             MergeError::Journal(_) => String::new(),
             MergeError::Missing { command, .. } => command.as_ref().map_or_else(
-                || "give the folders of all shards".to_owned(),
-                |command| format!("make it by `{command}`, or give its folder too"),
+                || "give all shards".to_owned(),
+                |command| format!("make it by `{command}`, or give it too"),
             ),
             MergeError::Differ { second, .. } => {
                 let help = "one of them is of another build: make both anew by the same program";
                 return Self::new("C0014", Some(second), &error, help);
             }
-            MergeError::Nothing => "give the folders of all shards".to_owned(),
+            MergeError::Nothing => "give all shards".to_owned(),
         };
         Self::new("C0014", None, &error, help)
     }

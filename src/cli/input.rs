@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::backend::Backend;
 use crate::files::{WriteError, check_target};
 use crate::mechanism::{Mechanism, located_warnings, read_source};
 use crate::table::is_stdout;
@@ -11,8 +10,8 @@ use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limi
 use linkwear_gamma::FitFile;
 use serde_json::Value;
 
-use super::arguments::Input;
 use super::failure::{Failure, entries};
+use super::options::{EquationsChoice, Input};
 
 /// Reads and compiles, with overrides and closure as asked; prints warnings, and returns them as machines read them.
 pub fn load(input: &Input) -> Result<(Compiled, Vec<Value>), Failure> {
@@ -28,16 +27,30 @@ pub fn compiled(input: &Input, source: &SourceFile) -> Result<(Compiled, Diagnos
     Ok((compiled, warnings))
 }
 
-/// Reads, compiles and chooses a back end; prints warnings. `rigid` takes flexible bodies as rigid.
-pub fn load_mechanism(input: &Input, rigid: bool, backend: Backend) -> Result<Mechanism, Failure> {
-    let mechanism = Mechanism::compile(&read_source(&input.file)?, &options(input, rigid), backend)?;
+/// Reads, compiles and chooses a back end; prints warnings.
+pub fn load_mechanism(input: &Input, equations: EquationsChoice) -> Result<Mechanism, Failure> {
+    let mechanism = of_source(input, &read_source(&input.file)?, equations)?;
+    print_remarks(&mechanism);
+    Ok(mechanism)
+}
+
+/// Of a text.
+pub fn of_source(
+    input: &Input,
+    source: &SourceFile,
+    EquationsChoice { backend, rigid }: EquationsChoice,
+) -> Result<Mechanism, Failure> {
+    Ok(Mechanism::compile(source, &options(input, rigid), backend)?)
+}
+
+/// What there is to say of a file and of what runs it.
+pub fn print_remarks(mechanism: &Mechanism) {
     print_warnings(&mechanism.warnings);
     if let Some(refusal) = mechanism.refusal() {
         eprintln!(
             "note: the equations are interpreted, several times slower, with the same results: {refusal}"
         );
     }
-    Ok(mechanism)
 }
 
 pub fn options(input: &Input, rigid: bool) -> Options {

@@ -18,9 +18,10 @@ use super::answer::Answer;
 use super::arguments::{LifeArguments, MergeArguments};
 use super::failure::Failure;
 use super::input::load_mechanism;
+use super::options::LivesArguments;
 
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
-    let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
+    let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let folder = arguments.out.as_deref();
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
     let journal = folder.map(open).transpose().map_err(Failure::journal)?;
@@ -59,10 +60,20 @@ pub fn study<'m>(
     arguments: &LifeArguments,
     mechanism: &'m Mechanism,
 ) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
+    let (study, warnings) = lives(&arguments.lives, (arguments.step, arguments.tol), mechanism)?;
+    Ok((LifeStudy { threads: arguments.threads, shard: arguments.shard, ..study }, warnings))
+}
+
+/// The same, whoever asks; with a step or a tolerance.
+pub fn lives<'m>(
+    arguments: &LivesArguments,
+    (step, tolerance): (Option<f64>, Option<f64>),
+    mechanism: &'m Mechanism,
+) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
     let study = LifeStudy {
         revolutions: RevolutionSettings {
-            integrator: match (arguments.step, arguments.tol) {
+            integrator: match (step, tolerance) {
                 (Some(step), _) => Integrator::Rk4 { step },
                 (None, Some(tolerance)) => Integrator::Rk43 { tolerance, max_step: None },
                 (None, None) => RevolutionSettings::default().integrator,
@@ -78,10 +89,8 @@ pub fn study<'m>(
             (false, None) => Trajectories::Default,
         },
         seed: arguments.seed,
-        threads: arguments.threads,
         fits,
         shared_factor: arguments.shared_factor,
-        shard: arguments.shard,
         ..LifeStudy::new(mechanism)
     };
     Ok((study, warnings))
@@ -97,7 +106,7 @@ pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
 }
 
 /// The command that was given, with `{shard}` and `{out}` in the place of what differs from shard to shard.
-fn command(arguments: impl Iterator<Item = String>) -> String {
+pub fn command(arguments: impl Iterator<Item = String>) -> String {
     let mut words = vec!["linkwear".to_owned()];
     let mut arguments = arguments.skip(1);
     while let Some(argument) = arguments.next() {

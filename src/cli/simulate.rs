@@ -9,6 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::number::number;
 use crate::progress::watched;
 use crate::provenance::Provenance;
+use crate::study::{STATISTICS, turn_key};
 use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
@@ -18,9 +19,10 @@ use linkwear_runtime::{
 use serde_json::{Value, json};
 
 use super::answer::Answer;
-use super::arguments::{IntegratorName, SimulateArguments};
+use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
 use super::input::{check_output, load_mechanism};
+use super::options::{IntegratorName, MotionArguments};
 use super::summary;
 use super::table::{duration, plural, table};
 
@@ -30,11 +32,11 @@ const DEFAULT_STEP: f64 = 1e-4;
 const DEFAULT_RHO: f64 = 0.8;
 
 pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
-    integrator(arguments)?;
+    integrator(&arguments.motion)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
     let is_stream = check_output(file, out)?;
-    let mechanism = load_mechanism(&arguments.input, arguments.rigid, arguments.backend)?;
-    let asked = Simulation::new(arguments, &mechanism)?;
+    let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
+    let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();
     let run = watched(|watch| asked.run(watch))?;
     let (settings, wall_seconds) = (asked.settings, start.elapsed().as_secs_f64());
@@ -61,14 +63,20 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
 pub struct Simulation<'a> {
     file: &'a Path,
     mechanism: &'a Mechanism,
-    signals: Option<SampledSignals>,
+    /// Inputs over time.
+    pub signals: Option<SampledSignals>,
     inputs_sha256: Option<String>,
-    settings: Settings,
+    /// How it is made.
+    pub settings: Settings,
     samples: usize,
 }
 
 impl<'a> Simulation<'a> {
-    pub fn new(arguments: &'a SimulateArguments, mechanism: &'a Mechanism) -> Result<Self, Failure> {
+    pub fn new(
+        file: &'a Path,
+        arguments: &MotionArguments,
+        mechanism: &'a Mechanism,
+    ) -> Result<Self, Failure> {
         let integrator = integrator(arguments)?;
         let description = &mechanism.description;
         refuse_too_many(arguments.samples as usize, description)?;
@@ -79,11 +87,16 @@ impl<'a> Simulation<'a> {
         let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));
         let samples = arguments.samples as usize;
         let settings = Settings::new(integrator, span, samples);
-        Ok(Self { file: &arguments.input.file, mechanism, signals, inputs_sha256, settings, samples })
+        Ok(Self { file, mechanism, signals, inputs_sha256, settings, samples })
     }
 
     /// What the run is of.
     pub fn provenance(&self) -> Provenance {
+        self.mechanism.provenance(None, self.options())
+    }
+
+    /// Options that decide its numbers, as results tell them.
+    pub fn options(&self) -> Value {
         let Settings { integrator, span, .. } = &self.settings;
         let (name, step, tolerance) = match *integrator {
             Integrator::Rk4 { step } => ("rk4", Some(step), None),
@@ -95,11 +108,10 @@ impl<'a> Simulation<'a> {
             Span::Turns(turns) => (Some(turns), None),
             Span::Time(time) => (None, Some(time)),
         };
-        let options = json!({
+        json!({
             "integrator": name, "step_s": step, "tolerance": tolerance, "turns": turns, "time_s": time,
             "samples": self.samples, "inputs_sha256": self.inputs_sha256,
-        });
-        self.mechanism.provenance(None, options)
+        })
     }
 
     /// The run, perhaps stopped on its way.
@@ -126,7 +138,7 @@ fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Fail
 }
 
 /// The method that is asked for; nothing: the adaptive one that suits the mechanism.
-fn integrator(arguments: &SimulateArguments) -> Result<Option<Integrator>, Failure> {
+pub fn integrator(arguments: &MotionArguments) -> Result<Option<Integrator>, Failure> {
     use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4, Rk43};
     let (given, tolerance) = (arguments.step, arguments.tol);
     let step = given.unwrap_or(DEFAULT_STEP);
@@ -149,7 +161,7 @@ fn integrator(arguments: &SimulateArguments) -> Result<Option<Integrator>, Failu
     .map(Some)
 }
 
-fn span(arguments: &SimulateArguments, description: &Description) -> Result<Span, Failure> {
+fn span(arguments: &MotionArguments, description: &Description) -> Result<Span, Failure> {
     let (turns, time) = (arguments.length.turns, arguments.length.time);
     match (time, description.turn_driver, turns) {
         (Some(time), ..) => Ok(Span::Time(time)),
@@ -175,29 +187,22 @@ fn partial_name(out: &Path) -> PathBuf {
 
 /// What is told of a run, for machines.
 pub fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
-    let numbers = &run.statistics;
     let description = &mechanism.description;
-    json!({
+    let mut answer = json!({
         "name": description.name,
         "backend": mechanism.backend(),
         "time_s": run.times.last().copied().unwrap_or_default(),
         "samples": run.rows.len(),
-        "steps": numbers.steps,
-        "rejected": numbers.rejected,
-        "evaluations": numbers.evaluations,
-        "projections": numbers.projections,
-        "rank_revealing_solves": numbers.rank_revealing_solves,
-        "newton_iterations": numbers.newton_iterations,
         "wall_seconds": wall_seconds,
-        "max_loop_error_m": numbers.max_loop_error_m,
-        "max_loop_error_rad": numbers.max_loop_error_rad,
-        "energy_error_J": numbers.energy_error_J,
-        "energy_throughput_J": numbers.energy_throughput_J,
-        "peaks": run.peaks.iter().map(summary::peak_entry).collect::<Vec<_>>(),
-        "out": out.map(|path| path.display().to_string()),
-        "turns": turns(description, run).map(turn_entry).collect::<Vec<_>>(),
-        "warnings": warnings(&mechanism.warnings, "run", &run.warnings),
-    })
+    });
+    for (name, _, value) in STATISTICS {
+        answer[name] = value(&run.statistics);
+    }
+    answer["peaks"] = run.peaks.iter().map(summary::peak_entry).collect();
+    answer["out"] = json!(out.map(|path| path.display().to_string()));
+    answer["turns"] = turns(description, run).map(turn_entry).collect();
+    answer["warnings"] = json!(warnings(&mechanism.warnings, "run", &run.warnings));
+    answer
 }
 
 /// Every joint with clearance in every turn: number of the turn, name of the joint.
@@ -217,10 +222,10 @@ fn turns<'a>(
 fn turn_entry((turn, joint, measure): (usize, &str, &ContactMeasure)) -> Value {
     let mut entry = json!({ "turn": turn, "joint": joint });
     for (column, value) in &ContactMeasure::COLUMNS {
-        // Within a turn losses are counted, and forces have their long name.
-        let key = column.key().replace("_force", "_normal_force");
+        // Within a turn losses are counted.
         let value = value(measure);
-        entry[key] = if column.name == "contact losses" { json!(value as u64) } else { json!(value) };
+        entry[turn_key(column)] =
+            if column.name == "contact losses" { json!(value as u64) } else { json!(value) };
     }
     entry
 }

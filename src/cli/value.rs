@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use linkwear_codegen::limits::THREADS;
 
+use crate::study::Axis;
+
 /// One of some names, each with what it means.
 pub fn one_of<T: Clone + Send + Sync + 'static>(
     choices: impl IntoIterator<Item = (&'static str, T)>,
@@ -32,6 +34,19 @@ pub fn threads(text: &str) -> Result<NonZero<usize>, String> {
     let most = THREADS.most;
     let count = text.parse().ok().filter(|count: &NonZero<usize>| count.get() <= most);
     count.ok_or_else(|| format!("a whole number from 1 to {most} is needed: {}", THREADS.help))
+}
+
+/// A parameter that varies, and over what.
+pub fn axis(text: &str) -> Result<Axis, String> {
+    Axis::parse(text).map_err(|error| {
+        format!("{error}; write NAME=A..B:N, as speed=5Hz..20Hz:4, or NAME=a,b,c, as speed=5Hz,10Hz")
+    })
+}
+
+/// `sobol:N`.
+pub fn sample(text: &str) -> Result<u64, String> {
+    let count = text.strip_prefix("sobol:").and_then(|count| count.parse().ok());
+    count.filter(|count| *count > 0).ok_or_else(|| "write sobol:N, as sobol:64".to_owned())
 }
 
 /// `name=value`, both non-empty.

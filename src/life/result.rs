@@ -47,7 +47,56 @@ pub struct LifeResult {
     pub seconds_per_revolution: Option<f64>,
 }
 
+/// The numbers that a life is told by: those of the random lives, or of the mean path where there are none [cycles].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LifeNumbers {
+    /// Mean.
+    pub mean: f64,
+    /// Its standard error, if there are random lives.
+    pub mean_error: Option<f64>,
+    /// Standard deviation.
+    pub std: f64,
+    /// Coefficient of variation [1].
+    pub cov: f64,
+    /// Cycles before which a tenth has failed.
+    pub p10: f64,
+    /// The median.
+    pub p50: f64,
+    /// Cycles before which nine tenths have failed.
+    pub p90: f64,
+    /// Mean as inspections after whole cycles see it.
+    pub mean_whole_cycles: f64,
+    /// Revolutions of the mean life.
+    pub revolutions: f64,
+    /// The mean life at the speed of the drive [h], if all revolutions last equally long.
+    pub hours: Option<f64>,
+}
+
+/// Seconds of an hour.
+pub const HOUR: f64 = 3600.0;
+
 impl LifeResult {
+    /// The numbers it is told by; `statistics` are [`Self::statistics`].
+    pub fn numbers(&self, statistics: Option<&LifeStatistics>) -> LifeNumbers {
+        let mean = self.mean();
+        let quantile = |p| {
+            let quantile = statistics.and_then(|lives| lives.quantile(p).ok());
+            quantile.map_or(mean, |quantile| quantile.value)
+        };
+        LifeNumbers {
+            mean,
+            mean_error: statistics.map(|lives| lives.mean().error),
+            std: statistics.map_or(0.0, |lives| lives.std().value),
+            cov: statistics.map_or(0.0, |lives| lives.cov().value),
+            p10: quantile(0.1),
+            p50: quantile(0.5),
+            p90: quantile(0.9),
+            mean_whole_cycles: self.mean_whole_cycles(),
+            revolutions: mean * self.failed_joint().revolutions_per_cycle,
+            hours: self.seconds_per_cycle().map(|seconds| mean * seconds / HOUR),
+        }
+    }
+
     /// In what another shard of the same study differs although it may not; nothing if it is as it must be.
     pub(super) fn differs(&self, other: &Self) -> Option<&'static str> {
         let same = [

@@ -10,8 +10,8 @@ use std::thread::available_parallelism;
 
 use linkwear_codegen::limits;
 use linkwear_runtime::life::{
-    CycleRecord, DEFAULT_POINTS, Feedback, IncrementModel, LifeError as Stop, LifeOutcome, LifeSettings,
-    LifeState, MeanIncrement, WearSource, WearStep, WearTable, run_life,
+    CycleRecord, DEFAULT_POINTS, IncrementModel, LifeError as Stop, LifeOutcome, LifeSettings, LifeState,
+    MeanIncrement, WearSource, WearStep, WearTable, run_life,
 };
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
@@ -144,9 +144,7 @@ impl<'s> Plan<'s> {
         if !study.feedback {
             settings = settings.without_feedback();
         }
-        let has_profile = settings.joints.iter().any(|joint| joint.feedback == Feedback::Profile);
-        let default = if has_profile { Coupling::Full } else { Coupling::Table };
-        let coupling = study.coupling.unwrap_or(default);
+        let coupling = study.coupling();
         settings.step = match coupling {
             Coupling::Table => WearStep::TABLE,
             Coupling::Full => WearStep::FULL,

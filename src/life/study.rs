@@ -8,11 +8,11 @@ use serde_json::{Map, Value, json};
 
 use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
-use super::shard::Shard;
 use crate::checksum::sha256;
 use crate::journal::Identity;
 use crate::mechanism::Mechanism;
 use crate::provenance::Provenance;
+use crate::shard::Shard;
 
 /// Where the wear of a revolution is from.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
@@ -97,8 +97,20 @@ impl<'m> LifeStudy<'m> {
         }
     }
 
+    /// Where wear is from: what was asked for; else a table, but the dynamics where a worn profile is fed back.
+    pub(crate) fn coupling(&self) -> Coupling {
+        let mut wear = self.mechanism.description.contacts.iter().filter_map(|contact| contact.wear);
+        let has_profile = self.feedback && wear.any(|wear| wear.profile);
+        self.coupling.unwrap_or(if has_profile { Coupling::Full } else { Coupling::Table })
+    }
+
     /// What a result is of.
     pub(super) fn provenance(&self, coupling: Coupling) -> Provenance {
+        self.mechanism.provenance(Some(self.seed), self.options(coupling))
+    }
+
+    /// Options that decide the numbers, as results tell them.
+    pub(crate) fn options(&self, coupling: Coupling) -> Value {
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
         let (step, tolerance) = match *integrator {
             Integrator::Rk4 { step } | Integrator::GeneralizedAlpha { step, .. } => (Some(step), None),
@@ -108,7 +120,7 @@ impl<'m> LifeStudy<'m> {
         };
         let fit = |fit: &JointFit| (fit.joint.clone(), json!(sha256(&fit.estimate)));
         let fits = self.fits.iter().map(fit).collect::<Map<_, _>>();
-        let options = json!({
+        json!({
             "coupling": coupling,
             "trajectories": self.trajectories.count(coupling),
             "step_s": step,
@@ -118,12 +130,11 @@ impl<'m> LifeStudy<'m> {
             "feedback": self.feedback,
             "shared_factor": self.shared_factor,
             "fits_sha256": (!fits.is_empty()).then_some(fits),
-        });
-        self.mechanism.provenance(Some(self.seed), options)
+        })
     }
 
     /// All that decides the numbers of a life but the number of random lives, in words that a difference is told by.
-    pub(super) fn identity(&self, coupling: Coupling) -> Identity {
+    pub(crate) fn identity(&self, coupling: Coupling) -> Identity {
         let mut entries = self.mechanism.identity();
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
         let own = [

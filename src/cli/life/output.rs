@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::life::{Cost, Coupling, JointProcess, LifeFacts, LifeResult, Shard};
+use crate::life::{Cost, Coupling, HOUR, JointProcess, LifeFacts, LifeNumbers, LifeResult, Shard};
 use crate::number::number;
 use crate::wear_measure::paragraph;
 use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
@@ -18,8 +18,7 @@ use super::super::table::{count, table};
 const SHOWN: usize = 40;
 /// Points of the reliability function.
 const POINTS: usize = 40;
-/// Seconds of an hour, and of a year of 365.25 days.
-const HOUR: f64 = 3600.0;
+/// Seconds of a year of 365.25 days.
 const YEAR: f64 = 8766.0 * HOUR;
 
 /// The answer.
@@ -93,19 +92,17 @@ fn to_json(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
     let names = life.names();
     let joint = life.failed_joint();
     let cycles: Vec<Value> = life.cycles.iter().map(|cycle| cycle_entry(&names, cycle)).collect();
-    let [p10, p50, p90] = [0.1, 0.5, 0.9].map(|p| {
-        let lives = statistics.and_then(|lives| lives.quantile(p).ok());
-        lives.map_or(life.mean(), |quantile| quantile.value)
-    });
+    let LifeNumbers { mean, std, cov, p10, p50, p90, mean_whole_cycles, revolutions, .. } =
+        life.numbers(statistics);
     let mut answer = json!({
         "name": facts.name,
         "backend": facts.backend,
         "coupling": match life.coupling { Coupling::Table => "table", Coupling::Full => "full" },
-        "mean": life.mean(),
-        "std": statistics.map_or(0.0, |lives| lives.std().value),
-        "cov": statistics.map_or(0.0, |lives| lives.cov().value),
+        "mean": mean,
+        "std": std,
+        "cov": cov,
         "quantiles": { "p10": p10, "p50": p50, "p90": p90 },
-        "mean_whole_cycles": life.mean_whole_cycles(),
+        "mean_whole_cycles": mean_whole_cycles,
         "trajectories": life.random_lives().max(1),
         "random": life.random_lives() > 0,
         "seed": facts.seed,
@@ -114,7 +111,7 @@ fn to_json(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
         },
         "failed_joint": joint.joint,
         "revolutions_per_cycle": joint.revolutions_per_cycle,
-        "revolutions": life.mean() * joint.revolutions_per_cycle,
+        "revolutions": revolutions,
         "parameters": life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect::<Value>()),
         "shared_factor": facts.shared_factor,
         "table_error": life.table_error(),
@@ -128,8 +125,8 @@ fn to_json(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
             |cycles: f64| json!({ "hours": cycles * seconds / HOUR, "years": cycles * seconds / YEAR });
         answer["time"] = json!({
             "seconds_per_cycle": seconds,
-            "mean": time(life.mean()),
-            "std": time(statistics.map_or(0.0, |lives| lives.std().value)),
+            "mean": time(mean),
+            "std": time(std),
             "quantiles": { "p10": time(p10), "p50": time(p50), "p90": time(p90) },
         });
     }

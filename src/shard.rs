@@ -1,4 +1,4 @@
-//! Which part of the random lives a machine of many lives. In: `I/N`. Out: numbers of lives. Never knows how they are lived.
+//! Which part of a large work a machine of many does. In: `I/N`. Out: numbers of lives or points. Never knows how they are done.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// One of several parts of the random lives, of nearly the same length.
+/// One of several parts of the random lives, or of the points of a study, of nearly the same length.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Shard {
     /// Its number, from 1.

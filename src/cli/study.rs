@@ -1,0 +1,155 @@
+//! `study`: a mechanism at many points, what its runs and lives come to at each.
+
+mod arguments;
+pub mod output;
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use crate::mechanism::read_source;
+use crate::progress::watched;
+use crate::study::{
+    Cases, Points, Quantity, Study, StudyError, StudyJournal, StudyPart, StudyResult, merge, named,
+    quantities,
+};
+use crate::table::{is_stdout, write_table};
+use linkwear_codegen::SourceFile;
+use linkwear_runtime::Description;
+use serde_json::Value;
+
+pub use self::arguments::StudyArguments;
+use super::answer::Answer;
+use super::arguments::MergeArguments;
+use super::failure::Failure;
+use super::input::{check_output, options, print_remarks};
+use super::life;
+use super::simulate::{Simulation, integrator};
+
+pub fn run(arguments: &StudyArguments) -> Result<Answer, Failure> {
+    let (file, out) = (&arguments.input.file, arguments.out.as_deref());
+    let is_stream = check_output(file, out)?;
+    if is_stream && (arguments.resume || arguments.shard.is_some()) {
+        let help = "give a file, so that what is finished has a place";
+        return Err(Failure::usage("--out is a stream: nothing could go on or be merged from there", help));
+    }
+    let result = asked(arguments, &read_source(file)?, |study| {
+        print_remarks(study.cases.base());
+        let open =
+            if arguments.resume { |path: PathBuf| StudyJournal::resume(&path) } else { StudyJournal::create };
+        let journal = out.filter(|_| !is_stream).map(|out| open(beside(out))).transpose();
+        let journal = journal.map_err(Failure::journal)?;
+        let result = watched(|watch| match &journal {
+            Some(journal) => study.run_kept(journal, watch),
+            None => study.run(watch),
+        });
+        let result = result.map_err(|error| failed(arguments, error))?;
+        let part = StudyPart::new(study, life::command(std::env::args()), result.clone());
+        if let (Some(part), Some(out)) = (part, out) {
+            part.write(out, study)?;
+        }
+        Ok(result)
+    })?;
+    match (arguments.shard, out) {
+        (Some(shard), Some(out)) => Ok(output::of_shard(&result, shard, out)),
+        (_, out) => finished(&result, (Some(file), out)),
+    }
+}
+
+/// The points of all shards as one study.
+pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
+    let result = merge(&arguments.shards).map_err(Failure::merge)?;
+    finished(&result, (None, Some(&arguments.out)))
+}
+
+/// The answer, and its table in its place.
+fn finished(result: &StudyResult, (file, out): (Option<&Path>, Option<&Path>)) -> Result<Answer, Failure> {
+    let mut answer = output::answer(result, file)?;
+    if let Some(out) = out {
+        write_table(out, &result.table(), Some(&result.facts.provenance))?;
+        if is_stdout(out) {
+            return Ok(Answer::new(String::new(), Value::Null, None));
+        }
+        answer.text.push_str(&output::written(result, out));
+    }
+    Ok(answer)
+}
+
+/// Does something with the study that is asked for.
+pub fn asked<T>(
+    arguments: &StudyArguments,
+    source: &SourceFile,
+    run: impl FnOnce(&Study<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    integrator(&arguments.motion)?;
+    let points = points(arguments)?;
+    let options = options(&arguments.input, arguments.equations.rigid);
+    let cases = Cases::new(source, &options, arguments.equations.backend, &points)?;
+    let mechanism = cases.base();
+    let of = of(&arguments.of, &mechanism.description)?;
+    let simulation = Simulation::new(&arguments.input.file, &arguments.motion, mechanism)?;
+    let steps = (arguments.motion.step, arguments.motion.tol);
+    let (life, warnings) = life::lives(&arguments.lives, steps, mechanism)?;
+    warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+    run(&Study {
+        cases: &cases,
+        points: &points,
+        of,
+        settings: simulation.settings,
+        signals: simulation.signals.as_ref(),
+        life,
+        run_options: simulation.options(),
+        shard: arguments.shard,
+        threads: arguments.threads,
+    })
+}
+
+fn points(arguments: &StudyArguments) -> Result<Points, Failure> {
+    let set = arguments.input.overrides.iter().map(|(name, _)| name);
+    if let Some(name) = set.into_iter().find(|name| arguments.vary.iter().any(|axis| axis.name == **name)) {
+        return Err(Failure::usage(format!("`{name}` is set and varies"), "leave --set or --vary out"));
+    }
+    let axes = arguments.vary.clone();
+    let points = match arguments.sample {
+        Some(count) => Points::sobol(axes, count, arguments.lives.seed),
+        None => Points::grid(axes),
+    };
+    points.map_err(|error| {
+        let help = "a grid takes NAME=A..B:N or NAME=a,b,c; --sample sobol:N takes NAME=A..B or NAME=a,b,c";
+        Failure::usage(format!("--vary: {error}"), help)
+    })
+}
+
+/// What is asked, each once.
+fn of(names: &[String], description: &Description) -> Result<Vec<Quantity>, Failure> {
+    let known = quantities(description);
+    let mut all: Vec<Quantity> = Vec::new();
+    for name in names.iter().map(|name| name.trim()) {
+        let found = named(name, &known).ok_or_else(|| {
+            let names: Vec<String> = known.iter().map(|quantity| quantity.name.clone()).collect();
+            Failure::unknown_name("result", name, &names)
+        })?;
+        if named(name, &all).is_none() {
+            all.push(found.clone());
+        }
+    }
+    Ok(all)
+}
+
+/// Why there is no study, and what to do about it.
+pub fn failed(arguments: &StudyArguments, error: StudyError) -> Failure {
+    let help = match &arguments.out {
+        Some(_) => "the same command with --resume goes on from there",
+        None => "with --out FILE it could go on by --resume",
+    };
+    match error {
+        StudyError::Journal(error) => Failure::journal(error),
+        StudyError::Interrupted { .. } => Failure::stopped_study(&arguments.input.file, error, help),
+    }
+}
+
+/// `lives.csv` -> `lives.csv.journal`.
+fn beside(out: &Path) -> PathBuf {
+    let mut name = OsString::from(out.as_os_str());
+    name.push(".journal");
+    PathBuf::from(name)
+}

@@ -1,0 +1,22 @@
+//! Parameter studies: a mechanism at many points, what runs and lives come to at each. In: [`Points`], quantities by name.
+//! Out: [`StudyResult`]. Never touches terminals, and no file but the [`StudyJournal`] and the parts of its shards.
+//!
+//! A row depends on its point alone: neither threads nor shards, nor the order in which points are run, change a bit of it.
+
+mod axis;
+mod cases;
+mod journal;
+mod part;
+mod points;
+mod quantity;
+mod result;
+mod run;
+
+pub use axis::{Axis, AxisError};
+pub use cases::Cases;
+pub use journal::StudyJournal;
+pub use part::{StudyPart, merge};
+pub use points::{Points, PointsError};
+pub use quantity::{Needs, Quantity, STATISTICS, named, quantities, turn_key};
+pub use result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
+pub use run::{LIFE_FAILED, RUN_FAILED, Study, StudyError};

@@ -1,0 +1,175 @@
+//! What can be asked of a point, by name: numbers of a run and of a life. In: a mechanism's description. Out: quantities with units,
+//! and their values. Never knows how runs and lives are made.
+
+use linkwear_runtime::wear::ContactMeasure;
+use linkwear_runtime::{Channel, Column, Description, Run, Statistics, channels};
+use serde_json::{Value, json};
+
+use crate::life::{LifeNumbers, LifeResult};
+
+/// Cost and quality of a run: name, unit, value.
+pub type Statistic = (&'static str, &'static str, fn(&Statistics) -> Value);
+
+/// All of them, as `simulate` tells them.
+pub const STATISTICS: [Statistic; 10] = [
+    ("steps", "1", |one| json!(one.steps)),
+    ("rejected", "1", |one| json!(one.rejected)),
+    ("evaluations", "1", |one| json!(one.evaluations)),
+    ("projections", "1", |one| json!(one.projections)),
+    ("rank_revealing_solves", "1", |one| json!(one.rank_revealing_solves)),
+    ("newton_iterations", "1", |one| json!(one.newton_iterations)),
+    ("max_loop_error_m", "m", |one| json!(one.max_loop_error_m)),
+    ("max_loop_error_rad", "rad", |one| json!(one.max_loop_error_rad)),
+    ("energy_error_J", "J", |one| json!(one.energy_error_J)),
+    ("energy_throughput_J", "J", |one| json!(one.energy_throughput_J)),
+];
+
+/// Name of a number of a turn of a joint with clearance: forces have their long name there.
+pub fn turn_key(column: &Column) -> String {
+    column.key().replace("_force", "_normal_force")
+}
+
+/// Number of a life: name behind `life.`, unit, value.
+type OfLife = (&'static str, &'static str, fn(&LifeResult, &LifeNumbers) -> Option<f64>);
+
+/// All of them, as `life` tells them.
+const LIVES: [OfLife; 13] = [
+    ("mean", "cycles", |_, numbers| Some(numbers.mean)),
+    ("mean_error", "cycles", |_, numbers| numbers.mean_error),
+    ("std", "cycles", |_, numbers| Some(numbers.std)),
+    ("cov", "1", |_, numbers| Some(numbers.cov)),
+    ("p10", "cycles", |_, numbers| Some(numbers.p10)),
+    ("p50", "cycles", |_, numbers| Some(numbers.p50)),
+    ("p90", "cycles", |_, numbers| Some(numbers.p90)),
+    ("mean_whole_cycles", "cycles", |_, numbers| Some(numbers.mean_whole_cycles)),
+    ("mean_path", "cycles", |life, _| Some(life.end.cycles)),
+    ("revolutions", "1", |_, numbers| Some(numbers.revolutions)),
+    ("hours", "h", |_, numbers| numbers.hours),
+    ("table_error", "1", |life, _| life.table_error()),
+    ("measurements", "1", |life, _| Some(life.measurements as f64)),
+];
+
+/// What must be run for a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// `simulate`.
+    Run,
+    /// `life`.
+    Life,
+}
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// Its name.
+    pub name: String,
+    /// SI unit, or that of the name; `1` if it has none.
+    pub unit: String,
+    of: Of,
+}
+
+#[derive(Clone, Debug)]
+enum Of {
+    Statistic(usize),
+    /// Largest force, or moment, of a joint.
+    Peak {
+        joint: String,
+        moment: bool,
+    },
+    /// Largest magnitude of a column.
+    Magnitude(usize),
+    /// Smallest, largest, or last value of a column.
+    Least(usize),
+    Most(usize),
+    Last(usize),
+    /// In the last whole turn, of a joint with clearance.
+    Turn {
+        joint: usize,
+        column: usize,
+    },
+    Life(usize),
+}
+
+impl Quantity {
+    fn new(name: impl Into<String>, unit: &str, of: Of) -> Self {
+        Self { name: name.into(), unit: unit.to_owned(), of }
+    }
+
+    /// What must be run for it.
+    pub fn needs(&self) -> Needs {
+        if matches!(self.of, Of::Life(_)) { Needs::Life } else { Needs::Run }
+    }
+
+    /// Its value in a run; nothing where the run has none.
+    pub(super) fn of_run(&self, run: &Run) -> Option<f64> {
+        let value = match &self.of {
+            Of::Statistic(at) => STATISTICS[*at].2(&run.statistics).as_f64(),
+            Of::Peak { joint, moment } => {
+                let peak = run.peaks.iter().find(|peak| peak.joint == *joint)?;
+                Some(if *moment { peak.moment.value } else { peak.force.value })
+            }
+            Of::Magnitude(at) => {
+                let ends = run.extremes.get(*at)?;
+                Some(ends.low.value.abs().max(ends.high.value.abs()))
+            }
+            Of::Least(at) => Some(run.extremes.get(*at)?.low.value),
+            Of::Most(at) => Some(run.extremes.get(*at)?.high.value),
+            Of::Last(at) => run.rows.last()?.get(*at).copied(),
+            Of::Turn { joint, column } => {
+                Some(ContactMeasure::COLUMNS[*column].1(run.turns.last()?.get(*joint)?))
+            }
+            Of::Life(_) => None,
+        };
+        value.filter(|value| value.is_finite())
+    }
+
+    /// Its value in a life; nothing where the life has none.
+    pub(super) fn of_life(&self, life: &LifeResult, numbers: &LifeNumbers) -> Option<f64> {
+        let Of::Life(at) = self.of else { return None };
+        LIVES[at].2(life, numbers).filter(|value| value.is_finite())
+    }
+}
+
+/// All that a mechanism has.
+pub fn quantities(description: &Description) -> Vec<Quantity> {
+    let columns = channels(description);
+    let mut all = Vec::new();
+    for (joint, info) in description.contacts.iter().enumerate() {
+        for (at, (column, _)) in ContactMeasure::COLUMNS.iter().enumerate() {
+            let name = format!("{}.{}", info.joint, turn_key(column));
+            all.push(Quantity::new(name, column.unit, Of::Turn { joint, column: at }));
+        }
+    }
+    let ending = |suffix: &'static str| {
+        let named =
+            |(at, column): (usize, &'_ Channel)| Some((at, column.name.strip_suffix(suffix)?.to_owned()));
+        columns.iter().enumerate().filter_map(named).collect::<Vec<_>>()
+    };
+    for (_, joint) in ending(".Fx") {
+        for (load, unit, moment) in [("F", "N", false), ("M", "N m", true)] {
+            let of = Of::Peak { joint: joint.clone(), moment };
+            all.push(Quantity::new(format!("peak.{joint}.{load}"), unit, of));
+        }
+    }
+    for (at, joint) in ending(".drive") {
+        all.push(Quantity::new(format!("peak.{joint}.drive"), &columns[at].unit, Of::Magnitude(at)));
+    }
+    if description.contacts.iter().any(|contact| contact.wear.is_some()) {
+        let lives = LIVES.iter().enumerate();
+        all.extend(
+            lives.map(|(at, (name, unit, _))| Quantity::new(format!("life.{name}"), unit, Of::Life(at))),
+        );
+    }
+    let statistics = STATISTICS.iter().enumerate();
+    all.extend(statistics.map(|(at, (name, unit, _))| Quantity::new(*name, unit, Of::Statistic(at))));
+    for (at, column) in columns.iter().enumerate() {
+        let ends = [("min", Of::Least(at)), ("max", Of::Most(at)), ("final", Of::Last(at))];
+        all.extend(ends.map(|(word, of)| Quantity::new(format!("{word}.{}", column.name), &column.unit, of)));
+    }
+    all
+}
+
+/// The one of this name.
+pub fn named<'q>(name: &str, all: &'q [Quantity]) -> Option<&'q Quantity> {
+    all.iter().find(|quantity| quantity.name == name)
+}
