@@ -17,6 +17,6 @@ pub use cases::Cases;
 pub use journal::StudyJournal;
 pub use part::{StudyPart, merge};
 pub use points::{Points, PointsError};
-pub use quantity::{Needs, Quantity, STATISTICS, named, quantities, turn_key};
+pub use quantity::{Needs, Quantity, STATISTICS, listed, named, quantities, turn_key};
 pub use result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
 pub use run::{LIFE_FAILED, RUN_FAILED, Study, StudyError};

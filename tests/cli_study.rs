@@ -90,6 +90,39 @@ fn rows_are_what_simulate_answers_at_their_point() {
     }
 }
 
+/// Every mode has columns of its own, before the column that is asked for.
+#[test]
+fn a_column_is_the_same_one_at_every_point() {
+    const FLEXIBLE: &str = "mechanisms/rssr_flexible.toml";
+    let more = ["--time", "0.01", "--format", "json"];
+    let of = ["--vary", "modes=1,2,4", "--of", "final.coupler.uz,final.coupler.eta2"];
+    let answer = study(&[&[FLEXIBLE], &of, &more]).json();
+    let folder = Folder::new("study-columns");
+    for (at, modes) in [1, 2, 4].into_iter().enumerate() {
+        let (set, out) = (format!("modes={modes}"), folder.path("rows.csv"));
+        assert_eq!(
+            linkwear(&[&["simulate", FLEXIBLE, "--set", &set, "--out", &out], &more[..]].concat()).code,
+            0
+        );
+        let rows = fs::read_to_string(&out).expect("rows");
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let (head, last) =
+            (cells(rows.lines().next().expect("a head")), cells(rows.lines().last().expect("a row")));
+        let found = |name: &str| {
+            let at = head.iter().position(|head| head.starts_with(&format!("{name} [")))?;
+            Some(last[at].parse::<f64>().expect("a number"))
+        };
+        for name in ["coupler.uz", "coupler.eta2"] {
+            // With one mode there is no second one: an empty cell.
+            assert_eq!(
+                column(&answer, &format!("final.{name}"))[at].as_f64(),
+                found(name),
+                "{name}, {modes} modes"
+            );
+        }
+    }
+}
+
 #[test]
 fn rows_are_what_life_answers_at_their_point() {
     let keys = ["mean", "std", "cov", "mean_whole_cycles"];

@@ -13,7 +13,8 @@ pub fn run(arguments: &EquationsArguments) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(&arguments.input)?;
     let (outputs, only) = (compiled.outputs(), &arguments.only);
     if let Some(name) = only.iter().find(|name| !outputs.iter().any(|output| is_meant(output, name))) {
-        return Err(Failure::unknown_name("output or function", name, &names(&outputs)));
+        let known = names(&outputs);
+        return Err(Failure::unknown_name("output or function", name, &known, &known));
     }
     let text = compiled.equations_text(only, arguments.notation);
     let meant =

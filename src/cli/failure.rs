@@ -88,9 +88,10 @@ impl Failure {
     }
 
     /// A name given on the command line does not exist.
-    pub fn unknown_name(what: &str, name: &str, known: &[String]) -> Self {
+    /// `listed` stand for those that are known, where none of these is near.
+    pub fn unknown_name(what: &str, name: &str, known: &[String], listed: &[String]) -> Self {
         let message = format!("there is no {what} `{name}`");
-        Self::new("C0006", None, message, suggestion(name, known))
+        Self::new("C0006", None, message, suggestion(name, known, listed))
     }
 
     /// The simulation failed, or was stopped by Ctrl-C; the rows computed before may be in a file.
@@ -294,10 +295,10 @@ impl From<BackendError> for Failure {
     }
 }
 
-fn suggestion(name: &str, known: &[String]) -> String {
+fn suggestion(name: &str, known: &[String], listed: &[String]) -> String {
     match nearest(name, known.iter().map(String::as_str)) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
-        None => format!("there are: {}", known.join(", ")),
+        None => format!("there are: {}", listed.join(", ")),
     }
 }
 
@@ -344,7 +345,7 @@ mod tests {
     #[test]
     fn a_near_name_is_suggested_and_a_far_one_lists_all() {
         let known = ["closure".to_owned(), "phi".to_owned()];
-        assert_eq!(suggestion("closrue", &known), "did you mean `closure`?");
-        assert_eq!(suggestion("torque", &known), "there are: closure, phi");
+        assert_eq!(suggestion("closrue", &known, &known), "did you mean `closure`?");
+        assert_eq!(suggestion("torque", &known, &known), "there are: closure, phi");
     }
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use crate::mechanism::read_source;
 use crate::progress::watched;
 use crate::study::{
-    Cases, Points, Quantity, Study, StudyError, StudyJournal, StudyPart, StudyResult, merge, named,
+    Cases, Points, Quantity, Study, StudyError, StudyJournal, StudyPart, StudyResult, listed, merge, named,
     quantities,
 };
 use crate::table::{is_stdout, write_table};
@@ -67,6 +67,7 @@ fn finished(result: &StudyResult, (file, out): (Option<&Path>, Option<&Path>)) -
     if let Some(out) = out {
         write_table(out, &result.table(), Some(&result.facts.provenance))?;
         if is_stdout(out) {
+            eprint!("{}", output::remarks(result));
             return Ok(Answer::new(String::new(), Value::Null, None));
         }
         answer.text.push_str(&output::written(result, out));
@@ -126,7 +127,7 @@ fn of(names: &[String], description: &Description) -> Result<Vec<Quantity>, Fail
     for name in names.iter().map(|name| name.trim()) {
         let found = named(name, &known).ok_or_else(|| {
             let names: Vec<String> = known.iter().map(|quantity| quantity.name.clone()).collect();
-            Failure::unknown_name("result", name, &names)
+            Failure::unknown_name("result", name, &names, &listed(&known))
         })?;
         if named(name, &all).is_none() {
             all.push(found.clone());

@@ -68,6 +68,7 @@ pub struct Quantity {
     of: Of,
 }
 
+/// Columns and joints go by their names: what is folded into the equations may give a point more columns than another.
 #[derive(Clone, Debug)]
 enum Of {
     Statistic(usize),
@@ -76,18 +77,26 @@ enum Of {
         joint: String,
         moment: bool,
     },
-    /// Largest magnitude of a column.
-    Magnitude(usize),
-    /// Smallest, largest, or last value of a column.
-    Least(usize),
-    Most(usize),
-    Last(usize),
+    /// Of a column.
+    Column {
+        name: String,
+        end: End,
+    },
     /// In the last whole turn, of a joint with clearance.
     Turn {
-        joint: usize,
+        joint: String,
         column: usize,
     },
     Life(usize),
+}
+
+#[derive(Clone, Copy, Debug)]
+enum End {
+    Least,
+    Most,
+    /// The larger magnitude of both.
+    Largest,
+    Last,
 }
 
 impl Quantity {
@@ -101,22 +110,27 @@ impl Quantity {
     }
 
     /// Its value in a run; nothing where the run has none.
-    pub(super) fn of_run(&self, run: &Run) -> Option<f64> {
+    pub(super) fn of_run(&self, run: &Run, description: &Description) -> Option<f64> {
         let value = match &self.of {
             Of::Statistic(at) => STATISTICS[*at].2(&run.statistics).as_f64(),
             Of::Peak { joint, moment } => {
                 let peak = run.peaks.iter().find(|peak| peak.joint == *joint)?;
                 Some(if *moment { peak.moment.value } else { peak.force.value })
             }
-            Of::Magnitude(at) => {
-                let ends = run.extremes.get(*at)?;
-                Some(ends.low.value.abs().max(ends.high.value.abs()))
+            Of::Column { name, end } => {
+                let at = run.index(name).ok()?;
+                let ends = run.extremes.get(at)?;
+                let (low, high) = (ends.low.value, ends.high.value);
+                Some(match end {
+                    End::Least => low,
+                    End::Most => high,
+                    End::Largest => low.abs().max(high.abs()),
+                    End::Last => *run.rows.last()?.get(at)?,
+                })
             }
-            Of::Least(at) => Some(run.extremes.get(*at)?.low.value),
-            Of::Most(at) => Some(run.extremes.get(*at)?.high.value),
-            Of::Last(at) => run.rows.last()?.get(*at).copied(),
             Of::Turn { joint, column } => {
-                Some(ContactMeasure::COLUMNS[*column].1(run.turns.last()?.get(*joint)?))
+                let at = description.contacts.iter().position(|contact| *contact.joint == **joint)?;
+                Some(ContactMeasure::COLUMNS[*column].1(run.turns.last()?.get(at)?))
             }
             Of::Life(_) => None,
         };
@@ -130,30 +144,40 @@ impl Quantity {
     }
 }
 
+/// What there is of every column, by the word before its name.
+const ENDS: [(&str, End); 3] = [("min", End::Least), ("max", End::Most), ("final", End::Last)];
+
+/// Names for people: each, but for those that every column has, which are told as one.
+pub fn listed(all: &[Quantity]) -> Vec<String> {
+    let is_own = |quantity: &&Quantity| {
+        !matches!(quantity.of, Of::Column { end: End::Least | End::Most | End::Last, .. })
+    };
+    let own = all.iter().filter(is_own).map(|quantity| quantity.name.clone());
+    own.chain(ENDS.map(|(word, _)| format!("{word}.COLUMN"))).collect()
+}
+
 /// All that a mechanism has.
 pub fn quantities(description: &Description) -> Vec<Quantity> {
     let columns = channels(description);
     let mut all = Vec::new();
-    for (joint, info) in description.contacts.iter().enumerate() {
+    for info in description.contacts.iter() {
         for (at, (column, _)) in ContactMeasure::COLUMNS.iter().enumerate() {
-            let name = format!("{}.{}", info.joint, turn_key(column));
+            let (name, joint) = (format!("{}.{}", info.joint, turn_key(column)), info.joint.to_string());
             all.push(Quantity::new(name, column.unit, Of::Turn { joint, column: at }));
         }
     }
-    let ending = |suffix: &'static str| {
-        let named =
-            |(at, column): (usize, &'_ Channel)| Some((at, column.name.strip_suffix(suffix)?.to_owned()));
-        columns.iter().enumerate().filter_map(named).collect::<Vec<_>>()
+    let of_column = |word: &str, column: &Channel, end: End| {
+        let of = Of::Column { name: column.name.to_string(), end };
+        Quantity::new(format!("{word}.{}", column.name), &column.unit, of)
     };
-    for (_, joint) in ending(".Fx") {
+    for joint in columns.iter().filter_map(|column| column.name.strip_suffix(".Fx")) {
         for (load, unit, moment) in [("F", "N", false), ("M", "N m", true)] {
-            let of = Of::Peak { joint: joint.clone(), moment };
+            let of = Of::Peak { joint: joint.to_owned(), moment };
             all.push(Quantity::new(format!("peak.{joint}.{load}"), unit, of));
         }
     }
-    for (at, joint) in ending(".drive") {
-        all.push(Quantity::new(format!("peak.{joint}.drive"), &columns[at].unit, Of::Magnitude(at)));
-    }
+    let drives = columns.iter().filter(|column| column.name.ends_with(".drive"));
+    all.extend(drives.map(|column| of_column("peak", column, End::Largest)));
     if description.contacts.iter().any(|contact| contact.wear.is_some()) {
         let lives = LIVES.iter().enumerate();
         all.extend(
@@ -162,9 +186,9 @@ pub fn quantities(description: &Description) -> Vec<Quantity> {
     }
     let statistics = STATISTICS.iter().enumerate();
     all.extend(statistics.map(|(at, (name, unit, _))| Quantity::new(*name, unit, Of::Statistic(at))));
-    for (at, column) in columns.iter().enumerate() {
-        let ends = [("min", Of::Least(at)), ("max", Of::Most(at)), ("final", Of::Last(at))];
-        all.extend(ends.map(|(word, of)| Quantity::new(format!("{word}.{}", column.name), &column.unit, of)));
+    for column in &columns {
+        let ends = ENDS.map(|(word, end)| of_column(word, column, end));
+        all.extend(ends);
     }
     all
 }

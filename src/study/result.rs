@@ -72,6 +72,8 @@ pub struct Row {
     pub results: Vec<Option<f64>>,
     /// Why there are no results.
     pub error: Option<PointError>,
+    /// Where the results are not to be trusted.
+    pub warnings: Vec<String>,
 }
 
 impl Row {
@@ -99,6 +101,12 @@ impl StudyResult {
     /// Points at which nothing could be run, with their numbers from 0.
     pub fn failed(&self) -> impl Iterator<Item = (usize, &PointError)> {
         self.rows.iter().enumerate().filter_map(|(at, row)| Some((at, row.error.as_ref()?)))
+    }
+
+    /// What is doubtful about results, with the numbers of their points from 0.
+    pub fn warnings(&self) -> impl Iterator<Item = (usize, &str)> {
+        let rows = self.rows.iter().enumerate();
+        rows.flat_map(|(at, row)| row.warnings.iter().map(move |warning| (at, &**warning)))
     }
 
     /// The rows as a table: numbers that are not there are empty cells in text, and not a number in files of numbers.

@@ -1,8 +1,10 @@
 //! Running the points. In: a study. Out: its rows, or that it was stopped. Never knows what is done with them.
 
+use std::any::Any;
 use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, available_parallelism};
@@ -71,6 +73,8 @@ enum Fault {
     Load(LoadError),
     Run(RunError),
     Life(LifeError),
+    /// A bug.
+    Panicked(String),
 }
 
 impl Study<'_> {
@@ -166,8 +170,14 @@ impl Study<'_> {
     fn row(&self, point: u64, last: &mut Last, watch: Watch<'_>) -> Result<Row, Stopped> {
         let given = self.points.values(point);
         let parameters = self.cases.in_si(&given);
-        match self.results(&given, last, watch) {
-            Ok(results) => Ok(Row { parameters, results, error: None }),
+        // What a panic leaves is not looked at again: what was compiled last is compiled anew.
+        let found = catch_unwind(AssertUnwindSafe(|| self.results(&given, last, watch)));
+        let found = found.unwrap_or_else(|panic| {
+            *last = None;
+            Err(Fault::Panicked(said(&*panic)))
+        });
+        match found {
+            Ok((results, warnings)) => Ok(Row { parameters, results, error: None, warnings }),
             Err(_) if watch.report(0.0).is_break() => Err(Stopped),
             Err(fault) => {
                 // Compiled for this point alone, a mechanism that cannot run tells more of its reason.
@@ -176,7 +186,7 @@ impl Study<'_> {
                     _ => fault,
                 };
                 let results = vec![None; self.of.len()];
-                Ok(Row { parameters, results, error: Some(fault.told()) })
+                Ok(Row { parameters, results, error: Some(fault.told()), warnings: Vec::new() })
             }
         }
     }
@@ -186,7 +196,7 @@ impl Study<'_> {
         given: &[(String, String)],
         last: &mut Last,
         watch: Watch<'_>,
-    ) -> Result<Vec<Option<f64>>, Fault> {
+    ) -> Result<(Vec<Option<f64>>, Vec<String>), Fault> {
         /// A run takes about this part of a life.
         const RUN: f64 = 0.05;
         let mechanism = self.cases.at(given, last).map_err(Fault::Load)?;
@@ -201,12 +211,15 @@ impl Study<'_> {
             LifeStudy { mechanism: &mechanism, threads: Some(NonZero::<usize>::MIN), ..self.life.clone() };
         let life = needs_life.then(|| life.run_watched(watch.piece(share, 1.0))).transpose();
         let life = life.map_err(Fault::Life)?;
+        let mut warnings: Vec<String> =
+            run.iter().flat_map(|run| &run.warnings).map(ToString::to_string).collect();
+        warnings.extend(life.iter().flat_map(|life| life.warnings.clone()));
         let told = life.map(|life| (life.numbers(life.statistics().as_ref()), life));
         let value = |quantity: &Quantity| match quantity.needs() {
-            Needs::Run => quantity.of_run(run.as_ref()?),
+            Needs::Run => quantity.of_run(run.as_ref()?, &mechanism.description),
             Needs::Life => told.as_ref().and_then(|(numbers, life)| quantity.of_life(life, numbers)),
         };
-        Ok(self.of.iter().map(value).collect())
+        Ok((self.of.iter().map(value).collect(), warnings))
     }
 
     fn simulated(&self, mechanism: &Mechanism, watch: Watch<'_>) -> Result<Run, Fault> {
@@ -279,6 +292,12 @@ impl Study<'_> {
     }
 }
 
+/// What a panic says of itself.
+fn said(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}
+
 /// Options that are given.
 fn present(options: &Value) -> Value {
     let given = options.as_object().into_iter().flatten().filter(|(_, value)| !value.is_null());
@@ -304,6 +323,7 @@ impl Fault {
             Self::Load(error) => plain(RUN_FAILED, error.to_string()),
             Self::Run(error) => plain(RUN_FAILED, error.to_string()),
             Self::Life(error) => plain(LIFE_FAILED, error.to_string()),
+            Self::Panicked(message) => plain(RUN_FAILED, format!("the program is at fault here: {message}")),
         }
     }
 }

@@ -54,12 +54,14 @@ fn to_json(result: &StudyResult) -> Value {
         row.numbers().map(|value| json!(value)).chain([json!(error)]).collect::<Value>()
     };
     let failure = |(at, error): (usize, &PointError)| json!({ "row": at, "code": error.code, "message": error.message, "help": error.help });
+    let warning = |(at, message): (usize, &str)| json!({ "row": at, "code": "study", "message": message });
     json!({
         "name": result.facts.name,
         "columns": result.facts.columns,
         "rows": result.rows.iter().map(row).collect::<Value>(),
         "failed": result.failed().count(),
         "failures": result.failed().map(failure).collect::<Value>(),
+        "warnings": result.warnings().map(warning).collect::<Value>(),
     })
 }
 
@@ -88,8 +90,24 @@ fn to_text(result: &StudyResult) -> String {
         let _ = writeln!(text, "  {kept} of {} rows; --out FILE and --format json have all", rows.len());
     }
     let _ = write!(text, "\n{}", extremes(result));
+    let remarks = remarks(result);
+    if !remarks.is_empty() {
+        let _ = write!(text, "\n{remarks}");
+    }
+    text
+}
+
+/// What failed and what is doubtful, a line each; nothing where all is well.
+pub fn remarks(result: &StudyResult) -> String {
+    let mut text = String::new();
     for (code, (count, message)) in faults(result) {
-        let _ = writeln!(text, "\nfailed at {}: {message} [{code}]", plural(count, "point", "points"));
+        let _ = writeln!(text, "failed at {}: {message} [{code}]", plural(count, "point", "points"));
+    }
+    let mut places: Vec<usize> = result.warnings().map(|(at, _)| at).collect();
+    places.dedup();
+    if let Some((at, first)) = result.warnings().next() {
+        let points = plural(places.len() as u64, "point", "points");
+        let _ = writeln!(text, "warning at {points}: row {}: {first}; --format json lists all", at + 1);
     }
     text
 }
