@@ -4,11 +4,16 @@
 mod command;
 
 use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
 use std::process::Command;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use command::{Answer, Folder, linkwear, start};
+use linkwear::cli::ask;
+use linkwear::mechanism::read_source;
+use linkwear::runtime::Watch;
 use serde_json::Value;
 
 const RIGID: &str = "mechanisms/rssr_rigid.toml";
@@ -346,6 +351,23 @@ fn parts_of_any_number_in_any_order_are_together_the_undivided_study() {
     fs::write(folder.path("1of3"), &bytes[..bytes.len() / 2]).expect("a file");
     assert!(error(&merge(&["1of3", "2of3", "3of3"], "y.csv")).1.contains("damaged"));
     assert!(!fs::exists(folder.path("y.csv")).expect("a folder"), "nothing is written");
+}
+
+#[test]
+fn a_program_gets_the_answer_of_the_command_line_and_may_stop_it() {
+    let words = ["--vary", "speed=1Hz..3Hz:3", "--of", "steps,peak.R4.F"].map(str::to_owned);
+    let source = read_source(Path::new(RIGID)).expect("a file");
+    let studied = ask::study(&words, &source, Watch::NONE).expect("a study");
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert_eq!(format!("{:#}\n", studied.json), study(&[&[RIGID], &words, &JSON]).out);
+    assert_eq!(studied.result.rows.len(), 3);
+
+    let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+    let stop = |part: f64| if part > 0.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let stopped = ask::study(&words, &source, Watch::new(&stop)).expect_err("it is stopped");
+    assert_eq!(stopped.errors()[0]["code"], "C0009");
+    let written = ask::study(&[words, vec!["--out".into(), "x.csv".into()]].concat(), &source, Watch::NONE);
+    assert!(written.expect_err("nothing is written").is_usage());
 }
 
 #[test]

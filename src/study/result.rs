@@ -24,7 +24,7 @@ pub enum Kind {
 pub struct StudyColumn {
     /// Its name, `speed`, `life.mean`.
     pub name: String,
-    /// SI unit, or that of the name; `1` if it has none.
+    /// SI unit, or that of the name; `1` if it has none, nothing for words.
     pub unit: String,
     /// What it has.
     pub kind: Kind,

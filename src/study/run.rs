@@ -117,11 +117,16 @@ impl Study<'_> {
             let within = parts.iter().map(|part| f64::from_bits(part.load(Ordering::Relaxed))).sum::<f64>();
             ((done.load(Ordering::Relaxed) as f64 + within) / of.max(1) as f64).min(1.0)
         };
+        // Who has said once that it shall stop is not asked again: a run that was stopped must not pass for one that failed.
         let go_on = || {
-            let is_over = watch.report(part_done()).is_break()
-                || journal.is_some_and(StudyJournal::has_failed)
-                || halt.load(Ordering::Relaxed);
-            if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            let is_over = halt.load(Ordering::Relaxed)
+                || watch.report(part_done()).is_break()
+                || journal.is_some_and(StudyJournal::has_failed);
+            if !is_over {
+                return ControlFlow::Continue(());
+            }
+            halt.store(true, Ordering::Relaxed);
+            ControlFlow::Break(())
         };
         let work = |thread: usize| {
             let mut last = None;
@@ -242,7 +247,7 @@ impl Study<'_> {
             unit: quantity.unit.clone(),
             kind: Kind::Result,
         };
-        let error = StudyColumn { name: "error".to_owned(), unit: "1".to_owned(), kind: Kind::Error };
+        let error = StudyColumn { name: "error".to_owned(), unit: String::new(), kind: Kind::Error };
         let mut columns = self.cases.parameters().to_vec();
         columns.extend(self.of.iter().map(result));
         columns.push(error);
