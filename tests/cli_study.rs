@@ -100,10 +100,10 @@ fn rows_are_what_simulate_answers_at_their_point() {
 fn a_column_is_the_same_one_at_every_point() {
     const FLEXIBLE: &str = "mechanisms/rssr_flexible.toml";
     let more = ["--time", "0.01", "--format", "json"];
-    let of = ["--vary", "modes=1,2,4", "--of", "final.coupler.uz,final.coupler.eta2"];
+    let of = ["--vary", "modes=1,2,8", "--of", "final.coupler.uz,final.coupler.eta2,final.coupler.eta8"];
     let answer = study(&[&[FLEXIBLE], &of, &more]).json();
     let folder = Folder::new("study-columns");
-    for (at, modes) in [1, 2, 4].into_iter().enumerate() {
+    for (at, modes) in [1, 2, 8].into_iter().enumerate() {
         let (set, out) = (format!("modes={modes}"), folder.path("rows.csv"));
         assert_eq!(
             linkwear(&[&["simulate", FLEXIBLE, "--set", &set, "--out", &out], &more[..]].concat()).code,
@@ -117,7 +117,7 @@ fn a_column_is_the_same_one_at_every_point() {
             let at = head.iter().position(|head| head.starts_with(&format!("{name} [")))?;
             Some(last[at].parse::<f64>().expect("a number"))
         };
-        for name in ["coupler.uz", "coupler.eta2"] {
+        for name in ["coupler.uz", "coupler.eta2", "coupler.eta8"] {
             // With one mode there is no second one: an empty cell.
             assert_eq!(
                 column(&answer, &format!("final.{name}"))[at].as_f64(),

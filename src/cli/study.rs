@@ -10,11 +10,9 @@ use crate::mechanism::read_source;
 use crate::progress::watched;
 use crate::study::{
     Cases, Points, Quantity, Study, StudyError, StudyJournal, StudyPart, StudyResult, listed, merge, named,
-    quantities,
 };
 use crate::table::{is_stdout, write_table};
 use linkwear_codegen::SourceFile;
-use linkwear_runtime::Description;
 use serde_json::Value;
 
 pub use self::arguments::StudyArguments;
@@ -86,7 +84,7 @@ pub fn asked<T>(
     let options = options(&arguments.input, arguments.equations.rigid);
     let cases = Cases::new(source, &options, arguments.equations.backend, &points)?;
     let mechanism = cases.base();
-    let of = of(&arguments.of, &mechanism.description)?;
+    let of = of(&arguments.of, &cases.quantities(&points))?;
     let simulation = Simulation::new(&arguments.input.file, &arguments.motion, mechanism)?;
     let steps = (arguments.motion.step, arguments.motion.tol);
     let (life, warnings) = life::lives(&arguments.lives, steps, mechanism)?;
@@ -121,13 +119,12 @@ fn points(arguments: &StudyArguments) -> Result<Points, Failure> {
 }
 
 /// What is asked, each once.
-fn of(names: &[String], description: &Description) -> Result<Vec<Quantity>, Failure> {
-    let known = quantities(description);
+fn of(names: &[String], known: &[Quantity]) -> Result<Vec<Quantity>, Failure> {
     let mut all: Vec<Quantity> = Vec::new();
     for name in names.iter().map(|name| name.trim()) {
-        let found = named(name, &known).ok_or_else(|| {
+        let found = named(name, known).ok_or_else(|| {
             let names: Vec<String> = known.iter().map(|quantity| quantity.name.clone()).collect();
-            Failure::unknown_name("result", name, &names, &listed(&known))
+            Failure::unknown_name("result", name, &names, &listed(known))
         })?;
         if named(name, &all).is_none() {
             all.push(found.clone());

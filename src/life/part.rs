@@ -51,7 +51,7 @@ impl Part for LifePart {
 }
 
 impl LifePart {
-    /// Of a study that was lived; nothing if it has no shard. `command` is that of [`Self::command`].
+    /// Of a study that was lived; nothing if it has no shard. `command` is that of the field.
     pub fn new(study: &LifeStudy<'_>, command: String, result: LifeResult) -> Option<Self> {
         let trajectories = study.trajectories.count(result.coupling)?;
         Some(Self {

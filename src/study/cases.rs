@@ -9,6 +9,7 @@ use linkwear_codegen::spec::{self, Spec, parse_expression};
 use linkwear_codegen::{Options, SourceFile};
 
 use super::points::Points;
+use super::quantity::{Quantity, named, quantities};
 use super::result::StudyColumn;
 use crate::backend::Backend;
 use crate::mechanism::{LoadError, Mechanism};
@@ -74,6 +75,20 @@ impl Cases {
     /// The mechanism that names, units and columns are taken from.
     pub fn base(&self) -> &Mechanism {
         &self.base
+    }
+
+    /// All that can be asked: of the file as it is, and, where what is folded into the equations varies, of the first and the last
+    /// point, which may have more columns.
+    pub fn quantities(&self, points: &Points) -> Vec<Quantity> {
+        let mut all = quantities(&self.base.description);
+        let ends = [0, points.count().saturating_sub(1)].map(|point| points.values(point));
+        for given in ends.iter().filter(|_| !self.folded.is_empty()) {
+            let Ok(mechanism) = self.alone(given) else { continue };
+            let more = quantities(&mechanism.description);
+            let more: Vec<_> = more.into_iter().filter(|one| named(&one.name, &all).is_none()).collect();
+            all.extend(more);
+        }
+        all
     }
 
     /// Columns of the parameters that vary.

@@ -45,7 +45,7 @@ impl Part for StudyPart {
 }
 
 impl StudyPart {
-    /// Of a study that was run; nothing if it has no shard. `command` is that of [`Self::command`].
+    /// Of a study that was run; nothing if it has no shard. `command` is that of the field.
     pub fn new(study: &Study<'_>, command: String, result: StudyResult) -> Option<Self> {
         let StudyResult { facts, rows } = result;
         study.shard.map(|shard| Self { shard, command, facts, rows })
