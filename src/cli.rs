@@ -20,6 +20,7 @@ mod options;
 mod packaging;
 mod plot;
 mod predict;
+mod shipped_schemas;
 mod simulate;
 mod study;
 mod summary;
@@ -71,7 +72,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Predict(arguments) => predict::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),
-        Command::Schema => Ok(packaging::schema()),
+        Command::Schema { output } => Ok(packaging::schema(*output)),
         Command::Completions { shell } => Ok(packaging::completions(*shell)),
         Command::Man => packaging::manual(),
     }

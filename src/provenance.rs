@@ -11,6 +11,7 @@ pub const FORMAT: u64 = 1;
 
 /// What decides the numbers of a result.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Provenance {
     /// Version of linkwear.
     pub version: String,
@@ -20,9 +21,11 @@ pub struct Provenance {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
     /// Options that decide numbers, SI where they have units.
+    #[cfg_attr(test, schemars(with = "std::collections::BTreeMap<String, Value>"))]
     pub options: Map<String, Value>,
     /// Values of the tunable parameters and of those at generation, SI.
-    #[serde(skip_serializing_if = "Map::is_empty")]
+    #[cfg_attr(test, schemars(with = "std::collections::BTreeMap<String, f64>"))]
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub parameters: Map<String, Value>,
 }
 

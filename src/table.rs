@@ -2,7 +2,11 @@
 //! [`FORMATS`]; command line and help find it there. In: a table, what it is of. Out: a file, and beside it what the format has no
 //! room for. Never knows what the numbers mean.
 
+#[cfg(test)]
+pub(crate) mod about;
+#[cfg(not(test))]
 mod about;
+mod columns;
 mod npy;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -12,6 +16,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+pub use columns::{ColumnForm, tables};
 use linkwear_runtime::{Table, write_csv};
 use serde_json::Value;
 

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is said of the measure of one joint.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WearMeasure {
     /// The joint.
     pub joint: String,

@@ -1,7 +1,5 @@
 //! A prediction: everything that is told about the remaining life of one joint. In: an estimate, the joint's state, perhaps
-//! readings. Out: numbers with their bands and error budget, JSON. Never knows files or terminals.
-
-use serde_json::{Map, Value, json};
+//! readings. Out: numbers with their bands and error budget. Never knows files or terminals.
 
 use crate::error::LifeError;
 use crate::inspection::{Effort, History, InspectionError, Mixture, Particles, Posterior, Prior};
@@ -250,37 +248,6 @@ impl Prediction {
             averaging: None,
             parameters: parameters.unwrap_or_else(|| ErrorBudget::parameters(band)),
         });
-    }
-
-    /// One JSON object.
-    pub fn to_json(&self) -> Value {
-        let moments = self.moments.as_ref();
-        let ends = |band: &Band| json!({ "lower": band.lower, "upper": band.upper });
-        let names = ["p10", "p50", "p90"];
-        let quantiles = names.iter().zip(&self.quantiles);
-        let bands: Map<String, Value> =
-            quantiles.clone().map(|(name, band)| ((*name).to_owned(), ends(band))).collect();
-        let quantiles: Map<String, Value> =
-            quantiles.map(|(name, band)| ((*name).to_owned(), json!(band.value))).collect();
-        let reliability = |(t, band, _): &(f64, Band, f64)| json!({ "time": t, "reliability": band.value, "lower": band.lower, "upper": band.upper });
-        let hazard = |(t, _, hazard): &(f64, Band, f64)| json!({ "time": t, "hazard": hazard });
-        json!({
-            "from": self.from,
-            "threshold": self.threshold,
-            "current": self.current,
-            "mean": moments.map(|(moments, _)| moments.mean),
-            "std": moments.map(|(moments, _)| moments.std),
-            "cov": moments.map(|(moments, _)| moments.cov()),
-            "mean_whole_cycles": self.whole.map(|whole| whole.mean),
-            "std_whole_cycles": self.whole.map(|whole| whole.std),
-            "quantiles": quantiles,
-            "interval95": { "lower": self.interval.0, "upper": self.interval.1, "kind": self.interval_kind.name() },
-            "bands": { "mean": moments.map(|(_, band)| ends(band)), "quantiles": bands },
-            "reliability": self.course.iter().map(reliability).collect::<Vec<_>>(),
-            "hazard": self.course.iter().map(hazard).collect::<Vec<_>>(),
-            "budget": self.budget.as_ref().map(ErrorBudget::to_json),
-            "warnings": self.warnings,
-        })
     }
 }
 

@@ -10,6 +10,8 @@ pub struct Column {
     pub symbol: &'static str,
     /// SI unit; `1` if it has none.
     pub unit: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
     /// Shown in tables of turns and cycles too, where room is short.
     pub brief: bool,
 }
@@ -19,8 +21,11 @@ pub type Quantity<T> = (Column, fn(&T) -> f64);
 
 impl Column {
     /// A quantity that is told in every table.
-    pub const fn new(name: &'static str, symbol: &'static str, unit: &'static str) -> Self {
-        Self { name, symbol, unit, brief: true }
+    pub const fn new(
+        (name, symbol, unit): (&'static str, &'static str, &'static str),
+        meaning: &'static str,
+    ) -> Self {
+        Self { name, symbol, unit, meaning, brief: true }
     }
 
     /// The same, left out where room is short.

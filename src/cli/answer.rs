@@ -1,8 +1,25 @@
-//! What a subcommand answers, for people and for machines. Never knows how it came about.
+//! What a subcommand answers, for people and for machines. In: a text, and one of the types of this folder, from which
+//! `docs/schemas` and `docs/outputs.md` are made. Never knows how it came about.
+
+pub mod check;
+pub mod common;
+pub mod equations;
+#[cfg(test)]
+mod errors;
+pub mod fit;
+pub mod life;
+#[cfg(test)]
+mod measured;
+pub mod predict;
+#[cfg(test)]
+mod schemas;
+pub mod simulate;
+pub mod study;
 
 use crate::files::{WriteError, print};
 use crate::provenance::{Provenance, sealed};
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::arguments::Format;
 
@@ -17,8 +34,8 @@ pub struct Answer {
 
 impl Answer {
     /// With the format of its JSON, and what it is of if that has a name.
-    pub fn new(text: String, json: Value, provenance: Option<&Provenance>) -> Self {
-        Self { text, json: sealed(json, provenance) }
+    pub fn new(text: String, answer: impl Serialize, provenance: Option<&Provenance>) -> Self {
+        Self { text, json: sealed(json!(answer), provenance) }
     }
 
     /// Prints the form that was asked for.

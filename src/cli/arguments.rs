@@ -9,6 +9,7 @@ use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
 use super::options::{EquationsChoice, Input, LivesArguments, MotionArguments, rows_help};
+use super::shipped_schemas::SCHEMAS;
 use super::study::StudyArguments;
 use super::value::{covariate, one_of, output, positive, threads};
 
@@ -93,9 +94,14 @@ pub enum Command {
     /// Write a commented starter file to edit.
     #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
     New(NewArguments),
-    /// Print the JSON Schema of mechanism files, for editors.
-    #[command(after_help = "Example:\n  linkwear schema > linkwear.schema.json")]
-    Schema,
+    /// Print the JSON Schema of mechanism files, for editors, or of an output.
+    #[command(after_help = "Examples:\n  linkwear schema > linkwear.schema.json\n  linkwear schema life")]
+    Schema {
+        /// An output: the JSON of a subcommand, `errors`, `fit-file` (fit --out), `table` (FILE-metadata.json), `parquet` (metadata
+        /// within).
+        #[arg(value_parser = one_of(SCHEMAS))]
+        output: Option<&'static str>,
+    },
     /// Print a completion script for a shell.
     #[command(after_help = "Example:\n  linkwear completions bash > \
                       ~/.local/share/bash-completion/completions/linkwear")]

@@ -8,7 +8,7 @@ use clap::Parser as _;
 use linkwear_codegen::SourceFile;
 use linkwear_gamma::FitFile;
 use linkwear_runtime::{Run, Watch};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::arguments::{Arguments, Command};
 use super::failure::{Failure, entries, first_paragraph};
@@ -80,8 +80,9 @@ pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Resu
     if let Some(error) = &run.stopped {
         return Err(Failure::run(&arguments.input.file, error, None));
     }
-    let json = simulate::to_json(None, &mechanism, &run, begin.elapsed().as_secs_f64());
-    Ok(Simulated { run, json: sealed(json, Some(&asked.provenance())) })
+    let told = simulate::told_of(None, &mechanism, &run, begin.elapsed().as_secs_f64());
+    let json = sealed(json!(told), Some(&asked.provenance()));
+    Ok(Simulated { run, json })
 }
 
 /// `life`, of a text.
@@ -119,7 +120,9 @@ pub fn shard(
     let journal = LifeJournal::resume(folder).map_err(Failure::journal)?;
     let (study, warnings) = life::study(&arguments, &mechanism)?;
     let lived = study.run_kept(&journal, watch);
-    let mut result = lived.map_err(|error| life::failed(&arguments.input.file, error, Some(folder)))?;
+    let mut result = lived.map_err(|error| {
+        life::failed(&arguments.input.file, error, Some(&life::Kept::new(folder, &study)))
+    })?;
     result.warnings.extend(warnings);
     let part = LifePart::new(&study, String::new(), result);
     Ok(part.map_or(Ok(()), |part| part.write(folder, &study))?)

@@ -7,12 +7,15 @@ use crate::number::number;
 use crate::provenance::Provenance;
 use crate::wear_measure::{paragraph, wear_measures};
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
-use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate};
+use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate, Redundant};
 use linkwear_codegen::spec::Dimension;
 use linkwear_codegen::{Compiled, Options};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::answer::Answer;
+use super::answer::check::{
+    AssemblyAnswer, CheckAnswer, FlexibleAnswer, ModeAnswer, ParameterAnswer, RedundantAnswer,
+};
 use super::failure::Failure;
 use super::input::{load, options};
 use super::options::Input;
@@ -31,44 +34,44 @@ pub fn answer(compiled: &Compiled, options: &Options, warnings: &[Value]) -> Ans
     provenance.options = told(options);
     let parameters = description.parameters.iter();
     provenance.parameters = parameters.map(|known| (known.name.to_string(), json!(known.default))).collect();
-    let json = to_json(compiled, &assemblies, warnings);
-    Answer::new(text(compiled, &assemblies), json, Some(&provenance))
+    let told = told_of(compiled, &assemblies, warnings);
+    Answer::new(text(compiled, &assemblies), told, Some(&provenance))
 }
 
-fn to_json(compiled: &Compiled, assemblies: &Assemblies, warnings: &[Value]) -> Value {
-    let values = |coordinates: &Vec<Coordinate>| -> Value {
+fn told_of<'a>(compiled: &'a Compiled, assemblies: &Assemblies, warnings: &'a [Value]) -> CheckAnswer<'a> {
+    let values = |coordinates: &Vec<Coordinate>| -> Map<String, Value> {
         coordinates.iter().map(|at| (format!("{}.{}", at.joint, at.name), json!(at.value))).collect()
     };
     let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
     let redundant = analysis.redundant.iter();
-    let redundant = redundant.map(|row| json!({ "joint": row.joint, "row": row.row, "reason": row.reason }));
+    let redundant = redundant.map(|Redundant { joint, row, reason }| RedundantAnswer { joint, row, reason });
     let cuts = compiled.topology.cuts.iter().map(|id| mechanism.joint(*id).name.as_str());
-    json!({
-        "name": mechanism.name,
-        "bodies": mechanism.bodies.len(),
-        "joints": mechanism.joints.len(),
-        "coordinates": analysis.coordinates,
-        "speeds": analysis.speeds,
-        "constraint_rows": analysis.constraint_rows,
-        "independent_rows": analysis.independent_rows,
-        "mobility": analysis.mobility,
-        "grubler": analysis.grubler,
-        "drivers": analysis.drivers,
-        "idle": analysis.idle,
-        "redundant": redundant.collect::<Vec<_>>(),
-        "non_unique": analysis.non_unique,
-        "cut_joints": cuts.collect::<Vec<_>>(),
-        "assembly": {
-            "taken": values(&assemblies.taken),
-            "others": assemblies.others.iter().map(values).collect::<Vec<_>>(),
+    CheckAnswer {
+        name: &mechanism.name,
+        bodies: mechanism.bodies.len(),
+        joints: mechanism.joints.len(),
+        coordinates: analysis.coordinates,
+        speeds: analysis.speeds,
+        constraint_rows: analysis.constraint_rows,
+        independent_rows: analysis.independent_rows,
+        mobility: analysis.mobility,
+        grubler: analysis.grubler,
+        drivers: &analysis.drivers,
+        idle: &analysis.idle,
+        redundant: redundant.collect(),
+        non_unique: &analysis.non_unique,
+        cut_joints: cuts.collect(),
+        assembly: AssemblyAnswer {
+            taken: values(&assemblies.taken),
+            others: assemblies.others.iter().map(values).collect(),
         },
-        "modal_coordinates": analysis.modes,
-        "flexible": mechanism.bodies.iter().filter_map(flexible_entry).collect::<Vec<_>>(),
-        "parameters": parameters(compiled, false).map(parameter_entry).collect::<Vec<_>>(),
-        "inputs": parameters(compiled, true).map(parameter_entry).collect::<Vec<_>>(),
-        "wear_measures": wear_measures(compiled.description()),
-        "warnings": warnings,
-    })
+        modal_coordinates: analysis.modes,
+        flexible: mechanism.bodies.iter().filter_map(flexible_entry).collect(),
+        parameters: parameters(compiled, false).map(parameter_entry).collect(),
+        inputs: parameters(compiled, true).map(parameter_entry).collect(),
+        wear_measures: wear_measures(compiled.description()),
+        warnings,
+    }
 }
 
 /// The parameters of the file, or its inputs.
@@ -76,22 +79,28 @@ fn parameters(compiled: &Compiled, inputs: bool) -> impl Iterator<Item = &Parame
     compiled.mechanism.parameters.iter().filter(move |parameter| parameter.input == inputs)
 }
 
-fn flexible_entry(body: &Body) -> Option<Value> {
+fn flexible_entry(body: &Body) -> Option<FlexibleAnswer<'_>> {
     let flexible = body.flexible.as_ref()?;
-    let pairs = |list: Vec<(&str, f64)>| -> Vec<Value> {
-        list.iter().map(|(name, hertz)| json!({ "name": name, "frequency_Hz": hertz })).collect()
-    };
-    let kept = flexible.data.modes.iter().map(|mode| (mode.name.as_str(), mode.frequency)).collect();
-    let left_out = flexible.left_out.iter().map(|mode| (mode.name.as_str(), mode.frequency)).collect();
-    Some(json!({ "body": body.name, "modes": pairs(kept), "left_out": pairs(left_out) }))
+    let modes = flexible.data.modes.iter().map(|mode| (&*mode.name, mode.frequency));
+    let left_out = flexible.left_out.iter().map(|mode| (&*mode.name, mode.frequency));
+    let told = |(name, frequency)| ModeAnswer { name, frequency_Hz: frequency };
+    Some(FlexibleAnswer {
+        body: &body.name,
+        modes: modes.map(told).collect(),
+        left_out: left_out.map(told).collect(),
+    })
 }
 
-fn parameter_entry(parameter: &Parameter) -> Value {
-    json!({
-        "name": parameter.name, "value": parameter.value, "unit": unit(parameter.dimension),
-        "tunable": parameter.tunable, "assumed": parameter.assumed,
-        "written": parameter.written.as_ref().map(|(number, unit)| format!("{number} {unit}").trim_end().to_owned()),
-    })
+fn parameter_entry(parameter: &Parameter) -> ParameterAnswer<'_> {
+    let written = parameter.written.as_ref();
+    ParameterAnswer {
+        name: &parameter.name,
+        value: parameter.value,
+        unit: unit(parameter.dimension),
+        tunable: parameter.tunable,
+        assumed: parameter.assumed,
+        written: written.map(|(number, unit)| format!("{number} {unit}").trim_end().to_owned()),
+    }
 }
 
 fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {

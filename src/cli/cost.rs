@@ -5,46 +5,29 @@ use std::time::Instant;
 use crate::backend::{Backend, Equations};
 use crate::cost::{EntryCost, Nanoseconds, entry_costs};
 use crate::progress::watched;
-use linkwear_codegen::tape::Operations;
 use linkwear_codegen::{Compiled, Options};
 use linkwear_runtime::{Integrator, Settings, Span, simulate};
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 use super::answer::Answer;
-use super::equations::operations;
+use super::answer::equations::{CostAnswer, EntryAnswer, TurnCost};
 use super::failure::Failure;
 use super::input::{load, options};
 use super::options::Input;
 use super::table::{count, duration, plural, short_table, table};
-
-/// A turn of the first driven revolute joint, else a second, by the adaptive method.
-struct Turn {
-    backend: &'static str,
-    time_s: f64,
-    steps: u64,
-    evaluations: u64,
-    wall_seconds: f64,
-}
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
     let options = options(input, false);
     let entries = entry_costs(&compiled, &options);
     let turn = turn(input, &compiled, &options)?;
-    let points = entries.iter().map(|cost| (cost.entry.name().to_owned(), entry(cost)));
-    let json = json!({
-        "name": compiled.mechanism.name,
-        "entry_points": points.collect::<Map<String, Value>>(),
-        "turn": {
-            "backend": turn.backend, "time_s": turn.time_s, "steps": turn.steps, "evaluations": turn.evaluations,
-            "milliseconds": 1e3 * turn.wall_seconds,
-        },
-        "warnings": warnings,
-    });
-    Ok(Answer::new(text(&compiled.mechanism.name, &entries, &turn), json, None))
+    let point = |cost: &EntryCost| (cost.entry.name().to_owned(), json!(EntryAnswer::from(cost)));
+    let text = text(&compiled.mechanism.name, &entries, &turn);
+    let entry_points = entries.iter().map(point).collect();
+    Ok(Answer::new(text, CostAnswer { name: &compiled.mechanism.name, entry_points, turn, warnings }, None))
 }
 
-fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<Turn, Failure> {
+fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<TurnCost, Failure> {
     let description = compiled.description();
     let equations = Equations::choose(compiled, options, Backend::Auto)?;
     let span = if description.turn_driver.is_some() { Span::Turns(1.0) } else { Span::Time(1.0) };
@@ -59,33 +42,20 @@ fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<Turn, F
     if let Some(error) = &run.stopped {
         return Err(Failure::run(&input.file, error, None));
     }
-    Ok(Turn {
+    Ok(TurnCost {
         backend: equations.name(),
         time_s: run.times.last().copied().unwrap_or_default(),
         steps: run.statistics.steps,
         evaluations: run.statistics.evaluations,
-        wall_seconds,
+        milliseconds: 1e3 * wall_seconds,
     })
 }
 
-fn entry(cost: &EntryCost) -> Value {
-    let section =
-        |(name, count): &(String, Operations)| json!({ "name": name, "operations": operations(count) });
-    let Nanoseconds { interpreter, native, compiled, lanes4, lanes8 } = cost.ns;
-    json!({
-        "operations": operations(&cost.operations),
-        "sections": cost.sections.iter().map(section).collect::<Vec<_>>(),
-        "ns": {
-            "interpreter": interpreter, "native": native, "compiled": compiled, "lanes4": lanes4, "lanes8": lanes8,
-        },
-    })
-}
-
-fn text(name: &str, entries: &[EntryCost], turn: &Turn) -> String {
+fn text(name: &str, entries: &[EntryCost], turn: &TurnCost) -> String {
     let head = format!(
         "{name}: {:.3} s in {}, {}, {}",
         turn.time_s,
-        duration(turn.wall_seconds),
+        duration(1e-3 * turn.milliseconds),
         plural(turn.steps, "step", "steps"),
         turn.backend
     );

@@ -1,10 +1,10 @@
 //! `equations`: what was derived, for people to read.
 
 use linkwear_codegen::render::OutputInfo;
-use linkwear_codegen::tape::Operations;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::answer::Answer;
+use super::answer::equations::{EquationsAnswer, OutputAnswer};
 use super::arguments::EquationsArguments;
 use super::failure::Failure;
 use super::input::load;
@@ -19,27 +19,25 @@ pub fn run(arguments: &EquationsArguments) -> Result<Answer, Failure> {
     let text = compiled.equations_text(only, arguments.notation);
     let meant =
         outputs.iter().filter(|output| only.is_empty() || only.iter().any(|name| is_meant(output, name)));
-    let json = json!({
-        "name": compiled.mechanism.name, "outputs": meant.map(entry).collect::<Vec<_>>(), "text": text,
-        "warnings": warnings,
-    });
+    let told = EquationsAnswer {
+        name: &compiled.mechanism.name,
+        outputs: meant.map(entry).collect(),
+        text: &text,
+        warnings,
+    };
+    let json = json!(told);
     Ok(Answer::new(text, json, None))
 }
 
-fn entry(output: &OutputInfo) -> Value {
-    json!({
-        "name": output.name, "function": output.function, "rows": output.rows, "cols": output.cols,
-        "operations": operations(&output.operations),
-        "operations_unshared": operations(&output.operations_unshared),
-    })
-}
-
-/// Operation counts as every command writes them.
-pub fn operations(count: &Operations) -> Value {
-    json!({
-        "mul": count.mul, "add": count.add, "div": count.div, "sqrt": count.sqrt,
-        "sincos": count.sincos, "total": count.total,
-    })
+fn entry(output: &OutputInfo) -> OutputAnswer<'_> {
+    OutputAnswer {
+        name: &output.name,
+        function: &output.function,
+        rows: output.rows,
+        cols: output.cols,
+        operations: (&output.operations).into(),
+        operations_unshared: (&output.operations_unshared).into(),
+    }
 }
 
 /// A name means an output, an output of a function (`closure.phi_q`), or all outputs of a function.

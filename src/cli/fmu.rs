@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use crate::files::{WriteError, write_whole};
 use crate::fmu;
-use serde_json::json;
 
 use super::answer::Answer;
+use super::answer::equations::FmuAnswer;
 use super::arguments::FmuArguments;
 use super::failure::Failure;
 use super::input::{check_output, load};
@@ -26,9 +26,7 @@ pub fn run(arguments: &FmuArguments) -> Result<Answer, Failure> {
     let seconds = start.elapsed().as_secs_f64();
     let text =
         format!("{}: written, {} kB in {}", out.display(), bytes.len().div_ceil(1000), duration(seconds));
-    let json = json!({
-        "name": compiled.mechanism.name, "file": out.display().to_string(), "bytes": bytes.len(),
-        "seconds": seconds, "warnings": warnings,
-    });
-    Ok(Answer::new(text, json, None))
+    let name = &compiled.mechanism.name;
+    let told = FmuAnswer { name, file: out.display().to_string(), bytes: bytes.len(), seconds, warnings };
+    Ok(Answer::new(text, told, None))
 }

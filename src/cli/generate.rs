@@ -9,11 +9,10 @@ use crate::files::{WriteError, write_whole};
 use linkwear_codegen::Compiled;
 use linkwear_codegen::compile::FunctionCount;
 use linkwear_codegen::tape::Operations;
-use serde_json::{Value, json};
 
 use super::answer::Answer;
+use super::answer::equations::{FunctionAnswer, GenerateAnswer};
 use super::arguments::{GenerateArguments, Target};
-use super::equations::operations;
 use super::failure::Failure;
 use super::input::{check_output, load};
 use super::table::{count, duration, plural, table};
@@ -42,19 +41,22 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let statements: usize = functions.iter().map(|function| function.statements).sum();
     let mut total = Operations::default();
     functions.iter().for_each(|function| total += function.operations);
-    let mut json = json!({
-        "name": compiled.mechanism.name,
-        "operations": operations(&total), "functions": functions.len(),
-        "statements": statements, "seconds": seconds,
-        "entry_points": functions.iter().map(entry).collect::<Vec<_>>(),
-        "warnings": warnings,
-    });
     let written: Vec<_> = files.iter().filter_map(|(path, _)| path.as_ref()).collect();
-    json["files"] = written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().into();
+    let told = GenerateAnswer {
+        name: &compiled.mechanism.name,
+        operations: (&total).into(),
+        functions: functions.len(),
+        statements,
+        seconds,
+        entry_points: functions.iter().map(entry).collect(),
+        warnings,
+        files: written.iter().map(|path| path.display().to_string()).collect(),
+        source: None,
+    };
     let (Some(_), [first, ..]) = (out, &written[..]) else {
         let source = files.into_iter().map(|(_, text)| text).collect::<String>();
-        json["source"] = source.clone().into();
-        return Ok(Answer::new(source, json, None));
+        let told = GenerateAnswer { source: Some(source.clone()), ..told };
+        return Ok(Answer::new(source, told, None));
     };
     let others: String = written[1..].iter().map(|path| format!(", {}", path.display())).collect();
     let rows: Vec<_> = functions.iter().map(row).collect();
@@ -66,7 +68,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         duration(seconds),
         table(&["function", "operations", "statements", "parts"], &rows)
     );
-    Ok(Answer::new(text, json, None))
+    Ok(Answer::new(text, told, None))
 }
 
 /// What is written where; without a place it goes to stdout.
@@ -99,11 +101,9 @@ fn files(
     }
 }
 
-fn entry(function: &FunctionCount) -> Value {
-    json!({
-        "name": function.name, "operations": operations(&function.operations),
-        "statements": function.statements, "parts": function.parts,
-    })
+fn entry(function: &FunctionCount) -> FunctionAnswer<'_> {
+    let FunctionCount { name, operations, statements, parts } = function;
+    FunctionAnswer { name, operations: operations.into(), statements: *statements, parts: *parts }
 }
 
 fn row(function: &FunctionCount) -> Vec<String> {

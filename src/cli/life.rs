@@ -11,6 +11,7 @@ use crate::files::claim_folder;
 use crate::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
 use crate::mechanism::Mechanism;
 use crate::progress::watched;
+use crate::provenance::Provenance;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 
 use self::fits::fits;
@@ -26,8 +27,9 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
     let journal = folder.map(open).transpose().map_err(Failure::journal)?;
     let (study, warnings) = study(arguments, &mechanism)?;
-    let cost =
-        watched(|watch| study.cost(watch)).map_err(|error| failed(&arguments.input.file, error, folder))?;
+    let kept = folder.map(|folder| Kept::new(folder, &study));
+    let cost = watched(|watch| study.cost(watch))
+        .map_err(|error| failed(&arguments.input.file, error, kept.as_ref()))?;
     if let Some(cost) = cost {
         eprintln!("{}", output::cost(&cost));
     }
@@ -35,7 +37,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
         Some(journal) => study.run_kept(journal, watch),
         None => study.run_watched(watch),
     });
-    let mut life = lived.map_err(|error| failed(&arguments.input.file, error, folder))?;
+    let mut life = lived.map_err(|error| failed(&arguments.input.file, error, kept.as_ref()))?;
     life.warnings.extend(warnings);
     if let Some(note) = life.thread_note.take() {
         eprintln!("warning: {note}");
@@ -142,9 +144,21 @@ fn quoted(word: &str) -> String {
     format!("'{}'", word.replace('\'', "'\\''"))
 }
 
+/// Where what was finished before an error is kept, and what it is of.
+pub struct Kept<'a> {
+    folder: &'a Path,
+    provenance: Provenance,
+}
+
+impl<'a> Kept<'a> {
+    pub fn new(folder: &'a Path, study: &LifeStudy<'_>) -> Self {
+        Self { folder, provenance: LifeFacts::new(study, study.coupling()).provenance }
+    }
+}
+
 /// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
 /// the error.
-pub fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
+pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure {
     let LifeError { cause, joints, cycles, lives } = error;
     let cause = *cause;
     if let Cause::Journal(error) = cause {
@@ -169,8 +183,10 @@ pub fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
              --fit and --shared-factor out"
         ),
         _ if cycles.is_empty() => String::new(),
-        _ => match folder
-            .map(|folder| folder::write_parts(folder, &joints, (&cycles, &lives), None))
+        _ => match kept
+            .map(|Kept { folder, provenance }| {
+                folder::write_parts(folder, &joints, (&cycles, &lives), provenance)
+            })
             .transpose()
         {
             Err(error) => return error.into(),
@@ -182,11 +198,11 @@ pub fn failed(file: &Path, error: LifeError, folder: Option<&Path>) -> Failure {
     };
     if matches!(cause, Cause::Interrupted { .. }) {
         help.push_str(if help.is_empty() { "" } else { "; " });
-        help.push_str(match folder {
+        help.push_str(match kept {
             Some(_) => "the same command with --resume goes on from there",
             None => "with --out DIR it could go on by --resume",
         });
     }
-    let is_kept = folder.is_some() || cycles.is_empty();
+    let is_kept = kept.is_some() || cycles.is_empty();
     Failure::life(file, &cause, help, (!is_kept).then(|| output::cycles(&joints, &cycles)))
 }

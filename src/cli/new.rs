@@ -4,9 +4,9 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use crate::files::{WriteError, write_whole};
-use serde_json::json;
 
 use super::answer::Answer;
+use super::answer::equations::NewAnswer;
 use super::arguments::NewArguments;
 use super::failure::Failure;
 
@@ -26,7 +26,7 @@ pub fn run(arguments: &NewArguments) -> Result<Answer, Failure> {
     write_whole(&path, |file| file.write_all(starter.as_bytes()))?;
     let shown = path.display();
     let text = format!("{shown} written. Next:\n  linkwear check {shown}\n  linkwear simulate {shown}");
-    Ok(Answer::new(text, json!({ "file": shown.to_string() }), None))
+    Ok(Answer::new(text, NewAnswer { file: shown.to_string() }, None))
 }
 
 fn is_name(text: &str) -> bool {

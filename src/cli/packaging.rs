@@ -4,9 +4,9 @@ use std::path::Path;
 
 use crate::files::WriteError;
 use clap::CommandFactory;
-use serde_json::json;
 
 use super::answer::Answer;
+use super::answer::equations::TextAnswer;
 use super::arguments::Arguments;
 use super::failure::Failure;
 
@@ -25,12 +25,12 @@ pub fn manual() -> Result<Answer, Failure> {
 
 fn answer(text: &[u8]) -> Answer {
     let text = String::from_utf8_lossy(text).into_owned();
-    Answer::new(text.clone(), json!({ "text": text }), None)
+    Answer::new(text.clone(), TextAnswer { text }, None)
 }
 
 /// The answer is JSON whatever the format.
-pub fn schema() -> Answer {
-    let text = include_str!("../../docs/linkwear.schema.json");
+pub fn schema(output: Option<&'static str>) -> Answer {
+    let text = output.unwrap_or(include_str!("../../docs/linkwear.schema.json"));
     #[expect(clippy::expect_used, reason = "a test compares the file with what the types give")]
     let json = serde_json::from_str(text).expect("the schema of this program is JSON");
     Answer { text: text.to_owned(), json }

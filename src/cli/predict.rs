@@ -13,6 +13,7 @@ use linkwear_gamma::{FitFile, Prediction};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
+use super::answer::predict::PredictAnswer;
 use super::arguments::PredictArguments;
 use super::failure::Failure;
 use super::input::read_fit;
@@ -50,7 +51,7 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
         "inspections_sha256": inspections.map(CsvTable::sha256),
     });
     let provenance = Provenance::new(sha256(fit), Some(arguments.seed), options);
-    Ok(Answer::new(to_text(&answer), answer.to_json(), Some(&provenance)))
+    Ok(Answer::new(to_text(&answer), PredictAnswer::from(&answer), Some(&provenance)))
 }
 
 fn state(arguments: &PredictArguments, estimate: &Estimate) -> Result<OperatingState, Failure> {

@@ -9,7 +9,6 @@ use crate::mechanism::Mechanism;
 use crate::number::number;
 use crate::progress::watched;
 use crate::provenance::Provenance;
-use crate::study::{STATISTICS, turn_key};
 use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
@@ -19,6 +18,7 @@ use linkwear_runtime::{
 use serde_json::{Value, json};
 
 use super::answer::Answer;
+use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
 use super::input::{check_output, load_mechanism};
@@ -56,7 +56,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
         return Ok(Answer::new(String::new(), Value::Null, None));
     }
     let text = to_text(out, &mechanism, &run, &settings, wall_seconds);
-    Ok(Answer::new(text, to_json(out, &mechanism, &run, wall_seconds), Some(&provenance)))
+    Ok(Answer::new(text, told_of(out, &mechanism, &run, wall_seconds), Some(&provenance)))
 }
 
 /// What is to be simulated, and how.
@@ -186,23 +186,37 @@ fn partial_name(out: &Path) -> PathBuf {
 }
 
 /// What is told of a run, for machines.
-pub fn to_json(out: Option<&Path>, mechanism: &Mechanism, run: &Run, wall_seconds: f64) -> Value {
+pub fn told_of<'a>(
+    out: Option<&Path>,
+    mechanism: &'a Mechanism,
+    run: &'a Run,
+    wall_seconds: f64,
+) -> SimulateAnswer<'a> {
+    let numbers = &run.statistics;
     let description = &mechanism.description;
-    let mut answer = json!({
-        "name": description.name,
-        "backend": mechanism.backend(),
-        "time_s": run.times.last().copied().unwrap_or_default(),
-        "samples": run.rows.len(),
-        "wall_seconds": wall_seconds,
-    });
-    for (name, _, value) in STATISTICS {
-        answer[name] = value(&run.statistics);
+    SimulateAnswer {
+        name: &description.name,
+        backend: mechanism.backend(),
+        time_s: run.times.last().copied().unwrap_or_default(),
+        samples: run.rows.len(),
+        steps: numbers.steps,
+        rejected: numbers.rejected,
+        evaluations: numbers.evaluations,
+        projections: numbers.projections,
+        rank_revealing_solves: numbers.rank_revealing_solves,
+        newton_iterations: numbers.newton_iterations,
+        wall_seconds,
+        max_loop_error_m: numbers.max_loop_error_m,
+        max_loop_error_rad: numbers.max_loop_error_rad,
+        energy_error_J: numbers.energy_error_J,
+        energy_throughput_J: numbers.energy_throughput_J,
+        peaks: run.peaks.iter().map(PeakAnswer::from).collect(),
+        out: out.map(|path| path.display().to_string()),
+        turns: turns(description, run)
+            .map(|(turn, joint, measure)| TurnAnswer::new(turn, joint, measure))
+            .collect(),
+        warnings: warnings(&mechanism.warnings, "run", &run.warnings),
     }
-    answer["peaks"] = run.peaks.iter().map(summary::peak_entry).collect();
-    answer["out"] = json!(out.map(|path| path.display().to_string()));
-    answer["turns"] = turns(description, run).map(turn_entry).collect();
-    answer["warnings"] = json!(warnings(&mechanism.warnings, "run", &run.warnings));
-    answer
 }
 
 /// Every joint with clearance in every turn: number of the turn, name of the joint.
@@ -217,17 +231,6 @@ fn turns<'a>(
             .zip(turn)
             .map(move |(contact, measure)| (at + 1, &*contact.joint, measure))
     })
-}
-
-fn turn_entry((turn, joint, measure): (usize, &str, &ContactMeasure)) -> Value {
-    let mut entry = json!({ "turn": turn, "joint": joint });
-    for (column, value) in &ContactMeasure::COLUMNS {
-        // Within a turn losses are counted.
-        let value = value(measure);
-        entry[turn_key(column)] =
-            if column.name == "contact losses" { json!(value as u64) } else { json!(value) };
-    }
-    entry
 }
 
 /// The last turns of every joint with clearance.

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use crate::number::number;
 use linkwear_runtime::{At, Description, Extremes, Peak, Run};
-use serde_json::{Value, json};
 
 use super::plot::sparklines;
 use super::table::{count, plural, short_table, table};
@@ -14,14 +13,6 @@ const CURVES: usize = 8;
 /// Part of the largest load (N and N m alike, for machines of about a metre) that is rounding: some thousand
 /// roundings of 1e-16 each.
 const ROUNDING: f64 = 1e-12;
-
-/// A peak for machines.
-pub fn peak_entry(Peak { joint, force, moment }: &Peak) -> Value {
-    json!({
-        "joint": joint, "force_N": force.value, "force_time_s": force.t,
-        "moment_N_m": moment.value, "moment_time_s": moment.t,
-    })
-}
 
 /// The screenful.
 pub fn text(description: &Description, run: &Run, head: &str, method: &str) -> String {

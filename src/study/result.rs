@@ -9,6 +9,7 @@ use crate::provenance::Provenance;
 
 /// What a column has.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// A parameter that varies.
@@ -21,6 +22,7 @@ pub enum Kind {
 
 /// A column of the rows.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct StudyColumn {
     /// Its name, `speed`, `life.mean`.
     pub name: String,

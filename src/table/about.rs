@@ -5,42 +5,80 @@
 use std::path::Path;
 
 use linkwear_runtime::{Cells, Table, TableColumn};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::provenance::{Provenance, sealed};
 
+/// What is said of a table within a file, under the key `linkwear` of its metadata.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct TableWithin {
+    /// The columns, in order.
+    columns: Vec<ColumnAbout>,
+}
+
+/// What is said of a table beside its file, by the standard "CSV on the Web". `format`, `unit` and `provenance` are linkwear's own;
+/// readers of the standard pass over them.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct TableBeside {
+    /// `http://www.w3.org/ns/csvw`: the standard.
+    #[serde(rename = "@context")]
+    context: &'static str,
+    /// Name of the table's file.
+    url: String,
+    /// How the table is made up.
+    #[serde(rename = "tableSchema")]
+    schema: TableWithin,
+}
+
+/// A column.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct ColumnAbout {
+    /// Its name without the unit, `R1.q`, other signs than letters, digits and points as `_`.
+    name: String,
+    /// Its head in the table: `R1.q [rad]`.
+    titles: String,
+    /// `double`; `unsignedLong`, a whole number; `string`.
+    datatype: &'static str,
+    /// Its unit; absent where it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
+}
+
 /// For the file itself, where its format has room.
 pub fn in_file(table: &Table<'_>, provenance: Option<&Provenance>) -> Value {
-    sealed(json!({ "columns": columns(table) }), provenance)
+    sealed(json!(TableWithin::of(table)), provenance)
 }
 
-/// For a file beside it. `format`, `unit` and `provenance` are linkwear's own; readers of the standard pass over them.
+/// For a file beside it.
 pub fn beside(file: &Path, table: &Table<'_>, provenance: Option<&Provenance>) -> Value {
-    let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let schema = json!({
-        "@context": "http://www.w3.org/ns/csvw", "url": name, "tableSchema": { "columns": columns(table) },
-    });
-    sealed(schema, provenance)
+    let url = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let context = "http://www.w3.org/ns/csvw";
+    sealed(json!(TableBeside { context, url, schema: TableWithin::of(table) }), provenance)
 }
 
-fn columns(table: &Table<'_>) -> Vec<Value> {
-    table.columns.iter().map(column).collect()
-}
-
-fn column(column: &TableColumn<'_>) -> Value {
-    let datatype = match column.cells {
-        Cells::Numbers(_) => "double",
-        Cells::Counts(_) => "unsignedLong",
-        Cells::Names(_) => "string",
-    };
-    let mut about = Map::new();
-    about.insert("name".to_owned(), json!(variable(&column.name)));
-    about.insert("titles".to_owned(), json!(column.title()));
-    about.insert("datatype".to_owned(), json!(datatype));
-    if !column.unit.is_empty() {
-        about.insert("unit".to_owned(), json!(column.unit));
+impl TableWithin {
+    fn of(table: &Table<'_>) -> Self {
+        Self { columns: table.columns.iter().map(ColumnAbout::of).collect() }
     }
-    about.into()
+}
+
+impl ColumnAbout {
+    fn of(column: &TableColumn<'_>) -> Self {
+        Self {
+            name: variable(&column.name),
+            titles: column.title(),
+            datatype: match column.cells {
+                Cells::Numbers(_) => "double",
+                Cells::Counts(_) => "unsignedLong",
+                Cells::Names(_) => "string",
+            },
+            unit: (!column.unit.is_empty()).then(|| column.unit.clone().into_owned()),
+        }
+    }
 }
 
 /// A name in the letters that the standard has for names.

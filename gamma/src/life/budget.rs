@@ -3,8 +3,6 @@
 
 use std::fmt;
 
-use serde_json::{Map, Value, json};
-
 use super::band::Band;
 use super::statistics::WithError;
 
@@ -80,29 +78,10 @@ impl ErrorBudget {
         parts.into_iter().filter_map(|(name, part)| Some((name, part?)))
     }
 
-    /// The contributions with their kinds and reasons, and the total, if all are known.
-    pub fn to_json(&self) -> Value {
-        let entry = |part: Contribution| match part {
-            Contribution::Random(half) => json!({ "half_width": half, "kind": "random" }),
-            Contribution::Bound(half) => json!({ "half_width": half, "kind": "bound" }),
-            Contribution::None(reason) => json!({ "half_width": 0.0, "kind": "none", "reason": reason }),
-            Contribution::Unknown(reason) => {
-                json!({ "half_width": null, "kind": "unknown", "reason": reason })
-            }
-        };
-        let parts = self.parts().map(|(name, part)| (name.to_owned(), entry(part)));
-        parts.chain([("total".to_owned(), self.total_json())]).collect()
-    }
-
-    /// The half-widths alone, as `life` has them, and the total, if all are known.
-    pub fn half_widths_json(&self) -> Value {
-        let parts = self.parts().map(|(name, part)| (name.to_owned(), json!(part.half_width())));
-        json!({ "half_widths_95": parts.collect::<Map<_, _>>(), "total": self.total_json() })
-    }
-
-    fn total_json(&self) -> Value {
+    /// Half-width of all together, if all are known.
+    pub fn known_total(&self) -> Option<f64> {
         let is_known = self.parts().all(|(_, part)| !matches!(part, Contribution::Unknown(_)));
-        if is_known { json!(self.total()) } else { Value::Null }
+        is_known.then(|| self.total())
     }
 
     /// Half-width of all together, but for what is unknown.
@@ -176,7 +155,6 @@ mod tests {
         let text = budget.to_string();
         assert!(text.contains("settling    unknown: no turn before"), "{text}");
         assert!(text.ends_with("total       +- 0.000e0, and what is unknown"), "{text}");
-        let json = budget.half_widths_json();
-        assert_eq!((&json["half_widths_95"]["settling"], &json["total"]), (&Value::Null, &Value::Null));
+        assert_eq!((budget.known_total(), EXACT.known_total()), (None, Some(0.0)));
     }
 }

@@ -100,9 +100,13 @@ pub struct CycleJoint {
 
 impl CycleJoint {
     const COLUMNS: [Quantity<Self>; 3] = [
-        (Column::new("clearance", "clearance", "m"), |one| one.clearance),
-        (Column::new("dLambda", "dLambda", "m"), |one| one.mean_increment),
-        (Column::new("wear", "W", "m"), |one| one.wear),
+        (Column::new(("clearance", "clearance", "m"), "Clearance at the start of the cycle"), |one| {
+            one.clearance
+        }),
+        (Column::new(("dLambda", "dLambda", "m"), "Mean increment of wear in the cycle"), |one| {
+            one.mean_increment
+        }),
+        (Column::new(("wear", "W", "m"), "Wear at the end of the cycle"), |one| one.wear),
     ];
 
     /// The columns of a table of cycles: those of the joint, then those of the revolution that are not details.

@@ -33,13 +33,42 @@ pub struct ContactMeasure {
 impl ContactMeasure {
     /// Its numbers, as CSV, JSON and text name them.
     pub const COLUMNS: [Quantity<Self>; 7] = [
-        (Column::new("wear integral", "S", "J"), |one| one.wear_integral),
-        (Column::new("depth", "h", "m").detail(), |one| one.depth),
-        (Column::new("mean force", "Fn_mean", "N"), |one| one.mean_force),
-        (Column::new("peak force", "Fn_peak", "N"), |one| one.peak_force),
-        (Column::new("contact losses", "losses", "1"), |one| one.losses),
-        (Column::new("touching part", "touching", "1").detail(), |one| one.touching),
-        (Column::new("loss", "E_lost", "J").detail(), |one| one.loss),
+        (
+            Column::new(
+                ("wear integral", "S", "J"),
+                "Wear integral, of normal force times sliding speed over time",
+            ),
+            |one| one.wear_integral,
+        ),
+        (
+            Column::new(
+                ("depth", "h", "m"),
+                "Depth of wear by the contact area; zero if the joint does not wear",
+            )
+            .detail(),
+            |one| one.depth,
+        ),
+        (Column::new(("mean force", "Fn_mean", "N"), "Normal force on average over time"), |one| {
+            one.mean_force
+        }),
+        (Column::new(("peak force", "Fn_peak", "N"), "Largest normal force at the end of a step"), |one| {
+            one.peak_force
+        }),
+        (
+            Column::new(
+                ("contact losses", "losses", "1"),
+                "How often the bodies came apart; not whole if it is a mean of turns",
+            ),
+            |one| one.losses,
+        ),
+        (
+            Column::new(("touching part", "touching", "1"), "Part of the time in which they touched, 0 to 1")
+                .detail(),
+            |one| one.touching,
+        ),
+        (Column::new(("loss", "E_lost", "J"), "Energy lost in damping and friction").detail(), |one| {
+            one.loss
+        }),
     ];
 
     /// Its numbers without the profile and the extremes.

@@ -6,9 +6,12 @@ use crate::number::number;
 use crate::provenance::Provenance;
 use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
 use linkwear_gamma::process::Process;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::super::answer::Answer;
+use super::super::answer::fit::{
+    BootstrapAnswer, ComparedAnswer, FitAnswer, GoodnessAnswer, GroupsAnswer, OneFit, RatioAnswer,
+};
 use super::super::arguments::FitArguments;
 use super::super::table::table;
 use super::analysis::{Analysis, LEVEL};
@@ -21,14 +24,15 @@ pub fn answer(
     test: Option<LikelihoodRatio>,
     provenance: &Provenance,
 ) -> Answer {
-    let mut json = one(arguments, pooled);
-    if !groups.is_empty() {
-        json["groups"] = groups.iter().map(|group| one(arguments, group)).collect();
-        json["group_test"] = test.map_or(
-            Value::Null,
-            |test| json!({ "statistic": test.statistic, "degrees": test.degrees, "p_value": test.p_value }),
-        );
-    }
+    let of_groups = (!groups.is_empty()).then(|| GroupsAnswer {
+        groups: groups.iter().map(|group| one(arguments, group)).collect(),
+        group_test: test.map(|LikelihoodRatio { statistic, degrees, p_value }| RatioAnswer {
+            statistic,
+            degrees,
+            p_value,
+        }),
+    });
+    let told = FitAnswer { all: one(arguments, pooled), groups: of_groups };
     let mut text = String::new();
     for own in groups.iter().chain([pooled]) {
         if !groups.is_empty() {
@@ -46,7 +50,7 @@ pub fn answer(
             number(test.p_value)
         );
     }
-    Answer::new(text, json, Some(provenance))
+    Answer::new(text, told, Some(provenance))
 }
 
 /// Probability of so bad a fit below which its reader is warned: a true process is called bad in one fit of a hundred.
@@ -79,45 +83,45 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
     warnings
 }
 
-fn one(arguments: &FitArguments, own: &Analysis) -> Value {
+fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
     let fit = &own.fit;
     let errors = fit.standard_errors();
-    let mut value = own.file.to_json();
-    value["name"] = json!(own.name);
-    for (name, error) in fit.model.process.parameters().into_iter().zip(&errors) {
-        value[format!("se_{name}")] = json!(error);
-    }
-    let more = json!({
-        "se_exponent": fit.exponent().map(|_| errors[2]),
-        "aic": fit.aic(), "bic": fit.bic(),
-        "parameters": own.file.names(),
-        "standard_errors": errors,
-        "profile_intervals": intervals(own, |at| own.intervals[at]),
-        "bootstrap_intervals": own.bootstrap.as_ref().map(|drawn| intervals(own, |at| drawn.interval(at, LEVEL))),
-        "bootstrap": { "replicates": arguments.bootstrap, "seed": arguments.seed,
-            "failed": own.bootstrap.as_ref().map(|drawn| drawn.failed) },
-        "level": LEVEL,
-        "first_order_bias": own.bias,
-        "resolution": arguments.resolution,
-        "gauge": arguments.gauge,
-        "goodness": {
-            "kolmogorov_smirnov": own.goodness.kolmogorov_smirnov,
-            "anderson_darling": own.goodness.anderson_darling,
-            "p_kolmogorov_smirnov": p_values(own).map(|p| p.0),
-            "p_anderson_darling": p_anderson_darling(own),
-            "p_values_by": if own.bootstrap.is_some() { "bootstrap" } else { "asymptotic" },
-            "quantiles": own.goodness.quantiles,
+    let by_name = fit.model.process.parameters().into_iter().zip(&errors);
+    OneFit {
+        file: own.file.to_json().as_object().cloned().unwrap_or_default(),
+        name: &own.name,
+        standard_errors_by_name: by_name.map(|(name, error)| (format!("se_{name}"), json!(error))).collect(),
+        se_exponent: fit.exponent().map(|_| errors[2]),
+        aic: fit.aic(),
+        bic: fit.bic(),
+        parameters: own.file.names(),
+        standard_errors: errors,
+        profile_intervals: intervals(own, |at| own.intervals[at]),
+        bootstrap_intervals: own
+            .bootstrap
+            .as_ref()
+            .map(|drawn| intervals(own, |at| drawn.interval(at, LEVEL))),
+        bootstrap: BootstrapAnswer {
+            replicates: arguments.bootstrap,
+            seed: arguments.seed,
+            failed: own.bootstrap.as_ref().map(|drawn| drawn.failed),
         },
-        "comparison": comparison(own),
-        "warnings": warnings(arguments, own),
-    });
-    for (key, entry) in more.as_object().into_iter().flatten() {
-        value[key] = entry.clone();
+        level: LEVEL,
+        first_order_bias: own.bias,
+        goodness: GoodnessAnswer {
+            kolmogorov_smirnov: own.goodness.kolmogorov_smirnov,
+            anderson_darling: own.goodness.anderson_darling,
+            p_kolmogorov_smirnov: p_values(own).map(|p| p.0),
+            p_anderson_darling: p_anderson_darling(own),
+            p_values_by: if own.bootstrap.is_some() { "bootstrap" } else { "asymptotic" },
+            quantiles: &own.goodness.quantiles,
+        },
+        comparison: comparison(own),
+        warnings: warnings(arguments, own),
     }
-    value
 }
 
-fn intervals(own: &Analysis, of: impl Fn(usize) -> Option<Interval>) -> Value {
+fn intervals(own: &Analysis, of: impl Fn(usize) -> Option<Interval>) -> Map<String, Value> {
     let pair = |at: usize| of(at).map(|interval| [interval.low, interval.high]);
     own.file.names().into_iter().enumerate().map(|(at, name)| (name, json!(pair(at)))).collect()
 }
@@ -136,25 +140,36 @@ fn p_anderson_darling(own: &Analysis) -> f64 {
     p_values(own).map_or_else(|| own.goodness.asymptotic_p(), |p| p.1)
 }
 
-fn comparison(own: &Analysis) -> Vec<Value> {
+fn comparison(own: &Analysis) -> Vec<ComparedAnswer> {
     if own.alternatives.is_empty() {
         return Vec::new();
     }
-    let head = |process: &dyn Process, fit: &Fit| json!({ "process": process.title(), "log_likelihood": fit.log_likelihood, "aic": fit.aic() });
+    let named = |process: &dyn Process| ComparedAnswer {
+        process: process.title().to_owned(),
+        log_likelihood: None,
+        aic: None,
+        parameters: Map::new(),
+        shape: None,
+        why: None,
+    };
+    let fitted = |process: &dyn Process, fit: &Fit| ComparedAnswer {
+        log_likelihood: Some(fit.log_likelihood),
+        aic: Some(fit.aic()),
+        ..named(process)
+    };
     let others = own.alternatives.iter().map(|(process, found)| match found {
         Ok(fit) => {
-            let (mut entry, found) = (head(*process, fit), fit.parameters());
-            for (name, value) in process.parameters().into_iter().zip(&found) {
-                entry[name] = json!(value);
+            let found = fit.parameters();
+            let by_name = process.parameters().into_iter().zip(&found);
+            ComparedAnswer {
+                parameters: by_name.map(|(name, value)| (name.to_owned(), json!(value))).collect(),
+                shape: found.get(2..).map(<[f64]>::to_vec),
+                ..fitted(*process, fit)
             }
-            entry["shape"] = json!(found[2..]);
-            entry
         }
-        Err(error) => {
-            json!({ "process": process.title(), "log_likelihood": Value::Null, "why": error.to_string() })
-        }
+        Err(error) => ComparedAnswer { why: Some(error.to_string()), ..named(*process) },
     });
-    [head(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
+    [fitted(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
 }
 
 fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {

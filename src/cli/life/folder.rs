@@ -14,7 +14,7 @@ use serde_json::Value;
 /// Everything.
 pub fn write(folder: &Path, facts: &LifeFacts, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
     let lives: Vec<_> = (0..).zip(life.lives.iter().copied()).collect();
-    write_parts(folder, &life.names(), (&life.cycles, &lives), Some(&facts.provenance))?;
+    write_parts(folder, &life.names(), (&life.cycles, &lives), &facts.provenance)?;
     write_whole(&folder.join("life.json"), |file| writeln!(file, "{answer:#}"))
 }
 
@@ -23,17 +23,17 @@ pub fn write_parts(
     folder: &Path,
     names: &[String],
     (cycles, lives): (&[CycleRecord], &[(u64, FailureEvent)]),
-    provenance: Option<&Provenance>,
+    provenance: &Provenance,
 ) -> Result<PathBuf, WriteError> {
     let path = folder.join("cycles.csv");
-    write_table(&path, &cycles_table(names, cycles), provenance)?;
+    write_table(&path, &cycles_table(names, cycles), Some(provenance))?;
     if !lives.is_empty() {
         let table = Table { exponents: false, ..Table::new(lives.len()) }
             .column("trajectory", "", Cells::counts(|row| lives[row].0))
             .column("life", "cycles", Cells::numbers(|row| lives[row].1.cycles))
             .column("whole cycles", "", Cells::counts(|row| lives[row].1.whole_cycles))
             .column("failed joint", "", Cells::names(|row| &names[lives[row].1.joint]));
-        write_table(&folder.join("lives.csv"), &table, provenance)?;
+        write_table(&folder.join("lives.csv"), &table, Some(provenance))?;
     }
     Ok(path)
 }

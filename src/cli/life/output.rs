@@ -5,12 +5,17 @@ use std::fmt::Write as _;
 use crate::life::{Cost, Coupling, HOUR, JointProcess, LifeFacts, LifeNumbers, LifeResult, Shard};
 use crate::number::number;
 use crate::wear_measure::paragraph;
-use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
+use linkwear_gamma::life::{Contribution, CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::{Value, json};
 
 use super::super::answer::Answer;
+use super::super::answer::common::Ends;
+use super::super::answer::life::{
+    CycleAnswer, Duration, HalfWidths, Intervals, LifeAnswer, LongerAnswer, MeanPathAnswer, ProcessAnswer,
+    ScatterAnswer, ShardAnswer, Sources, StandardErrors, TimeAnswer,
+};
 use super::super::failure::remarks;
 use super::super::table::{count, table};
 
@@ -25,7 +30,7 @@ const YEAR: f64 = 8766.0 * HOUR;
 pub fn answer(facts: &LifeFacts, life: &LifeResult) -> Answer {
     let statistics = life.statistics();
     let text = to_text(facts, life, statistics.as_ref());
-    Answer::new(text, to_json(facts, life, statistics.as_ref()), Some(&facts.provenance))
+    Answer::new(text, told_of(facts, life, statistics.as_ref()), Some(&facts.provenance))
 }
 
 /// The answer of a shard, said to be one.
@@ -35,13 +40,13 @@ pub fn of_shard(answer: Answer, shard: Shard) -> Answer {
         answer.text
     );
     let mut json = answer.json;
-    json["shard"] = json!({ "index": shard.index, "of": shard.of });
+    json["shard"] = json!(ShardAnswer { index: shard.index, of: shard.of });
     Answer { text, json }
 }
 
 /// Cycles alone, of a life that stopped.
 pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
-    let json = cycles.iter().map(|cycle| cycle_entry(names, cycle)).collect();
+    let json = cycles.iter().map(|cycle| json!(CycleAnswer::new(names, cycle))).collect();
     Answer { text: cycles_table(names, cycles), json }
 }
 
@@ -88,84 +93,97 @@ fn about(seconds: f64) -> String {
     format!("{:.1} {unit}", seconds / size)
 }
 
-fn to_json(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatistics>) -> Value {
+fn told_of<'a>(
+    facts: &'a LifeFacts,
+    life: &'a LifeResult,
+    statistics: Option<&LifeStatistics>,
+) -> LifeAnswer<'a> {
     let names = life.names();
     let joint = life.failed_joint();
-    let cycles: Vec<Value> = life.cycles.iter().map(|cycle| cycle_entry(&names, cycle)).collect();
     let LifeNumbers { mean, std, cov, p10, p50, p90, mean_whole_cycles, revolutions, .. } =
         life.numbers(statistics);
-    let mut answer = json!({
-        "name": facts.name,
-        "backend": facts.backend,
-        "coupling": match life.coupling { Coupling::Table => "table", Coupling::Full => "full" },
-        "mean": mean,
-        "std": std,
-        "cov": cov,
-        "quantiles": { "p10": p10, "p50": p50, "p90": p90 },
-        "mean_whole_cycles": mean_whole_cycles,
-        "trajectories": life.random_lives().max(1),
-        "random": life.random_lives() > 0,
-        "seed": facts.seed,
-        "mean_path": {
-            "cycles": life.end.cycles, "whole_cycles": life.end.whole_cycles, "step_error": life.step_error,
+    let quantiles = [p10, p50, p90];
+    let budget = life.budget();
+    LifeAnswer {
+        name: &facts.name,
+        backend: &facts.backend,
+        coupling: match life.coupling {
+            Coupling::Table => "table",
+            Coupling::Full => "full",
         },
-        "failed_joint": joint.joint,
-        "revolutions_per_cycle": joint.revolutions_per_cycle,
-        "revolutions": revolutions,
-        "parameters": life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect::<Value>()),
-        "shared_factor": facts.shared_factor,
-        "table_error": life.table_error(),
-        "measurements": life.measurements,
-        "cycles": cycles,
-        "wear_measures": facts.wear_measures,
-        "warnings": remarks(facts.warnings.clone(), "life", &life.warnings),
-    });
-    if let Some(seconds) = life.seconds_per_cycle() {
-        let time =
-            |cycles: f64| json!({ "hours": cycles * seconds / HOUR, "years": cycles * seconds / YEAR });
-        answer["time"] = json!({
-            "seconds_per_cycle": seconds,
-            "mean": time(mean),
-            "std": time(std),
-            "quantiles": { "p10": time(p10), "p50": time(p50), "p90": time(p90) },
-        });
+        mean,
+        std,
+        cov,
+        quantiles: quantiles.into(),
+        mean_whole_cycles,
+        trajectories: life.random_lives().max(1),
+        random: life.random_lives() > 0,
+        seed: facts.seed,
+        mean_path: MeanPathAnswer {
+            cycles: life.end.cycles,
+            whole_cycles: life.end.whole_cycles,
+            step_error: life.step_error,
+        },
+        failed_joint: &joint.joint,
+        revolutions_per_cycle: joint.revolutions_per_cycle,
+        revolutions,
+        parameters: life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect()),
+        shared_factor: facts.shared_factor,
+        table_error: life.table_error(),
+        measurements: life.measurements,
+        cycles: life.cycles.iter().map(|cycle| CycleAnswer::new(&names, cycle)).collect(),
+        wear_measures: &facts.wear_measures,
+        warnings: remarks(facts.warnings.clone(), "life", &life.warnings),
+        time: life.seconds_per_cycle().map(|seconds| {
+            let time =
+                |cycles: f64| Duration { hours: cycles * seconds / HOUR, years: cycles * seconds / YEAR };
+            TimeAnswer {
+                seconds_per_cycle: seconds,
+                mean: time(mean),
+                std: time(std),
+                quantiles: quantiles.map(time).into(),
+            }
+        }),
+        scatter: statistics.map(|lives| scatter_of(life, lives)),
+        error_budget: HalfWidths {
+            half_widths_95: Sources::of(&budget, Contribution::half_width),
+            total: budget.known_total(),
+        },
     }
-    if let Some(lives) = statistics {
-        let measured = |value: WithError| json!({ "value": value.value, "standard_error": value.error });
-        let quantiles = |of: &dyn Fn(f64) -> Option<Value>| {
-            let of = |p| of(p).unwrap_or_default();
-            json!({ "p10": of(0.1), "p50": of(0.5), "p90": of(0.9) })
-        };
-        let ends = |[lower, upper]: [Option<f64>; 2]| json!({ "lower": lower, "upper": upper });
-        let (low, high) = lives.std_interval();
-        answer["standard_errors"] = json!({
-            "mean": lives.mean().error, "std": lives.std().error, "cov": measured(lives.cov()),
-            "quantiles": quantiles(&|p| Some(json!(lives.quantile(p).ok()?.error))),
-        });
-        let (mean, half) = (lives.mean().value, lives.mean_half_width());
-        answer["intervals95"] = json!({
-            "mean": ends([Some(mean - half), Some(mean + half)]),
-            "std": ends([Some(low), Some(high)]),
-            "quantiles": quantiles(&|p| Some(ends(lives.quantile_interval(p).ok()?))),
-        });
-        if life.counted.is_some() {
-            answer["bin_error"] = json!(CountedLives::ERROR);
-        }
-        answer["reliability"] = reliability(lives);
-        answer["failed_first"] =
-            names.into_iter().zip(life.failed_first().into_iter().map(Value::from)).collect();
+}
+
+/// What random lives tell.
+fn scatter_of(life: &LifeResult, lives: &LifeStatistics) -> ScatterAnswer {
+    const PARTS: [f64; 3] = [0.1, 0.5, 0.9];
+    let ends = |[lower, upper]: [Option<f64>; 2]| Ends { lower, upper };
+    let (mean, half) = (lives.mean().value, lives.mean_half_width());
+    let (low, high) = lives.std_interval();
+    let first = life.names().into_iter().zip(life.failed_first().into_iter().map(Value::from));
+    ScatterAnswer {
+        standard_errors: StandardErrors {
+            mean: lives.mean().error,
+            std: lives.std().error,
+            cov: lives.cov().into(),
+            quantiles: PARTS.map(|p| Some(lives.quantile(p).ok()?.error)).into(),
+        },
+        intervals95: Intervals {
+            mean: ends([Some(mean - half), Some(mean + half)]),
+            std: ends([Some(low), Some(high)]),
+            quantiles: PARTS.map(|p| Some(ends(lives.quantile_interval(p).ok()?))).into(),
+        },
+        bin_error: life.counted.is_some().then_some(CountedLives::ERROR),
+        reliability: reliability(lives),
+        failed_first: first.collect(),
     }
-    answer["error_budget"] = life.budget().half_widths_json();
-    answer
 }
 
 /// The part of the lives that is longer, from before the first failure to after the last.
-fn reliability(lives: &LifeStatistics) -> Value {
+fn reliability(lives: &LifeStatistics) -> Vec<LongerAnswer> {
     let (first, last) = (lives.shortest().floor(), lives.longest().ceil());
     let points = (0..=POINTS).map(|at| {
         let cycles = first + (last - first) * at as f64 / POINTS as f64;
         let part = lives.reliability(cycles);
-        json!({ "cycles": cycles, "reliability": part.value, "standard_error": part.error })
+        LongerAnswer { cycles, reliability: part.value, standard_error: part.error }
     });
     points.collect()
 }
@@ -281,12 +299,14 @@ fn hours(seconds: f64) -> String {
     if (100.0..1e15).contains(&hours) { count(hours.round() as u64) } else { number(hours) }
 }
 
-fn process_entry(joint: &JointProcess) -> Value {
-    let [alpha, beta] = joint.per_micrometre();
-    json!({
-        "joint": joint.joint, "alpha_per_um": alpha, "beta_per_um": beta,
-        "from": joint.from.as_deref().unwrap_or("file"),
-    })
+fn process_entry(joint: &JointProcess) -> ProcessAnswer<'_> {
+    let [alpha_per_um, beta_per_um] = joint.per_micrometre();
+    ProcessAnswer {
+        joint: &joint.joint,
+        alpha_per_um,
+        beta_per_um,
+        from: joint.from.as_deref().unwrap_or("file"),
+    }
 }
 
 fn process_line(joint: &JointProcess) -> String {
@@ -296,18 +316,6 @@ fn process_line(joint: &JointProcess) -> String {
     };
     let [alpha, beta] = joint.per_micrometre().map(number);
     format!("{}: alpha {alpha}/um, beta {beta}/um, {from}\n", joint.joint)
-}
-
-fn cycle_entry(names: &[String], cycle: &CycleRecord) -> Value {
-    let entry = |(name, joint): (&String, &CycleJoint)| {
-        let mut entry = json!({ "joint": name });
-        for (column, value) in CycleJoint::columns().zip(joint.values()) {
-            entry[column.key()] = json!(value);
-        }
-        entry
-    };
-    let joints: Vec<Value> = names.iter().zip(&cycle.joints).map(entry).collect();
-    json!({ "cycle": cycle.cycle, "used": cycle.used, "joints": joints })
 }
 
 /// Cycles for people, thinned out: lengths in micrometres, without what hardly changes along a life.

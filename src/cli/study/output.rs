@@ -7,9 +7,10 @@ use std::path::Path;
 use crate::number::number;
 use crate::shard::Shard;
 use crate::study::{Kind, PointError, Row, StudyResult};
-use serde_json::{Value, json};
 
 use super::super::answer::Answer;
+use super::super::answer::life::ShardAnswer;
+use super::super::answer::study::StudyAnswer;
 use super::super::failure::Failure;
 use super::super::table::{plural, table};
 
@@ -25,7 +26,7 @@ pub fn answer(result: &StudyResult, file: Option<&Path>) -> Result<Answer, Failu
         let message = format!("nothing became of any of {failed} points; at the first: {message} [{code}]");
         return Err(Failure::empty_study(file, message, help));
     }
-    Ok(Answer::new(to_text(result), to_json(result), Some(&result.facts.provenance)))
+    Ok(Answer::new(to_text(result), StudyAnswer::new(result, None), Some(&result.facts.provenance)))
 }
 
 /// What is said of a shard.
@@ -37,32 +38,14 @@ pub fn of_shard(result: &StudyResult, shard: Shard, out: &Path) -> Answer {
         result.facts.name,
         out.display()
     );
-    let mut json = to_json(result);
-    json["shard"] = json!({ "index": shard.index, "of": shard.of });
-    Answer::new(text, json, Some(&result.facts.provenance))
+    let told = StudyAnswer::new(result, Some(ShardAnswer { index: shard.index, of: shard.of }));
+    Answer::new(text, told, Some(&result.facts.provenance))
 }
 
 /// Where the rows are.
 pub fn written(result: &StudyResult, out: &Path) -> String {
     let rows = plural(result.rows.len() as u64, "row", "rows");
     format!("\n{rows} of {} columns in {}", result.facts.columns.len(), out.display())
-}
-
-fn to_json(result: &StudyResult) -> Value {
-    let row = |row: &Row| {
-        let error = row.error.as_ref().map(|error| &error.code);
-        row.numbers().map(|value| json!(value)).chain([json!(error)]).collect::<Value>()
-    };
-    let failure = |(at, error): (usize, &PointError)| json!({ "row": at, "code": error.code, "message": error.message, "help": error.help });
-    let warning = |(at, message): (usize, &str)| json!({ "row": at, "code": "study", "message": message });
-    json!({
-        "name": result.facts.name,
-        "columns": result.facts.columns,
-        "rows": result.rows.iter().map(row).collect::<Value>(),
-        "failed": result.failed().count(),
-        "failures": result.failed().map(failure).collect::<Value>(),
-        "warnings": result.warnings().map(warning).collect::<Value>(),
-    })
 }
 
 fn to_text(result: &StudyResult) -> String {

@@ -1,0 +1,285 @@
+//! `life --format json`, `merge --format json` and life.json.
+
+use linkwear_gamma::life::{Contribution, ErrorBudget, WithError};
+use linkwear_runtime::life::{CycleJoint, CycleRecord};
+use serde::Serialize;
+use serde_json::{Map, Value};
+#[cfg(test)]
+use {
+    super::common::{Numbers, Remark},
+    super::measured::CycleColumns,
+    schemars::JsonSchema,
+};
+
+use super::common::{Ends, Quantiles};
+use crate::wear_measure::WearMeasure;
+
+/// A life of joints that wear, to the failure threshold.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct LifeAnswer<'a> {
+    /// Name of the mechanism.
+    pub name: &'a str,
+    /// What ran the equations: `compiled`, `native` or `interpreter`. They agree in every bit.
+    pub backend: &'a str,
+    /// Source of the wear per revolution: `table`, or `full`, the dynamics at every wear step.
+    pub coupling: &'static str,
+    /// Mean life [cycles]; that of the mean path where there are no random lives.
+    pub mean: f64,
+    /// Standard deviation of the lives [cycles]; 0 without random lives.
+    pub std: f64,
+    /// Coefficient of variation of the lives; 0 without random lives.
+    pub cov: f64,
+    /// Quantiles of the lives [cycles]; the mean path's life without random lives.
+    pub quantiles: Quantiles<f64>,
+    /// Mean life in whole cycles, the last one counted in full [cycles].
+    pub mean_whole_cycles: f64,
+    /// Number of lives, 1 for the mean path alone.
+    pub trajectories: u64,
+    /// Whether there are random lives.
+    pub random: bool,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// The life in which every increment is its mean.
+    pub mean_path: MeanPathAnswer,
+    /// Joint that fails first on the mean path.
+    pub failed_joint: &'a str,
+    /// Revolutions that a cycle stands for, of that joint.
+    pub revolutions_per_cycle: f64,
+    /// Mean life in revolutions.
+    pub revolutions: f64,
+    /// Gamma process of each joint; null where there is none.
+    pub parameters: Option<Vec<ProcessAnswer<'a>>>,
+    /// Coefficient of variation of the wear-rate factor that all joints of a life share; null without one.
+    pub shared_factor: Option<f64>,
+    /// Largest error of the table of wear per revolution, relative; null without a table.
+    pub table_error: Option<f64>,
+    /// Measurements of a revolution.
+    pub measurements: u64,
+    /// Cycles of the mean path.
+    pub cycles: Vec<CycleAnswer>,
+    /// Measure of wear of each joint that wears.
+    pub wear_measures: &'a [WearMeasure],
+    /// Remarks on the file and on the life.
+    #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
+    pub warnings: Vec<Value>,
+    /// The same in time, where a revolution has one length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<TimeAnswer>,
+    #[serde(flatten)]
+    pub scatter: Option<ScatterAnswer>,
+    /// How far off the mean may be.
+    pub error_budget: HalfWidths,
+}
+
+/// The life in which every increment is its mean.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct MeanPathAnswer {
+    /// Its length, the last cycle in part [cycles].
+    pub cycles: f64,
+    /// Its length, the last cycle counted in full [cycles].
+    pub whole_cycles: u64,
+    /// Error by steps of wear, a bound [cycles].
+    pub step_error: f64,
+}
+
+/// Gamma process of a joint.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct ProcessAnswer<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Shape per mean wear [1/um].
+    pub alpha_per_um: f64,
+    /// Rate [1/um].
+    pub beta_per_um: f64,
+    /// Where it is from: `file`, the mechanism's, or the file of a fit.
+    pub from: &'a str,
+}
+
+/// A cycle of the mean path.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct CycleAnswer {
+    /// Which, from 1.
+    pub cycle: u64,
+    /// Largest wear of a joint over its threshold, at the end of the cycle: 1 or more is failure.
+    pub used: f64,
+    /// Each joint that wears.
+    pub joints: Vec<CycleJointAnswer>,
+}
+
+/// A joint in a cycle.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct CycleJointAnswer {
+    /// The joint.
+    pub joint: String,
+    #[serde(flatten)]
+    #[cfg_attr(test, schemars(with = "CycleColumns"))]
+    pub numbers: Map<String, Value>,
+}
+
+/// Lives in time.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct TimeAnswer {
+    /// Length of a cycle [s].
+    pub seconds_per_cycle: f64,
+    /// Mean life.
+    pub mean: Duration,
+    /// Standard deviation of the lives.
+    pub std: Duration,
+    /// Quantiles of the lives.
+    pub quantiles: Quantiles<Duration>,
+}
+
+/// A time without a pause.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct Duration {
+    /// In hours [h].
+    pub hours: f64,
+    /// In years of 365.25 days.
+    pub years: f64,
+}
+
+/// What random lives tell; absent without them.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct ScatterAnswer {
+    /// Standard errors, by the finite number of lives.
+    pub standard_errors: StandardErrors,
+    /// Intervals that hold the true value with 95 %, by the finite number of lives.
+    pub intervals95: Intervals,
+    /// Largest relative error of quantiles and spread where lives are counted in bins.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bin_error: Option<f64>,
+    /// Part of the lives that is longer, from before the first failure to after the last.
+    pub reliability: Vec<LongerAnswer>,
+    /// Part of the lives in which each joint is the first to fail.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub failed_first: Map<String, Value>,
+}
+
+/// Standard errors of the lives' statistics.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct StandardErrors {
+    /// Of the mean [cycles].
+    pub mean: f64,
+    /// Of the standard deviation [cycles].
+    pub std: f64,
+    /// The coefficient of variation with its own.
+    pub cov: Measured,
+    /// Of the quantiles [cycles]; null for too few lives.
+    pub quantiles: Quantiles<Option<f64>>,
+}
+
+/// A value with its standard error.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct Measured {
+    /// The value.
+    pub value: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+/// Intervals of the lives' statistics.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct Intervals {
+    /// Of the mean [cycles].
+    pub mean: Ends,
+    /// Of the standard deviation [cycles].
+    pub std: Ends,
+    /// Of the quantiles [cycles]; null for too few lives.
+    pub quantiles: Quantiles<Option<Ends>>,
+}
+
+/// Part of the lives that is longer.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct LongerAnswer {
+    /// Than so many cycles [cycles].
+    pub cycles: f64,
+    /// The part, 0 to 1.
+    pub reliability: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+}
+
+/// Half-widths at 95 % of the mean life.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct HalfWidths {
+    /// By source [cycles]; 0 for one that does not arise, null for one of unknown size.
+    pub half_widths_95: Sources<f64>,
+    /// Of all together [cycles]; null if one is unknown.
+    pub total: Option<f64>,
+}
+
+/// Something of each source of error.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct Sources<T> {
+    /// The finite number of lives.
+    pub monte_carlo: Option<T>,
+    /// The table of wear per revolution, or the steps of wear.
+    pub table: Option<T>,
+    /// Revolutions that had not settled when they were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settling: Option<Option<T>>,
+    /// The finite number of revolutions whose mean was taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub averaging: Option<Option<T>>,
+    /// The uncertainty of estimated parameters.
+    pub parameters: Option<T>,
+}
+
+impl<T> Sources<T> {
+    /// Something of each that arises.
+    pub fn of(budget: &ErrorBudget, of: impl Fn(Contribution) -> T) -> Self {
+        let ErrorBudget { monte_carlo, table, settling, averaging, parameters } = *budget;
+        Self {
+            monte_carlo: Some(of(monte_carlo)),
+            table: Some(of(table)),
+            settling: settling.map(|part| Some(of(part))),
+            averaging: averaging.map(|part| Some(of(part))),
+            parameters: Some(of(parameters)),
+        }
+    }
+}
+
+impl From<WithError> for Measured {
+    fn from(found: WithError) -> Self {
+        Self { value: found.value, standard_error: found.error }
+    }
+}
+
+impl CycleAnswer {
+    /// A cycle; names are of the joints.
+    pub fn new(names: &[String], cycle: &CycleRecord) -> Self {
+        let joint = |(name, joint): (&String, &CycleJoint)| {
+            let numbers = CycleJoint::columns().map(|column| column.key());
+            CycleJointAnswer {
+                joint: name.clone(),
+                numbers: numbers.zip(joint.values().map(Value::from)).collect(),
+            }
+        };
+        let joints = names.iter().zip(&cycle.joints).map(joint).collect();
+        Self { cycle: cycle.cycle, used: cycle.used, joints }
+    }
+}
+
+/// A part of the random lives.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct ShardAnswer {
+    /// Which, from 1.
+    pub index: u64,
+    /// Of how many.
+    pub of: u64,
+}
