@@ -19,6 +19,7 @@ pub(crate) fn sha256(value: &impl fmt::Debug) -> String {
 }
 
 /// SHA-256 of bytes.
+#[cfg(feature = "cli")]
 pub(crate) fn sha256_of(bytes: &[u8]) -> String {
     hexadecimal(&Hash::hash(bytes))
 }

@@ -126,11 +126,14 @@ fn a_parquet_file_has_what_is_known_about_the_table_within_and_a_csv_file_beside
         columns.iter().map(|column| column["titles"].as_str().unwrap_or("")).collect::<Vec<_>>(),
         titles
     );
-    let column = json!({ "name": "hinge.q", "titles": "hinge.q [rad]", "datatype": "double", "unit": "rad" });
+    let column = json!({ "name": "hinge.q", "titles": "hinge.q [rad]", "datatype": "double", "schema:unitText": "rad" });
     assert!(columns.contains(&column), "{columns:?}");
     let answer =
         linkwear(&["simulate", PENDULUM, "--time", "0.1", "--samples", "11", "--format", "json"]).json();
-    assert_eq!((&beside["format"], &beside["provenance"]), (&answer["format"], &answer["provenance"]));
+    assert_eq!(
+        (&beside["notes"][0]["format"], &beside["notes"][0]["provenance"]),
+        (&answer["format"], &answer["provenance"])
+    );
     // The same is in the other file, found as text: it is not compressed.
     let within = json!({ "format": 1, "columns": columns, "provenance": answer["provenance"] }).to_string();
     assert!(bytes.windows(within.len()).any(|window| window == within.as_bytes()));

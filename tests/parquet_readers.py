@@ -52,7 +52,7 @@ def main(program):
         assert metadata.num_row_groups == 2 and metadata.created_by.startswith("linkwear version "), metadata
         known = json.loads(metadata.metadata[b"linkwear"])
         beside = json.loads(Path(f"{csv}-metadata.json").read_text())
-        assert known["columns"] == beside["tableSchema"]["columns"] and known["provenance"] == beside["provenance"]
+        assert known["columns"] == beside["tableSchema"]["columns"] and known["provenance"] == beside["notes"][0]["provenance"]
         assert [column["titles"] for column in known["columns"]] == titles
         print(f"metadata: {known['provenance']['version']}, {known['columns'][1]}")
 

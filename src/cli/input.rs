@@ -70,6 +70,10 @@ pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure
     if is_stdout(output) {
         return Ok(true);
     }
+    if cfg!(not(feature = "parquet")) && output.extension().is_some_and(|end| end == "parquet") {
+        let help = "give a name that ends in .csv or .npy, or build it with the feature `parquet`";
+        return Err(Failure::usage("--out: this program was built without Parquet", help));
+    }
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
         _ => Ok(check_target(output)?),

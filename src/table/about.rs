@@ -8,7 +8,7 @@ use linkwear_runtime::{Cells, Table, TableColumn};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::provenance::{Provenance, sealed};
+use crate::provenance::{FORMAT, Provenance, sealed};
 
 /// What is said of a table within a file, under the key `linkwear` of its metadata.
 #[derive(Serialize)]
@@ -18,8 +18,7 @@ pub struct TableWithin {
     columns: Vec<ColumnAbout>,
 }
 
-/// What is said of a table beside its file, by the standard "CSV on the Web". `format`, `unit` and `provenance` are linkwear's own;
-/// readers of the standard pass over them.
+/// What is said of a table beside its file, by the standard "CSV on the Web".
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct TableBeside {
@@ -31,6 +30,19 @@ pub struct TableBeside {
     /// How the table is made up.
     #[serde(rename = "tableSchema")]
     schema: TableWithin,
+    /// One object: the standard's place for what it does not know.
+    notes: [Note; 1],
+}
+
+/// What linkwear adds.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct Note {
+    /// Version of the form of all JSON, as everywhere.
+    format: u64,
+    /// What the table is of: what decides its numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    provenance: Option<Provenance>,
 }
 
 /// A column.
@@ -43,8 +55,8 @@ struct ColumnAbout {
     titles: String,
     /// `double`; `unsignedLong`, a whole number; `string`.
     datatype: &'static str,
-    /// Its unit; absent where it has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Its unit, in the words of schema.org as the standard asks for; absent where it has none.
+    #[serde(rename = "schema:unitText", skip_serializing_if = "Option::is_none")]
     unit: Option<String>,
 }
 
@@ -57,7 +69,8 @@ pub fn in_file(table: &Table<'_>, provenance: Option<&Provenance>) -> Value {
 pub fn beside(file: &Path, table: &Table<'_>, provenance: Option<&Provenance>) -> Value {
     let url = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let context = "http://www.w3.org/ns/csvw";
-    sealed(json!(TableBeside { context, url, schema: TableWithin::of(table) }), provenance)
+    let notes = [Note { format: FORMAT, provenance: provenance.cloned() }];
+    json!(TableBeside { context, url, schema: TableWithin::of(table), notes })
 }
 
 impl TableWithin {

@@ -41,7 +41,7 @@ fn outputs() -> Vec<(&'static str, Value)> {
         ("completions", schema::<equations::TextAnswer>("completions", false)),
         ("man", schema::<equations::TextAnswer>("man", false)),
         ("errors", schema::<errors::Errors>("errors", false)),
-        ("table", schema::<about::TableBeside>("table", true)),
+        ("table", plain::<about::TableBeside>("table")),
         ("parquet", schema::<about::TableWithin>("parquet", true)),
     ]
 }
@@ -79,6 +79,15 @@ fn schema<T: JsonSchema>(name: &str, is_of_something: bool) -> Value {
     }
     root.insert("properties".to_owned(), properties.into());
     root.insert("required".to_owned(), required.into());
+    close(&mut schema);
+    schema
+}
+
+/// Of what is written, as it stands.
+fn plain<T: JsonSchema>(name: &str) -> Value {
+    let generator = SchemaGenerator::new(SchemaSettings::draft2020_12().for_serialize());
+    let mut schema = generator.into_root_schema_for::<T>().to_value();
+    schema["title"] = json!(format!("linkwear {name}"));
     close(&mut schema);
     schema
 }
@@ -164,7 +173,7 @@ fn row(page: &mut String, root: &Value, entry: &Value, path: &str, optional: boo
     let meaning = told.unwrap_or_else(|| panic!("`{path}` has no description")).replace('\n', " ");
     let absent = if optional { ", may be absent" } else { "" };
     let _ = writeln!(page, "| `{path}` | {kind}{absent} | {meaning} |");
-    if path != "provenance.options" {
+    if !path.ends_with("provenance.options") {
         rows(page, root, &inner, &format!("{path}{suffix}"));
     }
 }
