@@ -71,7 +71,7 @@ pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure
         return Ok(true);
     }
     if cfg!(not(feature = "parquet")) && output.extension().is_some_and(|end| end == "parquet") {
-        let help = "give a name that ends in .csv or .npy, or build it with the feature `parquet`";
+        let help = "give a name that ends in .csv, or build it with the feature `parquet`";
         return Err(Failure::usage("--out: this program was built without Parquet", help));
     }
     match (input.canonicalize(), output.canonicalize()) {
