@@ -151,6 +151,9 @@ fn compiled_in(mechanism: &Compiled, options: &Options) -> Result<&'static Shipp
     if options.rigid && mechanism.mechanism.bodies.iter().any(|body| body.flexible.is_some()) {
         return Err("it is compiled with its flexible bodies".to_owned());
     }
+    if options.pictured {
+        return Err("it is compiled without columns of where its bodies are".to_owned());
+    }
     let hash = mechanism.source.sha256();
     let shipped = SHIPPED
         .iter()

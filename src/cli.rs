@@ -18,6 +18,10 @@ mod merge;
 mod new;
 mod options;
 mod packaging;
+#[cfg(feature = "page")]
+mod page;
+#[cfg(feature = "page")]
+mod picture;
 mod plot;
 mod predict;
 mod shipped_schemas;
@@ -67,6 +71,12 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),
         Command::Merge(arguments) => merge::run(arguments),
+        #[cfg(feature = "page")]
+        Command::Report(arguments) => page::report(arguments),
+        #[cfg(feature = "page")]
+        Command::View(arguments) => page::view(arguments),
+        #[cfg(feature = "page")]
+        Command::Draw(arguments) => page::draw(arguments),
         Command::Study(arguments) => study::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),

@@ -33,6 +33,8 @@ pub mod life;
 pub mod mechanism;
 pub mod mechanisms;
 pub mod number;
+#[cfg(feature = "page")]
+mod page;
 mod parts;
 #[cfg(feature = "cli")]
 pub mod progress;

@@ -78,10 +78,18 @@ impl Mechanism {
     /// [`LoadError::Mechanism`], [`LoadError::Backend`].
     pub fn compile(source: &SourceFile, options: &Options, backend: Backend) -> Result<Self, LoadError> {
         let compiled = compile(source, options).map_err(LoadError::Mechanism)?;
-        let equations = Equations::choose(&compiled, options, backend)?;
-        let warnings = located_warnings(&compiled);
+        Ok(Self::of(&compiled, options, backend)?)
+    }
+
+    /// Of what was compiled with these options, on a back end.
+    ///
+    /// # Errors
+    /// If the back end cannot run it.
+    pub fn of(compiled: &Compiled, options: &Options, backend: Backend) -> Result<Self, BackendError> {
+        let equations = Equations::choose(compiled, options, backend)?;
+        let warnings = located_warnings(compiled);
         let tapes = Some(Arc::new(compiled.tapes().to_vec()));
-        let origin = Origin { file: source.sha256(), options: told(options), tapes };
+        let origin = Origin { file: compiled.source.sha256(), options: told(options), tapes };
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 

@@ -63,6 +63,18 @@ pub enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
+    /// Write a page to look at in a browser: the mechanism moving in 3-D, curves, its life, tables; one file, without a network.
+    #[cfg(feature = "page")]
+    #[command(after_help = "Example:\n  linkwear report mechanisms/rssr.toml -o rssr.html")]
+    Report(ReportArguments),
+    /// As `report`, of the motion alone.
+    #[cfg(feature = "page")]
+    #[command(after_help = "Example:\n  linkwear view mechanisms/six_bar.toml --turns 1 -o six_bar.html")]
+    View(ViewArguments),
+    /// Draw the mechanism (SVG), as in a paper.
+    #[cfg(feature = "page")]
+    #[command(after_help = "Example:\n  linkwear draw mechanisms/rssr_rigid.toml -o rssr.svg")]
+    Draw(DrawArguments),
     /// Put the shards of a life or of a study together: the same files as if it had been undivided.
     #[command(after_help = "Example:\n  linkwear life mechanisms/rssr.toml --shard 1/2 --out a\n  \
                       linkwear life mechanisms/rssr.toml --shard 2/2 --out b\n  linkwear merge a b --out life\n\n\
@@ -162,6 +174,10 @@ pub struct SimulateArguments {
     pub motion: MotionArguments,
     #[arg(long, value_name = "FILE", help = rows_help())]
     pub out: Option<PathBuf>,
+    /// Draw forces, drive, contacts, deflections and motion of the joints as charts (SVG).
+    #[cfg(feature = "page")]
+    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub equations: EquationsChoice,
 }
@@ -181,6 +197,10 @@ pub struct LifeArguments {
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
     #[arg(long, value_name = "DIR", value_parser = output())]
     pub out: Option<PathBuf>,
+    /// Draw density, reliability and clearance by cycles as charts (SVG).
+    #[cfg(feature = "page")]
+    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    pub plot: Option<PathBuf>,
     /// Go on with the run that was interrupted in --out, to the same bits as if it had not been; with more
     /// --trajectories, extend it.
     #[arg(long, requires = "out")]
@@ -194,6 +214,70 @@ pub struct LifeArguments {
     pub threads: Option<NonZero<usize>>,
     #[command(flatten)]
     pub equations: EquationsChoice,
+}
+
+#[cfg(feature = "page")]
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    #[command(flatten)]
+    pub input: Input,
+    #[command(flatten)]
+    pub lives: LivesArguments,
+    /// Relative error of the wear integral of a revolution [default: 1e-6].
+    #[arg(long, value_name = "E", value_parser = positive)]
+    pub tol: Option<f64>,
+    /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    pub step: Option<f64>,
+    /// Threads that share the random lives [default: one per core].
+    #[arg(long, value_name = "T", value_parser = threads)]
+    pub threads: Option<NonZero<usize>>,
+    /// Turns that the moving picture shows [default: 1].
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub turns: Option<f64>,
+    #[command(flatten)]
+    pub equations: EquationsChoice,
+    /// File to write.
+    #[arg(short, long, value_name = "PAGE.html", value_parser = output())]
+    pub out: PathBuf,
+    /// Replace a file that linkwear did not make.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[cfg(feature = "page")]
+#[derive(Debug, Args)]
+pub struct ViewArguments {
+    #[command(flatten)]
+    pub input: Input,
+    #[command(flatten)]
+    pub motion: MotionArguments,
+    #[command(flatten)]
+    pub equations: EquationsChoice,
+    /// File to write.
+    #[arg(short, long, value_name = "PAGE.html", value_parser = output())]
+    pub out: PathBuf,
+    /// Replace a file that linkwear did not make.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[cfg(feature = "page")]
+#[derive(Debug, Args)]
+pub struct DrawArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// Turns that are drawn behind [default: 1].
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub turns: Option<f64>,
+    #[command(flatten)]
+    pub equations: EquationsChoice,
+    /// File to write.
+    #[arg(short, long, value_name = "PICTURE.svg", value_parser = output())]
+    pub out: PathBuf,
+    /// Replace a file that linkwear did not make.
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -303,6 +387,10 @@ pub struct FitArguments {
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
+    /// Draw probability paper, quantiles and residuals as charts (SVG).
+    #[cfg(feature = "page")]
+    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    pub plot: Option<PathBuf>,
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE", value_parser = output())]
     pub out: Option<PathBuf>,

@@ -73,6 +73,8 @@ pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Resu
         return Err(no_such_words());
     };
     nothing_written(arguments.out.as_deref())?;
+    #[cfg(feature = "page")]
+    nothing_written(arguments.plot.as_deref())?;
     let mechanism = input::of_source(&arguments.input, source, arguments.equations)?;
     let asked = simulate::Simulation::new(&arguments.input.file, &arguments.motion, &mechanism)?;
     let begin = std::time::Instant::now();
@@ -92,6 +94,8 @@ pub fn simulate(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Resu
 pub fn life(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<Lived, Failure> {
     let Command::Life(arguments) = parsed("life", words, &source.name)? else { return Err(no_such_words()) };
     nothing_written(arguments.out.as_deref())?;
+    #[cfg(feature = "page")]
+    nothing_written(arguments.plot.as_deref())?;
     let mechanism = input::of_source(&arguments.input, source, arguments.equations)?;
     let (study, warnings) = life::study(&arguments, &mechanism)?;
     let lived = study.run_watched(watch);
@@ -162,6 +166,8 @@ pub fn study(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<
 pub fn fit(words: &[String], name: &str, table: &str) -> Result<Value, Failure> {
     let Command::Fit(arguments) = parsed("fit", words, name)? else { return Err(no_such_words()) };
     nothing_written(arguments.out.as_deref())?;
+    #[cfg(feature = "page")]
+    nothing_written(arguments.plot.as_deref())?;
     Ok(fit::answer(&arguments, &CsvTable::parse(Path::new(name), table)?)?.json)
 }
 
@@ -193,7 +199,9 @@ fn no_such_words() -> Failure {
 
 fn nothing_written(out: Option<&Path>) -> Result<(), Failure> {
     match out {
-        Some(_) => Err(Failure::usage("--out: nothing is written here", "write the result that is returned")),
+        Some(_) => {
+            Err(Failure::usage("--out, --plot: nothing is written here", "write the result that is returned"))
+        }
         None => Ok(()),
     }
 }

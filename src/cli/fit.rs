@@ -9,6 +9,8 @@ use std::io::Write as _;
 
 use crate::csv_table::CsvTable;
 use crate::files::write_whole;
+#[cfg(feature = "page")]
+use crate::page::fit_picture;
 use crate::provenance::{Provenance, sealed};
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
 use linkwear_gamma::fit::{FitError, LikelihoodRatio, likelihood_ratio};
@@ -20,9 +22,13 @@ use super::answer::Answer;
 use super::arguments::FitArguments;
 use super::failure::Failure;
 use super::input::check_output;
+#[cfg(feature = "page")]
+use super::picture;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
     check_output(&arguments.file, arguments.out.as_deref())?;
+    #[cfg(feature = "page")]
+    picture::check_plot(&arguments.file, arguments.plot.as_deref())?;
     answer(arguments, &CsvTable::read(&arguments.file)?)
 }
 
@@ -48,6 +54,8 @@ pub fn answer(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Answer, 
         let text = sealed(pooled.file.to_json(), Some(&provenance));
         write_whole(out, |file| writeln!(file, "{text:#}"))?;
     }
+    #[cfg(feature = "page")]
+    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, &data))?;
     Ok(report::answer(arguments, &pooled, &parts, test, &provenance))
 }
 

@@ -10,6 +10,8 @@ use std::path::Path;
 use crate::files::claim_folder;
 use crate::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
 use crate::mechanism::Mechanism;
+#[cfg(feature = "page")]
+use crate::page::life_picture;
 use crate::progress::watched;
 use crate::provenance::Provenance;
 use linkwear_runtime::{Integrator, RevolutionSettings};
@@ -20,8 +22,12 @@ use super::arguments::{LifeArguments, MergeArguments};
 use super::failure::Failure;
 use super::input::load_mechanism;
 use super::options::LivesArguments;
+#[cfg(feature = "page")]
+use super::picture;
 
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
+    #[cfg(feature = "page")]
+    picture::check_plot(&arguments.input.file, arguments.plot.as_deref())?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let folder = arguments.out.as_deref();
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
@@ -44,6 +50,8 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     }
     let facts = LifeFacts::new(&study, life.coupling);
     let answer = output::answer(&facts, &life);
+    #[cfg(feature = "page")]
+    picture::write_plot(arguments.plot.as_deref(), || life_picture(&life, &answer.json))?;
     match (folder, study.shard) {
         (Some(folder), Some(shard)) => {
             let part = LifePart::new(&study, command(std::env::args()), life);

@@ -8,12 +8,15 @@ macro_rules! schemas {
 }
 
 /// The schemas of all outputs.
-pub const SCHEMAS: [(&str, &str); 17] = schemas![
+pub const SCHEMAS: [(&str, &str); 20] = schemas![
     "check",
     "equations",
     "cost",
     "generate",
     "fmu",
+    "report",
+    "view",
+    "draw",
     "simulate",
     "life",
     "study",

@@ -7,6 +7,8 @@ use crate::csv_table::CsvTable;
 use crate::inputs::read_inputs;
 use crate::mechanism::Mechanism;
 use crate::number::number;
+#[cfg(feature = "page")]
+use crate::page::run_picture;
 use crate::progress::watched;
 use crate::provenance::Provenance;
 use crate::table::{is_stdout, write_table};
@@ -23,6 +25,8 @@ use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
 use super::input::{check_output, load_mechanism};
 use super::options::{IntegratorName, MotionArguments};
+#[cfg(feature = "page")]
+use super::picture;
 use super::summary;
 use super::table::{duration, plural, table};
 
@@ -35,6 +39,8 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     integrator(&arguments.motion)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
     let is_stream = check_output(file, out)?;
+    #[cfg(feature = "page")]
+    picture::check_plot(file, arguments.plot.as_deref())?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();
@@ -49,6 +55,8 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
             .map_or(Ok(()), |partial| write_table(partial, &run.table(), Some(&asked.provenance())))?;
         return Err(Failure::run(file, error, partial));
     }
+    #[cfg(feature = "page")]
+    picture::write_plot(arguments.plot.as_deref(), || run_picture(&run))?;
     let provenance = asked.provenance();
     out.map_or(Ok(()), |out| write_table(out, &run.table(), Some(&provenance)))?;
     if out.is_some_and(is_stdout) {

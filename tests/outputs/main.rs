@@ -141,6 +141,10 @@ fn equations_and_code_are_as_told() {
     asked(&["generate", PENDULUM]);
     asked(&["generate", PENDULUM, "--target", "c", "--out", &folder.path("pendulum")]);
     asked(&["fmu", PENDULUM, "--out", &folder.path("pendulum.fmu")]);
+    #[cfg(feature = "page")]
+    for words in ["report", "view", "draw"] {
+        asked(&[words, PENDULUM, "--out", &folder.path(words)]);
+    }
     asked(&["completions", "bash"]);
     asked(&["man"]);
     held("new", &folder.linkwear(&["new", "fresh", "--format", "json"]).json(), "new");

@@ -29,6 +29,8 @@ pub struct Options {
     pub rigid: bool,
     /// Where the files of data may lie that the file names.
     pub reach: Reach,
+    /// With columns of where every body is, `BODY.pose0` to `BODY.pose11`: for pictures.
+    pub pictured: bool,
     /// Forward dynamics by the saddle point alone, where rows first would be shorter: to compare both.
     pub saddle: bool,
 }
@@ -63,7 +65,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
         guide.jacobians.clear();
     }
     warnings.extend(remarks);
-    let derived = derived(source, &mechanism, &topology, Some(&guide), Purpose::Everything)?;
+    let purpose = if options.pictured { Purpose::Picture } else { Purpose::Everything };
+    let derived = derived(source, &mechanism, &topology, Some(&guide), purpose)?;
     let mut compiled = Compiled {
         source: source.clone(),
         mechanism,

@@ -85,7 +85,7 @@ fn follows(model: &Model, increments: &[Increment], phi: &[f64]) -> Result<(), F
 
 impl Fit {
     /// Logarithms of the process's parameters.
-    pub(super) fn logs(&self) -> [f64; 2] {
+    pub fn logs(&self) -> [f64; 2] {
         [self.phi[0], self.phi[1]]
     }
 
@@ -127,7 +127,7 @@ impl Fit {
     }
 
     /// Exposure of an increment under this fit.
-    pub(super) fn lambda(&self, increment: &Increment) -> f64 {
+    pub fn lambda(&self, increment: &Increment) -> f64 {
         self.model.lambda(&self.phi, increment)
     }
 

@@ -189,6 +189,19 @@ pub struct FmuAnswer<'a> {
     pub warnings: Vec<Value>,
 }
 
+/// A page or a picture of a mechanism.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[cfg_attr(not(feature = "page"), expect(dead_code, reason = "the schemas of all outputs are kept"))]
+pub struct PageAnswer {
+    /// The file.
+    pub file: String,
+    /// Its size.
+    pub bytes: usize,
+    /// Time that it took here [s].
+    pub seconds: f64,
+}
+
 /// A starter file.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]

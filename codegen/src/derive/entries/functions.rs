@@ -221,11 +221,14 @@ impl<'g> Deriver<'g> {
         function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs([]), outputs)
     }
 
-    pub(super) fn observe(&self, masses: &[LinkMass<'g>]) -> (Function, Vec<Channel>) {
+    pub(super) fn observe(&self, masses: &[LinkMass<'g>], with_poses: bool) -> (Function, Vec<Channel>) {
         let g = self.geometry.g;
         let mut instant = self.instant(self.driven_state(&self.v_dot), false);
         let list = |instant: &Instant<'g>| {
-            let list = Channels::new(self, instant, masses, self.energies(instant, masses));
+            let mut list = Channels::new(self, instant, masses, self.energies(instant, masses));
+            if with_poses {
+                list.poses();
+            }
             (g.operations(list.values.iter().copied()), (list.channels, list.values))
         };
         let in_ground = list(&instant);

@@ -41,6 +41,8 @@ pub struct Derived {
 pub enum Purpose {
     /// All entry points.
     Everything,
+    /// All entry points, and columns of where every body is, for pictures.
+    Picture,
     /// Positions, Jacobians and columns only, while redundant rows are still in: no elimination.
     Analysis,
 }
@@ -71,7 +73,7 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let (start, start_values) = deriver.start();
     let nothing = |entry| function(entry, "", Vec::new(), Vec::new());
     let solved = match purpose {
-        Purpose::Everything => Some(deriver.solution(&dynamic, &masses)),
+        Purpose::Everything | Purpose::Picture => Some(deriver.solution(&dynamic, &masses)),
         Purpose::Analysis => None,
     };
     let solved = solved.as_ref();
@@ -83,7 +85,7 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let rates = deriver.rates(&state_rates);
     let (closure, rows) = deriver.closure();
     let energy = deriver.energy(&dynamic, &masses);
-    let (observe, channels) = deriver.observe(&masses);
+    let (observe, channels) = deriver.observe(&masses, purpose == Purpose::Picture);
     let equations_of_motion = deriver.equations_of_motion(&masses, solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =

@@ -18,7 +18,7 @@ use crate::derive::wrench::Wrench;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
-use crate::model::{Coordinate, Flexible};
+use crate::model::{Carrier, Coordinate, Flexible};
 
 /// The columns so far, and what they are made from.
 pub(super) struct Channels<'a, 'g> {
@@ -127,6 +127,26 @@ impl<'a, 'g> Channels<'a, 'g> {
             self.vector(&body.name, "w", "rad/s", motion.poses.world[at].rotation * motion.twists[at].omega);
             if let Some(flexible) = &body.flexible {
                 self.modes(&body.name, flexible, at);
+            }
+        }
+    }
+
+    /// Where every body is: a rotation (row major) and a shift that together take its places at the reference pose to those
+    /// now; of a flexible body those of its floating frame.
+    pub(super) fn poses(&mut self) {
+        let geometry = self.deriver.geometry;
+        for (index, body) in geometry.mechanism.bodies.iter().enumerate() {
+            geometry.g.begin_section(format!("pose of {}", body.name));
+            let at = geometry.linkage.link_of_body[index];
+            let (link, pose) = (&geometry.linkage.links[at], self.instant.state.motion.poses.world[at]);
+            let rotation = pose.rotation * geometry.g.matrix(link.frame.0).transpose();
+            let origin = geometry.described(link.origin, Carrier::Body(link.body));
+            let shift = pose.offset - rotation * origin;
+            for (number, entry) in rotation.0.into_iter().flatten().enumerate() {
+                self.push(format!("{}.pose{number}", body.name), "1", entry);
+            }
+            for (number, entry) in shift.into_iter().enumerate() {
+                self.push(format!("{}.pose{}", body.name, number + 9), "m", entry);
             }
         }
     }

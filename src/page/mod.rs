@@ -1,0 +1,35 @@
+//! Pages and pictures of a mechanism: what it looks like, how it moves, what becomes of it. In: a compiled mechanism, its run,
+//! its life. Out: text of HTML and SVG that names no other file. Never runs anything, and never writes a file.
+
+mod chart;
+mod curves;
+pub mod document;
+pub mod drawing;
+mod escape;
+mod fits;
+mod lives;
+mod motion;
+mod scene;
+
+use linkwear_gamma::data::Observations;
+use linkwear_gamma::fit::{Fit, Goodness};
+use linkwear_runtime::Run;
+use serde_json::Value;
+
+use crate::life::LifeResult;
+use chart::Chart;
+
+/// Charts of a run as one picture (SVG).
+pub fn run_picture(run: &Run) -> String {
+    Chart::file(&curves::charts(run))
+}
+
+/// Charts of a life, of which `life --format json` says `json`, as one picture (SVG).
+pub fn life_picture(life: &LifeResult, json: &Value) -> String {
+    Chart::file(&lives::charts(life, json))
+}
+
+/// Charts of a fit as one picture (SVG).
+pub fn fit_picture(fit: &Fit, goodness: &Goodness, data: &Observations) -> String {
+    Chart::file(&fits::charts(fit, goodness, data))
+}

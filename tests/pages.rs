@@ -1,0 +1,167 @@
+//! Pages and pictures: their numbers are those of the JSON, they load nothing, they move in a browser.
+#![cfg(feature = "page")]
+
+mod command;
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use command::{Folder, linkwear};
+use serde_json::Value;
+
+const RSSR: &str = "mechanisms/rssr.toml";
+
+/// The data that a page holds under a name.
+fn data(page: &str, id: &str) -> Value {
+    let head = format!("<script type=\"application/json\" id=\"{id}\">");
+    let rest = page.split_once(&head).expect("the data").1;
+    serde_json::from_str(rest.split_once("</script>").expect("an end").0).expect("JSON")
+}
+
+fn page_of(words: &[&str], name: &str) -> (Folder, String) {
+    let folder = Folder::new(name);
+    let out = folder.path("page.html");
+    let told = linkwear(&[words, &["-o", &out, "--format", "json"]].concat()).json();
+    let page = folder.read("page.html");
+    assert_eq!(told["bytes"], page.len());
+    (folder, page)
+}
+
+#[test]
+fn numbers_of_a_report_are_those_of_simulate_and_life() {
+    let (_folder, page) = page_of(&["report", RSSR, "--trajectories", "50", "--seed", "3"], "pages-numbers");
+    let life = linkwear(&["life", RSSR, "--trajectories", "50", "--seed", "3", "--format", "json"]).json();
+    assert_eq!(data(&page, "life"), life);
+    let mut here = data(&page, "simulation");
+    let mut there = linkwear(&["simulate", RSSR, "--samples", "721", "--format", "json"]).json();
+    for json in [&mut here, &mut there] {
+        json["wall_seconds"] = Value::Null;
+    }
+    assert_eq!(here, there);
+    assert!(page.contains("<td>c_rocker</td><td>2 N m s/rad</td><td>assumed, tunable</td>"));
+}
+
+#[test]
+fn a_page_loads_nothing_and_is_small() {
+    let (_folder, page) = page_of(&["report", "mechanisms/four_bar_wear.toml", "--mean"], "pages-network");
+    let foreign = page.replace("http://www.w3.org/2000/svg", "");
+    for word in
+        ["http:", "https:", " src=", " href=", "@import", "url(", "fetch(", "XMLHttpRequest", "import("]
+    {
+        assert!(!foreign.contains(word), "{word}");
+    }
+    assert!(page.len() < 2_000_000, "{}", page.len());
+}
+
+#[test]
+fn every_shipped_mechanism_can_be_looked_at() {
+    let folder = Folder::new("pages-all");
+    for entry in fs::read_dir("mechanisms").expect("a folder") {
+        let file = entry.expect("an entry").path();
+        if file.extension().is_none_or(|end| end != "toml") {
+            continue;
+        }
+        let file = file.to_str().expect("UTF-8");
+        for (words, out) in [("view", "view.html"), ("draw", "drawing.svg")] {
+            let answer = linkwear(&[words, file, "-o", &folder.path(out)]);
+            assert_eq!(answer.code, 0, "{file}: {}", answer.err);
+            let text = folder.read(out);
+            let is_drawn = words == "view" || !text.contains("NaN");
+            assert!(text.len() < 3_000_000 && is_drawn, "{words} {file}: {}", text.len());
+        }
+    }
+}
+
+#[test]
+fn only_what_linkwear_made_is_replaced() {
+    let folder = Folder::new("pages-foreign");
+    let out = folder.path("mine.html");
+    fs::write(&out, "mine").expect("a file");
+    let refused = linkwear(&["view", RSSR, "-o", &out]);
+    assert_eq!((refused.code, folder.read("mine.html").as_str()), (1, "mine"), "{}", refused.err);
+    for words in [&["--force"][..], &[]] {
+        assert_eq!(linkwear(&[&["view", RSSR, "-o", &out], words].concat()).code, 0);
+    }
+}
+
+#[test]
+fn charts_are_drawn_of_runs_lives_and_fits() {
+    let folder = Folder::new("pages-plots");
+    let out = folder.path("plot.svg");
+    let fit = [
+        "fit",
+        "examples/data/sliding_wear_100g.csv",
+        "--unit",
+        "unit",
+        "--wear",
+        "wear_um",
+        "--exposure",
+        "cycles",
+    ];
+    let asked: [(&[&str], usize); 3] =
+        [(&["simulate", RSSR], 8), (&["life", RSSR], 3), (&[&fit[..], &["--from-zero"]].concat(), 3)];
+    for (words, charts) in asked {
+        let answer = linkwear(&[words, &["--plot", &out]].concat());
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        let text = folder.read("plot.svg");
+        assert_eq!(text.matches("class=\"title\"").count(), charts, "{words:?}");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{words:?}");
+    }
+}
+
+/// What a page does by itself, told in its title: pixels that differ and change, controls that act.
+const TRIAL: &str = r#"<script>
+addEventListener("error", event => { document.title = "error: " + event.message; });
+addEventListener("load", () => setTimeout(() => {
+  const canvas = document.getElementById("view"), { state, camera } = window.linkwear;
+  const picture = () => { const gl = canvas.getContext("webgl"), p = new Uint8Array(4 * canvas.width * canvas.height); gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, p); return p; };
+  const kinds = p => { const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] << 16 | p[i + 1] << 8 | p[i + 2]); return seen.size; };
+  const differ = (p, q) => { let n = 0; for (let i = 0; i < p.length; i += 4) n += p[i] !== q[i] || p[i + 1] !== q[i + 1]; return n; };
+  const first = picture(), results = [];
+  const say = (what, is) => results.push((is ? "ok " : "FAILED ") + what);
+  setTimeout(() => {
+    const second = picture();
+    say("colours", kinds(second) > 20);
+    say("moves", differ(first, second) > 100);
+    document.getElementById("play").click();
+    say("pauses", !state.playing);
+    const yaw = camera.yaw, far = camera.distance, t = state.t;
+    canvas.focus();
+    for (const key of ["ArrowLeft", "+", "."]) canvas.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+    say("keys", camera.yaw !== yaw && camera.distance < far && state.t > t);
+    const chart = document.querySelector("svg[data-time]"), box = chart.getBoundingClientRect();
+    chart.dispatchEvent(new PointerEvent("pointermove", { clientX: box.left + box.width / 2, clientY: box.top + 50, bubbles: true }));
+    const at = state.t;
+    say("curves", at > 0.3 * 0.5 && at < 0.7 * 0.5);
+    setTimeout(() => { say("turned", differ(second, picture()) > 100); document.title = results.join("; "); }, 400);
+  }, 600);
+}, 600));
+</script>"#;
+
+#[test]
+#[ignore = "needs a browser: apt-get install chromium"]
+fn a_page_moves_in_a_browser() {
+    let (folder, page) = page_of(&["report", RSSR, "--mean"], "pages-browser");
+    let tried = folder.path("tried.html");
+    fs::write(&tried, page + TRIAL).expect("a file");
+    let file = Path::new(&tried).canonicalize().expect("a path");
+    let words = [
+        "--headless",
+        "--no-sandbox",
+        "--enable-unsafe-swiftshader",
+        "--enable-logging=stderr",
+        "--window-size=1280,720",
+        "--virtual-time-budget=9000",
+        "--dump-dom",
+    ];
+    let output = Command::new("chromium").args(words).arg(format!("file://{}", file.display())).output();
+    let output = output.expect("chromium runs");
+    let [dom, log] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    let title =
+        dom.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>")).expect("a title").0;
+    assert_eq!(title, "ok colours; ok moves; ok pauses; ok keys; ok curves; ok turned");
+    // What the driver says of reading pixels back is no error of the page.
+    let said = log.lines().filter(|line| line.contains("CONSOLE") && !line.contains("GL Driver Message"));
+    assert_eq!(said.collect::<Vec<_>>(), Vec::<&str>::new());
+}
