@@ -1,60 +1,68 @@
-//! Compiles the shipped mechanisms, as a user's build script does, and the library inside units of FMI, which the command
-//! line hands out.
+//! Compiles the shipped mechanisms, as a user's build script does, and hands on the library inside units of FMI. Each has a feature;
+//! without both there is nothing to do.
 
-use std::env;
-use std::fs;
-use std::path::{Path, PathBuf};
-
-macro_rules! mechanisms {
-    ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
-        const NAMES: &[&str] = &[$(stringify!($name)),*];
-    };
-}
-
-include!("mechanisms/shipped.rs");
-
-fn main() {
-    let files = NAMES.iter().map(|name| format!("mechanisms/{name}.toml"));
-    if env::var_os("CARGO_FEATURE_SHIPPED").is_some() {
-        files.fold(linkwear_codegen::Builder::new(), |builder, file| builder.mechanism(file)).write_or_exit();
+#[cfg(feature = "shipped")]
+mod shipped {
+    macro_rules! mechanisms {
+        ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
+            const NAMES: &[&str] = &[$(stringify!($name)),*];
+        };
     }
-    if env::var_os("CARGO_FEATURE_CLI").is_some() {
-        unit_library();
+
+    include!("mechanisms/shipped.rs");
+
+    pub fn compile() {
+        let files = NAMES.iter().map(|name| format!("mechanisms/{name}.toml"));
+        files.fold(linkwear_codegen::Builder::new(), |builder, file| builder.mechanism(file)).write_or_exit();
     }
 }
 
 /// The crate `fmu` as a library of its own, which cargo has compiled to run this script.
-fn unit_library() {
-    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo says where to write"));
-    let system = env::var("CARGO_CFG_TARGET_OS").unwrap_or_default();
-    let ending = match &*system {
-        "windows" => ".dll",
-        "macos" => ".dylib",
-        _ => ".so",
-    };
-    // For another processor there is none: this script runs here.
-    let same = env::var_os("TARGET") == env::var_os("HOST");
-    let beside = out.ancestors().nth(3).map(|profile| profile.join("deps"));
-    let found = beside.filter(|_| same).and_then(|folder| newest(&folder, ending));
-    let library = out.join("unit-library");
-    match found {
-        Some(file) => drop(fs::copy(file, library).expect("the library can be copied")),
-        None => {
-            println!(
-                "cargo::warning=the library of the crate `fmu` is not found: `linkwear fmu` will write no units"
-            );
-            fs::write(library, []).expect("OUT_DIR can be written");
+#[cfg(feature = "fmu")]
+mod unit {
+    use std::env;
+    use std::fs;
+    use std::path::{Path, PathBuf};
+
+    pub fn hand_on() {
+        let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo says where to write"));
+        let system = env::var("CARGO_CFG_TARGET_OS").unwrap_or_default();
+        let ending = match &*system {
+            "windows" => ".dll",
+            "macos" => ".dylib",
+            _ => ".so",
+        };
+        // For another processor there is none: this script runs here.
+        let same = env::var_os("TARGET") == env::var_os("HOST");
+        let beside = out.ancestors().nth(3).map(|profile| profile.join("deps"));
+        let found = beside.filter(|_| same).and_then(|folder| newest(&folder, ending));
+        let library = out.join("unit-library");
+        match found {
+            Some(file) => drop(fs::copy(file, library).expect("the library can be copied")),
+            None => {
+                println!(
+                    "cargo::warning=the library of the crate `fmu` is not found: `linkwear fmu` will write no units"
+                );
+                fs::write(library, []).expect("OUT_DIR can be written");
+            }
         }
+    }
+
+    /// The library compiled last: cargo leaves older ones of other settings.
+    fn newest(folder: &Path, ending: &str) -> Option<PathBuf> {
+        let files = fs::read_dir(folder).ok()?.filter_map(Result::ok);
+        let libraries = files.filter(|file| {
+            let name = file.file_name().to_string_lossy().into_owned();
+            name.trim_start_matches("lib").starts_with("linkwear_fmu") && name.ends_with(ending)
+        });
+        let made = libraries.filter_map(|file| Some((file.metadata().ok()?.modified().ok()?, file.path())));
+        made.max().map(|(_, path)| path)
     }
 }
 
-/// The library compiled last: cargo leaves older ones of other settings.
-fn newest(folder: &Path, ending: &str) -> Option<PathBuf> {
-    let files = fs::read_dir(folder).ok()?.filter_map(Result::ok);
-    let libraries = files.filter(|file| {
-        let name = file.file_name().to_string_lossy().into_owned();
-        name.trim_start_matches("lib").starts_with("linkwear_fmu") && name.ends_with(ending)
-    });
-    let made = libraries.filter_map(|file| Some((file.metadata().ok()?.modified().ok()?, file.path())));
-    made.max().map(|(_, path)| path)
+fn main() {
+    #[cfg(feature = "shipped")]
+    shipped::compile();
+    #[cfg(feature = "fmu")]
+    unit::hand_on();
 }

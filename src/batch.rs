@@ -3,7 +3,7 @@
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::tape::Interpreted;
-use linkwear_native::{Lanes, Native};
+use linkwear_native::{Columns, Native};
 use linkwear_runtime::{CONTACT_MOTION, CONTACT_WRENCH, Description, Dual, Entry, Sizes, System};
 use thiserror::Error;
 
@@ -61,32 +61,18 @@ pub struct Batch {
 /// States that are evaluated together.
 #[derive(Clone, Debug)]
 enum Way {
-    Eight(Lanes<8>),
-    Four(Lanes<4>),
+    Eight(Columns<8>),
+    Four(Columns<4>),
     Alone(Native),
     Interpreted,
-}
-
-/// Bytes of a line of the cache.
-const LINE: usize = 64;
-
-/// Numbers enough for so many values, wherever lines of the cache begin.
-pub(crate) fn room<const N: usize>(length: usize) -> Vec<f64> {
-    vec![0.0; length * N + LINE / size_of::<f64>()]
-}
-
-/// The values from where a line of the cache begins.
-pub(crate) fn aligned<const N: usize>(numbers: &mut [f64]) -> &mut [[f64; N]] {
-    let first = numbers.as_ptr().align_offset(LINE).min(numbers.len());
-    numbers[first..].as_chunks_mut().0
 }
 
 impl Batch {
     /// On as many lanes as this processor has; by the interpreter where it has no machine code.
     pub fn new(mechanism: &Compiled) -> Self {
         let (tapes, sizes) = (mechanism.tapes(), mechanism.sizes());
-        let way = Lanes::new(tapes, sizes).map(Way::Eight);
-        let way = way.or_else(|_| Lanes::new(tapes, sizes).map(Way::Four));
+        let way = Columns::new(tapes, sizes).map(Way::Eight);
+        let way = way.or_else(|_| Columns::new(tapes, sizes).map(Way::Four));
         let way = way.or_else(|_| Native::new(tapes, sizes).map(Way::Alone)).unwrap_or(Way::Interpreted);
         Self {
             way,
@@ -254,8 +240,8 @@ impl Batch {
             return Ok(());
         }
         match &self.way {
-            Way::Eight(lanes) => in_lanes(lanes, entry, inputs, (states, outputs)),
-            Way::Four(lanes) => in_lanes(lanes, entry, inputs, (states, outputs)),
+            Way::Eight(columns) => columns.evaluate(entry, inputs, states, outputs),
+            Way::Four(columns) => columns.evaluate(entry, inputs, states, outputs),
             Way::Alone(system) => alone(system, entry, inputs, (states, outputs)),
             Way::Interpreted => alone(&self.interpreter, entry, inputs, (states, outputs)),
         }
@@ -298,54 +284,6 @@ const WRENCH: [&str; CONTACT_WRENCH] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
 
 fn numbered(stem: &str, count: usize) -> Vec<String> {
     (1..=count).map(|number| format!("{stem}{number}")).collect()
-}
-
-/// States of which all numbers are near at a time: each quantity is read and written in stretches that memory likes.
-const NEAR: usize = 128;
-
-/// As many states as there are lanes at a time; the last ones share theirs with copies of one of them.
-fn in_lanes<const N: usize>(
-    lanes: &Lanes<N>,
-    entry: Entry,
-    inputs: &[&[f64]],
-    (states, outputs): (usize, &mut [f64]),
-) {
-    let sizes = lanes.sizes();
-    let (takes, gives, blocks) = (inputs.len(), sizes.output(entry), NEAR / N);
-    // Block after block, each with all quantities.
-    let [mut input, mut output] = [blocks * takes, blocks * gives].map(room::<N>);
-    let (input, output) = (aligned::<N>(&mut input), aligned::<N>(&mut output));
-    let mut workspace = vec![[0.0; N]; sizes.workspace];
-    for (at, values) in inputs.iter().enumerate() {
-        if let [one] = values {
-            input.iter_mut().skip(at).step_by(takes).for_each(|place| *place = [*one; N]);
-        }
-    }
-    for first in (0..states).step_by(NEAR) {
-        let count = NEAR.min(states - first);
-        for (at, values) in inputs.iter().enumerate().filter(|(_, values)| values.len() != 1) {
-            let (whole, rest) = values[first..first + count].as_chunks::<N>();
-            let mut places = input.iter_mut().skip(at).step_by(takes);
-            whole.iter().zip(&mut places).for_each(|(values, place)| *place = *values);
-            if let (Some(value), Some(place)) = (rest.first(), places.next()) {
-                *place = [*value; N];
-                place[..rest.len()].copy_from_slice(rest);
-            }
-        }
-        for block in 0..count.div_ceil(N) {
-            let input = &input[block * takes..][..takes];
-            lanes.evaluate(entry, input, &mut output[block * gives..][..gives], &mut workspace);
-        }
-        for (at, answers) in outputs.chunks_exact_mut(states).enumerate() {
-            let (whole, rest) = answers[first..first + count].as_chunks_mut::<N>();
-            let mut values = output.iter().skip(at).step_by(gives);
-            whole.iter_mut().zip(&mut values).for_each(|(place, values)| *place = *values);
-            if let Some(values) = values.next() {
-                let length = rest.len();
-                rest.copy_from_slice(&values[..length]);
-            }
-        }
-    }
 }
 
 fn alone(system: &dyn System<f64>, entry: Entry, inputs: &[&[f64]], (states, outputs): (usize, &mut [f64])) {

@@ -10,6 +10,7 @@ mod cost;
 mod equations;
 pub mod failure;
 mod fit;
+#[cfg(feature = "fmu")]
 mod fmu;
 mod generate;
 mod input;
@@ -67,6 +68,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Equations(arguments) => equations::run(arguments),
         Command::Cost(input) => cost::run(input),
         Command::Generate(arguments) => generate::run(arguments),
+        #[cfg(feature = "fmu")]
         Command::Fmu(arguments) => fmu::run(arguments),
         Command::Simulate(arguments) => simulate::run(arguments),
         Command::Life(arguments) => life::run(arguments),

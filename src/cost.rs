@@ -10,12 +10,25 @@ use linkwear_native::{Lanes, Native};
 use linkwear_runtime::{Entry, Sizes, System};
 
 use crate::backend::{Backend, Equations};
-use crate::batch::{aligned, room};
 
 /// How long each entry is called on each back end.
 const MEASURED_FOR: Duration = Duration::from_millis(20);
 /// Shortest time that is measured at once: a hundred times what a clock resolves, and short enough that many are undisturbed.
 const BATCH: Duration = Duration::from_micros(10);
+
+/// Bytes of a line of the cache.
+const LINE: usize = 64;
+
+/// Numbers enough for so many values of all lanes, wherever lines of the cache begin.
+fn room<const N: usize>(length: usize) -> Vec<f64> {
+    vec![0.0; length * N + LINE / size_of::<f64>()]
+}
+
+/// The values from where a line of the cache begins.
+fn aligned<const N: usize>(numbers: &mut [f64]) -> &mut [[f64; N]] {
+    let first = numbers.as_ptr().align_offset(LINE).min(numbers.len());
+    numbers[first..].as_chunks_mut().0
+}
 
 /// Time of one call on each back end [ns]; none where a back end is missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 //! its equations and writes specialised Rust, a runtime integrates it.
 //!
 //! This package is the façade: the generator as [`codegen`], the runtime as [`runtime`], machine code at run time as
-//! [`native`], the shipped mechanisms compiled in as [`mechanisms`], and, by the feature `cli`, which is on by default, the command line.
+//! [`native`], the shipped mechanisms compiled in as [`mechanisms`], and, by features that are on by default, the command line (`cli`) and units of FMI (`fmu`).
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
@@ -24,7 +24,7 @@ pub mod cost;
 #[cfg(feature = "cli")]
 pub mod csv_table;
 pub mod files;
-#[cfg(feature = "cli")]
+#[cfg(feature = "fmu")]
 pub mod fmu;
 #[cfg(feature = "cli")]
 pub mod inputs;

@@ -9,7 +9,7 @@ mod select;
 mod tests;
 
 #[cfg(target_arch = "aarch64")]
-pub(crate) use here::{functions, target};
+pub(crate) use here::{functions, target, target_of_columns};
 
 /// What this processor runs.
 #[cfg(target_arch = "aarch64")]
@@ -34,6 +34,11 @@ mod here {
             return Err(Refusal::Processor { needed: "an aarch64 processor under Linux" });
         }
         Ok(Target { lanes, states: LANES, registers: REGISTERS })
+    }
+
+    /// Code that reads columns where they lie is not written for these processors yet.
+    pub(crate) fn target_of_columns<const LANES: usize>() -> Result<Target, Refusal> {
+        Err(Refusal::Processor { needed: "an x86-64 processor" })
     }
 
     /// Where the functions lie that this code calls.

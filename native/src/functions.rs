@@ -64,6 +64,14 @@ impl Functions {
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 
+    /// For so many states side by side of which every input and output is a column.
+    pub(crate) fn of_columns<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
+        let target = processor::target_of_columns::<LANES>()?;
+        let functions = processor::functions::<LANES>();
+        let written = side_by_side(tapes, |tape| write(tape, target, &functions));
+        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+    }
+
     /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
     pub(crate) fn of_steps<const LANES: usize>(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
         if let Some(entry) = Entry::ALL.get(tapes.len()) {
@@ -87,5 +95,19 @@ impl Functions {
     /// If a slice is too short, or there is no such function.
     pub(crate) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
         self.0.run(function, input, output, workspace);
+    }
+
+    /// Runs a function that was written for columns: one of one value is that value for all states.
+    ///
+    /// # Panics
+    /// If there are other columns than the function has, or a slice is too short.
+    pub(crate) fn run_columns<const LANES: usize>(
+        &self,
+        function: usize,
+        columns: &[&[f64]],
+        answers: &mut [&mut [f64]],
+        workspace: &mut [f64],
+    ) {
+        self.0.run_columns::<LANES>(function, columns, answers, workspace);
     }
 }

@@ -8,7 +8,7 @@
 //! # What `unsafe` stands on
 //! `unsafe` is in `memory/code.rs`, which calls the code, and in `memory/called.rs`, which the code calls. They rely on:
 //! 1. Code comes from the encoder only, for a tape that was verified: it reads and writes the four slices that it is
-//!    given and nothing else, at places below the lengths that are kept beside it, and it ends in a return.
+//!    given, or the columns behind the pointers in the first two, and nothing else, at places below the lengths that are kept beside it, and it ends in a return.
 //! 2. These lengths are compared with those of the slices before every call.
 //! 3. Code uses only what the processor was found to have when it was written.
 //! 4. Memory is made executable once it is written, is never writable and executable together, and lives as long as what
@@ -28,6 +28,7 @@
 
 #[cfg(any(test, target_arch = "aarch64"))]
 mod aarch64;
+mod columns;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod functions;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
@@ -41,5 +42,6 @@ mod unsupported;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use columns::Columns;
 pub use refusal::Refusal;
 pub use system::{Lanes, Native, NativeBundle};

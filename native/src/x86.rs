@@ -31,6 +31,11 @@ pub(crate) fn target<const LANES: usize>() -> Result<Target, Refusal> {
     features::target(lanes).ok_or(Refusal::Processor { needed })
 }
 
+/// The same for code that reads and writes columns, each behind its pointer in a table.
+pub(crate) fn target_of_columns<const LANES: usize>() -> Result<Target, Refusal> {
+    Ok(Target { columns: true, ..target::<LANES>()? })
+}
+
 /// Where the functions lie that this code calls.
 pub(crate) fn functions<const LANES: usize>() -> impl Fn(Function) -> usize + Sync {
     address::<LANES>

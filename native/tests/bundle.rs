@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
-use linkwear_native::{Native, NativeBundle};
+use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
     Integrator, SINGULAR_PIVOT, StepPlan, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState, Watch,
 };
@@ -42,7 +42,11 @@ fn lanes_have_the_bits_of_lone_turns<const N: usize>() {
         let mechanism = shipped(name);
         let system = Native::new(mechanism.tapes(), mechanism.sizes()).expect("machine code");
         let plan = StepPlan::new(mechanism.description(), mechanism.sizes()).expect("laws");
-        let bundle = NativeBundle::<N>::new(mechanism.tapes(), &plan).expect("lanes");
+        let bundle = match NativeBundle::<N>::new(mechanism.tapes(), &plan) {
+            // Eight lanes are for processors with AVX-512; lives run four at a time on others.
+            Err(Refusal::Processor { .. }) if N == 8 => return,
+            written => written.expect("lanes"),
+        };
         let mut one = runner(&system, &mechanism);
         let start = one.state();
         let starts: Vec<TurnState> = (0..11)

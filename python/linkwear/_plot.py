@@ -40,11 +40,8 @@ def life(life: Life, ax: Any | None) -> Any:
         _, ax = plt.subplots(1, 2 if has_lives else 1, layout="constrained", figsize=(9 if has_lives else 5, 3.8))
     axes = np.atleast_1d(ax)
     cycles = life.cycles_to_pandas()
-    keys = [key for key in ("W_m", "wear_m", "worn_m") if key in cycles]
-    wear = keys[0] if keys else "dW_m"
     for joint, rows in cycles.groupby("joint"):
-        worn = rows[wear] if keys else rows[wear].cumsum()
-        axes[0].plot(rows["cycle"], 1e6 * worn, label=f"{joint}, mean path")
+        axes[0].plot(rows["cycle"], 1e6 * rows["wear_m"], label=f"{joint}, mean path")
     axes[0].set_xlabel("cycles")
     axes[0].set_ylabel("wear [um]")
     axes[0].set_title(life.name)
@@ -64,17 +61,12 @@ def fit(fit: Fit, ax: Axes | None) -> Axes:
     """Quantiles of what was measured against those of the process; on the line where it is right."""
     if ax is None:
         _, ax = plt.subplots(layout="constrained")
-    quantiles = np.sort(np.asarray(fit.goodness["quantiles"], dtype=float).ravel())
-    count = len(quantiles)
-    expected = (np.arange(count) + 0.5) / count
-    low = np.clip(expected - 1.358 / np.sqrt(count), 0, 1)
-    high = np.clip(expected + 1.358 / np.sqrt(count), 0, 1)
-    ax.fill_between(expected, low, high, alpha=0.2, label="95 % of all data (Kolmogorov-Smirnov)")
-    ax.plot([0, 1], [0, 1], color="grey")
-    ax.plot(expected, quantiles, ".", label=f"{count} increments")
-    ax.set_xlabel("part of the increments that is smaller")
-    ax.set_ylabel(f"the same by the {fit.process} process")
-    ax.set_aspect("equal")
+    expected, measured = np.asarray(fit.goodness["quantiles"], dtype=float).T
+    ends = [min(expected.min(), measured.min()), max(expected.max(), measured.max())]
+    ax.plot(ends, ends, color="grey", label=f"the {fit.process} process")
+    ax.plot(expected, measured, ".", label=f"{len(measured)} increments of {fit.units} units")
+    ax.set_xlabel(f"{fit.wear_unit}, by the process")
+    ax.set_ylabel(f"{fit.wear_unit}, measured")
     ax.legend()
     return ax
 

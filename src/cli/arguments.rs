@@ -51,6 +51,7 @@ pub enum Command {
                       linkwear generate mechanisms/rssr_rigid.toml --target c -o rssr")]
     Generate(GenerateArguments),
     /// Write a unit of FMI 3.0, for co-simulation and model exchange in tools of other makers.
+    #[cfg(feature = "fmu")]
     #[command(after_help = "Example:\n  linkwear fmu mechanisms/rssr.toml -o rssr.fmu")]
     Fmu(FmuArguments),
     /// Turn the mechanism and record what happens.
@@ -154,6 +155,7 @@ pub struct GenerateArguments {
     pub target: Target,
 }
 
+#[cfg(feature = "fmu")]
 #[derive(Debug, Args)]
 pub struct FmuArguments {
     #[command(flatten)]

@@ -96,6 +96,63 @@ impl Code {
     }
 }
 
+/// How a function that was written for columns is called: tables of pointers, constants, workspace.
+#[cfg(target_arch = "x86_64")]
+type CallColumns = unsafe extern "sysv64" fn(*const *const f64, *const *mut f64, *const Line, *mut f64);
+#[cfg(not(target_arch = "x86_64"))]
+type CallColumns = unsafe extern "C" fn(*const *const f64, *const *mut f64, *const Line, *mut f64);
+
+impl Code {
+    /// Runs a function that was written for columns, for `LANES` states at a time: as many as the answers have, at most those that make
+    /// whole lanes. A column of one value is that value for all states.
+    ///
+    /// # Panics
+    /// If there are other columns than the function has, or a slice is too short, or there is no such function.
+    pub(crate) fn run_columns<const LANES: usize>(
+        &self,
+        function: usize,
+        columns: &[&[f64]],
+        answers: &mut [&mut [f64]],
+        workspace: &mut [f64],
+    ) {
+        let Callable { start, pool, inputs, outputs, workspace: length, slack, passes, .. } =
+            &self.functions[function];
+        let states = answers.first().map_or(0, |answers| answers.len());
+        assert!(*passes == 1 && *inputs == columns.len() * LANES && *outputs == answers.len() * LANES);
+        assert!(columns.iter().all(|column| column.len() == 1 || column.len() == states));
+        assert!(answers.iter().all(|answers| answers.len() == states));
+        let constants: Vec<[f64; LANES]> =
+            columns.iter().map(|column| [column.first().copied().unwrap_or(0.0); LANES]).collect();
+        let is_constant = |column: &[f64]| column.len() == 1;
+        let mut from: Vec<*const f64> = columns
+            .iter()
+            .zip(&constants)
+            .map(|(column, constant)| if is_constant(column) { constant.as_ptr() } else { column.as_ptr() })
+            .collect();
+        let steps: Vec<usize> =
+            columns.iter().map(|column| if is_constant(column) { 0 } else { LANES }).collect();
+        let mut to: Vec<*mut f64> = answers.iter_mut().map(|answers| answers.as_mut_ptr()).collect();
+        let skipped = if *slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(*slack) };
+        let workspace = &mut workspace[skipped..][..*length];
+        let code = self.memory[*start..].as_ptr();
+        // SAFETY: whole code of a function begins here, written for columns by whoever calls this (invariant 1), and executable
+        // (invariant 4).
+        let call = unsafe { mem::transmute::<*const u8, CallColumns>(code) };
+        for _ in 0..states / LANES {
+            // SAFETY: both tables have a pointer for each input and output (invariant 2). Columns and answers have so many states left
+            // from there, or the pointer is that of a constant in every lane; answers and workspace are borrowed alone, and the processor
+            // has what the code uses (invariant 3).
+            unsafe { call(from.as_ptr(), to.as_ptr(), pool.as_ptr(), workspace.as_mut_ptr()) };
+            for (pointer, step) in from.iter_mut().zip(&steps) {
+                *pointer = pointer.wrapping_add(*step);
+            }
+            for pointer in &mut to {
+                *pointer = pointer.wrapping_add(LANES);
+            }
+        }
+    }
+}
+
 /// Writes what was stored back to where instructions are fetched from, and forgets what was fetched before: this processor
 /// does neither by itself (Arm Architecture Reference Manual for A-profile: CTR_EL0, DC CVAU, IC IVAU).
 #[cfg(target_arch = "aarch64")]

@@ -70,7 +70,7 @@ mod tests {
     const LENGTHS: Lengths = Lengths { input: 32, output: 32, pool: 16, frame: 32 };
 
     fn is_found(lanes: Lanes, registers: u8, instruction: Instruction) -> bool {
-        let target = Target { lanes, registers };
+        let target = Target { lanes, registers, columns: false };
         !is_within(instruction, target, LENGTHS)
     }
 

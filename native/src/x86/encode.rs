@@ -4,12 +4,14 @@
 use crate::straight::graph::Function;
 use crate::straight::place::{Address, Base, Register};
 
-use super::instruction::{Binary, Instruction, Lanes, Operand};
+use super::instruction::{Binary, Instruction, Lanes, Operand, Target};
 
 /// Predicate of comparisons: ordered, less than, silent on NaN.
 const LESS_THAN: u8 = 0x11;
 /// The one mask register in use.
 const MASK: u8 = 1;
+/// The general register that holds the pointer to a column, rax: nothing else stays there.
+const COLUMN: u8 = 0;
 
 /// Where an instruction's operation is told: the map of opcodes, the prefix it stands for, the opcode.
 #[derive(Clone, Copy)]
@@ -30,6 +32,8 @@ const fn plain(prefix: u8, opcode: u8) -> Form {
 pub(super) struct Encoder<'a> {
     code: Vec<u8>,
     lanes: Lanes,
+    /// Whether inputs and outputs are behind tables of pointers.
+    columns: bool,
     /// Where the functions lie that the code calls.
     functions: &'a dyn Fn(Function) -> usize,
     /// Whether the pointers lie where calls leave them.
@@ -37,8 +41,11 @@ pub(super) struct Encoder<'a> {
 }
 
 impl<'a> Encoder<'a> {
-    pub(super) fn new(lanes: Lanes, functions: &'a dyn Fn(Function) -> usize) -> Self {
-        Self { code: Vec::new(), lanes, functions, entered: false }
+    pub(super) fn new(
+        Target { lanes, columns, .. }: Target,
+        functions: &'a dyn Fn(Function) -> usize,
+    ) -> Self {
+        Self { code: Vec::new(), lanes, columns, functions, entered: false }
     }
 
     pub(super) fn finish(self) -> Vec<u8> {
@@ -111,11 +118,16 @@ impl<'a> Encoder<'a> {
                 self.code.extend([0x48, 0x83, 0xC4, 0x08, 0x41, 0x5F, 0x41, 0x5E, 0x5D, 0x5B]);
             }
             Instruction::Argument { number, address } => {
-                // lea of rdi, rsi, rdx, rcx, the places of the first arguments.
+                // rdi, rsi, rdx, rcx, the places of the first arguments.
                 let to = [7, 6, 2, 1][usize::from(number)];
-                let base = self.register_of(address.base);
-                self.code.extend([0x48 | base >> 3, 0x8D, 0x80 | to << 3 | base & 7]);
-                self.code.extend(address.offset.to_le_bytes());
+                if self.is_column(address.base) {
+                    self.pointer(to, address);
+                } else {
+                    let base = self.register_of(address.base);
+                    // lea to, [base + offset].
+                    self.code.extend([0x48 | base >> 3, 0x8D, 0x80 | to << 3 | base & 7]);
+                    self.code.extend(address.offset.to_le_bytes());
+                }
             }
             Instruction::Call(function) => {
                 // mov rax, address; call rax.
@@ -145,6 +157,19 @@ impl<'a> Encoder<'a> {
         }
     }
 
+    /// Whether what counts from a base lies behind a table of pointers.
+    fn is_column(&self, base: Base) -> bool {
+        self.columns && matches!(base, Base::Input | Base::Output)
+    }
+
+    /// The pointer to a column: mov to, [table + 8 number].
+    fn pointer(&mut self, to: u8, Address { base, offset }: Address) {
+        let number = offset / self.lanes.bytes() as i32;
+        let table = self.register_of(base);
+        self.code.extend([0x48 | table >> 3, 0x8B, 0x80 | to << 3 | table & 7]);
+        self.code.extend((number * size_of::<usize>() as i32).to_le_bytes());
+    }
+
     /// The general register that holds a pointer: as it was passed, or where calls leave it.
     fn register_of(&self, base: Base) -> u8 {
         let [passed, kept] = match base {
@@ -158,6 +183,11 @@ impl<'a> Encoder<'a> {
 
     /// An instruction with a register, up to one source in a register, and one operand anywhere.
     fn vector(&mut self, form: Form, register: Register, source: Register, operand: Operand, mask: u8) {
+        if let Operand::Memory(address) | Operand::Broadcast(address) = operand
+            && self.is_column(address.base)
+        {
+            self.pointer(COLUMN, address);
+        }
         let wide = register > 15 || source > 15 || matches!(operand, Operand::Register(r) if r > 15);
         let broadcast = matches!(operand, Operand::Broadcast(_));
         if wide || broadcast || form.extended || self.lanes == Lanes::Eight {
@@ -165,6 +195,11 @@ impl<'a> Encoder<'a> {
         } else {
             self.vex(form, register, source, operand);
         }
+    }
+
+    /// The general register that an address counts from, and the distance: none from the pointer to a column.
+    fn counted_from(&self, Address { base, offset }: Address) -> (u8, i32) {
+        if self.is_column(base) { (COLUMN, 0) } else { (self.register_of(base), offset) }
     }
 
     /// 0, 1, 2: 16, 32, 64 bytes.
@@ -179,7 +214,7 @@ impl<'a> Encoder<'a> {
     fn low_register(&self, operand: Operand) -> u8 {
         match operand {
             Operand::Register(register) => register,
-            Operand::Memory(address) | Operand::Broadcast(address) => self.register_of(address.base),
+            Operand::Memory(address) | Operand::Broadcast(address) => self.counted_from(address).0,
         }
     }
 
@@ -221,8 +256,9 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    fn address(&mut self, register: u8, Address { base, offset }: Address, unit: i32) {
-        let base = self.register_of(base) & 7;
+    fn address(&mut self, register: u8, address: Address, unit: i32) {
+        let (base, offset) = self.counted_from(address);
+        let base = base & 7;
         let short = i8::try_from(offset / unit).ok().filter(|_| offset % unit == 0);
         match short {
             // Without an offset the code of rbp means something else.

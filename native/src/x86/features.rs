@@ -13,7 +13,7 @@ pub(super) fn target(lanes: Lanes) -> Option<Target> {
     } else {
         return None;
     };
-    let target = Target { lanes, registers };
+    let target = Target { lanes, registers, columns: false };
     can_run(target).then_some(target)
 }
 

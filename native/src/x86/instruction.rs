@@ -32,6 +32,8 @@ pub(crate) struct Target {
     pub(super) lanes: Lanes,
     /// Vector registers: 16 with AVX, 32 with AVX-512.
     pub(super) registers: u8,
+    /// Whether inputs and outputs lie apart, each behind its pointer in a table, and not value by value.
+    pub(super) columns: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

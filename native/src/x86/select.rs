@@ -76,7 +76,7 @@ impl Processor for Target {
     }
 
     fn encode(self, instructions: &[Instruction], functions: &dyn Fn(Function) -> usize) -> Vec<u8> {
-        let mut encoder = Encoder::new(self.lanes, functions);
+        let mut encoder = Encoder::new(self, functions);
         for instruction in instructions {
             encoder.instruction(*instruction);
         }

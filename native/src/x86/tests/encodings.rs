@@ -5,13 +5,14 @@ use iced_x86::{Decoder, DecoderOptions, Formatter, MemorySizeOptions, NasmFormat
 use crate::straight::graph::Function;
 use crate::straight::place::{Address, Base, Register};
 use crate::x86::encode::Encoder;
-use crate::x86::instruction::{Binary, Instruction, Lanes, Operand};
+use crate::x86::instruction::{Binary, Instruction, Lanes, Operand, Target};
 
 const FUNCTION: usize = 0x1234_5678_9ABC;
 
 /// Instructions as assembly text, one line for each of the machine's.
 struct Assembly {
     lanes: Lanes,
+    columns: bool,
     entered: bool,
 }
 
@@ -25,14 +26,28 @@ impl Assembly {
         format!("{name}{number}")
     }
 
-    fn address(&self, Address { base, offset }: Address) -> String {
-        let [passed, kept] = match base {
+    fn is_column(&self, base: Base) -> bool {
+        self.columns && matches!(base, Base::Input | Base::Output)
+    }
+
+    /// What an instruction names; before it, its pointer is fetched from a table.
+    fn fetched(&self, to: &str, Address { base, offset }: Address) -> String {
+        let number = offset / (8 * self.lanes.count() as i32);
+        let table = Self { columns: false, ..*self }.address(Address { base, offset: 8 * number });
+        format!("mov {to},{table}")
+    }
+
+    fn address(&self, Address { base: of, offset }: Address) -> String {
+        let [passed, kept] = match of {
             Base::Input => ["rdi", "rbx"],
             Base::Output => ["rsi", "rbp"],
             Base::Pool => ["rdx", "r14"],
             Base::Frame => ["rcx", "r15"],
         };
         let base = if self.entered { kept } else { passed };
+        if self.is_column(of) {
+            return "[rax]".into();
+        }
         match offset {
             0 => format!("[{base}]"),
             1.. => format!("[{base}+{offset:X}h]"),
@@ -49,6 +64,26 @@ impl Assembly {
     }
 
     fn lines(&mut self, instruction: Instruction) -> Vec<String> {
+        let named = match instruction {
+            Instruction::Binary { second: operand, .. }
+            | Instruction::SquareRoot { of: operand, .. }
+            | Instruction::Select { yes: operand, .. }
+            | Instruction::LessToMask { second: operand, .. }
+            | Instruction::SelectByMask { yes: operand, .. }
+            | Instruction::Load { from: operand, .. } => Some(operand),
+            Instruction::Store { to, .. } => Some(Operand::Memory(to)),
+            _ => None,
+        };
+        let pointer = match named {
+            Some(Operand::Memory(address) | Operand::Broadcast(address)) if self.is_column(address.base) => {
+                Some(self.fetched("rax", address))
+            }
+            _ => None,
+        };
+        pointer.into_iter().chain(self.line(instruction)).collect()
+    }
+
+    fn line(&mut self, instruction: Instruction) -> Vec<String> {
         let scalar = self.lanes == Lanes::One;
         let suffix = if scalar { "sd" } else { "pd" };
         let of_moves = if scalar { "vmovsd" } else { "vmovupd" };
@@ -104,7 +139,11 @@ impl Assembly {
             }
             Instruction::Argument { number, address } => {
                 let to = ["rdi", "rsi", "rdx", "rcx"][usize::from(number)];
-                format!("lea {to},{}", self.address(address))
+                if self.is_column(address.base) {
+                    self.fetched(to, address)
+                } else {
+                    format!("lea {to},{}", self.address(address))
+                }
             }
             Instruction::Call(_) => return vec![format!("mov rax,{FUNCTION:X}h"), "call rax".into()],
             Instruction::ClearUpper => "vzeroupper".into(),
@@ -115,10 +154,10 @@ impl Assembly {
 }
 
 /// Encodes and decodes; returns how many instructions there were.
-fn read_back(lanes: Lanes, instructions: &[Instruction]) -> usize {
+fn read_back(lanes: Lanes, columns: bool, instructions: &[Instruction]) -> usize {
     let functions = |_: Function| FUNCTION;
-    let mut encoder = Encoder::new(lanes, &functions);
-    let mut assembly = Assembly { lanes, entered: false };
+    let mut encoder = Encoder::new(Target { lanes, registers: 32, columns }, &functions);
+    let mut assembly = Assembly { lanes, columns, entered: false };
     let mut meant = Vec::new();
     for instruction in instructions {
         encoder.instruction(*instruction);
@@ -224,7 +263,8 @@ fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<In
 #[test]
 fn every_form_is_read_back_as_it_was_meant() {
     let mut count = 0;
-    for lanes in [Lanes::One, Lanes::Four, Lanes::Eight] {
+    let targets = [Lanes::One, Lanes::Four, Lanes::Eight].into_iter();
+    for (lanes, columns) in targets.flat_map(|lanes| [(lanes, false), (lanes, true)]) {
         for register in 0..32_u16 {
             // The two others go through all registers in other orders.
             let [b, c] = [register * 7 + 3, register * 13 + 5].map(|number| (number % 32) as Register);
@@ -234,7 +274,7 @@ fn every_form_is_read_back_as_it_was_meant() {
                 for (a, b, c) in [(register, b, c), (b, c, register), (register % 16, b % 16, c % 16)] {
                     let forms = with_registers(lanes, a, b, c);
                     let all: Vec<Instruction> = first.into_iter().chain(forms).chain(last).collect();
-                    count += read_back(lanes, &all);
+                    count += read_back(lanes, columns, &all);
                 }
             }
         }
@@ -249,5 +289,7 @@ fn calls_are_read_back_as_they_were_meant() {
     all.extend((0..4).flat_map(arguments));
     all.extend([Instruction::ClearUpper, Instruction::Call(Function::Ln)]);
     all.extend([Instruction::Leave, Instruction::Return]);
-    read_back(Lanes::Four, &all);
+    for columns in [false, true] {
+        read_back(Lanes::Four, columns, &all);
+    }
 }

@@ -31,6 +31,13 @@ impl Guarded {
         guarded
     }
 
+    /// These numbers.
+    pub(super) fn holding(numbers: &[f64]) -> Self {
+        let mut guarded = Self::new(numbers.len(), 0.0);
+        guarded.numbers().copy_from_slice(numbers);
+        guarded
+    }
+
     pub(super) fn numbers(&mut self) -> &mut [f64] {
         let first = self.base.wrapping_add(self.pages * PAGE - self.len * size_of::<f64>());
         // SAFETY: the numbers lie in pages of this mapping that may be read and written; they are borrowed alone.

@@ -38,7 +38,7 @@ fn random_tapes_have_the_bits_of_plain_evaluation() {
         let size = 1 + random.below(400);
         let tape = random.tape(size, seed % 2 == 0);
         for (lanes, registers) in TARGETS {
-            let target = Target { lanes, registers };
+            let target = Target { lanes, registers, columns: false };
             if !can_run(target) {
                 continue;
             }
@@ -54,6 +54,12 @@ fn random_tapes_have_the_bits_of_plain_evaluation() {
             let mut output = Guarded::new(tape.output_len() * count, f64::MAX);
             let mut workspace = Guarded::new(code.workspace(), f64::MAX);
             code.run(0, input.numbers(), output.numbers(), workspace.numbers());
+            if lanes != Lanes::One {
+                let columns = Target { columns: true, ..target };
+                let code = Code::new(vec![write(&tape, columns, &functions(lanes)).expect("a tape")]);
+                let code = code.expect("executable memory");
+                columns_have_the_bits_of_lanes(&code, count, input.numbers(), output.numbers());
+            }
             for lane in 0..count {
                 let state: Vec<f64> = input.numbers().iter().skip(lane).step_by(count).copied().collect();
                 let found = output.numbers().iter().skip(lane).step_by(count);
@@ -79,4 +85,24 @@ fn random_tapes_have_the_bits_of_plain_evaluation() {
     }
     assert!(compared > undefined, "{compared} numbers compared, {undefined} undefined");
     println!("{compared} numbers equal in every bit, {undefined} undefined in both");
+}
+
+/// The same numbers in columns: twice as many states, the second half as the first, and a column of one value.
+fn columns_have_the_bits_of_lanes(code: &Code, count: usize, input: &mut [f64], output: &[f64]) {
+    let column = |values: &[f64]| Guarded::holding(&[values, values].concat());
+    let mut columns: Vec<Guarded> = input.chunks_exact(count).map(column).collect();
+    let mut answers: Vec<Guarded> =
+        (0..output.len() / count).map(|_| Guarded::new(2 * count, f64::MAX)).collect();
+    let mut workspace = Guarded::new(code.workspace(), f64::MAX);
+    let columns: Vec<&[f64]> = columns.iter_mut().map(|column| &*column.numbers()).collect();
+    let mut places: Vec<&mut [f64]> = answers.iter_mut().map(Guarded::numbers).collect();
+    match count {
+        4 => code.run_columns::<4>(0, &columns, &mut places, workspace.numbers()),
+        _ => code.run_columns::<8>(0, &columns, &mut places, workspace.numbers()),
+    }
+    for (found, expected) in places.iter().zip(output.chunks_exact(count)) {
+        for (found, expected) in found.iter().zip(expected.iter().chain(expected)) {
+            assert!(found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan());
+        }
+    }
 }
