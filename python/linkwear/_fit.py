@@ -41,12 +41,12 @@ def fit(
         options["lambda"] = options.pop("lambda_")
     said = words({"unit": unit, "wear": wear, "exposure": exposure, **options})
     name, table = _table(data)
-    return Fit(json.loads(_linkwear.fit(said, name, table)))
+    return Fit(_linkwear.fit(said, name, table))
 
 
 def load_fit(path: str | os.PathLike[str]) -> Fit:
     """The fit in a file of ``linkwear fit --out``, or of :meth:`Fit.save`."""
-    return Fit(json.loads(Path(path).read_text()))
+    return Fit(Path(path).read_text())
 
 
 def _table(data: Any) -> tuple[str, str]:
@@ -67,6 +67,10 @@ def _table(data: Any) -> tuple[str, str]:
 class Fit(Record):
     """A fit: what ``linkwear fit --format json`` prints as attributes, ``fit.alpha``, ``fit.log_likelihood``."""
 
+    def __init__(self, text: str) -> None:
+        super().__init__(json.loads(text))
+        self._text = text
+
     def predict(self, *, threshold: float, current: float | None = None, **options: Any) -> Prediction:
         """The remaining life to a wear ``threshold`` from the wear ``current``, in the units of the data.
 
@@ -77,11 +81,11 @@ class Fit(Record):
         if isinstance(covariates, Mapping):
             options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
         said = words({"threshold": threshold, "current": current, **options})
-        return Prediction(json.loads(_linkwear.predict(said, "fit", json.dumps(self._keys))))
+        return Prediction(json.loads(_linkwear.predict(said, "fit", self._text)))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it for ``linkwear predict`` and :func:`load_fit`."""
-        Path(path).write_text(json.dumps(self._keys, indent=2) + "\n")
+        Path(path).write_text(self._text)
 
     def plot(self, ax: Any | None = None) -> Any:
         """Probability paper: what was measured against what the process says."""

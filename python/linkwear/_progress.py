@@ -17,7 +17,10 @@ def told(wanted: bool, what: str) -> Iterator[Callable[[float], None] | None]:
     with tqdm(total=100, desc=what, unit="%", bar_format="{l_bar}{bar}| {elapsed}<{remaining}") as bar:
 
         def hears(part: float) -> None:
-            bar.update(100 * part - bar.n)
+            # Work in several stages begins anew at each.
+            bar.n = 100 * part
+            bar.refresh()
 
         yield hears
-        bar.update(100 - bar.n)
+        bar.n = 100
+        bar.refresh()

@@ -21,11 +21,11 @@ use pyo3::prelude::*;
 use failure::raised;
 use work::abandoned;
 
-/// Fits a process of wear to a table of readings, CSV as text; returns the JSON of `linkwear fit`.
+/// Fits a process of wear to a table of readings, CSV as text; returns the file that `linkwear fit --out` writes.
 #[pyfunction]
 fn fit(py: Python<'_>, words: Vec<String>, name: String, table: String) -> PyResult<String> {
     let answer = abandoned(py, move || linkwear::cli::ask::fit(&words, &name, &table))?;
-    answer.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
+    answer.map(|json| format!("{json:#}\n")).map_err(|failure| raised(py, &failure))
 }
 
 /// Predicts by the JSON of a fit; returns the JSON of `linkwear predict`.

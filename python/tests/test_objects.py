@@ -102,7 +102,8 @@ def test_progress_is_told_and_may_stop_the_work() -> None:
     mechanism = lw.compile(file("rssr"))
     parts: list[float] = []
     mechanism._compiled.life(["--trajectories=16", "--coupling=full"], parts.append)
-    assert parts == sorted(parts) and all(0 <= part <= 1 for part in parts)
+    # Stages, the mean path and the lives, begin anew.
+    assert len(parts) > 3 and all(0 <= part <= 1 for part in parts) and max(parts) > 0.5
 
     def enough(part: float) -> None:
         raise ValueError("enough")

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::checksum::sha256;
+use crate::checksum::sha256_of;
 use crate::csv_table::CsvTable;
 use crate::number::number;
 use crate::provenance::Provenance;
@@ -50,7 +50,7 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
         "particles": arguments.gauge.map(|_| arguments.particles), "draws": arguments.draws,
         "inspections_sha256": inspections.map(CsvTable::sha256),
     });
-    let provenance = Provenance::new(sha256(fit), Some(arguments.seed), options);
+    let provenance = Provenance::new(sha256_of(fit.text().as_bytes()), Some(arguments.seed), options);
     Ok(Answer::new(to_text(&answer), PredictAnswer::from(&answer), Some(&provenance)))
 }
 

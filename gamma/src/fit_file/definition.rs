@@ -67,6 +67,11 @@ pub struct Covariate {
 }
 
 impl FitFile {
+    /// The text it was read from; empty for one that was not read.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Of a fit: names of its covariates, what wear and exposure are counted in, whether exposure is Lambda already.
     pub fn new(
         fit: &Fit,
