@@ -14,8 +14,8 @@ from ._errors import FileError, LinkwearError, RunError, UsageError
 from ._fit import Fit, Prediction, fit, load_fit
 from ._function import Function
 from ._linkwear import __version__
-from ._mechanism import Mechanism, StateSpace, compile
-from ._results import Life, Motion, Record, merge
+from ._mechanism import Mechanism, StateSpace, compile, study
+from ._results import Life, Motion, Record, Study, merge
 
 __all__ = [
     "FileError",
@@ -29,10 +29,12 @@ __all__ = [
     "Record",
     "RunError",
     "StateSpace",
+    "Study",
     "UsageError",
     "__version__",
     "compile",
     "fit",
     "load_fit",
     "merge",
+    "study",
 ]

@@ -37,16 +37,19 @@ def fit(
 
     Raises FileError with the line, UsageError.
     """
-    if "lambda_" in options:
-        options["lambda"] = options.pop("lambda_")
-    said = words({"unit": unit, "wear": wear, "exposure": exposure, **options})
-    name, table = _table(data)
-    return Fit(_linkwear.fit(said, name, table))
+    return Fit(*_linkwear.fit(*question(data, {"unit": unit, "wear": wear, "exposure": exposure, **options})))
+
+
+def question(data: Any, options: Mapping[str, Any]) -> tuple[list[str], str, str]:
+    """Words, name and table of a fit."""
+    said = words({name.rstrip("_"): value for name, value in options.items()})
+    return said, *_table(data)
 
 
 def load_fit(path: str | os.PathLike[str]) -> Fit:
     """The fit in a file of ``linkwear fit --out``, or of :meth:`Fit.save`."""
-    return Fit(Path(path).read_text())
+    text = Path(path).read_text()
+    return Fit(text, text)
 
 
 def _table(data: Any) -> tuple[str, str]:
@@ -67,9 +70,9 @@ def _table(data: Any) -> tuple[str, str]:
 class Fit(Record):
     """A fit: what ``linkwear fit --format json`` prints as attributes, ``fit.alpha``, ``fit.log_likelihood``."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(json.loads(text))
-        self._text = text
+    def __init__(self, answer: str, file: str) -> None:
+        super().__init__(json.loads(answer))
+        self._file = file
 
     def predict(self, *, threshold: float, current: float | None = None, **options: Any) -> Prediction:
         """The remaining life to a wear ``threshold`` from the wear ``current``, in the units of the data.
@@ -81,11 +84,11 @@ class Fit(Record):
         if isinstance(covariates, Mapping):
             options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
         said = words({"threshold": threshold, "current": current, **options})
-        return Prediction(json.loads(_linkwear.predict(said, "fit", self._text)))
+        return Prediction(json.loads(_linkwear.predict(said, "fit", self._file)))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it for ``linkwear predict`` and :func:`load_fit`."""
-        Path(path).write_text(self._text)
+        Path(path).write_text(self._file)
 
     def plot(self, ax: Any | None = None) -> Any:
         """Probability paper: what was measured against what the process says."""

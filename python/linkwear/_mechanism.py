@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _linkwear
 from ._function import Function
 from ._progress import told
-from ._results import Life, Motion, Record
+from ._results import Life, Motion, Record, Study
+from ._study import question
 from ._words import settings, words
 
 #: What a mechanism is called that is given as text.
@@ -30,7 +32,8 @@ def compile(
     """Compiles a mechanism.
 
     ``source`` is a path, or the TOML itself: a text with a line break. ``closure`` is ``"joint"`` or ``"log"``. Parameters by their names:
-    numbers in SI, or texts with units, ``speed="10 Hz"``.
+    texts with units, ``speed="10 Hz"``; numbers
+    where they have none.
 
     Raises FileError, with all that is wrong with the file.
     """
@@ -43,6 +46,11 @@ def compile(
 
 def _read(name: str) -> str:
     return Path(name).read_bytes().decode("utf-8", errors="strict")
+
+
+def study(mechanism: Mechanism, vary: Mapping[str, Any], of: str | Sequence[str], **options: Any) -> Study:
+    """:meth:`Mechanism.study`."""
+    return mechanism.study(vary, of, **options)
 
 
 class Mechanism:
@@ -65,7 +73,7 @@ class Mechanism:
         return self._source[0]
 
     def with_parameters(self, **parameters: Any) -> Mechanism:
-        """The same with other values of parameters: numbers in SI, or texts with units."""
+        """The same with other values of parameters: texts with units; numbers where they have none."""
         text, name, said = self._source
         changed = {f"--set={parameter}=" for parameter in parameters}
         kept = [word for word in said if not any(word.startswith(one) for one in changed)]
@@ -166,6 +174,27 @@ class Mechanism:
         with told(progress, "life") as hears:
             answer, lives = self._compiled.life(said, hears)
         return Life(json.loads(answer), lives)
+
+    def study(
+        self,
+        vary: Mapping[str, Any],
+        of: str | Sequence[str],
+        *,
+        sample: str | None = None,
+        progress: bool = False,
+        **options: Any,
+    ) -> Study:
+        """Runs and lives it at many points, and makes one table of it.
+
+        ``vary`` has the values of parameters: ``("1 Hz", "4 Hz", 4)`` is four from 1 to 4 Hz, ``["1 Hz", "2 Hz"]`` these two. With
+        ``sample="sobol:64"`` the points fill ranges ``("1 Hz", "4 Hz")`` evenly. ``of`` names results: ``"peak.R1.F"``, ``"life.mean"``,
+        ``"R1.wear_integral_J"``, .. Further options are those of ``linkwear study``: ``seed``, ``threads``, ``turns``, ``trajectories``, ..
+
+        Raises FileError, RunError, UsageError.
+        """
+        said = question(vary, of, {"sample": sample, **options})
+        with told(progress, "study") as hears:
+            return Study(json.loads(self._compiled.study(said, hears)))
 
     def function(self, entry: str) -> Function:
         """An entry point as a function of NumPy arrays: ``"accelerations"``, ``"forward_dynamics"``, ``"equations_of_motion"``,

@@ -27,6 +27,9 @@ def motion(motion: Motion, columns: Sequence[str], ax: Axes | None) -> Axes:
         _, ax = plt.subplots(layout="constrained")
     for name in columns:
         ax.plot(motion.t, motion[name], label=name)
+    units = {name.rpartition("[")[2].rstrip("]") for name in columns if "[" in name}
+    if len(units) == 1:
+        ax.set_ylabel(f"[{units.pop()}]")
     ax.set_xlabel("t [s]")
     ax.set_title(motion.name)
     ax.legend()

@@ -89,7 +89,8 @@ class Motion(Record):
     @property
     def t(self) -> NDArray[np.float64]:
         """Times of the rows [s]."""
-        return self.numbers[0]
+        times: NDArray[np.float64] = self.numbers[0]
+        return times
 
     def to_pandas(self) -> pandas.DataFrame:
         """A data frame with the columns of the command line's CSV, on the same numbers."""
@@ -110,6 +111,53 @@ class Motion(Record):
         from ._plot import motion
 
         return motion(self, columns, ax)
+
+
+class Study(Record):
+    """A study: its columns by name, ``study["peak.R1.F"]``, as NumPy arrays with a row for each point, NaN where there is nothing; what
+    ``linkwear study --format json`` prints as attributes, ``study.failures``."""
+
+    def __init__(self, keys: dict[str, Any]) -> None:
+        super().__init__(keys)
+        columns = keys["columns"]
+        numeric = [at for at, column in enumerate(columns) if column["kind"] != "error"]
+        #: Names of the columns of numbers.
+        self.names: list[str] = [columns[at]["name"] for at in numeric]
+        #: Their units, SI.
+        self.units: dict[str, str] = {columns[at]["name"]: columns[at]["unit"] for at in numeric}
+        #: All numbers, (column, point).
+        self.numbers: NDArray[np.float64] = np.array(
+            [[row[at] for row in keys["rows"]] for at in numeric], dtype=np.float64
+        )
+        errors = [at for at, column in enumerate(columns) if column["kind"] == "error"]
+        #: Codes of the points that failed, None where nothing did.
+        self.errors: list[str | None] = [row[errors[0]] if errors else None for row in keys["rows"]]
+        self._at = {name: at for at, name in enumerate(self.names)}
+
+    def __getitem__(self, key: str) -> Any:
+        at = self._at.get(key)
+        return super().__getitem__(key) if at is None else self.numbers[at]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame with the columns of the command line's table."""
+        import pandas
+
+        frame = pandas.DataFrame(self.numbers.T, columns=[_titled(name, self.units[name]) for name in self.names])
+        frame["error"] = self.errors
+        return frame
+
+    def to_arrow(self) -> pyarrow.Table:
+        """An Arrow table; what the study is of stands in its metadata."""
+        import pyarrow
+
+        arrays = [pyarrow.array(column, from_pandas=True) for column in self.numbers]
+        arrays.append(pyarrow.array(self.errors, type=pyarrow.string()))
+        names = [_titled(name, self.units[name]) for name in self.names] + ["error"]
+        return pyarrow.table(arrays, names=names, metadata={"linkwear": json.dumps(self._keys.get("provenance"))})
+
+
+def _titled(name: str, unit: str) -> str:
+    return f"{name} [{unit}]"
 
 
 class Life(Record):

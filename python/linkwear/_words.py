@@ -15,18 +15,18 @@ def words(options: Mapping[str, Any]) -> list[str]:
         for one in value if isinstance(value, (list, tuple)) else [value]:
             if one is None or one is False:
                 continue
-            said.append(option if one is True else f"{option}={_text(one)}")
+            said.append(option if one is True else f"{option}={text(one)}")
     return said
 
 
 def settings(parameters: Mapping[str, Any]) -> list[str]:
     """Values of parameters: numbers in SI, texts with their units."""
-    return [f"--set={name}={_text(value)}" for name, value in parameters.items()]
+    return [f"--set={name}={text(value)}" for name, value in parameters.items()]
 
 
-def _text(value: Any) -> str:
+def text(value: Any) -> str:
     if isinstance(value, os.PathLike):
-        return os.fspath(value)
+        return str(os.fspath(value))
     if isinstance(value, (str, int)):
         return str(value)
     # The shortest text that reads back as the same number, NumPy's numbers too.

@@ -21,11 +21,40 @@ use pyo3::prelude::*;
 use failure::raised;
 use work::abandoned;
 
-/// Fits a process of wear to a table of readings, CSV as text; returns the file that `linkwear fit --out` writes.
+/// Fits a process of wear to a table of readings, CSV as text, with replicates of the bootstrap that were drawn elsewhere, if there are
+/// any; returns the JSON of `linkwear fit`, and the file that it writes.
 #[pyfunction]
-fn fit(py: Python<'_>, words: Vec<String>, name: String, table: String) -> PyResult<String> {
-    let answer = abandoned(py, move || linkwear::cli::ask::fit(&words, &name, &table))?;
-    answer.map(|json| format!("{json:#}\n")).map_err(|failure| raised(py, &failure))
+#[pyo3(signature = (words, name, table, drawn=Vec::new()))]
+fn fit(
+    py: Python<'_>,
+    words: Vec<String>,
+    name: String,
+    table: String,
+    drawn: Vec<String>,
+) -> PyResult<(String, String)> {
+    let fitted = abandoned(py, move || linkwear::cli::ask::fit(&words, &name, &table, &drawn))?;
+    fitted.map(|fitted| (fitted.json.to_string(), fitted.file)).map_err(|failure| raised(py, &failure))
+}
+
+/// Draws replicates of the bootstrap of a fit by their numbers, `last` left out, as text for `fit`.
+#[pyfunction]
+fn replicates(
+    py: Python<'_>,
+    words: Vec<String>,
+    name: String,
+    table: String,
+    first: u64,
+    last: u64,
+) -> PyResult<String> {
+    let drawn = abandoned(py, move || linkwear::cli::ask::replicates(&words, &name, &table, first..last))?;
+    drawn.map_err(|failure| raised(py, &failure))
+}
+
+/// Puts the parts of a study together; returns the JSON of `linkwear merge`.
+#[pyfunction]
+fn merge_study(py: Python<'_>, parts: Vec<String>) -> PyResult<String> {
+    let merged = abandoned(py, move || linkwear::cli::ask::merge_study(&parts))?;
+    merged.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
 }
 
 /// Predicts by the JSON of a fit; returns the JSON of `linkwear predict`.
@@ -53,5 +82,7 @@ fn _linkwear(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fit, module)?)?;
     module.add_function(wrap_pyfunction!(predict, module)?)?;
     module.add_function(wrap_pyfunction!(merge, module)?)?;
+    module.add_function(wrap_pyfunction!(merge_study, module)?)?;
+    module.add_function(wrap_pyfunction!(replicates, module)?)?;
     Ok(())
 }

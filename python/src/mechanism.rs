@@ -67,7 +67,8 @@ impl Mechanism {
         Ok((lived.json.to_string(), Lives::of(py, &lived.result)))
     }
 
-    /// Lives one shard into a folder, as `life --shard I/N --out DIR --resume`; returns its file.
+    /// Lives one shard into a folder, as `life --shard I/N --out DIR --resume`; returns the number of its first life, from 0, and its
+    /// lives.
     #[pyo3(signature = (words, shard, folder, progress=None))]
     fn live_shard(
         &self,
@@ -76,11 +77,36 @@ impl Mechanism {
         shard: String,
         folder: String,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<()> {
+    ) -> PyResult<(u64, Lives)> {
         let words = [&self.words[..], &words].concat();
         let lived =
             watched(py, progress.as_ref(), |watch| ask::shard(&words, &self.source, (&shard, &folder), watch))?;
-        lived.map_err(|failure| raised(py, &failure))
+        let part = lived.map_err(|failure| raised(py, &failure))?;
+        Ok((part.shard.numbers(part.trajectories).start, Lives::of(py, &part.result)))
+    }
+
+    /// The JSON of `study`.
+    #[pyo3(signature = (words, progress=None))]
+    fn study(&self, py: Python<'_>, words: Vec<String>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        let words = [&self.words[..], &words].concat();
+        let studied = watched(py, progress.as_ref(), |watch| ask::study(&words, &self.source, watch))?;
+        studied.map(|studied| studied.json.to_string()).map_err(|failure| raised(py, &failure))
+    }
+
+    /// Runs one shard of a study into a file, as `study --shard I/N --out FILE --resume`; returns its JSON.
+    #[pyo3(signature = (words, shard, file, progress=None))]
+    fn study_shard(
+        &self,
+        py: Python<'_>,
+        words: Vec<String>,
+        shard: String,
+        file: String,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
+        let words = [&self.words[..], &words].concat();
+        let studied =
+            watched(py, progress.as_ref(), |watch| ask::study_shard(&words, &self.source, (&shard, &file), watch))?;
+        studied.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
     }
 }
 

@@ -72,7 +72,7 @@ def test_other_threads_run_beside_a_life() -> None:
 
     beside = threading.Thread(target=count)
     beside.start()
-    mechanism.life(trajectories=8, coupling="full", threads=1)
+    mechanism.life(trajectories=100000, threads=1)
     done.set()
     beside.join()
     # With the lock held nothing would be counted but before and after.
@@ -101,7 +101,7 @@ except KeyboardInterrupt:
 def test_progress_is_told_and_may_stop_the_work() -> None:
     mechanism = lw.compile(file("rssr"))
     parts: list[float] = []
-    mechanism._compiled.life(["--trajectories=16", "--coupling=full"], parts.append)
+    mechanism._compiled.life(["--trajectories=100000"], parts.append)
     # Stages, the mean path and the lives, begin anew.
     assert len(parts) > 3 and all(0 <= part <= 1 for part in parts) and max(parts) > 0.5
 

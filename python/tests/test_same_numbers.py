@@ -33,11 +33,10 @@ def test_a_run(name: str, command_line: Any, tmp_path: Path) -> None:
         assert rows[column].tobytes() == ours[column].tobytes(), column
 
 
-@pytest.mark.parametrize("name", ["rssr", "rssr_ball_wear"])
-def test_a_life(name: str, command_line: Any, tmp_path: Path) -> None:
+def test_a_life(command_line: Any, tmp_path: Path) -> None:
     folder = tmp_path / "life"
-    theirs = command_line("life", file(name), "--trajectories", "300", "--seed", "7", "--out", folder)
-    ours = lw.compile(file(name)).life(trajectories=300, seed=7)
+    theirs = command_line("life", file("rssr"), "--trajectories", "300", "--seed", "7", "--out", folder)
+    ours = lw.compile(file("rssr")).life(trajectories=300, seed=7)
     assert of_numbers(ours.to_dict()) == of_numbers(theirs)
     import pandas
 
@@ -71,7 +70,10 @@ def test_fits_and_predictions(command_line: Any, tmp_path: Path) -> None:
     import pandas
 
     frame = pandas.read_csv(DATA, comment="#")
-    for data in (frame, {name: frame[name].to_numpy() for name in frame}):
+    arrays = {str(name): frame[name].to_numpy() for name in frame}
+    for data in (frame, arrays):
         assert lw.fit(data, **named, bootstrap=100).alpha == ours.alpha
     ours.save(tmp_path / "saved.json")
-    assert lw.load_fit(tmp_path / "saved.json").to_dict() == theirs
+    saved = lw.load_fit(tmp_path / "saved.json")
+    assert saved.predict(threshold=100, current=40, at=1000).to_dict() == ours.predict(threshold=100, current=40, at=1000).to_dict()
+    assert (tmp_path / "saved.json").read_bytes() == fit.read_bytes()

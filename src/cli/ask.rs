@@ -2,6 +2,7 @@
 //! has the same options, the same answer and the same faults everywhere. In: words, texts in the place of files. Out: results with
 //! their JSON, or a [`Failure`]. Never prints, and writes no file.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Parser as _;
@@ -114,7 +115,7 @@ pub fn shard(
     source: &SourceFile,
     (shard, folder): (&str, &str),
     watch: Watch<'_>,
-) -> Result<(), Failure> {
+) -> Result<LifePart, Failure> {
     let own = ["--shard", shard, "--out", folder, "--resume"].map(str::to_owned);
     let Command::Life(arguments) = parsed("life", &[words, &own].concat(), &source.name)? else {
         return Err(no_such_words());
@@ -128,8 +129,9 @@ pub fn shard(
         life::failed(&arguments.input.file, error, Some(&life::Kept::new(folder, &study)))
     })?;
     result.warnings.extend(warnings);
-    let part = LifePart::new(&study, String::new(), result);
-    Ok(part.map_or(Ok(()), |part| part.write(folder, &study))?)
+    let part = LifePart::new(&study, String::new(), result).ok_or_else(no_such_words)?;
+    part.write(folder, &study)?;
+    Ok(part)
 }
 
 /// `merge`, of the folders of all shards.
@@ -159,16 +161,88 @@ pub fn study(words: &[String], source: &SourceFile, watch: Watch<'_>) -> Result<
     Ok(Studied { result, json })
 }
 
-/// `fit`, of a table of readings as CSV; `name` is said where it is at fault.
+/// `study --shard I/N --out FILE --resume`, of a text: what was done before beside the file is taken over.
 ///
 /// # Errors
-/// Wrong words; wrong data; no estimate.
-pub fn fit(words: &[String], name: &str, table: &str) -> Result<Value, Failure> {
+/// As [`study`]; a file that cannot be written.
+pub fn study_shard(
+    words: &[String],
+    source: &SourceFile,
+    (shard, file): (&str, &str),
+    watch: Watch<'_>,
+) -> Result<Value, Failure> {
+    let own = ["--shard", shard, "--out", file, "--resume"].map(str::to_owned);
+    let Command::Study(arguments) = parsed("study", &[words, &own].concat(), &source.name)? else {
+        return Err(no_such_words());
+    };
+    let result = study::kept(&arguments, source, (String::new(), true), |study, journal| match journal {
+        Some(journal) => study.run_kept(journal, watch),
+        None => study.run(watch),
+    })?;
+    let shard = arguments.shard.ok_or_else(no_such_words)?;
+    Ok(study::output::of_shard(&result, shard, Path::new(file)).json)
+}
+
+/// `merge`, of the files of all parts of a study.
+///
+/// # Errors
+/// What cannot be put together.
+pub fn merge_study(parts: &[String]) -> Result<Value, Failure> {
+    let files: Vec<PathBuf> = parts.iter().map(PathBuf::from).collect();
+    let result = crate::study::merge(&files).map_err(Failure::merge)?;
+    Ok(study::output::answer(&result, None)?.json)
+}
+
+/// A fit and what is told of it.
+#[derive(Debug)]
+pub struct Fitted {
+    /// As `fit --format json` has it.
+    pub json: Value,
+    /// The file of `fit --out`, which [`predict`] takes.
+    pub file: String,
+}
+
+/// `fit`, of a table of readings as CSV; `name` is said where it is at fault. `drawn` are replicates of the bootstrap, all that the
+/// words ask for, from [`replicates`] in the order of their numbers; without them they are drawn here.
+///
+/// # Errors
+/// Wrong words; wrong data; no estimate; replicates that are not as many as asked for.
+pub fn fit(words: &[String], name: &str, table: &str, drawn: &[String]) -> Result<Fitted, Failure> {
     let Command::Fit(arguments) = parsed("fit", words, name)? else { return Err(no_such_words()) };
     nothing_written(arguments.out.as_deref())?;
     #[cfg(feature = "page")]
     nothing_written(arguments.plot.as_deref())?;
-    Ok(fit::answer(&arguments, &CsvTable::parse(Path::new(name), table)?)?.json)
+    let mut all = fit::Replicates::new();
+    for part in drawn {
+        let part: fit::Replicates =
+            serde_json::from_str(part).map_err(|error| no_replicates(&error.to_string()))?;
+        part.into_iter().for_each(|(group, next)| all.entry(group).or_default().append(next));
+    }
+    let asked = arguments.bootstrap;
+    if let Some((group, found)) = all.iter().find(|(_, replicates)| replicates.replicates() != asked) {
+        let found = found.replicates();
+        return Err(no_replicates(&format!("of group {group} there are {found}, and {asked} are asked for")));
+    }
+    let table = CsvTable::parse(Path::new(name), table)?;
+    let fit::Fitted { answer, file } = fit::fitted(&arguments, &table, (!drawn.is_empty()).then_some(&all))?;
+    Ok(Fitted { json: answer.json, file })
+}
+
+/// Some replicates of the bootstrap of a fit, by their numbers from 0, as text for [`fit`].
+///
+/// # Errors
+/// As [`fit`].
+pub fn replicates(words: &[String], name: &str, table: &str, numbers: Range<u64>) -> Result<String, Failure> {
+    let Command::Fit(arguments) = parsed("fit", words, name)? else { return Err(no_such_words()) };
+    let drawn = fit::replicates(&arguments, &CsvTable::parse(Path::new(name), table)?, numbers)?;
+    serde_json::to_string(&drawn).map_err(|error| no_replicates(&error.to_string()))
+}
+
+fn no_replicates(why: &str) -> Failure {
+    Failure::usage(
+        format!("the replicates of the bootstrap are not those of this fit: {why}"),
+        "draw them with the same words",
+    )
 }
 
 /// `predict`, by the JSON of a fit.

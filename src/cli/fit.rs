@@ -5,7 +5,9 @@ mod lambda;
 mod read;
 mod report;
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
+use std::ops::Range;
 
 use crate::csv_table::CsvTable;
 use crate::files::write_whole;
@@ -13,7 +15,7 @@ use crate::files::write_whole;
 use crate::page::fit_picture;
 use crate::provenance::{Provenance, sealed};
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
-use linkwear_gamma::fit::{FitError, LikelihoodRatio, likelihood_ratio};
+use linkwear_gamma::fit::{Bootstrap, Fit, FitError, LikelihoodRatio, bootstrap, estimate, likelihood_ratio};
 use serde_json::json;
 
 use self::analysis::{Analysis, model, rounding};
@@ -29,11 +31,71 @@ pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
     check_output(&arguments.file, arguments.out.as_deref())?;
     #[cfg(feature = "page")]
     picture::check_plot(&arguments.file, arguments.plot.as_deref())?;
-    answer(arguments, &CsvTable::read(&arguments.file)?)
+    let Fitted { answer, file } = fitted(arguments, &CsvTable::read(&arguments.file)?, None)?;
+    if let Some(out) = &arguments.out {
+        write_whole(out, |out| out.write_all(file.as_bytes()))?;
+    }
+    Ok(answer)
 }
 
-/// The fit of a table.
-pub fn answer(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Answer, Failure> {
+/// A fit, and the file that `predict` goes by.
+pub struct Fitted {
+    pub answer: Answer,
+    pub file: String,
+}
+
+/// Replicates of the bootstrap, of all readings (`all`) and of each group.
+pub type Replicates = BTreeMap<String, Bootstrap>;
+
+/// The name of the fit of all readings.
+const ALL: &str = "all";
+
+/// The fit of a table, with replicates that were drawn elsewhere or are drawn here; its picture, if one is asked for, is written.
+pub fn fitted(
+    arguments: &FitArguments,
+    table: &CsvTable<'_>,
+    drawn: Option<&Replicates>,
+) -> Result<Fitted, Failure> {
+    let (data, groups) = observed(arguments, table)?;
+    let analysis = |name: &str, data: &Observations| {
+        let here = |fit: &Fit| bootstrap(fit, data, 0..arguments.bootstrap as u64, arguments.seed);
+        let replicates = |fit: &Fit| match drawn {
+            _ if arguments.bootstrap == 0 => None,
+            Some(drawn) => drawn.get(name).cloned(),
+            None => Some(here(fit)),
+        };
+        Analysis::new(arguments, name, data, replicates).map_err(|error| no_fit(arguments, name, error))
+    };
+    let pooled = analysis(ALL, &data)?;
+    let parts = groups.iter().map(|(name, data)| analysis(name, data)).collect::<Result<Vec<_>, _>>()?;
+    let test = ratio(&pooled, &parts);
+    #[cfg(feature = "page")]
+    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, &data))?;
+    let provenance = provenance(arguments, table);
+    let file = format!("{:#}\n", sealed(pooled.file.to_json(), Some(&provenance)));
+    Ok(Fitted { answer: report::answer(arguments, &pooled, &parts, test, &provenance), file })
+}
+
+/// Some of the replicates, by their numbers.
+pub fn replicates(
+    arguments: &FitArguments,
+    table: &CsvTable<'_>,
+    numbers: Range<u64>,
+) -> Result<Replicates, Failure> {
+    let (data, groups) = observed(arguments, table)?;
+    let all = std::iter::once((ALL.to_owned(), data)).chain(groups);
+    let drawn = all.map(|(name, data)| {
+        let fit = estimate(&data, &model(arguments)).map_err(|error| no_fit(arguments, &name, error))?;
+        Ok((name, bootstrap(&fit, &data, numbers.clone(), arguments.seed)))
+    });
+    drawn.collect()
+}
+
+/// What is observed: of all units, and of each group that is asked for.
+fn observed(
+    arguments: &FitArguments,
+    table: &CsvTable<'_>,
+) -> Result<(Observations, Vec<(String, Observations)>), Failure> {
     let groups = groups(arguments, table)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
@@ -41,22 +103,13 @@ pub fn answer(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Answer, 
     if data.units.len() == 1 && !arguments.one_unit {
         return Err(one_unit(arguments, &all));
     }
-    let pooled = analyse(arguments, "all", &data)?;
     let mut parts = Vec::new();
     if arguments.groups.is_some() {
         for Group { name, readings } in &groups {
-            parts.push(analyse(arguments, name, &observe(arguments, readings)?)?);
+            parts.push((name.clone(), observe(arguments, readings)?));
         }
     }
-    let test = ratio(&pooled, &parts);
-    let provenance = provenance(arguments, table);
-    if let Some(out) = &arguments.out {
-        let text = sealed(pooled.file.to_json(), Some(&provenance));
-        write_whole(out, |file| writeln!(file, "{text:#}"))?;
-    }
-    #[cfg(feature = "page")]
-    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, &data))?;
-    Ok(report::answer(arguments, &pooled, &parts, test, &provenance))
+    Ok((data, parts))
 }
 
 /// What a fit is of.
@@ -106,12 +159,10 @@ fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
     Failure::data(&arguments.file, Some(first), message, help)
 }
 
-fn analyse(arguments: &FitArguments, name: &str, data: &Observations) -> Result<Analysis, Failure> {
-    Analysis::new(arguments, name, data).map_err(|error| {
-        let message =
-            if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
-        Failure::data(&arguments.file, None, message, cure(error))
-    })
+fn no_fit(arguments: &FitArguments, name: &str, error: FitError) -> Failure {
+    let message =
+        if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
+    Failure::data(&arguments.file, None, message, cure(error))
 }
 
 /// In the words of the command line.

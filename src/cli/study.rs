@@ -30,27 +30,40 @@ pub fn run(arguments: &StudyArguments) -> Result<Answer, Failure> {
         let help = "give a file, so that what is finished has a place";
         return Err(Failure::usage("--out is a stream: nothing could go on or be merged from there", help));
     }
-    let result = asked(arguments, &read_source(file)?, |study| {
+    let command = life::command(std::env::args());
+    let result = kept(arguments, &read_source(file)?, (command, !is_stream), |study, journal| {
         print_remarks(study.cases.base());
-        let open =
-            if arguments.resume { |path: PathBuf| StudyJournal::resume(&path) } else { StudyJournal::create };
-        let journal = out.filter(|_| !is_stream).map(|out| open(beside(out))).transpose();
-        let journal = journal.map_err(Failure::journal)?;
-        let result = watched(|watch| match &journal {
+        watched(|watch| match journal {
             Some(journal) => study.run_kept(journal, watch),
             None => study.run(watch),
-        });
-        let result = result.map_err(|error| failed(arguments, error))?;
-        let part = StudyPart::new(study, life::command(std::env::args()), result.clone());
-        if let (Some(part), Some(out)) = (part, out) {
-            part.write(out, study)?;
-        }
-        Ok(result)
+        })
     })?;
     match (arguments.shard, out) {
         (Some(shard), Some(out)) => Ok(output::of_shard(&result, shard, out)),
         (_, out) => finished(&result, (Some(file), out)),
     }
+}
+
+/// A study with its journal beside --out, if it keeps one; of a shard the part is written there, with the command that makes it.
+pub fn kept(
+    arguments: &StudyArguments,
+    source: &SourceFile,
+    (command, keeps): (String, bool),
+    run: impl FnOnce(&Study<'_>, Option<&StudyJournal>) -> Result<StudyResult, StudyError>,
+) -> Result<StudyResult, Failure> {
+    let out = arguments.out.as_deref();
+    asked(arguments, source, |study| {
+        let open =
+            if arguments.resume { |path: PathBuf| StudyJournal::resume(&path) } else { StudyJournal::create };
+        let journal = out.filter(|_| keeps).map(|out| open(beside(out))).transpose();
+        let journal = journal.map_err(Failure::journal)?;
+        let result = run(study, journal.as_ref()).map_err(|error| failed(arguments, error))?;
+        let part = StudyPart::new(study, command, result.clone());
+        if let (Some(part), Some(out)) = (part, out) {
+            part.write(out, study)?;
+        }
+        Ok(result)
+    })
 }
 
 /// The points of all shards as one study.

@@ -4,8 +4,11 @@
 //! P-values of goodness of fit come from here and not from tables: the parameters were estimated from the same data,
 //! and the tables of Kolmogorov would then call bad fits good.
 
+use std::ops::Range;
+
 use rand::RngExt;
 use rand::distr::Open01;
+use serde::{Deserialize, Serialize};
 
 use super::estimate::{Fit, estimate_increments};
 use super::goodness::goodness;
@@ -15,7 +18,7 @@ use crate::order::sorted_quantile;
 use crate::random::{StandardNormal, Stream};
 
 /// Replicates of an estimate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Bootstrap {
     /// [`Fit::parameters`] of each replicate that could be fitted.
     pub estimates: Vec<Vec<f64>>,
@@ -28,15 +31,10 @@ pub struct Bootstrap {
 }
 
 /// Draws data from the fit, with the spans, covariates and gauge of the observations, and estimates again.
-/// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i.
-pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: usize, seed: u64) -> Bootstrap {
-    let mut drawn = Bootstrap {
-        estimates: Vec::new(),
-        kolmogorov_smirnov: Vec::new(),
-        anderson_darling: Vec::new(),
-        failed: 0,
-    };
-    for replicate in 0..replicates as u64 {
+/// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i: replicates may be drawn in parts, by their numbers.
+pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: Range<u64>, seed: u64) -> Bootstrap {
+    let mut drawn = Bootstrap::default();
+    for replicate in replicates {
         let increments = draw(fit, &observations.increments, seed, replicate);
         match estimate_increments(&increments, &fit.model, Some(&fit.phi)) {
             Ok(again) => {
@@ -86,6 +84,19 @@ pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> 
 }
 
 impl Bootstrap {
+    /// The replicates that come next.
+    pub fn append(&mut self, next: Self) {
+        self.estimates.extend(next.estimates);
+        self.kolmogorov_smirnov.extend(next.kolmogorov_smirnov);
+        self.anderson_darling.extend(next.anderson_darling);
+        self.failed += next.failed;
+    }
+
+    /// How many were drawn.
+    pub fn replicates(&self) -> usize {
+        self.estimates.len() + self.failed
+    }
+
     /// The interval between the quantiles (1 -+ `level`) / 2 of the replicates' parameter `index`; none without
     /// replicates.
     pub fn interval(&self, index: usize, level: f64) -> Option<Interval> {

@@ -141,9 +141,9 @@ fn profile_intervals_end_where_the_likelihood_has_fallen_by_half_of_chi_square()
 fn the_bootstrap_agrees_with_the_profile_and_repeats_its_bits() {
     let data = lasers();
     let found = estimate(&data, &Model::default()).unwrap();
-    let drawn = bootstrap(&found, &data, 400, 1);
+    let drawn = bootstrap(&found, &data, 0..400, 1);
     assert_eq!((drawn.failed, drawn.estimates.len()), (0, 400));
-    assert_eq!(drawn, bootstrap(&found, &data, 400, 1));
+    assert_eq!(drawn, bootstrap(&found, &data, 0..400, 1));
     let values: Vec<f64> = drawn.estimates.iter().map(|estimate| estimate[0]).collect();
     let mean = drawn.mean(0).unwrap();
     let deviation = (values.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / 399.0).sqrt();
@@ -223,7 +223,7 @@ fn data_of_the_fitted_process_pass_the_test_of_fit() {
     let increments = draw(&truth, &like.increments, 3, 0);
     let data = Observations { increments, ..like };
     let found = estimate(&data, &Model::default()).unwrap();
-    let drawn = bootstrap(&found, &data, 200, 4);
+    let drawn = bootstrap(&found, &data, 0..200, 4);
     let seen = goodness(&found, &data.increments, 1);
     // Fixed seeds; a p-value below 5 % would come up in one seed of twenty.
     assert!(Bootstrap::p_value(&drawn.anderson_darling, seen.anderson_darling) > 0.05);

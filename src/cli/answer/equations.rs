@@ -173,6 +173,7 @@ pub struct FunctionAnswer<'a> {
 }
 
 /// A unit of FMI 3.0.
+#[cfg(any(feature = "fmu", test))]
 #[derive(Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 pub struct FmuAnswer<'a> {

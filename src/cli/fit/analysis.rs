@@ -4,7 +4,7 @@
 use linkwear_gamma::FitFile;
 use linkwear_gamma::data::{Observations, Rounding};
 use linkwear_gamma::fit::{
-    Bootstrap, Fit, FitError, Goodness, Interval, Model, bootstrap, estimate, goodness, profile_interval,
+    Bootstrap, Fit, FitError, Goodness, Interval, Model, estimate, goodness, profile_interval,
 };
 use linkwear_gamma::process::{PROCESSES, Process};
 
@@ -45,8 +45,13 @@ pub fn model(arguments: &FitArguments) -> Model {
 }
 
 impl Analysis {
-    /// Of a group of readings, or of all.
-    pub fn new(arguments: &FitArguments, name: &str, data: &Observations) -> Result<Self, FitError> {
+    /// Of a group of readings, or of all; `drawn` gives the replicates of its fit, if there are any.
+    pub fn new(
+        arguments: &FitArguments,
+        name: &str,
+        data: &Observations,
+        drawn: impl FnOnce(&Fit) -> Option<Bootstrap>,
+    ) -> Result<Self, FitError> {
         let fit = estimate(data, &model(arguments))?;
         let clock = match (&arguments.lambda, &arguments.exposure) {
             (Some(lambda), Some(_)) => format!("Lambda of {lambda}"),
@@ -59,13 +64,12 @@ impl Analysis {
         let alternative =
             |process| (process, estimate(data, &Model { process, resolution: None, ..fit.model }));
         let alternatives = if arguments.compare { others.map(alternative).collect() } else { Vec::new() };
-        let replicates = arguments.bootstrap;
         let interval = |at| profile_interval(&fit, data, at, LEVEL).ok();
         Ok(Self {
             name: name.to_owned(),
             intervals: (0..fit.parameters().len()).map(interval).collect(),
             goodness: goodness(&fit, &data.increments, arguments.seed),
-            bootstrap: (replicates > 0).then(|| bootstrap(&fit, data, replicates, arguments.seed)),
+            bootstrap: drawn(&fit),
             alternatives,
             bias: fit.first_order_bias(data),
             file,
