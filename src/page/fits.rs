@@ -23,7 +23,7 @@ pub fn charts(fit: &Fit, goodness: &Goodness, data: &Observations) -> Vec<Chart>
     } else {
         Vec::new()
     };
-    let zero = residuals.iter().map(|[x, _]| [*x, 0.0]).collect();
+    let zero = ends(&residuals).map(|end| [end, 0.0]).collect();
     let all = [
         Chart {
             x: "normal score of the rank".to_owned(),
@@ -48,10 +48,7 @@ pub fn charts(fit: &Fit, goodness: &Goodness, data: &Observations) -> Vec<Chart>
 
 /// Points beside the line on which they lie if the law is right.
 fn against(title: &str, points: Vec<[f64; 2]>) -> Chart {
-    let ends = points
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [x, _]| [low.min(*x), high.max(*x)]);
-    let line = ends.iter().filter(|end| end.is_finite()).map(|end| [*end, *end]).collect();
+    let line = ends(&points).map(|end| [end, end]).collect();
     Chart {
         title: title.to_owned(),
         series: vec![
@@ -60,4 +57,12 @@ fn against(title: &str, points: Vec<[f64; 2]>) -> Chart {
         ],
         ..Chart::default()
     }
+}
+
+/// Smallest and largest x.
+fn ends(points: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+    let ends = points
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [x, _]| [low.min(*x), high.max(*x)]);
+    ends.into_iter().filter(|end| end.is_finite())
 }

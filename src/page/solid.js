@@ -57,7 +57,7 @@ gl_FragColor = vec4(colour.rgb * mix(d, 1.0, flat_), colour.a); }`));
     return mesh(list);
   };
   const sphere = () => {
-    const list = [], A = 20, B = 12;
+    const list = [], A = 16, B = 9;
     const point = (i, j) => {
       const [u, v] = [2 * Math.PI * i / A, Math.PI * j / B];
       return [Math.sin(v) * Math.cos(u), Math.sin(v) * Math.sin(u), Math.cos(v)];
@@ -66,7 +66,7 @@ gl_FragColor = vec4(colour.rgb * mix(d, 1.0, flat_), colour.a); }`));
       for (const [k, l] of [[i, j], [i, j + 1], [i + 1, j + 1], [i, j], [i + 1, j + 1], [i + 1, j]]) { const p = point(k, l); list.push([...p, ...p]); }
     return mesh(list);
   };
-  const meshes = { rod: frustum(20, 1, true), box: frustum(4, 1, false), cone: frustum(20, 0, true), ball: sphere() };
+  const meshes = { rod: frustum(14, 1, true), box: frustum(4, 1, false), cone: frustum(14, 0, true), ball: sphere() };
   const use = buffer => {
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.enableVertexAttribArray(0);

@@ -50,6 +50,8 @@ const offset_at = (when, joint) => {
   return V.sub(end(cb, cp), end(pb, pp));
 };
 
+// Straight parts that a flexible body is drawn by, between two of its nodes.
+const BENDS = 6;
 // What is seen at an instant: places of every body, with deflection and clearance made larger.
 function figure(when, bend, gap) {
   const shifts = scene.bodies.map(() => []);
@@ -70,8 +72,8 @@ function figure(when, bend, gap) {
     for (let k = 0; k + 1 < body.line.length; k++) {
       const [a, b2] = [body.line[k], body.line[k + 1]], d = V.sub(b2.at, a.at), l = V.norm(d);
       const [u0, u1, s0, s1] = [bent(when, body, a.shape), bent(when, body, b2.shape), bent(when, body, a.slope), bent(when, body, b2.slope)];
-      for (let j = k ? 1 : 0; j <= 8; j++) {
-        const x = j / 8, y = 1 - x;
+      for (let j = k ? 1 : 0; j <= BENDS; j++) {
+        const x = j / BENDS, y = 1 - x;
         let u = V.add(V.by(y * y * (1 + 2 * x), u0), V.by(x * x * (3 - 2 * x), u1));
         u = V.add(u, V.add(V.by(l * x * y * y, s0), V.by(-l * x * x * y, s1)));
         curve.push(moved(when, body, V.add(V.add(a.at, V.by(x, d)), V.by(bend, u))));
@@ -129,7 +131,7 @@ const looks = () => {
 };
 function projection(aspect) {
   const { back, right, top } = looks(), eye = V.add(camera.target, V.by(camera.distance, back));
-  const f = 1 / Math.tan(0.32), tall = f * Math.min(1, aspect * 0.95), near = camera.distance / 60, far = camera.distance + 12 * size;
+  const f = 1 / Math.tan(0.32), tall = f * Math.min(1, aspect * 0.75), near = camera.distance / 60, far = camera.distance + 12 * size;
   const view = [[...right, -V.dot(right, eye)], [...top, -V.dot(top, eye)], [...back, -V.dot(back, eye)]];
   const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
   const rows = [view[0].map(x => x * tall / aspect), view[1].map(x => x * tall), view[2].map((x, i) => a * x + (i === 3 ? b : 0)), view[2].map(x => -x)];
@@ -174,7 +176,9 @@ function paint(when, bend, gap, show) {
   scene.bodies.forEach((body, b) => {
     const { places, curve } = shape[b], colour = colours.bodies[b % 8], r = thick(body), rod = body.square ? gpu.box : gpu.rod;
     if (curve) {
-      for (let k = 0; k + 1 < curve.length; k++) { gpu.rod(curve[k], curve[k + 1], r, colour); gpu.ball(curve[k + 1], r, colour); }
+      for (let k = 0; k + 1 < curve.length; k++) gpu.rod(curve[k], curve[k + 1], r, colour);
+      gpu.ball(curve[0], r, colour);
+      gpu.ball(curve[curve.length - 1], r, colour);
     }
     body.rods.forEach(([p, q], k) => { if (!curve || k) rod(places[p], places[q], r, colour); });
     if (!body.rods.length && places[0]) gpu.ball(places[0], 2 * r, colour);
