@@ -79,7 +79,7 @@ def test_other_threads_run_beside_a_life() -> None:
     assert counted > 20
 
 
-def test_an_interrupt_ends_a_life() -> None:
+def test_an_interrupt_ends_a_life(tmp_path: Path) -> None:
     code = f"""
 import linkwear as lw
 mechanism = lw.compile({str(file("rssr"))!r})
@@ -89,7 +89,7 @@ try:
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
-    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, cwd=tmp_path)
     assert process.stdout is not None
     assert process.stdout.readline() == "begin\n"
     time.sleep(0.5)
@@ -155,7 +155,7 @@ def test_pictures_are_drawn(tmp_path: Path) -> None:
         plt.close(figure)
 
 
-def test_importing_brings_in_numpy_alone() -> None:
+def test_importing_brings_in_numpy_alone(tmp_path: Path) -> None:
     code = """
 import sys, numpy, time
 begin = time.perf_counter()
@@ -163,5 +163,6 @@ import linkwear
 heavy = {"pandas", "matplotlib", "pyarrow", "distributed", "dask", "scipy", "tqdm"} & set(sys.modules)
 print(time.perf_counter() - begin, sorted(heavy))
 """
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    # Not from here: beside the tests lies the source of the package, without its library.
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=tmp_path).stdout
     assert said.strip().endswith("[]"), said
