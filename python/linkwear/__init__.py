@@ -15,6 +15,7 @@ from ._fit import Fit, Prediction, fit, load_fit
 from ._function import Function
 from ._linkwear import __version__
 from ._mechanism import Mechanism, StateSpace, compile, study
+from ._page import Page, Picture
 from ._results import Life, Motion, Record, Study, merge
 
 __all__ = [
@@ -25,6 +26,8 @@ __all__ = [
     "LinkwearError",
     "Mechanism",
     "Motion",
+    "Page",
+    "Picture",
     "Prediction",
     "Record",
     "RunError",

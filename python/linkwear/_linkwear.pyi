@@ -23,6 +23,9 @@ class Mechanism:
     def live_shard(
         self, words: list[str], shard: str, folder: str, progress: Callable[[float], None] | None = None
     ) -> tuple[int, Lives]: ...
+    def page(
+        self, subcommand: str, words: list[str], progress: Callable[[float], None] | None = None
+    ) -> str: ...
     def study(self, words: list[str], progress: Callable[[float], None] | None = None) -> str: ...
     def study_shard(
         self, words: list[str], shard: str, file: str, progress: Callable[[float], None] | None = None

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _linkwear
+from ._errors import LinkwearError
 from ._function import Function
+from ._page import Page, Picture
 from ._progress import told
 from ._results import Life, Motion, Record, Study
 from ._study import question
@@ -195,6 +197,30 @@ class Mechanism:
         said = question(vary, of, {"sample": sample, **options})
         with told(progress, "study") as hears:
             return Study(json.loads(self._compiled.study(said, hears)))
+
+    def view(self, *, progress: bool = False, **options: Any) -> Page:
+        """It moves, in 3-D, on a page for a browser or a notebook. Options are those of :meth:`simulate`."""
+        return self._page("view", words(options), progress)
+
+    def report(self, *, progress: bool = False, **options: Any) -> Page:
+        """Its motion, its wear and its life on a page for a browser or a notebook. Options are those of :meth:`life`, and ``turns`` that are
+        shown."""
+        return self._page("report", words(options), progress)
+
+    def draw(self, *, turns: float | None = None) -> Picture:
+        """A picture of it, as in a paper, with the paths of its points."""
+        return Picture(self._compiled.page("draw", words({"turns": turns})))
+
+    def _page(self, subcommand: str, said: list[str], progress: bool) -> Page:
+        with told(progress, subcommand) as hears:
+            return Page(self._compiled.page(subcommand, said, hears))
+
+    def _repr_html_(self) -> str | None:
+        try:
+            return self.draw().svg
+        except LinkwearError:
+            # What cannot move is shown by its name.
+            return None
 
     def function(self, entry: str) -> Function:
         """An entry point as a function of NumPy arrays: ``"accelerations"``, ``"forward_dynamics"``, ``"equations_of_motion"``,

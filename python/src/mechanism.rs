@@ -85,6 +85,20 @@ impl Mechanism {
         Ok((part.shard.numbers(part.trajectories).start, Lives::of(py, &part.result)))
     }
 
+    /// The page of `report` or `view`, or the picture of `draw`.
+    #[pyo3(signature = (subcommand, words, progress=None))]
+    fn page(
+        &self,
+        py: Python<'_>,
+        subcommand: &str,
+        words: Vec<String>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
+        let words = [&self.words[..], &words].concat();
+        let page = watched(py, progress.as_ref(), |watch| ask::page(subcommand, &words, &self.source, watch))?;
+        page.map_err(|failure| raised(py, &failure))
+    }
+
     /// The JSON of `study`.
     #[pyo3(signature = (words, progress=None))]
     fn study(&self, py: Python<'_>, words: Vec<String>, progress: Option<Py<PyAny>>) -> PyResult<String> {

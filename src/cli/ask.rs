@@ -13,6 +13,8 @@ use serde_json::{Value, json};
 
 use super::arguments::{Arguments, Command};
 use super::failure::{Failure, entries, first_paragraph};
+#[cfg(feature = "page")]
+use super::page;
 use super::{check, fit, input, life, predict, simulate, study};
 use crate::csv_table::CsvTable;
 use crate::life::{LifeFacts, LifeJournal, LifePart, LifeResult};
@@ -143,6 +145,28 @@ pub fn merge(shards: &[String]) -> Result<Lived, Failure> {
     let (facts, result) = crate::life::merge(&folders).map_err(Failure::merge)?;
     let json = life::output::answer(&facts, &result).json;
     Ok(Lived { result, json })
+}
+
+/// `report`, `view` or `draw`, of a text: the page, or the picture.
+///
+/// # Errors
+/// Wrong words; a wrong mechanism; a run or a life that does not come to its end.
+#[cfg(feature = "page")]
+pub fn page(
+    subcommand: &str,
+    words: &[String],
+    source: &SourceFile,
+    watch: Watch<'_>,
+) -> Result<String, Failure> {
+    let ear = page::Ear { watch, remarks: false };
+    // It has to be named, and is not written.
+    let nowhere = ["--out", "page"].map(str::to_owned);
+    match parsed(subcommand, &[words, &nowhere].concat(), &source.name)? {
+        Command::Report(arguments) => Ok(page::report_page(&arguments, source, ear)?.0),
+        Command::View(arguments) => page::view_page(&arguments, source, ear),
+        Command::Draw(arguments) => page::drawn(&arguments, source, ear),
+        _ => Err(no_such_words()),
+    }
 }
 
 /// `study`, of a text.

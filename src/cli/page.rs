@@ -5,8 +5,8 @@ use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use linkwear_codegen::{Compiled, Options, compile};
-use linkwear_runtime::Run;
+use linkwear_codegen::{Compiled, Options, SourceFile, compile};
+use linkwear_runtime::{Run, Watch};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
@@ -40,11 +40,36 @@ struct Seen {
     json: Value,
 }
 
+/// Who hears of progress and remarks.
+#[derive(Clone, Copy)]
+pub struct Ear<'a> {
+    /// Hears of progress, and may stop the work.
+    pub watch: Watch<'a>,
+    /// Whether remarks go to stderr.
+    pub remarks: bool,
+}
+
 pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
-    let ReportArguments { input, lives, tol, step, threads, turns, equations, out, force } = arguments;
-    may_write(&input.file, out, *force)?;
+    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
     let begin = Instant::now();
-    let seen = see(input, &motion(*turns, ROWS), *equations)?;
+    let source = read_source(&arguments.input.file)?;
+    let (page, wears) = watched(|watch| report_page(arguments, &source, Ear { watch, remarks: true }))?;
+    let note = if wears {
+        ""
+    } else {
+        "\nno joint of this mechanism wears: no life in the page; add [clearance.R1] and [wear.R1], R1 being the joint that wears"
+    };
+    written(&arguments.out, page, begin, note)
+}
+
+/// The page of a report, and whether anything wears in it.
+pub fn report_page(
+    arguments: &ReportArguments,
+    source: &SourceFile,
+    ear: Ear<'_>,
+) -> Result<(String, bool), Failure> {
+    let ReportArguments { input, lives, tol, step, threads, turns, equations, .. } = arguments;
+    let seen = see((input, source), &motion(*turns, ROWS), *equations, ear)?;
     let mut plain = compile(&seen.compiled.source, &options(input, equations.rigid))?;
     plain.warnings.clone_from(&seen.compiled.warnings);
     let mechanism = Mechanism::of(&plain, &options(input, equations.rigid), equations.backend)?;
@@ -53,10 +78,12 @@ pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
         let (study, warnings) = life::lives(lives, (*step, *tol), &mechanism)?;
         let study = LifeStudy { threads: *threads, ..study };
         let failed = |error| life::failed(&input.file, error, None);
-        if let Some(cost) = watched(|watch| study.cost(watch)).map_err(failed)? {
+        if let Some(cost) = study.cost(ear.watch).map_err(failed)?
+            && ear.remarks
+        {
             eprintln!("{}", life::output::cost(&cost));
         }
-        let mut result = watched(|watch| study.run_watched(watch)).map_err(failed)?;
+        let mut result = study.run_watched(ear.watch).map_err(failed)?;
         result.warnings.extend(warnings);
         let json = life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json;
         Some((result, json))
@@ -70,19 +97,21 @@ pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
         life: life.as_ref().map(|(result, json)| (result, json)),
         with_parameters: true,
     };
-    let note = if wears {
-        ""
-    } else {
-        "\nno joint of this mechanism wears: no life in the page; add [clearance.R1] and [wear.R1], R1 being the joint that wears"
-    };
-    written(out, page.html(), begin, note)
+    Ok((page.html(), wears))
 }
 
 pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
-    let ViewArguments { input, motion, equations, out, force } = arguments;
-    may_write(&input.file, out, *force)?;
+    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
     let begin = Instant::now();
-    let seen = see(input, motion, *equations)?;
+    let source = read_source(&arguments.input.file)?;
+    let page = watched(|watch| view_page(arguments, &source, Ear { watch, remarks: true }))?;
+    written(&arguments.out, page, begin, "")
+}
+
+/// The page of a motion.
+pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -> Result<String, Failure> {
+    let ViewArguments { input, motion, equations, .. } = arguments;
+    let seen = see((input, source), motion, *equations, ear)?;
     let page = Page {
         compiled: &seen.compiled,
         run: &seen.run,
@@ -90,15 +119,22 @@ pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
         life: None,
         with_parameters: false,
     };
-    written(out, page.html(), begin, "")
+    Ok(page.html())
 }
 
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
-    let DrawArguments { input, turns, equations, out, force } = arguments;
-    may_write(&input.file, out, *force)?;
+    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
     let begin = Instant::now();
-    let seen = see(input, &motion(*turns, DRAWN), *equations)?;
-    written(out, drawing::svg(&seen.compiled, &seen.run).unwrap_or_default(), begin, "")
+    let source = read_source(&arguments.input.file)?;
+    let picture = watched(|watch| drawn(arguments, &source, Ear { watch, remarks: true }))?;
+    written(&arguments.out, picture, begin, "")
+}
+
+/// The picture, SVG.
+pub fn drawn(arguments: &DrawArguments, source: &SourceFile, ear: Ear<'_>) -> Result<String, Failure> {
+    let DrawArguments { input, turns, equations, .. } = arguments;
+    let seen = see((input, source), &motion(*turns, DRAWN), *equations, ear)?;
+    Ok(drawing::svg(&seen.compiled, &seen.run).unwrap_or_default())
 }
 
 /// A run by the defaults.
@@ -108,15 +144,21 @@ fn motion(turns: Option<f64>, samples: u32) -> MotionArguments {
 }
 
 /// Runs with columns of where the bodies are.
-fn see(input: &Input, motion: &MotionArguments, equations: EquationsChoice) -> Result<Seen, Failure> {
-    let source = read_source(&input.file)?;
+fn see(
+    (input, source): (&Input, &SourceFile),
+    motion: &MotionArguments,
+    equations: EquationsChoice,
+    ear: Ear<'_>,
+) -> Result<Seen, Failure> {
     let options = Options { pictured: true, ..options(input, equations.rigid) };
-    let compiled = compile(&source, &options)?;
+    let compiled = compile(source, &options)?;
     let mechanism = Mechanism::of(&compiled, &options, equations.backend)?;
-    print_remarks(&mechanism);
+    if ear.remarks {
+        print_remarks(&mechanism);
+    }
     let asked = Simulation::new(&input.file, motion, &mechanism)?;
     let begin = Instant::now();
-    let run = watched(|watch| asked.run(watch))?;
+    let run = asked.run(ear.watch)?;
     if let Some(error) = &run.stopped {
         return Err(Failure::run(&input.file, error, None));
     }
