@@ -67,7 +67,7 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     ("<body>.w<axis>", &["rad/s"], "Angular velocity of a body, absolute"),
     ("<joint>.F<axis>", &["N"], "Force by the parent on the child at the joint, drive not included"),
     ("<joint>.M<axis>", &["N m"], "Moment of the same about the joint"),
-    ("<joint>.drive", &["N m", "N"], "Torque or force of the drive on the child"),
+    ("<joint>.drive", &["N m", "N"], "Moment or force that the drive exerts on the child"),
     (
         "<joint>.drive<n>",
         &["N m", "N"],
