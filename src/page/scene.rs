@@ -3,7 +3,7 @@
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::id::{BodyId, PointId};
-use linkwear_codegen::model::{Body, Carrier, Flexible, Formula, Inertia, Mechanism};
+use linkwear_codegen::model::{Body, Carrier, Flexible, Formula, Inertia, Look, Mechanism};
 use serde::Serialize;
 
 /// A mechanism at its reference pose; the motion of its bodies takes it from there.
@@ -47,7 +47,10 @@ pub struct LineNode {
 #[derive(Debug, Serialize)]
 pub struct JointMark {
     pub name: String,
-    pub kind: &'static str,
+    /// What it looks like.
+    pub look: &'static str,
+    /// Whether it leaves bodies in their planes.
+    pub is_plane: bool,
     /// Parent and child: which body, nothing for the ground; where on it.
     pub sides: [(Option<usize>, [f64; 3]); 2],
     /// First axis, as the parent has it.
@@ -86,13 +89,10 @@ impl Scene {
 
     /// The direction of all axes, if they are parallel: such a mechanism is seen best along it.
     pub fn common_axis(&self) -> Option<[f64; 3]> {
-        let turning = |joint: &&JointMark| joint.kind == "revolute";
+        let turning = |joint: &&JointMark| joint.look == Look::Pin.name();
         let mut axes = self.joints.iter().filter(turning).filter_map(|joint| joint.axis);
         let first = axes.next()?;
-        let is_plane = self
-            .joints
-            .iter()
-            .all(|joint| ["revolute", "prismatic", "planar", "fixed"].contains(&joint.kind));
+        let is_plane = self.joints.iter().all(|joint| joint.is_plane);
         (is_plane && axes.all(|axis| norm(cross(axis, first)) < 1e-6)).then_some(first)
     }
 }
@@ -227,7 +227,8 @@ impl Eye<'_> {
         };
         let mark = |joint: &linkwear_codegen::model::Joint| JointMark {
             name: joint.name.clone(),
-            kind: joint.model.kind.name,
+            look: joint.model.kind.look().name(),
+            is_plane: joint.model.kind.is_plane(),
             sides: [joint.parent, joint.child].map(|side| (body(side), self.place(joint.at, side))),
             axis: joint.model.axes.first().map(|axis| axis.parent),
             clearance: joint.clearance.as_ref().map(|clearance| Play {

@@ -108,8 +108,8 @@ const knob = 0.014 * size * (scene.bodies.length > 20 ? 0.55 : 1);
 // Camera: looks from `yaw` and `pitch` at a target, `up` being against gravity.
 const up = V.unit(scene.up), [east, north] = across(up);
 const plane_axis = (() => {
-  const turning = scene.joints.filter(j => j.axis && j.kind === "revolute");
-  const plane = scene.joints.every(j => ["revolute", "prismatic", "planar", "fixed"].includes(j.kind));
+  const turning = scene.joints.filter(j => j.axis && j.look === "pin");
+  const plane = scene.joints.every(j => j.is_plane);
   return plane && turning.length && turning.every(j => V.norm(V.cross(j.axis, turning[0].axis)) < 1e-6) ? V.unit(turning[0].axis) : null;
 })();
 const front = () => {
@@ -188,10 +188,10 @@ function paint(when, bend, gap, show) {
     const spot = side => { const [body, p] = joint.sides[side]; if (body === null) return p; const k = scene.bodies[body].places.findIndex(q => V.norm(V.sub(p, q)) < 1e-9); return k < 0 ? moved(when, scene.bodies[body], p) : shape[body].places[k]; };
     const [parent, child] = [spot(0), spot(1)], [body] = joint.sides[0];
     const axis = joint.axis && V.unit(body === null ? joint.axis : turned(when, scene.bodies[body], joint.axis));
-    if (joint.kind === "spherical" || joint.kind === "inline") gpu.ball(child, 1.25 * knob, colours.soft);
-    if (axis && joint.kind !== "fixed") {
-      const long = joint.kind === "revolute" || joint.kind === "universal" || joint.kind === "planar" ? 1.7 * knob : 4 * knob;
-      const draw = joint.kind === "prismatic" ? gpu.box : gpu.rod;
+    if (joint.look === "ball") gpu.ball(child, 1.25 * knob, colours.soft);
+    if (axis && joint.look !== "rigid") {
+      const long = joint.look === "pin" || joint.look === "short" ? 1.7 * knob : 4 * knob;
+      const draw = joint.look === "slider" ? gpu.box : gpu.rod;
       draw(V.add(parent, V.by(-long, axis)), V.add(parent, V.by(long, axis)), 1.1 * knob, colours.soft);
       if (joint.clearance) gpu.rod(V.add(child, V.by(-1.35 * long, axis)), V.add(child, V.by(1.35 * long, axis)), 0.6 * knob, colours.ink);
     }

@@ -106,10 +106,63 @@ pub static JOINT_KINDS: &[JointKind] = &[
     row("free", AxisKeys::None, &[Pose]),
 ];
 
+/// What a joint looks like in pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// A pin along its axis.
+    Pin,
+    /// A block that slides along its axis.
+    Slider,
+    /// A ball, perhaps on a rod.
+    Ball,
+    /// A short part along its first axis: two crossed pins, a plate.
+    Short,
+    /// A rod along its axis.
+    Rod,
+    /// Nothing that moves.
+    Rigid,
+}
+
+impl Look {
+    /// As scripts of a page know it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Pin => "pin",
+            Self::Slider => "slider",
+            Self::Ball => "ball",
+            Self::Short => "short",
+            Self::Rod => "rod",
+            Self::Rigid => "rigid",
+        }
+    }
+}
+
 impl JointKind {
     /// The kind with this key.
     pub fn named(name: &str) -> Option<&'static Self> {
         JOINT_KINDS.iter().find(|kind| kind.name == name)
+    }
+
+    /// What it looks like, by what it consists of.
+    pub fn look(&self) -> Look {
+        match self.primitives {
+            [] => Look::Rigid,
+            [Turn(_)] => Look::Pin,
+            [Slide(_)] => Look::Slider,
+            primitives if primitives.contains(&Ball) => Look::Ball,
+            [.., Turn(_)] => Look::Short,
+            _ => Look::Rod,
+        }
+    }
+
+    /// Whether it leaves bodies in their planes, at right angles to its axis if it turns about one.
+    pub fn is_plane(&self) -> bool {
+        let turns = self.primitives.contains(&Turn(Z));
+        self.primitives.iter().all(|primitive| match primitive {
+            Turn(direction) => *direction == Z,
+            Slide(direction) => !turns || *direction != Z,
+            Thread | Ball | Shift | Pose => false,
+        })
     }
 }
 
@@ -258,6 +311,24 @@ impl JointModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pictures_follow_from_what_a_kind_consists_of() {
+        let looks = |name: &str| JointKind::named(name).map(|kind| (kind.look(), kind.is_plane()));
+        for (name, look, is_plane) in [
+            ("revolute", Look::Pin, true),
+            ("prismatic", Look::Slider, true),
+            ("cylindrical", Look::Rod, false),
+            ("universal", Look::Short, false),
+            ("spherical", Look::Ball, false),
+            ("inline", Look::Ball, false),
+            ("planar", Look::Short, true),
+            ("fixed", Look::Rigid, true),
+            ("free", Look::Rod, false),
+        ] {
+            assert_eq!(looks(name), Some((look, is_plane)), "{name}");
+        }
+    }
 
     #[test]
     fn rows_and_freedoms_are_six_together_and_coordinates_come_first() {

@@ -23,7 +23,7 @@ pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
 pub use coordinate::Coordinate;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
-pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Primitive};
+pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, Primitive};
 pub use resolve::{OverrideError, Overrides, resolve};
 
 /// A body or the ground.
