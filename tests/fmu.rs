@@ -23,7 +23,7 @@ struct Unpacked {
     folder: tempfile::TempDir,
     compiled: Compiled,
     unit: Unit,
-    library: PathBuf,
+    binary: PathBuf,
 }
 
 /// Files of an archive, by its directory at the end.
@@ -57,18 +57,18 @@ impl Unpacked {
         let folder = tempfile::tempdir().expect("a folder");
         let bytes = fmu::unit(&compiled).expect("a unit");
         fs::write(folder.path().join("unit.fmu"), &bytes).expect("written");
-        let mut library = PathBuf::new();
+        let mut binary = PathBuf::new();
         for (name, content) in files(&bytes) {
             let path = folder.path().join(&name);
             fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             fs::write(&path, content).expect("written");
             if name.starts_with("binaries/") {
-                library = path;
+                binary = path;
             }
         }
         let program = fs::read(folder.path().join("resources").join(PROGRAM_FILE)).expect("a program");
         let unit = Unit::from_bytes(&program).expect("a unit");
-        Self { folder, compiled, unit, library }
+        Self { folder, compiled, unit, binary }
     }
 
     fn variables(&self) -> Variables {
@@ -85,7 +85,7 @@ impl Unpacked {
     ) -> Output {
         let first = self.variables().reference(Variable::Output(0));
         let mut command = Command::new(driver);
-        command.arg(&self.library).arg(self.folder.path().join("resources/"));
+        command.arg(&self.binary).arg(self.folder.path().join("resources/"));
         command.args([&*self.unit.instantiation_token, mode]);
         command.args([stop.to_string(), tolerance.to_string(), rows.to_string(), first.to_string()]);
         let outputs = channels(self.compiled.description()).len();

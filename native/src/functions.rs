@@ -11,6 +11,7 @@ use linkwear_tape::Tape;
 use crate::aarch64 as processor;
 use crate::memory::code::Code;
 use crate::refusal::Refusal;
+use crate::straight::allocate::Processor;
 use crate::straight::fuse;
 use crate::straight::write::{Named, write};
 #[cfg(target_arch = "x86_64")]
@@ -58,15 +59,18 @@ pub(crate) struct Functions(Code);
 impl Functions {
     /// For one state, or so many side by side as the processor has code for.
     pub(crate) fn new<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
-        let target = processor::target::<LANES>()?;
-        let functions = processor::functions::<LANES>();
-        let written = side_by_side(tapes, |tape| write(tape, target, &functions));
-        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+        Self::for_target::<LANES>(tapes, processor::target::<LANES>()?)
     }
 
     /// For so many states side by side of which every input and output is a column.
     pub(crate) fn of_columns<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
-        let target = processor::target_of_columns::<LANES>()?;
+        Self::for_target::<LANES>(tapes, processor::target_of_columns::<LANES>()?)
+    }
+
+    fn for_target<const LANES: usize>(
+        tapes: &[Tape],
+        target: impl Processor + Sync,
+    ) -> Result<Self, Refusal> {
         let functions = processor::functions::<LANES>();
         let written = side_by_side(tapes, |tape| write(tape, target, &functions));
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)

@@ -8,7 +8,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::options::{EquationsChoice, Input, LivesArguments, MotionArguments, rows_help};
+use super::options::{
+    EquationsChoice, Input, LivesArguments, MotionArguments, RevolutionArguments, rows_help,
+};
 use super::shipped_schemas::SCHEMAS;
 use super::study::StudyArguments;
 use super::value::{covariate, one_of, output, positive, threads};
@@ -190,12 +192,8 @@ pub struct LifeArguments {
     pub input: Input,
     #[command(flatten)]
     pub lives: LivesArguments,
-    /// Relative error of the wear integral of a revolution [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = positive)]
-    pub tol: Option<f64>,
-    /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
-    pub step: Option<f64>,
+    #[command(flatten)]
+    pub revolutions: RevolutionArguments,
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
     #[arg(long, value_name = "DIR", value_parser = output())]
     pub out: Option<PathBuf>,
@@ -225,12 +223,8 @@ pub struct ReportArguments {
     pub input: Input,
     #[command(flatten)]
     pub lives: LivesArguments,
-    /// Relative error of the wear integral of a revolution [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = positive)]
-    pub tol: Option<f64>,
-    /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
-    pub step: Option<f64>,
+    #[command(flatten)]
+    pub revolutions: RevolutionArguments,
     /// Threads that share the random lives [default: one per core].
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,

@@ -70,7 +70,8 @@ pub fn study<'m>(
     arguments: &LifeArguments,
     mechanism: &'m Mechanism,
 ) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
-    let (study, warnings) = lives(&arguments.lives, (arguments.step, arguments.tol), mechanism)?;
+    let (study, warnings) =
+        lives(&arguments.lives, (arguments.revolutions.step, arguments.revolutions.tol), mechanism)?;
     Ok((LifeStudy { threads: arguments.threads, shard: arguments.shard, ..study }, warnings))
 }
 

@@ -56,6 +56,17 @@ pub struct EquationsChoice {
     pub rigid: bool,
 }
 
+/// How well the wear of a revolution is known.
+#[derive(Debug, Args)]
+pub struct RevolutionArguments {
+    /// Relative error of the wear integral of a revolution [default: 1e-6].
+    #[arg(long, value_name = "E", value_parser = positive)]
+    pub tol: Option<f64>,
+    /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    pub step: Option<f64>,
+}
+
 /// How a run is made.
 #[derive(Debug, Args)]
 pub struct MotionArguments {

@@ -50,16 +50,16 @@ pub struct Ear<'a> {
 }
 
 pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
-    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
-    let begin = Instant::now();
-    let source = read_source(&arguments.input.file)?;
-    let (page, wears) = watched(|watch| report_page(arguments, &source, Ear { watch, remarks: true }))?;
-    let note = if wears {
-        ""
-    } else {
-        "\nno joint of this mechanism wears: no life in the page; add [clearance.R1] and [wear.R1], R1 being the joint that wears"
-    };
-    written(&arguments.out, page, begin, note)
+    let ReportArguments { input, out, force, .. } = arguments;
+    to_file(input, (out, *force), |source, ear| {
+        let (page, wears) = report_page(arguments, source, ear)?;
+        let note = if wears {
+            ""
+        } else {
+            "\nno joint of this mechanism wears: no life in the page; add [clearance.R1] and [wear.R1], R1 being the joint that wears"
+        };
+        Ok((page, note))
+    })
 }
 
 /// The page of a report, and whether anything wears in it.
@@ -68,14 +68,14 @@ pub fn report_page(
     source: &SourceFile,
     ear: Ear<'_>,
 ) -> Result<(String, bool), Failure> {
-    let ReportArguments { input, lives, tol, step, threads, turns, equations, .. } = arguments;
+    let ReportArguments { input, lives, revolutions, threads, turns, equations, .. } = arguments;
     let seen = see((input, source), &motion(*turns, ROWS), *equations, ear)?;
     let mut plain = compile(&seen.compiled.source, &options(input, equations.rigid))?;
     plain.warnings.clone_from(&seen.compiled.warnings);
     let mechanism = Mechanism::of(&plain, &options(input, equations.rigid), equations.backend)?;
     let wears = mechanism.description.contacts.iter().any(|contact| contact.wear.is_some());
     let life = if wears {
-        let (study, warnings) = life::lives(lives, (*step, *tol), &mechanism)?;
+        let (study, warnings) = life::lives(lives, (revolutions.step, revolutions.tol), &mechanism)?;
         let study = LifeStudy { threads: *threads, ..study };
         let failed = |error| life::failed(&input.file, error, None);
         if let Some(cost) = study.cost(ear.watch).map_err(failed)?
@@ -101,11 +101,8 @@ pub fn report_page(
 }
 
 pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
-    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
-    let begin = Instant::now();
-    let source = read_source(&arguments.input.file)?;
-    let page = watched(|watch| view_page(arguments, &source, Ear { watch, remarks: true }))?;
-    written(&arguments.out, page, begin, "")
+    let ViewArguments { input, out, force, .. } = arguments;
+    to_file(input, (out, *force), |source, ear| Ok((view_page(arguments, source, ear)?, "")))
 }
 
 /// The page of a motion.
@@ -123,11 +120,8 @@ pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -
 }
 
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
-    may_write(&arguments.input.file, &arguments.out, arguments.force)?;
-    let begin = Instant::now();
-    let source = read_source(&arguments.input.file)?;
-    let picture = watched(|watch| drawn(arguments, &source, Ear { watch, remarks: true }))?;
-    written(&arguments.out, picture, begin, "")
+    let DrawArguments { input, out, force, .. } = arguments;
+    to_file(input, (out, *force), |source, ear| Ok((drawn(arguments, source, ear)?, "")))
 }
 
 /// The picture, SVG.
@@ -167,7 +161,16 @@ fn see(
     Ok(Seen { compiled, run, json })
 }
 
-fn written(out: &Path, text: String, begin: Instant, note: &str) -> Result<Answer, Failure> {
+/// Writes what is made of a file's text, with a note for its reader.
+fn to_file(
+    input: &Input,
+    (out, force): (&Path, bool),
+    make: impl FnOnce(&SourceFile, Ear<'_>) -> Result<(String, &'static str), Failure>,
+) -> Result<Answer, Failure> {
+    may_write(&input.file, out, force)?;
+    let begin = Instant::now();
+    let source = read_source(&input.file)?;
+    let (text, note) = watched(|watch| make(&source, Ear { watch, remarks: true }))?;
     write_whole(out, |file| file.write_all(text.as_bytes()))?;
     let seconds = begin.elapsed().as_secs_f64();
     let (file, size) = (out.display(), text.len().div_ceil(1000));

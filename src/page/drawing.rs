@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
+use linkwear_codegen::model::Look;
 use linkwear_runtime::Run;
 
 use super::chart::{STYLE, VERSION};
@@ -198,13 +199,13 @@ fn joints(out: &mut String, scene: &Scene, camera: &Camera, (row, poses): At<'_>
         let place = body.and_then(|body| poses.get(body)).map_or(place, |first| moved(row, *first, place));
         let [x, y] = camera.see(place);
         let _ = match joint.look {
-            "slider" => writeln!(
+            Look::Slider => writeln!(
                 out,
                 "<rect class=\"paper\" stroke=\"#343a40\" stroke-width=\"2\" x=\"{:.1}\" y=\"{:.1}\" width=\"18\" height=\"12\"/>",
                 x - 9.0,
                 y - 6.0
             ),
-            "ball" => writeln!(
+            Look::Ball => writeln!(
                 out,
                 "<circle class=\"paper\" stroke=\"#343a40\" stroke-width=\"2\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\"/><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.5\"/>"
             ),

@@ -4,7 +4,7 @@
 use linkwear_codegen::Compiled;
 use linkwear_codegen::id::{BodyId, PointId};
 use linkwear_codegen::model::{Body, Carrier, Flexible, Formula, Inertia, Look, Mechanism};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// A mechanism at its reference pose; the motion of its bodies takes it from there.
 #[derive(Debug, Serialize)]
@@ -48,7 +48,8 @@ pub struct LineNode {
 pub struct JointMark {
     pub name: String,
     /// What it looks like.
-    pub look: &'static str,
+    #[serde(serialize_with = "named")]
+    pub look: Look,
     /// Whether it leaves bodies in their planes.
     pub is_plane: bool,
     /// Parent and child: which body, nothing for the ground; where on it.
@@ -56,6 +57,11 @@ pub struct JointMark {
     /// First axis, as the parent has it.
     pub axis: Option<[f64; 3]>,
     pub clearance: Option<Play>,
+}
+
+/// As the page's scripts know it.
+fn named<S: Serializer>(look: &Look, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(look.name())
 }
 
 /// Clearance of a joint [m].
@@ -89,7 +95,7 @@ impl Scene {
 
     /// The direction of all axes, if they are parallel: such a mechanism is seen best along it.
     pub fn common_axis(&self) -> Option<[f64; 3]> {
-        let turning = |joint: &&JointMark| joint.look == Look::Pin.name();
+        let turning = |joint: &&JointMark| joint.look == Look::Pin;
         let mut axes = self.joints.iter().filter(turning).filter_map(|joint| joint.axis);
         let first = axes.next()?;
         let is_plane = self.joints.iter().all(|joint| joint.is_plane);
@@ -227,7 +233,7 @@ impl Eye<'_> {
         };
         let mark = |joint: &linkwear_codegen::model::Joint| JointMark {
             name: joint.name.clone(),
-            look: joint.model.kind.look().name(),
+            look: joint.model.kind.look(),
             is_plane: joint.model.kind.is_plane(),
             sides: [joint.parent, joint.child].map(|side| (body(side), self.place(joint.at, side))),
             axis: joint.model.axes.first().map(|axis| axis.parent),

@@ -16,7 +16,7 @@ impl Processor for Target {
 
     fn shape(self) -> Shape {
         let step = size_of::<f64>() * self.states;
-        Shape { value: self.lanes.bytes(), step, registers: self.registers }
+        Shape { value: self.lanes.bytes(), step, registers: self.registers, columns: false }
     }
 
     /// What is loaded is as long as any value.

@@ -34,6 +34,15 @@ struct Callable {
     slack: usize,
     passes: usize,
     advance: usize,
+    columns: bool,
+}
+
+impl Callable {
+    /// What it needs of a workspace, from where a line of the cache begins if that helps.
+    fn scratch<'w>(&self, workspace: &'w mut [f64]) -> &'w mut [f64] {
+        let skipped = if self.slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(self.slack) };
+        &mut workspace[skipped..][..self.workspace]
+    }
 }
 
 /// Functions in executable memory.
@@ -51,12 +60,22 @@ impl Code {
     pub(crate) fn new(written: Vec<Written>) -> Result<Self, Refusal> {
         let mut bytes = Vec::new();
         let mut functions = Vec::with_capacity(written.len());
-        for Written { code, pool, inputs, outputs, workspace, slack, passes, advance } in written {
+        for Written { code, pool, inputs, outputs, workspace, slack, passes, advance, columns } in written {
             let start = bytes.len();
             bytes.extend(code);
             bytes.resize(bytes.len().next_multiple_of(LINE), 0);
             let pool = lines(&pool);
-            functions.push(Callable { start, pool, inputs, outputs, workspace, slack, passes, advance });
+            functions.push(Callable {
+                start,
+                pool,
+                inputs,
+                outputs,
+                workspace,
+                slack,
+                passes,
+                advance,
+                columns,
+            });
         }
         let refused = |error: std::io::Error| Refusal::Memory { reason: error.to_string() };
         let mut memory = MmapMut::map_anon(bytes.len().max(LINE)).map_err(refused)?;
@@ -75,13 +94,13 @@ impl Code {
     /// Runs a function. Slices hold the numbers of all lanes, value by value.
     ///
     /// # Panics
-    /// If a slice is too short, or there is no such function.
+    /// If a slice is too short, or there is no such function, or it was written for columns.
     pub(crate) fn run(&self, function: usize, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        let Callable { start, pool, inputs, outputs, workspace: length, slack, passes, advance } =
-            &self.functions[function];
+        let callable = &self.functions[function];
+        let Callable { start, pool, inputs, outputs, passes, advance, columns, .. } = callable;
+        assert!(!columns, "written for columns");
         let (input, output) = (&input[..*inputs], &mut output[..*outputs]);
-        let skipped = if *slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(*slack) };
-        let workspace = &mut workspace[skipped..][..*length];
+        let workspace = callable.scratch(workspace);
         let code = self.memory[*start..].as_ptr();
         // SAFETY: whole code of a function of this convention begins here (invariant 1) and is executable (invariant 4).
         let call = unsafe { mem::transmute::<*const u8, Call>(code) };
@@ -107,7 +126,8 @@ impl Code {
     /// whole lanes. A column of one value is that value for all states.
     ///
     /// # Panics
-    /// If there are other columns than the function has, or a slice is too short, or there is no such function.
+    /// If there are other columns than the function has, or a slice is too short, or there is no such function, or it was written for
+    /// lanes.
     pub(crate) fn run_columns<const LANES: usize>(
         &self,
         function: usize,
@@ -115,10 +135,11 @@ impl Code {
         answers: &mut [&mut [f64]],
         workspace: &mut [f64],
     ) {
-        let Callable { start, pool, inputs, outputs, workspace: length, slack, passes, .. } =
-            &self.functions[function];
+        let callable = &self.functions[function];
+        let Callable { start, pool, inputs, outputs, columns: of_columns, .. } = callable;
         let states = answers.first().map_or(0, |answers| answers.len());
-        assert!(*passes == 1 && *inputs == columns.len() * LANES && *outputs == answers.len() * LANES);
+        assert!(*of_columns, "written for lanes");
+        assert!(*inputs == columns.len() * LANES && *outputs == answers.len() * LANES);
         assert!(columns.iter().all(|column| column.len() == 1 || column.len() == states));
         assert!(answers.iter().all(|answers| answers.len() == states));
         let constants: Vec<[f64; LANES]> =
@@ -132,11 +153,9 @@ impl Code {
         let steps: Vec<usize> =
             columns.iter().map(|column| if is_constant(column) { 0 } else { LANES }).collect();
         let mut to: Vec<*mut f64> = answers.iter_mut().map(|answers| answers.as_mut_ptr()).collect();
-        let skipped = if *slack == 0 { 0 } else { workspace.as_ptr().align_offset(LINE).min(*slack) };
-        let workspace = &mut workspace[skipped..][..*length];
+        let workspace = callable.scratch(workspace);
         let code = self.memory[*start..].as_ptr();
-        // SAFETY: whole code of a function begins here, written for columns by whoever calls this (invariant 1), and executable
-        // (invariant 4).
+        // SAFETY: whole code of a function that was written for columns begins here (invariant 1) and is executable (invariant 4).
         let call = unsafe { mem::transmute::<*const u8, CallColumns>(code) };
         for _ in 0..states / LANES {
             // SAFETY: both tables have a pointer for each input and output (invariant 2). Columns and answers have so many states left

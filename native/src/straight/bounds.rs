@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn the_last_pass_ends_where_inputs_and_outputs_do() {
-        let shape = Shape { value: 16, step: 64, registers: 1 };
+        let shape = Shape { value: 16, step: 64, registers: 1, columns: false };
         let three = Lengths { input: 3 * 64, output: 3 * 64, pool: 32, frame: 32 }.of_last_pass(shape);
         for (base, last) in [(Base::Input, 128), (Base::Output, 128), (Base::Pool, 16), (Base::Frame, 16)] {
             assert!(three.hold(Address { base, offset: last }, 16, false));

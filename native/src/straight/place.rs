@@ -33,4 +33,6 @@ pub(crate) struct Shape {
     pub(crate) step: usize,
     /// Vector registers that may be used.
     pub(crate) registers: u8,
+    /// Whether inputs and outputs lie apart, each behind its pointer in a table, and not value by value.
+    pub(crate) columns: bool,
 }

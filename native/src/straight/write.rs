@@ -25,6 +25,8 @@ pub(crate) struct Written {
     pub(crate) passes: usize,
     /// How many numbers further inputs and outputs begin in the next pass.
     pub(crate) advance: usize,
+    /// Whether inputs and outputs are columns behind tables of pointers.
+    pub(crate) columns: bool,
 }
 
 /// A function to be written.
@@ -92,6 +94,7 @@ pub(crate) fn placed<'n, P: Processor>(
         slack: if shape.value == size_of::<f64>() { 0 } else { 7 },
         passes: shape.step / shape.value,
         advance: numbers(shape.value),
+        columns: shape.columns,
     };
     Ok((straight.instructions, written))
 }

@@ -16,7 +16,8 @@ impl Processor for Target {
     type Memory = Option<Id>;
 
     fn shape(self) -> Shape {
-        Shape { value: self.lanes.bytes(), step: self.lanes.bytes(), registers: self.registers }
+        let value = self.lanes.bytes();
+        Shape { value, step: value, registers: self.registers, columns: self.columns }
     }
 
     /// Four lanes read four copies. Eight lanes read one, which their instructions spread, except where a called function

@@ -36,6 +36,7 @@ fn of_three(lanes: Lanes, instructions: &[Instruction], result: u8) -> Written {
         slack: 0,
         passes: 1,
         advance: count,
+        columns: false,
     }
 }
 

@@ -40,6 +40,7 @@ fn inside_a_hardened_process() {
         slack: 0,
         passes: 1,
         advance: 1,
+        columns: false,
     };
     let given = Code::new(vec![returns()]).expect("memory, as long as nothing forbids it");
     given.run(0, &[], &mut [], &mut []);
