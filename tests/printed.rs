@@ -1,15 +1,21 @@
-//! The README and the pages of docs show what the program prints, and nothing else.
+//! The README, the pages of docs and the book show what the program prints, and nothing else.
 //!
 //! A block that shows a command with its output is a `console` block: `$ linkwear ..`, then what comes out on stdout, or on
-//! stderr where the command fails. A line `...` stands for any lines. Masked is the time that a run took, `in 1.574 s`,
+//! stderr where the command fails, or warnings and stdout where the block begins with a warning. A line `...` stands for any lines. Masked is the time that a run took, `in 1.574 s`,
 //! and nothing else. The commands of a document run in one folder, in their order; those of `sh` blocks run too, unless they
-//! have a placeholder such as FILE: these are listed below.
+//! have a placeholder such as FILE: these are listed below. Pages of the book run beside the files of book/src/mechanisms, and
+//! what they draw is held against book/src/images, label by label.
 
 mod command;
+#[path = "support/labels.rs"]
+mod labels;
 
 use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use command::Folder;
+use labels::compare_picture;
 
 /// Commands of the documents that are not run, with the reason.
 const NOT_RUN: [(&str, &str); 3] = [
@@ -145,6 +151,13 @@ fn compare(document: &str) -> usize {
         let target = fs::canonicalize(part).expect("a folder of the repository");
         std::os::unix::fs::symlink(target, folder.path(part)).expect("a link");
     }
+    if is_of_book(document) {
+        for entry in fs::read_dir("book/src/mechanisms").expect("mechanisms of the book") {
+            let file = fs::canonicalize(entry.expect("an entry").path()).expect("a file");
+            let name = file.file_name().and_then(|name| name.to_str()).expect("UTF-8").to_owned();
+            std::os::unix::fs::symlink(&file, folder.path(&name)).expect("a link");
+        }
+    }
     let mut compared = 0;
     for Shown { place, command, output } in shown(document) {
         let words = words(&command);
@@ -154,8 +167,15 @@ fn compare(document: &str) -> usize {
             assert_eq!(answer.code, 0, "{place}: `{command}` fails:\n{}", answer.err);
             continue;
         };
-        let printed = if answer.code == 0 { &answer.out } else { &answer.err };
-        assert!(answer.code != 0 || !answer.err.contains("warning"), "{place}: hides {}", answer.err);
+        let shows_warnings = expected.first().is_some_and(|line| line.starts_with("warning["));
+        let printed = match answer.code {
+            0 if shows_warnings => &(answer.err + &answer.out),
+            0 => {
+                assert!(!answer.err.contains("warning"), "{place}: hides {}", answer.err);
+                &answer.out
+            }
+            _ => &answer.err,
+        };
         let [expected, lines]: [Vec<String>; 2] = [
             expected.iter().map(|line| masked(line)).collect(),
             printed.trim_end().lines().map(masked).collect(),
@@ -165,7 +185,14 @@ fn compare(document: &str) -> usize {
         }
         compared += 1;
     }
+    for name in folder.names().iter().filter(|name| is_of_book(document) && name.ends_with(".svg")) {
+        compare_picture(Path::new("book/src/images").join(name).as_path(), &folder.read(name));
+    }
     compared
+}
+
+fn is_of_book(document: &str) -> bool {
+    document.starts_with("book/")
 }
 
 #[test]
@@ -175,9 +202,25 @@ fn the_readme_shows_what_the_program_prints() {
 
 #[test]
 fn the_pages_of_docs_show_what_the_program_prints() {
-    for document in &documents()[1..] {
+    for document in documents()[1..].iter().filter(|document| !is_of_book(document)) {
         compare(document);
     }
+}
+
+#[test]
+fn the_book_shows_what_the_program_prints() {
+    let pages: Vec<String> = documents().into_iter().filter(|document| is_of_book(document)).collect();
+    let (next, compared) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let work = || {
+        while let Some(page) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
+            compared.fetch_add(compare(page), Ordering::Relaxed);
+        }
+    };
+    // Pages wait for one thread each most of the time: two at a time are as many as two cores take.
+    std::thread::scope(|scope| {
+        [scope.spawn(work), scope.spawn(work)].map(|thread| thread.join().expect("a page"))
+    });
+    assert!(compared.into_inner() >= 10);
 }
 
 #[test]
@@ -192,9 +235,11 @@ fn commands_that_are_not_run_are_listed_with_a_reason() {
     assert_eq!(left_out, NOT_RUN.map(|(command, _)| command));
 }
 
-/// README and the pages of docs.
+/// README, the pages of docs and those of the book.
 fn documents() -> Vec<String> {
-    let pages = fs::read_dir("docs").expect("docs").map(|entry| entry.expect("an entry").path());
+    let folders = ["docs", "book/src", "book/src/cookbook"];
+    let files = folders.into_iter().flat_map(|folder| fs::read_dir(folder).expect("a folder of pages"));
+    let pages = files.map(|entry| entry.expect("an entry").path());
     let pages = pages.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
     let mut pages: Vec<String> = pages.map(|path| path.to_str().expect("UTF-8").to_owned()).collect();
     pages.sort();

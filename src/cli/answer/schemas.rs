@@ -154,7 +154,9 @@ fn the_page_of_outputs_has_every_key_and_column_with_its_meaning() {
             if table.ends_with(".csv") { format!("{table} of `life --out`") } else { table.to_owned() };
         let _ = write!(page, "\n### {heading}\n\n| column | unit | meaning |\n|---|---|---|\n");
         for form in forms {
-            let _ = writeln!(page, "| `{}` | {} | {} |", form.name, form.units.join(" or "), form.meaning);
+            // What stands for a unit, `<unit>`, is no tag.
+            let units = form.units.join(" or ").replace('<', "\\<");
+            let _ = writeln!(page, "| `{}` | {units} | {} |", form.name, form.meaning);
         }
     }
     held("docs/outputs.md", &page);
