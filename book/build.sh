@@ -12,37 +12,49 @@ trap 'rm -rf "$stage"' EXIT
 
 cp book/book.toml book/wide.css "$stage"
 cp -r book/src "$stage/src"
-mkdir "$stage/src/docs"
+mkdir -p "$stage/src/docs" "$stage/src/examples/downstream/src"
 cp -r docs/* "$stage/src/docs"
-cp ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md SECURITY.md README.md LICENSE-APACHE LICENSE-MIT "$stage/src"
+cp -n mechanisms/*.toml "$stage/src/mechanisms"
+cp examples/downstream/build.rs "$stage/src/examples/downstream"
+cp examples/downstream/src/main.rs "$stage/src/examples/downstream/src"
+cp ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md SECURITY.md LICENSE-APACHE LICENSE-MIT "$stage/src"
+# A page of docs that the summary does not have comes last.
+further="\n# Further pages\n\n"
+for page in docs/*.md; do
+    if ! grep -qF "(../../$page)" book/src/SUMMARY.md; then
+        printf "$further- [%s](../../%s)\n" "$(sed -n '1s/^# //p' "$page")" "$page" >> "$stage/src/SUMMARY.md"
+        further=
+    fi
+done
 pages=$(cd "$stage/src" && find . -name '*.md')
 for page in $pages; do
-    from=$(dirname "$page")
-    case $page in
-    ./docs/* | ./[A-Z]*.md) [ "$page" = ./SUMMARY.md ] && up=../../ || up= ;;
-    ./cookbook/*) up=../../../ ;;
-    *) up=../../ ;;
-    esac
     file="$stage/src/$page"
-    # A page of the book lies two folders deep in the repository, here at the top.
-    if [ -n "$up" ]; then
-        sed -i "s|](${up//./\\.}|](${up#../../}|g" "$file"
-    else
-        sed -i "s|](\(\.\./\)\{0,1\}book/src/|](\1|g" "$file"
-    fi
-    # What the book does not hold is on the repository's web page.
-    links=$(grep -oE '\]\([^)#]+[^)]*\)' "$file" | sed 's/^](//; s/)$//; s/#.*//' | sort -u | grep -vE '^[a-z]+:|^\{\{' || true)
-    for link in $links; do
-        path=$(realpath -m --relative-to="$stage/src" "$stage/src/$from/$link")
-        if [ ! -f "$stage/src/$path" ]; then
-            if [ ! -e "$path" ] && [ ! -e "book/src/$path" ]; then
-                echo "book: $page: no file $link" >&2
-                exit 1
-            fi
-            [ -e "$path" ] || path="book/src/$path"
-            sed -i "s|](${link//./\\.}\([)#]\)|]($web/$path\1|g" "$file"
+    # The folder of the page as it is in the repository, and the way up from it; here a page of the book lies two folders higher.
+    case $page in
+    ./SUMMARY.md) home=book/src up=../../ ;;
+    ./docs/case-study/*) home=docs/case-study up=../../ ;;
+    ./docs/*) home=docs up=../ ;;
+    ./[A-Z]*) home=. up= ;;
+    ./cookbook/*) home=book/src/cookbook up=../../../ ;;
+    *) home=book/src up=../../ ;;
+    esac
+    from=$(dirname "$page")
+    back=$(realpath -m --relative-to="$stage/src/$from" "$stage/src")/
+    [ "$back" != ./ ] || back=
+    sed -i "s|{{#include ${up:-@}|{{#include $back|g" "$file"
+    for link in $(grep -oE '\]\([^)#]+[^)]*\)' "$file" | sed 's/^](//; s/)$//; s/#.*//' | sort -u | grep -vE '^[a-z]+:|^\{\{'); do
+        path=$(realpath -m --relative-to=. "$home/$link")
+        if [ ! -e "$path" ]; then
+            echo "book: $page: no file $link" >&2
+            exit 1
         fi
+        here=${path#book/src/}
+        # What the book does not hold is on the repository's web page.
+        if [ -f "$stage/src/$here" ]; then target=$back$here; else target=$web/$path; fi
+        sed -i "s|](${link//./\\.}\([)#]\)|](\n$target\1|g" "$file"
     done
+    # A line break keeps a link that is done from being taken for another.
+    sed -i ':all; N; $!b all; s|](\n|](|g' "$file"
 done
 if [ -n "${LINKWEAR:-}" ]; then
     mkdir "$stage/src/live"

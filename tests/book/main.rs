@@ -9,6 +9,8 @@ mod gallery;
 mod labels;
 mod links;
 mod mechanisms;
+#[path = "../outputs/schema.rs"]
+mod schema;
 
 use std::fs;
 

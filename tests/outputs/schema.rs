@@ -43,7 +43,16 @@ fn check(root: &Value, schema: &Value, value: &Value, at: &str, found: &mut Vec<
                     }
                 }
             }
-            ("const" | "enum" | "minimum" | "minItems" | "maxItems" | "required", _) => {}
+            ("pattern", Value::String(text)) => {
+                // The one that there is: a quantity in a mechanism file has a unit, which has a letter, or is zero.
+                assert_eq!(told, "[A-Za-zµ%{]|^[ 0.+-]*$", "{at}: this pattern is not known here");
+                let is_with_unit =
+                    text.contains(|letter: char| letter.is_ascii_alphabetic() || "µ%{".contains(letter));
+                if !is_with_unit && text.contains(|letter| !" 0.+-".contains(letter)) {
+                    fault(format!("`{text}` has no unit"));
+                }
+            }
+            ("pattern" | "const" | "enum" | "minimum" | "minItems" | "maxItems" | "required", _) => {}
             ("title" | "description" | "format" | "default" | "$schema" | "$defs", _) => {}
             (
                 "$ref" | "anyOf" | "oneOf" | "properties" | "additionalProperties" | "items" | "prefixItems",

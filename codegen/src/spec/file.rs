@@ -23,38 +23,55 @@ use super::written::{At, Name, Quantity, Table, Triple};
 #[cfg_attr(test, schemars(extend("required" = ["spec", "name", "bodies"])))]
 pub struct File {
     /// Version of this format: 1.
+    /// [1; required; e.g. 1]
     pub spec: Option<At<i64>>,
     /// Name of the mechanism, also in generated code.
+    /// [text; letters, digits and _; required; e.g. "four_bar"]
     pub name: Option<Name>,
     /// What it is, in a sentence.
+    /// [text; e.g. "A crank-rocker"]
     pub doc: Option<String>,
     /// Acceleration of free fall in the ground frame.
+    /// [m/s^2; default zero, with a warning; e.g. [0, 0, "-9.81 m/s^2"]]
     pub gravity: Option<Triple>,
     /// How loops are closed: at a joint, or by the logarithm of the gap.
+    /// [word; default "joint"; e.g. "log"]
     pub closure: Option<Closure>,
     /// Named quantities.
+    /// [table]
     pub parameters: Table<Parameter>,
     /// Signals from outside: they may change while the mechanism runs.
+    /// [table]
     pub inputs: Table<Input>,
     /// Named points at the reference pose.
+    /// [table]
     pub points: Table<PointSpec>,
     /// Moving bodies.
+    /// [table; required]
     pub bodies: Table<BodySpec>,
     /// Joints between bodies or to the ground.
+    /// [table]
     pub joints: Table<JointSpec>,
     /// Springs, forces and torques.
+    /// [table]
     pub forces: Table<ForceSpec>,
     /// Guesses of joint coordinates from which assembly starts.
+    /// [table]
     pub assembly: Table<StartSpec>,
     /// Start values of joint coordinates and speeds that are met exactly.
+    /// [table]
     pub initial: Table<StartSpec>,
     /// Clearance of revolute and spherical joints, by joint, with the laws of contact.
+    /// [table]
     pub clearance: Table<ClearanceSpec>,
     /// Wear of joints with clearance, by joint.
+    /// [table]
     pub wear: Table<WearSpec>,
     /// Groups of points, bodies and joints made several times.
+    /// [table]
     pub repeat: Table<RepeatSpec>,
     /// What `check` and every run leave unsaid.
+    /// [table]
     pub check: CheckSpec,
 }
 
@@ -62,6 +79,7 @@ tables! {
     /// Warnings that are known and meant.
     pub struct CheckSpec {
         /// Codes of warnings that are not to be given, for instance "W0112".
+        /// [list of codes; warnings only; default none; e.g. ["W0112"]]
         pub allow: Option<At<Vec<Name>>>,
     }
 }
@@ -71,34 +89,49 @@ tables! {
     #[cfg_attr(test, schemars(extend("required" = ["radial", "journal_radius"])))]
     pub struct ClearanceSpec {
         /// Radial clearance: radius of the bearing less that of the journal. May be tunable.
+        /// [m; above 0, below the journal's radius; required; e.g. "20 um"]
         pub radial: Option<Quantity>,
         /// Radius of the journal or ball.
+        /// [m; above 0; required; e.g. "10 mm"]
         pub journal_radius: Option<Quantity>,
         /// Length of the bearing.
+        /// [m; above 0; required, of a ball twice its radius; e.g. "20 mm"]
         pub length: Option<Quantity>,
         /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
+        /// [Pa; above 0; required without `stiffness`; e.g. "115 GPa"]
         pub modulus: Option<Quantity>,
         /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
+        /// [1; above 0; default from modulus and radii; e.g. 5e9]
         pub stiffness: Option<Quantity>,
-        /// Law of restitution; by default that of Lankarani and Nikravesh.
+        /// Law of restitution.
+        /// [word; default "lankarani_nikravesh"; e.g. "exact"]
         pub law: Option<At<Restitution>>,
         /// Coefficient of restitution.
+        /// [1; above 0, up to 1; default 1; e.g. 0.9]
         pub restitution: Option<Quantity>,
-        /// Exponent of penetration; 1.5 by default.
+        /// Exponent of penetration.
+        /// [1; above 0; default 1.5; e.g. 1.5]
         pub exponent: Option<Quantity>,
-        /// Least impact speed that damping is related to; 1 mm/s by default.
+        /// Least impact speed that damping is related to.
+        /// [m/s; above 0; default 1 mm/s; e.g. "1 mm/s"]
         pub impact_speed_floor: Option<Quantity>,
-        /// Coefficient of friction, at high speed; 0 by default.
+        /// Coefficient of friction, at high speed.
+        /// [1; from 0; default none; e.g. 0.05]
         pub friction: Option<Quantity>,
-        /// Coefficient of friction at rest (Stribeck); by default that at high speed.
+        /// Coefficient of friction at rest (Stribeck).
+        /// [1; from 0; default that at high speed; e.g. 0.08]
         pub static_friction: Option<Quantity>,
-        /// Stribeck speed; 10 mm/s by default.
+        /// Stribeck speed.
+        /// [m/s; above 0; default 10 mm/s; e.g. "10 mm/s"]
         pub stribeck_speed: Option<Quantity>,
-        /// Growth of the coefficient of friction with sliding speed; 0 by default.
+        /// Growth of the coefficient of friction with sliding speed.
+        /// [s/m; any; default 0; e.g. "-0.1 s/m"]
         pub friction_slope: Option<Quantity>,
-        /// Sliding speed below which friction is smoothed; 1 mm/s by default. Two speeds: Ambrosio's correction.
+        /// Sliding speed below which friction is smoothed. Two speeds: Ambrosio's correction.
+        /// [m/s; above 0, one or two; default 1 mm/s; e.g. ["1 mm/s"]]
         pub friction_speed: Option<At<Vec<Quantity>>>,
         /// Our own assumption.
+        /// [mark]
         pub assumed: bool,
     }
 }
@@ -108,30 +141,43 @@ tables! {
     #[cfg_attr(test, schemars(extend("required" = ["coefficient", "hardness", "threshold"])))]
     pub struct WearSpec {
         /// Dimensionless wear coefficient k of Archard's law.
+        /// [1; above 0; required; e.g. 1e-8]
         pub coefficient: Option<Quantity>,
         /// Hardness of the softer side.
+        /// [Pa; above 0; required; e.g. "3.5 GPa"]
         pub hardness: Option<Quantity>,
-        /// Area that carries the load; by default that of Hertz.
+        /// Area that carries the load.
+        /// [word; default "hertz"; e.g. "conformal"]
         pub area: Option<At<Area>>,
         /// Wear depth at which the joint has failed.
+        /// [m; above 0; required; e.g. "80 um"]
         pub threshold: Option<Quantity>,
-        /// Growth of the clearance per wear; 1 by default, 0 for no feedback.
+        /// Growth of the clearance per wear; 0 for no feedback.
+        /// [1; from 0; default 1; e.g. 1]
         pub feedback: Option<Quantity>,
         /// Feeds the worn profile back to the gap instead of the clearance.
+        /// [true or false; default false; e.g. true]
         pub profile: Option<bool>,
-        /// Bearing angles of the profile; 72 by default.
+        /// Bearing angles of the profile.
+        /// [1; 8 to 10000; default 72; e.g. 144]
         pub bins: Option<At<i64>>,
-        /// What of the depth by bearing angle counts as wear; by default the depth by the area.
+        /// What of the depth by bearing angle counts as wear.
+        /// [word; default the depth by the area, with `profile` "mean"; e.g. "maximum"]
         pub measure: Option<At<Measure>>,
-        /// Revolutions that one cycle stands for; 1 by default.
+        /// Revolutions that one cycle stands for.
+        /// [1; above 0; default 1; e.g. 1e6]
         pub revolutions_per_cycle: Option<Quantity>,
         /// Limit of mean pressure times sliding speed.
+        /// [Pa m/s; above 0; default none; e.g. "1 MPa m/s"]
         pub pressure_speed: Option<Quantity>,
-        /// Gamma process: shape per mean wear; by default `beta`. Without both the life is its mean.
+        /// Gamma process: shape per mean wear. Without both the life is its mean.
+        /// [1/m; above 0; default `beta`; e.g. "13.65 1/um"]
         pub alpha: Option<Quantity>,
-        /// Gamma process: rate; by default `alpha`.
+        /// Gamma process: rate.
+        /// [1/m; above 0; default `alpha`; e.g. "13.65 1/um"]
         pub beta: Option<Quantity>,
         /// Our own assumption.
+        /// [mark]
         pub assumed: bool,
     }
 }
@@ -166,12 +212,16 @@ tables! {
     #[cfg_attr(test, schemars(extend("required" = ["value"])))]
     pub struct ParameterTable {
         /// Quantity or formula over other parameters.
+        /// [any unit; required; e.g. "120 mm"]
         pub value: Option<Quantity>,
         /// Stays changeable in the generated code.
+        /// [true or false; default false; e.g. true]
         pub tunable: bool,
         /// Our own assumption, not from the cited source.
+        /// [mark]
         pub assumed: bool,
         /// What it is.
+        /// [text]
         pub doc: Option<Doc>,
     }
 }
@@ -211,10 +261,13 @@ tables! {
     /// A signal with unit and default apart.
     pub struct InputTable {
         /// Unit of the default if that is a bare number, and of the same dimension if it is not.
+        /// [text; default that of `default`; e.g. "N m"]
         pub unit: Option<Name>,
-        /// Value unless something else is connected; 0 by default.
+        /// Value unless something else is connected.
+        /// [any unit; default 0; e.g. "2 N m"]
         pub default: Option<Quantity>,
         /// What it is.
+        /// [text]
         pub doc: Option<Doc>,
     }
 }
@@ -224,22 +277,31 @@ tables! {
     #[cfg_attr(test, schemars(extend("required" = ["count"])))]
     pub struct RepeatSpec {
         /// How many cells: a whole number or a formula over parameters.
+        /// [1; 1 to 10000; required; e.g. "N"]
         pub count: Option<Quantity>,
-        /// Name of the index in braces; "i" by default.
+        /// Name of the index in braces.
+        /// [name; default "i"; e.g. "k"]
         pub index: Option<Name>,
-        /// Value of the index in the first cell; 1 by default.
+        /// Value of the index in the first cell.
+        /// [1; whole; default 1; e.g. 0]
         pub first: Option<At<i64>>,
         /// Points of a cell.
+        /// [table]
         pub points: Table<PointSpec>,
         /// Bodies of a cell.
+        /// [table]
         pub bodies: Table<BodySpec>,
         /// Joints of a cell.
+        /// [table]
         pub joints: Table<JointSpec>,
         /// Forces of a cell.
+        /// [table]
         pub forces: Table<ForceSpec>,
         /// Guesses of a cell.
+        /// [table]
         pub assembly: Table<StartSpec>,
         /// Start values of a cell.
+        /// [table]
         pub initial: Table<StartSpec>,
     }
 }

@@ -20,46 +20,65 @@ tables! {
     ])))]
     pub struct ForceSpec {
         /// Spring and damper between two bodies.
+        /// [two bodies; e.g. ["ground", "rocker"]]
         pub spring: Option<Pair>,
         /// Elastic mount between two bodies.
+        /// [two bodies; e.g. ["ground", "engine"]]
         pub bushing: Option<Pair>,
         /// Body that is pushed.
+        /// [body; e.g. "ram"]
         pub force: Option<Name>,
         /// Body that is turned.
+        /// [body; e.g. "crank"]
         pub torque: Option<Name>,
         /// Point of a force or bushing, or the two points of a spring.
+        /// [points; required but of a torque; e.g. ["P", "Q"]]
         pub at: Option<Places>,
         /// Stiffness of a spring.
+        /// [N/m; any; default 0; e.g. "500 N/m"]
         pub stiffness: Option<Quantity>,
         /// Unloaded length of a spring.
+        /// [m; from 0; required with `stiffness`; e.g. "100 mm"]
         pub length: Option<Quantity>,
         /// Damping of a spring along its line.
+        /// [N s/m; from 0; default 0; e.g. "20 N s/m"]
         pub damping: Option<Quantity>,
         /// Constant pull of a spring.
+        /// [N; any; default 0; e.g. "50 N"]
         pub preload: Option<Quantity>,
         /// Stiffness and damping of a bushing along its axes.
+        /// [table of N/m and N s/m; default 0]
         pub translation: Option<At<ByAxis>>,
         /// Stiffness and damping of a bushing about its axes.
+        /// [table of N m and N m s; default 0]
         pub rotation: Option<At<ByAxis>>,
-        /// Axes of a bushing at the reference pose: two or three directions at right angles; those of the ground by default.
+        /// Axes of a bushing at the reference pose: two or three directions at right angles.
+        /// [directions; at right angles; default those of the ground; e.g. [[1, 0, 0], [0, 1, 0]]]
         pub directions: Option<At<Vec<Triple>>>,
         /// Components of a force or torque.
+        /// [N or N m; any; required of a force or torque; e.g. [0, 0, "-10 N"]]
         pub components: Option<Triple>,
-        /// Axes of the components: "ground" (default) or a body they turn with.
+        /// Axes of the components: "ground" or a body they turn with.
+        /// [body; default "ground"; e.g. "ram"]
         pub axes: Option<Name>,
-        /// Body that takes the reaction; "ground" by default.
+        /// Body that takes the reaction.
+        /// [body; default "ground"; e.g. "frame"]
         pub reaction: Option<Name>,
         /// Our own assumption.
+        /// [mark]
         pub assumed: bool,
         /// What it is.
+        /// [text]
         pub doc: Option<Doc>,
     }
 
     /// Stiffness and damping, axis by axis.
     pub struct ByAxis {
-        /// Stiffness; 0 by default.
+        /// Stiffness.
+        /// [N/m or N m; from 0; default 0; e.g. ["1 kN/mm", "1 kN/mm", "2 kN/mm"]]
         pub stiffness: Option<Triple>,
-        /// Damping; 0 by default.
+        /// Damping.
+        /// [N s/m or N m s; from 0; default 0; e.g. ["10 N s/m", "10 N s/m", "20 N s/m"]]
         pub damping: Option<Triple>,
     }
 }

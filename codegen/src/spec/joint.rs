@@ -17,78 +17,111 @@ tables! {
     ], "required" = ["at"])))]
     pub struct JointSpec {
         /// Rotation about `axis`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub revolute: Option<Pair>,
         /// Translation along `axis`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub prismatic: Option<Pair>,
         /// Rotation about and translation along `axis`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub cylindrical: Option<Pair>,
         /// Rotation with translation by `lead` per turn.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub screw: Option<Pair>,
         /// Rotation about the two `axes`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub universal: Option<Pair>,
         /// Rotation about a point.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub spherical: Option<Pair>,
         /// Rotation about a point that slides along `axis`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub inline: Option<Pair>,
         /// Motion in the plane with normal `axis`.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub planar: Option<Pair>,
         /// No relative motion.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub fixed: Option<Pair>,
         /// No constraint.
+        /// [parent and child; e.g. ["ground", "crank"]]
         pub free: Option<Pair>,
         /// Point where the joint is.
+        /// [point; required; e.g. "O"]
         pub at: Option<Name>,
         /// Direction at the reference pose, for all or by body; any length.
+        /// [direction; required but of spherical, universal, fixed and free; e.g. [0, 0, 1]]
         pub axis: Option<PerBody>,
         /// The two axes of a universal joint: on the parent, on the child.
+        /// [two directions; required of universal; e.g. [[1, 0, 0], [0, 1, 0]]]
         pub axes: Option<At<Vec<PerBody>>>,
         /// Direction of `q1` of a planar joint.
+        /// [direction; default near an axis of the ground; e.g. [1, 0, 0]]
         pub first: Option<PerBody>,
         /// Advance of a screw per turn.
+        /// [m; not 0; required of a screw; e.g. "5 mm"]
         pub lead: Option<Quantity>,
         /// Prescribed motion over parameters, inputs and t.
+        /// [rad or m; twice differentiable; default none; e.g. "2*pi*speed*t"]
         pub drive: Option<ByCoordinate>,
         /// Viscous damping.
+        /// [N m s or N s/m; from 0; default 0; e.g. "0.1 N m s/rad"]
         pub damping: Option<ByCoordinate>,
         /// Viscous friction; the same law as `damping`.
+        /// [N m s or N s/m; from 0; default 0; e.g. "1e-4 N m s/rad"]
         pub friction: Option<ByCoordinate>,
         /// Linear spring.
+        /// [table; default none]
         pub spring: Option<SpringSpec>,
         /// Force or torque by formula, positive along the coordinate.
+        /// [N m or N; any; default none; e.g. "-2 N m"]
         pub force: Option<ByCoordinate>,
         /// Cut the loop here.
+        /// [true or false; default chosen; e.g. true]
         pub cut: Option<At<bool>>,
         /// Our own assumption.
+        /// [mark]
         pub assumed: bool,
         /// What it is.
+        /// [text]
         pub doc: Option<Doc>,
     }
 
     /// Quantities by coordinate of a joint.
     pub struct EachCoordinate {
         /// The only coordinate.
+        /// [as of one coordinate]
         pub q: Option<Quantity>,
         /// First coordinate.
+        /// [as of one coordinate]
         pub q1: Option<Quantity>,
         /// Second coordinate.
+        /// [as of one coordinate]
         pub q2: Option<Quantity>,
         /// Third coordinate.
+        /// [as of one coordinate]
         pub q3: Option<Quantity>,
     }
 
     /// A joint spring: for the only coordinate, or by coordinate.
     pub struct SpringSpec {
         /// Stiffness.
+        /// [N m or N/m; any; required; e.g. "500 N/m"]
         pub stiffness: Option<Quantity>,
-        /// Unloaded position; 0 by default.
+        /// Unloaded position.
+        /// [rad or m; any; default 0; e.g. "10 deg"]
         pub rest: Option<Quantity>,
         /// The only coordinate.
+        /// [table]
         pub q: Option<At<SpringPart>>,
         /// First coordinate.
+        /// [table]
         pub q1: Option<At<SpringPart>>,
         /// Second coordinate.
+        /// [table]
         pub q2: Option<At<SpringPart>>,
         /// Third coordinate.
+        /// [table]
         pub q3: Option<At<SpringPart>>,
     }
 
@@ -96,8 +129,10 @@ tables! {
     #[cfg_attr(test, schemars(extend("required" = ["stiffness"])))]
     pub struct SpringPart {
         /// Stiffness.
+        /// [N m or N/m; any; required; e.g. "500 N/m"]
         pub stiffness: Option<Quantity>,
-        /// Unloaded position; 0 by default.
+        /// Unloaded position.
+        /// [rad or m; any; default 0; e.g. "10 deg"]
         pub rest: Option<Quantity>,
     }
 }

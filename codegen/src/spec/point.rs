@@ -84,10 +84,10 @@ impl JsonSchema for PointSpec {
         json_schema!({ "anyOf": [triple, {
             "type": "object",
             "properties": {
-                "at": position,
-                "on": { "type": "string", "description": "Body that carries the point." },
-                "assumed": { "type": "boolean", "description": "Our own assumption." },
-                "doc": { "type": "string" },
+                "at": { "anyOf": [position], "description": "Coordinates, for all or by body. [m; any; required; e.g. [\"L1\", \"0 mm\", 0]]" },
+                "on": { "type": "string", "description": "Body that carries the point. [body; default the first described with it; e.g. \"crank\"]" },
+                "assumed": { "type": "boolean", "description": "Our own assumption. [mark]" },
+                "doc": { "type": "string", "description": "What it is. [text]" },
             },
             "additionalProperties": triple,
         }]})
