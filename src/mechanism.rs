@@ -2,7 +2,7 @@
 //! Never knows what is done with it.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use linkwear_codegen::input::read_text;
@@ -15,6 +15,7 @@ use thiserror::Error;
 
 use crate::backend::{Backend, BackendError, Equations, Lanes};
 use crate::checksum::sha256;
+use crate::files::folder_of;
 use crate::journal::{Identity, VERSION};
 use crate::mechanisms::SHIPPED;
 use crate::provenance::Provenance;
@@ -59,6 +60,11 @@ struct Origin {
     file: String,
     /// How it was compiled, as far as that is not the default.
     options: Map<String, Value>,
+    /// The text of the file; empty where a program compiled it in.
+    text: Arc<str>,
+    /// Where the file is, and the files that it names.
+    place: PathBuf,
+    attached: Vec<PathBuf>,
     /// Their tapes: hashing them takes longer than writing their machine code, and few ask.
     tapes: Option<Arc<Vec<Tape>>>,
 }
@@ -89,7 +95,15 @@ impl Mechanism {
         let equations = Equations::choose(compiled, options, backend)?;
         let warnings = located_warnings(compiled);
         let tapes = Some(Arc::new(compiled.tapes().to_vec()));
-        let origin = Origin { file: compiled.source.sha256(), options: told(options), tapes };
+        let source = &compiled.source;
+        let origin = Origin {
+            file: source.sha256(),
+            options: told(options),
+            text: source.text.as_str().into(),
+            place: PathBuf::from(&source.name),
+            attached: compiled.mechanism.attached.clone(),
+            tapes,
+        };
         Ok(Self { warnings, origin, ..Self::new(compiled.description().clone(), equations) })
     }
 
@@ -123,6 +137,19 @@ impl Mechanism {
         entries
     }
 
+    /// Its file as [`MECHANISM`], and the files that it names below its folder, by their places from there: what compiles to it again.
+    /// Nothing of a mechanism that a program compiled in.
+    pub(crate) fn sources(&self) -> Vec<(String, String)> {
+        let Origin { text, place, attached, .. } = &self.origin;
+        let folder = folder_of(place);
+        let named = |path: &PathBuf| {
+            let name = path.strip_prefix(folder).ok().filter(|name| is_below(name))?;
+            Some((name.to_str()?.to_owned(), read_text(path, limits::DATA_BYTES).ok()?))
+        };
+        let own = (!text.is_empty()).then(|| (MECHANISM.to_owned(), text.to_string()));
+        own.into_iter().chain(attached.iter().filter_map(named)).collect()
+    }
+
     /// What a result is of that it gives with a seed and options, SI.
     pub fn provenance(&self, seed: Option<u64>, options: Value) -> Provenance {
         let mut provenance = Provenance::new(self.origin.file.clone(), seed, options);
@@ -154,6 +181,14 @@ impl Mechanism {
     pub const fn refusal(&self) -> Option<&Refusal> {
         self.equations.refusal()
     }
+}
+
+/// What a mechanism's file is called beside a result.
+pub(crate) const MECHANISM: &str = "mechanism.toml";
+
+/// Whether a path leads down and nowhere else.
+pub(crate) fn is_below(path: &Path) -> bool {
+    path.components().all(|part| matches!(part, Component::Normal(_)))
 }
 
 /// Options of a compilation as results tell them.

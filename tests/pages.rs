@@ -100,7 +100,7 @@ fn charts_are_drawn_of_runs_lives_and_fits() {
         "cycles",
     ];
     let asked: [(&[&str], usize); 3] =
-        [(&["simulate", RSSR], 8), (&["life", RSSR], 3), (&[&fit[..], &["--from-zero"]].concat(), 3)];
+        [(&["simulate", RSSR], 8), (&["life", RSSR], 5), (&[&fit[..], &["--from-zero"]].concat(), 3)];
     for (words, charts) in asked {
         let answer = linkwear(&[words, &["--plot", &out]].concat());
         assert_eq!(answer.code, 0, "{}", answer.err);

@@ -22,7 +22,7 @@ pub mod life;
 mod matrix;
 pub mod metrics;
 pub mod monte_carlo;
-mod order;
+pub mod order;
 mod prediction;
 pub mod process;
 mod quadrature;

@@ -66,9 +66,13 @@ pub enum Command {
         after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
     )]
     Life(LifeArguments),
-    /// Write a page to look at in a browser: the mechanism moving in 3-D, curves, its life, tables; one file, without a network.
+    /// Write a page to look at in a browser: the mechanism moving in 3-D, curves, its life, tables; one file, without a network. FILE may be
+    /// the folder of `life --out DIR`, whose life it then shows without living it again.
     #[cfg(feature = "page")]
-    #[command(after_help = "Example:\n  linkwear report mechanisms/rssr.toml -o rssr.html")]
+    #[command(
+        after_help = "Examples:\n  linkwear report mechanisms/rssr.toml -o rssr.html\n\nOf a life that is lived already:\n  \
+                      linkwear life mechanisms/rssr.toml --out life\n  linkwear report life -o rssr.html"
+    )]
     Report(ReportArguments),
     /// As `report`, of the motion alone.
     #[cfg(feature = "page")]
@@ -178,9 +182,9 @@ pub struct SimulateArguments {
     pub motion: MotionArguments,
     #[arg(long, value_name = "FILE", help = rows_help())]
     pub out: Option<PathBuf>,
-    /// Draw forces, drive, contacts, deflections and motion of the joints as charts (SVG).
+    /// Draw forces, drive, contacts, deflections and motion of the joints as charts (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]
-    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub equations: EquationsChoice,
@@ -197,9 +201,9 @@ pub struct LifeArguments {
     /// Folder for life.json, cycles.csv, lives.csv and the journal that --resume goes on from; must be new or empty.
     #[arg(long, value_name = "DIR", value_parser = output())]
     pub out: Option<PathBuf>,
-    /// Draw density, reliability and clearance by cycles as charts (SVG).
+    /// Draw density, reliability, and wear and clearance by cycles with their spread as charts (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]
-    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
     pub plot: Option<PathBuf>,
     /// Go on with the run that was interrupted in --out, to the same bits as if it had not been; with more
     /// --trajectories, extend it.
@@ -269,7 +273,7 @@ pub struct DrawArguments {
     #[command(flatten)]
     pub equations: EquationsChoice,
     /// File to write.
-    #[arg(short, long, value_name = "PICTURE.svg", value_parser = output())]
+    #[arg(short, long, value_name = "PICTURE.svg|png", value_parser = output())]
     pub out: PathBuf,
     /// Replace a file that linkwear did not make.
     #[arg(long)]
@@ -383,9 +387,9 @@ pub struct FitArguments {
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
-    /// Draw probability paper, quantiles and residuals as charts (SVG).
+    /// Draw probability paper, quantiles and residuals as charts (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]
-    #[arg(long, value_name = "FILE.svg", value_parser = output())]
+    #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
     pub plot: Option<PathBuf>,
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE", value_parser = output())]

@@ -2,8 +2,9 @@
 //! ones by its Gamma process.
 
 mod fits;
-mod folder;
+pub mod folder;
 pub mod output;
+mod told;
 
 use std::path::Path;
 
@@ -51,7 +52,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let facts = LifeFacts::new(&study, life.coupling);
     let answer = output::answer(&facts, &life);
     #[cfg(feature = "page")]
-    picture::write_plot(arguments.plot.as_deref(), || life_picture(&life, &answer.json))?;
+    picture::write_plot(arguments.plot.as_deref(), || life_picture(&answer.json))?;
     match (folder, study.shard) {
         (Some(folder), Some(shard)) => {
             let part = LifePart::new(&study, command(std::env::args()), life);

@@ -16,7 +16,7 @@ const BACKENDS: [(&str, Backend); 4] = [
     ("native", Backend::Native),
     ("interpreter", Backend::Interpreter),
 ];
-const CLOSURES: [(&str, Closure); 2] = [("joint", Closure::Joint), ("log", Closure::Log)];
+pub const CLOSURES: [(&str, Closure); 2] = [("joint", Closure::Joint), ("log", Closure::Log)];
 const COUPLINGS: [(&str, Coupling); 2] = [("table", Coupling::Table), ("full", Coupling::Full)];
 
 /// The formats of tables as the program has them.

@@ -1,6 +1,8 @@
 //! `report`, `view`, `draw`: what a mechanism looks like, how it moves, what becomes of it, in one file. In: arguments. Out: a
 //! file. Numbers are those of `simulate` and `life`, which are asked here.
 
+mod lived;
+
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
@@ -9,6 +11,7 @@ use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::{Run, Watch};
 use serde_json::{Value, json};
 
+use self::lived::Lived;
 use super::answer::Answer;
 use super::answer::equations::PageAnswer;
 use super::arguments::{DrawArguments, ReportArguments, ViewArguments};
@@ -16,7 +19,7 @@ use super::failure::Failure;
 use super::input::{options, print_remarks};
 use super::life;
 use super::options::{EquationsChoice, Input, LengthArguments, MotionArguments};
-use super::picture::may_write;
+use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
 use crate::files::write_whole;
@@ -51,14 +54,17 @@ pub struct Ear<'a> {
 
 pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
     let ReportArguments { input, out, force, .. } = arguments;
-    to_file(input, (out, *force), |source, ear| {
-        let (page, wears) = report_page(arguments, source, ear)?;
+    to_file(&input.file, (out, *force), |ear| {
+        if input.file.is_dir() {
+            return Ok((lived_page(arguments, ear)?.into_bytes(), ""));
+        }
+        let (page, wears) = report_page(arguments, &read_source(&input.file)?, ear)?;
         let note = if wears {
             ""
         } else {
             "\nno joint of this mechanism wears: no life in the page; add [clearance.R1] and [wear.R1], R1 being the joint that wears"
         };
-        Ok((page, note))
+        Ok((page.into_bytes(), note))
     })
 }
 
@@ -85,43 +91,46 @@ pub fn report_page(
         }
         let mut result = study.run_watched(ear.watch).map_err(failed)?;
         result.warnings.extend(warnings);
-        let json = life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json;
-        Some((result, json))
+        Some(life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json)
     } else {
         None
     };
-    let page = Page {
-        compiled: &seen.compiled,
-        run: &seen.run,
-        simulation: &seen.json,
-        life: life.as_ref().map(|(result, json)| (result, json)),
-        with_parameters: true,
-    };
-    Ok((page.html(), wears))
+    Ok((page(&seen, life.as_ref(), true), wears))
+}
+
+/// The page of a life that was lived before, in a folder.
+pub fn lived_page(arguments: &ReportArguments, ear: Ear<'_>) -> Result<String, Failure> {
+    let Lived { json, input, source, rigid } = Lived::read(arguments)?;
+    let equations = EquationsChoice { rigid, ..arguments.equations };
+    let seen = see((&input, &source), &motion(arguments.turns, ROWS), equations, ear)?;
+    Ok(page(&seen, Some(&json), true))
+}
+
+fn page(seen: &Seen, life: Option<&Value>, with_parameters: bool) -> String {
+    let Seen { compiled, run, json } = seen;
+    Page { compiled, run, simulation: json, life, with_parameters }.html()
 }
 
 pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
     let ViewArguments { input, out, force, .. } = arguments;
-    to_file(input, (out, *force), |source, ear| Ok((view_page(arguments, source, ear)?, "")))
+    to_file(&input.file, (out, *force), |ear| {
+        Ok((view_page(arguments, &read_source(&input.file)?, ear)?.into_bytes(), ""))
+    })
 }
 
 /// The page of a motion.
 pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -> Result<String, Failure> {
     let ViewArguments { input, motion, equations, .. } = arguments;
     let seen = see((input, source), motion, *equations, ear)?;
-    let page = Page {
-        compiled: &seen.compiled,
-        run: &seen.run,
-        simulation: &seen.json,
-        life: None,
-        with_parameters: false,
-    };
-    Ok(page.html())
+    Ok(page(&seen, None, false))
 }
 
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
     let DrawArguments { input, out, force, .. } = arguments;
-    to_file(input, (out, *force), |source, ear| Ok((drawn(arguments, source, ear)?, "")))
+    to_file(&input.file, (out, *force), |ear| {
+        let svg = drawn(arguments, &read_source(&input.file)?, ear)?;
+        Ok((picture::drawn(out, svg)?, ""))
+    })
 }
 
 /// The picture, SVG.
@@ -161,20 +170,19 @@ fn see(
     Ok(Seen { compiled, run, json })
 }
 
-/// Writes what is made of a file's text, with a note for its reader.
+/// Writes what is made of a file, with a note for its reader.
 fn to_file(
-    input: &Input,
+    input: &Path,
     (out, force): (&Path, bool),
-    make: impl FnOnce(&SourceFile, Ear<'_>) -> Result<(String, &'static str), Failure>,
+    make: impl FnOnce(Ear<'_>) -> Result<(Vec<u8>, &'static str), Failure>,
 ) -> Result<Answer, Failure> {
-    may_write(&input.file, out, force)?;
+    may_write(input, out, force)?;
     let begin = Instant::now();
-    let source = read_source(&input.file)?;
-    let (text, note) = watched(|watch| make(&source, Ear { watch, remarks: true }))?;
-    write_whole(out, |file| file.write_all(text.as_bytes()))?;
+    let (bytes, note) = watched(|watch| make(Ear { watch, remarks: true }))?;
+    write_whole(out, |file| file.write_all(&bytes))?;
     let seconds = begin.elapsed().as_secs_f64();
-    let (file, size) = (out.display(), text.len().div_ceil(1000));
-    let told = PageAnswer { file: file.to_string(), bytes: text.len(), seconds };
+    let (file, size) = (out.display(), bytes.len().div_ceil(1000));
+    let told = PageAnswer { file: file.to_string(), bytes: bytes.len(), seconds };
     let text = format!("{file}: written, {size} kB in {}; open it in a browser{note}", duration(seconds));
     Ok(Answer::new(text, told, None))
 }

@@ -10,6 +10,10 @@ use crate::files::{WriteError, write_whole};
 
 /// Refuses, before the work, to replace what linkwear did not make.
 pub fn may_write(input: &Path, out: &Path, force: bool) -> Result<(), Failure> {
+    if cfg!(not(feature = "png")) && is_png(out) {
+        let help = "give a name that ends in .svg, or build it with the feature `png`: cargo build --release --features png";
+        return Err(Failure::usage("this program was built without PNG", help));
+    }
     let is_stream = check_output(input, Some(out))?;
     let is_foreign = || out.is_file() && !is_own(out);
     if !is_stream && !force && is_foreign() {
@@ -23,7 +27,26 @@ fn is_own(file: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(file).and_then(|file| file.take(600).read_to_end(&mut head));
     let text = String::from_utf8_lossy(&head);
-    read.is_ok() && (head.is_empty() || text.contains("\"linkwear ") || text.contains("<!-- linkwear "))
+    let marks = ["\"linkwear ", "<!-- linkwear ", "Software\0linkwear "];
+    read.is_ok() && (head.is_empty() || marks.iter().any(|mark| text.contains(mark)))
+}
+
+/// Whether a file is to be a PNG.
+fn is_png(file: &Path) -> bool {
+    file.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))
+}
+
+/// A picture (SVG) in the format that the name of its file asks for.
+pub fn drawn(file: &Path, svg: String) -> Result<Vec<u8>, Failure> {
+    #[cfg(feature = "png")]
+    if is_png(file) {
+        let none = |why| {
+            Failure::usage(format!("there is no picture to write: {why}"), "give a name that ends in .svg")
+        };
+        return crate::page::png::png(&svg).map_err(none);
+    }
+    let _ = file;
+    Ok(svg.into_bytes())
 }
 
 /// Refuses, before the work, a place where no charts may be written.
@@ -34,5 +57,6 @@ pub fn check_plot(input: &Path, plot: Option<&Path>) -> Result<(), Failure> {
 /// Writes charts where they are asked for.
 pub fn write_plot(plot: Option<&Path>, picture: impl FnOnce() -> String) -> Result<(), Failure> {
     let Some(plot) = plot else { return Ok(()) };
-    Ok(write_whole(plot, |file| file.write_all(picture().as_bytes()))?)
+    let bytes = drawn(plot, picture())?;
+    Ok(write_whole(plot, |file| file.write_all(&bytes))?)
 }

@@ -6,13 +6,14 @@ use std::num::NonZero;
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 
-use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Lives, MonteCarlo, Scale};
+use linkwear_gamma::monte_carlo::{Ended, GammaDraw, Heard, Lives, MonteCarlo, Scale};
 use linkwear_runtime::Watch;
 use linkwear_runtime::life::FailureEvent;
 
 use super::counted::{CountedEnds, parts};
 use super::error::{Cause, LifeError};
-use super::journal::{Batch, KnownLives};
+use super::journal::{Batch, KnownLives, LifeJournal};
+use super::paths::{FOLLOWED, Follower};
 use super::result::LifeResult;
 use super::run::Plan;
 use super::study::Coupling;
@@ -26,7 +27,7 @@ const SHIFTED_BY_DYNAMICS: u64 = 4;
 type Numbered = Vec<(u64, FailureEvent)>;
 
 /// Lives to draw.
-struct Part {
+struct Part<'a> {
     batch: Batch,
     /// All that are to be drawn.
     all: Range<u64>,
@@ -34,6 +35,8 @@ struct Part {
     lives: Range<u64>,
     /// Whether the journal keeps them: lives that are not listed are as fast lived again as read.
     is_kept: bool,
+    /// Who hears of their cycles.
+    follower: Option<&'a Follower>,
 }
 
 impl Plan<'_> {
@@ -52,12 +55,17 @@ impl Plan<'_> {
         let all = self.study.shard.map_or(0..count, |shard| shard.numbers(count));
         let length = (all.end - all.start) as f64;
         let (mut counted, mut lives) = (CountedEnds::default(), Vec::new());
+        let known = self.journal.map(LifeJournal::paths).unwrap_or_default();
+        let follower = Follower::new(result.end.cycles, known);
+        // By a table lives are as fast lived once more as followed: none is lived otherwise because someone looks.
+        let is_followed = self.coupling == Coupling::Full;
         // More than are listed go in parts of as many, which are counted and forgotten.
         for part in parts(all.clone(), self.study.listed) {
             let [start, share] =
                 [part.start - all.start, part.end - part.start].map(|lives| lives as f64 / length);
             let watch = |done: f64| self.watch.report(start + share * done);
-            let part = Part { batch: 0, all: all.clone(), lives: part, is_kept: is_listed };
+            let follower = is_followed.then_some(&follower);
+            let part = Part { batch: 0, all: all.clone(), lives: part, is_kept: is_listed, follower };
             lives =
                 self.draw_by((scale, threads), &process.draw(), part, Watch::new(&watch)).map_err(failed)?;
             if !is_listed {
@@ -74,7 +82,8 @@ impl Plan<'_> {
         let mut by_fits = |shifted: &GammaDraw| {
             batch += 1;
             let few = count.min(few);
-            let part = Part { batch, all: 0..few, lives: 0..few, is_kept: few <= self.study.listed };
+            let (all, is_kept) = (0..few, few <= self.study.listed);
+            let part = Part { batch, lives: all.clone(), all, is_kept, follower: None };
             let lives = self.draw_by((scale, threads), shifted, part, self.between)?;
             Ok(lives.iter().map(|(_, end)| end.cycles).sum::<f64>() / lives.len() as f64)
         };
@@ -86,6 +95,13 @@ impl Plan<'_> {
         if count > 1 {
             result.parameter_error = by_fits;
         }
+        let followed = all.start..all.end.min(FOLLOWED);
+        if !is_followed && !followed.is_empty() {
+            let follower = Some(&follower);
+            let part = Part { batch: 0, lives: followed.clone(), all: followed, is_kept: false, follower };
+            self.draw_by((scale, threads), &process.draw(), part, self.between).map_err(failed)?;
+        }
+        result.paths = Some(follower.finish());
         result.counted = (!is_listed).then_some(counted);
         result.lives = lives.into_iter().map(|(_, end)| end).collect();
         let missing = self.missing_threads.load(Ordering::Relaxed);
@@ -103,7 +119,7 @@ impl Plan<'_> {
         &self,
         (scale, threads): (Scale<'_, S, E>, NonZero<usize>),
         draw: &GammaDraw,
-        Part { batch, all, lives, is_kept }: Part,
+        Part { batch, all, lives, is_kept, follower }: Part<'_>,
         watch: Watch<'_>,
     ) -> Result<Numbered, (Cause, Numbered)> {
         let mut settings = self.settings.clone();
@@ -111,13 +127,19 @@ impl Plan<'_> {
         let done = lives.start - all.start;
         let run = MonteCarlo { settings: &settings, draw, trajectories: lives, threads };
         let none = KnownLives::new();
-        let known = self.journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
+        let journal = self.journal.filter(|_| is_kept);
+        let known = journal.and_then(|journal| journal.lives(batch)).unwrap_or(&none);
         let keep = |ends: &[(u64, FailureEvent)]| {
-            if let Some(journal) = self.journal.filter(|_| is_kept) {
-                journal.keep_lives(batch, ends);
+            if let Some(journal) = journal {
+                let path = |(number, _): &(u64, FailureEvent)| Some((*number, follower?.path(*number)?));
+                journal.keep_lives(batch, &ends.iter().filter_map(path).collect::<Vec<_>>(), ends);
             }
         };
-        let Lives { failures, ended, missing_threads } = run.go_on(known, &keep, scale, watch);
+        let hear = |number: u64, cycle: u64, wear: &[f64]| {
+            follower.iter().for_each(|follower| follower.hear(number, cycle, wear));
+        };
+        let heard: Option<Heard<'_>> = if follower.is_some() { Some(&hear) } else { None };
+        let Lives { failures, ended, missing_threads } = run.go_on_heard(known, (&keep, heard), scale, watch);
         self.missing_threads.fetch_max(missing_threads, Ordering::Relaxed);
         let lives = Some((failures.len() + usize::try_from(done).unwrap_or(0), all.end - all.start));
         let cause = match ended {

@@ -25,6 +25,9 @@ pub struct LifeFacts {
     pub wear_measures: Vec<WearMeasure>,
     /// What the result is of.
     pub provenance: Provenance,
+    /// The mechanism's file and those that it names: names, texts.
+    #[serde(default)]
+    pub sources: Vec<(String, String)>,
     /// Remarks on the mechanism's file, as machines read them.
     pub warnings: Vec<Value>,
 }
@@ -41,6 +44,7 @@ impl LifeFacts {
             listed: study.listed,
             shared_factor: study.shared_factor,
             provenance: study.provenance(coupling),
+            sources: mechanism.sources(),
             wear_measures: wear_measures(&mechanism.description),
             warnings: warnings.iter().map(|entry| serde_json::json!(entry)).collect(),
         }

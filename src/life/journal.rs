@@ -10,11 +10,12 @@ use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{RunWarning, Steadiness, TurnState};
 use serde::{Deserialize, Serialize};
 
+use super::paths::LifePath;
 use crate::files::claim_folder;
 use crate::journal::{Identity, Journal, JournalError};
 
 /// The file in the folder.
-const NAME: &str = "life.journal";
+pub(crate) const NAME: &str = "life.journal";
 
 /// The draws that a life belongs to: 0 for the life asked for, then those with shifted parameters.
 pub(super) type Batch = u64;
@@ -39,7 +40,16 @@ pub(super) struct Measurement {
 #[serde(rename_all = "lowercase")]
 enum Record {
     Measurement(Measurement),
-    Life { batch: Batch, number: u64, end: FailureEvent },
+    Life {
+        batch: Batch,
+        number: u64,
+        end: FailureEvent,
+    },
+    /// Wear of a life asked for, before its end.
+    Path {
+        number: u64,
+        path: LifePath,
+    },
 }
 
 /// The journal of one life, locked.
@@ -48,6 +58,7 @@ pub struct LifeJournal {
     kept: Journal<Record>,
     measurements: Vec<Measurement>,
     lives: BTreeMap<Batch, KnownLives>,
+    paths: BTreeMap<u64, LifePath>,
     /// Whether no further measurement can be kept.
     is_blind: AtomicBool,
 }
@@ -75,13 +86,15 @@ impl LifeJournal {
 
     fn with(kept: Journal<Record>, records: Vec<Record>) -> Self {
         let is_blind = AtomicBool::new(false);
-        let mut journal = Self { kept, measurements: Vec::new(), lives: BTreeMap::new(), is_blind };
+        let (measurements, lives, paths) = Default::default();
+        let mut journal = Self { kept, measurements, lives, paths, is_blind };
         for record in records {
             match record {
                 Record::Measurement(measurement) => journal.measurements.push(measurement),
                 Record::Life { batch, number, end } => {
                     journal.lives.entry(batch).or_default().insert(number, end);
                 }
+                Record::Path { number, path } => drop(journal.paths.insert(number, path)),
             }
         }
         journal
@@ -124,10 +137,18 @@ impl LifeJournal {
         self.kept.sync();
     }
 
-    /// Keeps lives that are finished, those of one call together on the disk.
-    pub(super) fn keep_lives(&self, batch: Batch, ends: &[(u64, FailureEvent)]) {
-        let record = |(number, end): &(u64, FailureEvent)| Record::Life { batch, number: *number, end: *end };
-        self.kept.keep(&ends.iter().map(record).collect::<Vec<_>>());
+    /// Wear of the lives that are known, by their numbers: of those only whose end is known too.
+    pub(super) fn paths(&self) -> BTreeMap<u64, LifePath> {
+        let has_ended = |number: &u64| self.lives(0).is_some_and(|lives| lives.contains_key(number));
+        let known = self.paths.iter().filter(|(number, _)| has_ended(number));
+        known.map(|(number, path)| (*number, path.clone())).collect()
+    }
+
+    /// Keeps lives that are finished, those of one call together on the disk, with their wear where it is followed.
+    pub(super) fn keep_lives(&self, batch: Batch, paths: &[(u64, LifePath)], ends: &[(u64, FailureEvent)]) {
+        let path = |(number, path): &(u64, LifePath)| Record::Path { number: *number, path: path.clone() };
+        let life = |(number, end): &(u64, FailureEvent)| Record::Life { batch, number: *number, end: *end };
+        self.kept.keep(&paths.iter().map(path).chain(ends.iter().map(life)).collect::<Vec<_>>());
     }
 
     /// Whether nothing more can be kept.

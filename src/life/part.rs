@@ -13,7 +13,7 @@ use crate::parts::{MergeError, Part, gather, write_part};
 use crate::shard::Shard;
 
 /// The file in the folder.
-const NAME: &str = "life.shard";
+pub(crate) const NAME: &str = "life.shard";
 
 /// What became of one shard, with all that the result of the study is told with.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -6,6 +6,7 @@ use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
 use serde::{Deserialize, Serialize};
 
 use super::counted::CountedEnds;
+use super::paths::LifePaths;
 use super::process::JointProcess;
 use super::steady::TurnErrors;
 use super::study::Coupling;
@@ -28,6 +29,8 @@ pub struct LifeResult {
     pub lives: Vec<FailureEvent>,
     /// The random lives, if they are more than [`LifeStudy::listed`](super::LifeStudy::listed).
     pub counted: Option<CountedEnds>,
+    /// Wear of the first random lives at whole cycles; none if only the mean path was lived.
+    pub paths: Option<LifePaths>,
     /// Gamma process of each wearing joint, if all have one.
     pub process: Option<Vec<JointProcess>>,
     /// The table of wear per revolution and its errors, if there is one.
@@ -114,6 +117,9 @@ impl LifeResult {
         self.lives.extend(next.lives);
         if let (Some(all), Some(more)) = (&mut self.counted, &next.counted) {
             all.merge(more);
+        }
+        if let (Some(all), Some(more)) = (&mut self.paths, next.paths) {
+            all.join(more);
         }
         self
     }

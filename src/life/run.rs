@@ -237,6 +237,7 @@ impl<'s> Plan<'s> {
             cycles: state.cycles,
             lives: Vec::new(),
             counted: None,
+            paths: None,
             process: self.process.as_ref().map(|process| process.joints.clone()),
             table: None,
             measurements: state.measurements,

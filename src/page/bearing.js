@@ -25,36 +25,45 @@ const bearings = scene.joints.filter(joint => joint.clearance && index.has(joint
     reach = Math.max(reach, Math.hypot(...at));
     if (Fn !== undefined) strongest = Math.max(strongest, cell(row, Fn));
   }
-  const draw = when => {
-    const c = canvas.getContext("2d"), w = canvas.width, mid = w / 2, unit = w / 260, scale = 0.2 * w / reach;
+  // Clearance is drawn large: the journal may move by what is between both circles. What stands still is drawn once.
+  const c = canvas.getContext("2d"), w = canvas.width, mid = w / 2, unit = w / 260, scale = 0.2 * w / reach, journal = 0.2 * w;
+  const still = document.createElement("canvas");
+  still.width = still.height = w;
+  let ink, blue, red;
+  const restyle = () => {
+    [ink, blue, red] = ["--ink", "--c0", "--c5"].map(css);
+    const s = still.getContext("2d");
+    s.clearRect(0, 0, w, w);
+    s.strokeStyle = css("--soft");
+    s.lineWidth = 4 * unit;
+    s.beginPath(); s.arc(mid, mid, journal + scale * joint.clearance.radial, 0, 7); s.stroke();
+    s.lineWidth = 1.5 * unit;
+    s.strokeStyle = blue;
+    s.beginPath();
+    path.forEach(([a, b], k) => s[k ? "lineTo" : "moveTo"](mid + scale * a, mid - scale * b));
+    s.stroke();
+  };
+  restyle();
+  const draw = (when, tell) => {
+    const px = value_at(when, x), py = value_at(when, y), cx = mid + scale * px, cy = mid - scale * py;
     c.clearRect(0, 0, w, w);
+    c.drawImage(still, 0, 0);
     c.lineWidth = 1.5 * unit;
-    // Clearance is drawn large: the journal may move by what is between both circles.
-    const journal = 0.2 * w, bearing = journal + scale * joint.clearance.radial;
-    c.strokeStyle = css("--soft");
-    c.beginPath(); c.arc(mid, mid, bearing, 0, 7); c.lineWidth = 4 * unit; c.stroke();
-    c.lineWidth = 1.5 * unit;
-    c.strokeStyle = css("--c0");
-    c.beginPath();
-    path.forEach(([a, b], k) => c[k ? "lineTo" : "moveTo"](mid + scale * a, mid - scale * b));
-    c.stroke();
-    const [px, py] = [value_at(when, x), value_at(when, y)], at = [mid + scale * px, mid - scale * py];
-    c.beginPath(); c.arc(...at, journal, 0, 7); c.globalAlpha = 0.2; c.fillStyle = css("--c0"); c.fill(); c.globalAlpha = 1; c.strokeStyle = css("--ink"); c.stroke();
-    c.beginPath(); c.arc(...at, 3 * unit, 0, 7); c.fillStyle = css("--ink"); c.fill();
+    c.beginPath(); c.arc(cx, cy, journal, 0, 7); c.globalAlpha = 0.2; c.fillStyle = blue; c.fill(); c.globalAlpha = 1; c.strokeStyle = ink; c.stroke();
+    c.beginPath(); c.arc(cx, cy, 3 * unit, 0, 7); c.fillStyle = ink; c.fill();
     const force = Fn === undefined ? 0 : value_at(when, Fn), r = Math.hypot(px, py);
     if (force > 0 && r > 0 && strongest > 0) {
-      const d = [px / r, -py / r], from = [at[0] + journal * d[0], at[1] + journal * d[1]], long = 0.25 * w * force / strongest;
-      const to = [from[0] - long * d[0], from[1] - long * d[1]];
-      c.strokeStyle = c.fillStyle = css("--c5");
+      const dx = px / r, dy = -py / r, fx = cx + journal * dx, fy = cy + journal * dy, long = 0.25 * w * force / strongest, tx = fx - long * dx, ty = fy - long * dy;
+      c.strokeStyle = c.fillStyle = red;
       c.lineWidth = 2.5 * unit;
-      c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke();
-      c.beginPath(); c.moveTo(...to);
-      for (const s of [-1, 1]) c.lineTo(to[0] + 8 * unit * d[0] + s * 4 * unit * d[1], to[1] + 8 * unit * d[1] - s * 4 * unit * d[0]);
+      c.beginPath(); c.moveTo(fx, fy); c.lineTo(tx, ty); c.stroke();
+      c.beginPath(); c.moveTo(tx, ty);
+      for (const s of [-1, 1]) c.lineTo(tx + 8 * unit * dx + s * 4 * unit * dy, ty + 8 * unit * dy - s * 4 * unit * dx);
       c.fill();
     }
-    says.textContent = `${joint.name}: journal in its bearing, clearance ${digits(1e6 * joint.clearance.radial)} um drawn large; contact force ${digits(force)} N${gap === undefined ? "" : ", gap " + digits(1e6 * value_at(when, gap)) + " um"}`;
+    if (tell) says.textContent = `${joint.name}: journal in its bearing, clearance ${digits(1e6 * joint.clearance.radial)} um drawn large; contact force ${digits(force)} N${gap === undefined ? "" : ", gap " + digits(1e6 * value_at(when, gap)) + " um"}`;
   };
-  return { joint, draw, columns: { angle, Fn, vt } };
+  return { joint, canvas, draw, restyle, columns: { angle, Fn, vt } };
 });
 
 // Depth by angle: sliding work of the run, its largest value 1.
@@ -111,7 +120,7 @@ if (worn && life) {
       }
       c.fillStyle = css("--soft");
       c.textAlign = "left";
-      c.fillText(`outer ring: ${digits(1e6 * most)} um`, 2 * unit, w - 4 * unit);
+      c.fillText(`outer ring: ${digits(1e6 * most)} um`, 2 * unit, 11 * unit);
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", "wear around the bearing of " + bearing.joint.name);
     }

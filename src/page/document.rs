@@ -8,11 +8,11 @@ use linkwear_runtime::Run;
 use serde_json::{Value, json};
 
 use super::curves;
+use super::drawing;
 use super::escape::{data, escaped};
 use super::lives;
 use super::motion::Motion;
 use super::scene::Scene;
-use crate::life::LifeResult;
 use crate::number::number;
 
 /// All that is shown.
@@ -22,8 +22,8 @@ pub struct Page<'a> {
     pub run: &'a Run,
     /// What `simulate --format json` says of it.
     pub simulation: &'a Value,
-    /// A life, and what `life --format json` says of it.
-    pub life: Option<(&'a LifeResult, &'a Value)>,
+    /// What `life --format json` says of its life.
+    pub life: Option<&'a Value>,
     /// Whether the parameters are told.
     pub with_parameters: bool,
 }
@@ -47,9 +47,10 @@ impl Page<'_> {
             include_str!("page.css"),
             self.lead(),
         );
-        out.push_str(include_str!("motion.html"));
-        if let Some((life, json)) = self.life {
-            self.life(&mut out, life, json);
+        let drawing = drawing::within_page(self.compiled, self.run).unwrap_or_default();
+        out.push_str(&include_str!("motion.html").replace("<!-- drawing -->", &drawing));
+        if let Some(life) = self.life {
+            Self::life(&mut out, life);
         }
         self.curves(&mut out);
         self.loads(&mut out);
@@ -65,7 +66,7 @@ impl Page<'_> {
         };
         hold("motion", &motion);
         hold("simulation", self.simulation);
-        hold("life", self.life.map_or(&Value::Null, |(_, json)| json));
+        hold("life", self.life.unwrap_or(&Value::Null));
         let _ = writeln!(
             out,
             "<script>\"use strict\";(() => {{\n{}}})();</script>\n</body>\n</html>",
@@ -83,7 +84,7 @@ impl Page<'_> {
             ("mobility", self.compiled.analysis.mobility.to_string()),
             ("time shown", format!("{} s", shown(&self.simulation["time_s"]))),
         ];
-        if let Some((_, life)) = self.life {
+        if let Some(life) = self.life {
             let first = |key: &str| shown(&life["quantiles"][key]);
             facts = vec![
                 ("mean life", format!("{} cycles", shown(&life["mean"]))),
@@ -94,7 +95,8 @@ impl Page<'_> {
                 facts.push(("half fail before", format!("{} cycles", first("p50"))));
             }
             if life["time"]["mean"]["hours"].is_number() {
-                facts.push(("hours at its speed", shown(&life["time"]["mean"]["hours"])));
+                let [hours, years] = ["hours", "years"].map(|key| shown(&life["time"]["mean"][key]));
+                facts.push(("without a pause", format!("{hours} h, {years} years")));
             }
             facts.push(("fails by joint", shown(&life["failed_joint"])));
         }
@@ -112,9 +114,9 @@ impl Page<'_> {
         out.push_str("<figure><label>any column <select id=\"column\"></select></label><div id=\"chosen\"></div></figure>\n</div></section>\n");
     }
 
-    fn life(&self, out: &mut String, life: &LifeResult, json: &Value) {
+    fn life(out: &mut String, json: &Value) {
         out.push_str("<section><h2>Life</h2>\n<div class=\"charts\">\n");
-        for chart in lives::charts(life, json) {
+        for chart in lives::charts(json) {
             let _ = writeln!(out, "<figure>{}</figure>", chart.figure());
         }
         out.push_str(include_str!("wear.html"));
@@ -147,6 +149,18 @@ impl Page<'_> {
             quantile("90 % fail before (B90)", "p90"),
         ];
         table(out, "Life in cycles", &["", "cycles ± standard error", "95 %"], &rows);
+        let time = |name: &str, of: &Value| vec![name.to_owned(), shown(&of["hours"]), shown(&of["years"])];
+        if json["time"].is_object() {
+            let (of, quantiles) = (&json["time"], &json["time"]["quantiles"]);
+            let rows = [
+                time("mean", &of["mean"]),
+                time("standard deviation", &of["std"]),
+                time("10 % fail before (B10)", &quantiles["p10"]),
+                time("half fail before (B50)", &quantiles["p50"]),
+                time("90 % fail before (B90)", &quantiles["p90"]),
+            ];
+            table(out, "Life in time, running without a pause", &["", "hours", "years"], &rows);
+        }
         let budget = json["error_budget"]["half_widths_95"].as_object();
         let rows: Vec<Vec<String>> = budget
             .into_iter()
@@ -200,7 +214,7 @@ impl Page<'_> {
     fn warnings(&self, out: &mut String) {
         let of = |json: &Value| json["warnings"].as_array().cloned().unwrap_or_default();
         let mut all = of(self.simulation);
-        for warning in self.life.map(|(_, json)| of(json)).unwrap_or_default() {
+        for warning in self.life.map(of).unwrap_or_default() {
             if !all.contains(&warning) {
                 all.push(warning);
             }
@@ -223,7 +237,7 @@ impl Page<'_> {
     }
 
     fn provenance(&self, out: &mut String) {
-        let provenance = self.life.map_or(self.simulation, |(_, json)| json)["provenance"].clone();
+        let provenance = self.life.unwrap_or(self.simulation)["provenance"].clone();
         let text = serde_json::to_string_pretty(&provenance).unwrap_or_default();
         let _ = writeln!(
             out,

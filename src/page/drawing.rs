@@ -21,6 +21,15 @@ const SHOWN: f64 = 0.13;
 
 /// The picture; nothing if the run has no columns of poses.
 pub fn svg(compiled: &Compiled, run: &Run) -> Option<String> {
+    styled(compiled, run, STYLE)
+}
+
+/// The same without colours, for a page that has its own.
+pub fn within_page(compiled: &Compiled, run: &Run) -> Option<String> {
+    styled(compiled, run, "")
+}
+
+fn styled(compiled: &Compiled, run: &Run, style: &str) -> Option<String> {
     let scene = Scene::new(compiled);
     let poses = scene
         .bodies
@@ -29,7 +38,7 @@ pub fn svg(compiled: &Compiled, run: &Run) -> Option<String> {
     let poses: Vec<usize> = poses.collect::<Option<_>>()?;
     let camera = Camera::fitted(&scene, run, &poses);
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\">\n<!-- linkwear {VERSION} -->\n{STYLE}\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\">\n<!-- linkwear {VERSION} -->\n{style}\n\
          <rect class=\"paper\" width=\"{WIDTH}\" height=\"{HEIGHT}\"/>\n"
     );
     let rows = run.rows.len();

@@ -9,6 +9,8 @@ mod escape;
 mod fits;
 mod lives;
 mod motion;
+#[cfg(feature = "png")]
+pub mod png;
 mod scene;
 
 use linkwear_gamma::data::Observations;
@@ -16,7 +18,6 @@ use linkwear_gamma::fit::{Fit, Goodness};
 use linkwear_runtime::Run;
 use serde_json::Value;
 
-use crate::life::LifeResult;
 use chart::Chart;
 
 /// Charts of a run as one picture (SVG).
@@ -25,8 +26,8 @@ pub fn run_picture(run: &Run) -> String {
 }
 
 /// Charts of a life, of which `life --format json` says `json`, as one picture (SVG).
-pub fn life_picture(life: &LifeResult, json: &Value) -> String {
-    Chart::file(&lives::charts(life, json))
+pub fn life_picture(json: &Value) -> String {
+    Chart::file(&lives::charts(json))
 }
 
 /// Charts of a fit as one picture (SVG).

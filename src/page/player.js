@@ -96,16 +96,20 @@ const link = svg => {
   svg.addEventListener("pointermove", seek);
   svg.addEventListener("pointerdown", seek);
   svg.addEventListener("pointerleave", () => { state.held = false; });
+  sight.observe(svg);
+  svg.querySelector(".cursor").style.visibility = "visible";
   const now = [...svg.querySelectorAll(".now")].map(span => [span, span.dataset.columns.split(",").map(Number)]);
   return { svg, cursor: svg.querySelector(".cursor"), at: t => left + wide * (t - low) / (high - low), now };
 };
-const follow = when => {
+// Only what is in sight follows, and numbers no more often than they can be read.
+const in_sight = new Set();
+const sight = new IntersectionObserver(list => { for (const { target, isIntersecting } of list) { if (isIntersecting) in_sight.add(target); else in_sight.delete(target); } stale = true; });
+let told = -1;
+const follow = (when, tell) => {
   for (const { svg, cursor, at, now } of charts) {
-    const rect = svg.getBoundingClientRect();
-    if (rect.bottom < 0 || rect.top > innerHeight) continue;
-    cursor.style.visibility = "visible";
+    if (!in_sight.has(svg)) continue;
     cursor.setAttribute("transform", `translate(${at(state.t).toFixed(1)} 0)`);
-    for (const [span, columns] of now) {
+    if (tell) for (const [span, columns] of now) {
       span.textContent = digits(columns.length > 1 ? Math.hypot(...columns.map(c => value_at(when, c))) : value_at(when, columns[0]));
     }
   }
@@ -153,36 +157,55 @@ select.addEventListener("change", choose);
 if (known.length) choose();
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
-const restyle = () => { learn_colours(); if (worn && worn.redraw) worn.redraw(); stale = true; };
+const restyle = () => { learn_colours(); everything = true; bearings.forEach(bearing => bearing.restyle()); if (worn && worn.redraw) worn.redraw(); stale = true; };
 dark.addEventListener("change", restyle);
+// Pictures are drawn as fine as the machine keeps up with while they move, and in full when they stand.
+const FINEST = Math.min(2, devicePixelRatio || 1), STANDING = gpu && gpu.software ? Math.max(2, FINEST) : FINEST;
+let fine = FINEST, moving = true;
+let wide = canvas.clientWidth, high = canvas.clientHeight;
 const fit = () => {
-  const k = Math.min(2, devicePixelRatio || 1), [w, h] = [Math.round(canvas.clientWidth * k), Math.round(canvas.clientHeight * k)];
+  const k = moving ? fine : STANDING, [w, h] = [Math.round(wide * k), Math.round(high * k)];
   if (w && h && (canvas.width !== w || canvas.height !== h)) { canvas.width = w; canvas.height = h; stale = true; }
 };
-addEventListener("beforeprint", () => { learn_colours(); stale = true; draw(); });
+new ResizeObserver(() => { wide = canvas.clientWidth; high = canvas.clientHeight; fit(); stale = true; }).observe(canvas);
+for (const bearing of bearings) sight.observe(bearing.canvas);
+
+// What is out of sight is drawn first of all, for paper, and in other colours.
+let everything = true;
+addEventListener("beforeprint", () => { everything = true; restyle(); draw(); });
 
 const draw = () => {
-  fit();
-  const when = place_in(state.t);
+  const when = place_in(state.t), now = performance.now(), tell = !state.playing || now - told > 100;
+  if (tell) told = now;
   if (gpu && canvas.width) paint(when, state.bend, state.gap, show());
-  bearings.forEach(bearing => bearing.draw(when));
-  follow(when);
-  $("clock") && ($("clock").textContent = `t = ${state.t.toFixed(Math.max(2, 3 - Math.floor(Math.log10(length))))} s`);
-  $("instant").value = (state.t - first) / length;
+  for (const bearing of bearings) if (in_sight.has(bearing.canvas) || everything) bearing.draw(when, tell || everything);
+  everything = false;
+  follow(when, tell);
+  if (tell) {
+    $("clock").textContent = `t = ${state.t.toFixed(Math.max(2, 3 - Math.floor(Math.log10(length))))} s`;
+    $("instant").value = (state.t - first) / length;
+  }
 };
-// Pictures in each of the last seconds.
-let before = 0, frames = 0, since = 0;
+// Pictures in each of the last seconds, and how long the last ones took.
+let before = 0, frames = 0, since = 0, took = 1000 / 60, rested = 0;
+const adapt = passed => {
+  took += 0.1 * (1000 * passed - took);
+  // Down at once, up slowly, so that it does not swing.
+  if (took > 20 && fine > 0.6) { fine = Math.max(0.6, fine * 0.85); took = 1000 / 60; rested = 0; }
+  else if (took < 17.2 && fine < FINEST && ++rested > 240) { fine = Math.min(FINEST, fine * 1.1); rested = 0; }
+};
 const tick = now => {
-  const passed = Math.min(0.1, (now - before) / 1000);
+  const passed = Math.min(0.1, (now - before) / 1000), runs = state.playing && !state.held;
   before = now;
-  if (state.playing && !state.held) { state.t += passed / state.slow; if (state.t > last_time) state.t = first + (state.t - first) % length; stale = true; }
+  if (runs) { state.t += passed / state.slow; if (state.t > last_time) state.t = first + (state.t - first) % length; stale = true; adapt(passed); }
+  moving = runs || pointers.size > 0;
   fit();
   if (stale) { stale = false; draw(); frames++; }
   if (now - since > 1000) {
-    $("rate") && ($("rate").textContent = state.playing ? `${Math.round(frames * 1000 / (now - since))} pictures a second` : "");
+    $("rate").textContent = state.playing ? `${Math.round(frames * 1000 / (now - since))} pictures a second` : "";
     [since, frames] = [now, 0];
   }
   requestAnimationFrame(tick);
 };
-window.linkwear = { state, camera, go, play };
+window.linkwear = { state, camera, go, play, draw };
 requestAnimationFrame(now => { before = since = now; tick(now); });

@@ -36,7 +36,6 @@ const moved = (when, body, p) => {
   const at = body.pose;
   return [0, 1, 2].map(i => value_at(when, at + 3 * i) * p[0] + value_at(when, at + 3 * i + 1) * p[1] + value_at(when, at + 3 * i + 2) * p[2] + value_at(when, at + 9 + i));
 };
-const turned = (when, body, d) => [0, 1, 2].map(i => V.dot([0, 1, 2].map(j => value_at(when, body.pose + 3 * i + j)), d));
 const bent = (when, body, list) => {
   let sum = [0, 0, 0];
   body.modes.forEach((column, k) => { sum = V.add(sum, V.by(value_at(when, column), list[k])); });
@@ -50,38 +49,84 @@ const offset_at = (when, joint) => {
   return V.sub(end(cb, cp), end(pb, pp));
 };
 
+// What is seen at an instant stands in arrays that are made once: poses, and places of every body.
 // Straight parts that a flexible body is drawn by, between two of its nodes.
 const BENDS = 6;
-// What is seen at an instant: places of every body, with deflection and clearance made larger.
+for (const body of scene.bodies) {
+  body.now = new Float64Array(12);
+  body.at = new Float64Array(3 * body.places.length);
+  body.shift = new Float64Array(3 * body.places.length);
+  body.amplitude = new Float64Array(body.modes.length);
+  body.curve = body.line.length ? new Float64Array(3 * (BENDS * (body.line.length - 1) + 1)) : null;
+  body.end_shift = body.line.length ? [body.line[0].at, body.line[body.line.length - 1].at].map(p => body.places.findIndex(q => V.norm(V.sub(p, q)) < 1e-9)) : null;
+}
+const same_place = (body, p) => scene.bodies[body].places.findIndex(q => V.norm(V.sub(p, q)) < 1e-9);
+for (const joint of scene.joints) {
+  joint.ends = joint.sides.map(([body, p]) => ({ body: body === null ? null : scene.bodies[body], p, place: body === null ? -1 : same_place(body, p), at: Float64Array.from(p) }));
+  joint.along = joint.axis && Float64Array.from(V.unit(joint.axis));
+}
+// Moves p by a pose.
+const carry = (m, x, y, z, to, at) => {
+  to[at] = m[0] * x + m[1] * y + m[2] * z + m[9];
+  to[at + 1] = m[3] * x + m[4] * y + m[5] * z + m[10];
+  to[at + 2] = m[6] * x + m[7] * y + m[8] * z + m[11];
+};
+const D = new Float64Array(3), E = new Float64Array(3), S = new Float64Array(3), T = new Float64Array(3);
+// Displacement by the modes, into `to`.
+const sum_modes = (body, list, to) => {
+  to[0] = to[1] = to[2] = 0;
+  for (let k = 0; k < list.length; k++) { const a = body.amplitude[k], v = list[k]; to[0] += a * v[0]; to[1] += a * v[1]; to[2] += a * v[2]; }
+};
+// With deflection and clearance made larger.
 function figure(when, bend, gap) {
-  const shifts = scene.bodies.map(() => []);
+  for (const body of scene.bodies) {
+    for (let k = 0; k < 12; k++) body.now[k] = value_at(when, body.pose + k);
+    for (let k = 0; k < body.modes.length; k++) body.amplitude[k] = value_at(when, body.modes[k]);
+    body.shift.fill(0);
+  }
   for (const joint of scene.joints) {
     if (!joint.clearance || gap <= 1) continue;
-    const [body, p] = joint.sides[1];
-    if (body !== null) shifts[body].push([p, V.by(gap - 1, offset_at(when, joint))]);
+    const [parent, child] = joint.ends;
+    if (!child.body || child.place < 0) continue;
+    D.set(parent.p);
+    if (parent.body) carry(parent.body.now, parent.p[0], parent.p[1], parent.p[2], D, 0);
+    carry(child.body.now, child.p[0], child.p[1], child.p[2], E, 0);
+    for (let i = 0; i < 3; i++) child.body.shift[3 * child.place + i] = (gap - 1) * (E[i] - D[i]);
   }
-  return scene.bodies.map((body, b) => {
-    const shift = p => { const s = shifts[b].find(([q]) => V.norm(V.sub(p, q)) < 1e-9); return s ? s[1] : [0, 0, 0]; };
-    const places = body.places.map((p, k) => {
-      const node = body.node[k];
-      const q = node < 0 ? p : V.add(p, V.by(bend, bent(when, body, body.line[node].shape)));
-      return V.add(moved(when, body, q), shift(p));
-    });
-    if (!body.line.length) return { places, curve: null };
-    const curve = [];
+  for (const body of scene.bodies) {
+    for (let k = 0; k < body.places.length; k++) {
+      const p = body.places[k], node = body.node[k];
+      if (node < 0) D.fill(0); else sum_modes(body, body.line[node].shape, D);
+      carry(body.now, p[0] + bend * D[0], p[1] + bend * D[1], p[2] + bend * D[2], body.at, 3 * k);
+      for (let i = 0; i < 3; i++) body.at[3 * k + i] += body.shift[3 * k + i];
+    }
+    if (!body.curve) continue;
+    const last = body.curve.length / 3 - 1, [from, to] = body.end_shift;
+    let at = 0;
     for (let k = 0; k + 1 < body.line.length; k++) {
-      const [a, b2] = [body.line[k], body.line[k + 1]], d = V.sub(b2.at, a.at), l = V.norm(d);
-      const [u0, u1, s0, s1] = [bent(when, body, a.shape), bent(when, body, b2.shape), bent(when, body, a.slope), bent(when, body, b2.slope)];
+      const a = body.line[k], b = body.line[k + 1], l = Math.hypot(b.at[0] - a.at[0], b.at[1] - a.at[1], b.at[2] - a.at[2]);
+      sum_modes(body, a.shape, D); sum_modes(body, b.shape, E); sum_modes(body, a.slope, S); sum_modes(body, b.slope, T);
       for (let j = k ? 1 : 0; j <= BENDS; j++) {
-        const x = j / BENDS, y = 1 - x;
-        let u = V.add(V.by(y * y * (1 + 2 * x), u0), V.by(x * x * (3 - 2 * x), u1));
-        u = V.add(u, V.add(V.by(l * x * y * y, s0), V.by(-l * x * x * y, s1)));
-        curve.push(moved(when, body, V.add(V.add(a.at, V.by(x, d)), V.by(bend, u))));
+        const x = j / BENDS, y = 1 - x, h0 = y * y * (1 + 2 * x), h1 = x * x * (3 - 2 * x), g0 = l * x * y * y, g1 = -l * x * x * y, part = at / last;
+        const q = i => a.at[i] + x * (b.at[i] - a.at[i]) + bend * (h0 * D[i] + h1 * E[i] + g0 * S[i] + g1 * T[i]);
+        carry(body.now, q(0), q(1), q(2), body.curve, 3 * at);
+        for (let i = 0; i < 3; i++) body.curve[3 * at + i] += (1 - part) * (from < 0 ? 0 : body.shift[3 * from + i]) + part * (to < 0 ? 0 : body.shift[3 * to + i]);
+        at++;
       }
     }
-    const ends = [shift(body.line[0].at), shift(body.line[body.line.length - 1].at)];
-    return { places, curve: curve.map((p, k) => V.add(p, V.add(V.by(1 - k / (curve.length - 1), ends[0]), V.by(k / (curve.length - 1), ends[1])))) };
-  });
+  }
+  for (const joint of scene.joints) {
+    for (const end of joint.ends) {
+      if (!end.body) continue;
+      if (end.place < 0) carry(end.body.now, end.p[0], end.p[1], end.p[2], end.at, 0);
+      else for (let i = 0; i < 3; i++) end.at[i] = end.body.at[3 * end.place + i];
+    }
+    const body = joint.ends[0].body;
+    if (joint.axis && body) {
+      const m = body.now, a = joint.axis, [x, y, z] = [m[0] * a[0] + m[1] * a[1] + m[2] * a[2], m[3] * a[0] + m[4] * a[1] + m[5] * a[2], m[6] * a[0] + m[7] * a[1] + m[8] * a[2]], n = Math.hypot(x, y, z) || 1;
+      joint.along[0] = x / n; joint.along[1] = y / n; joint.along[2] = z / n;
+    }
+  }
 }
 
 // How large everything is over the run.
@@ -158,59 +203,67 @@ const grid = gpu && (() => {
     const from = V.add(base, V.by(k * half / 5, a));
     list.push(V.add(from, V.by(-half, b)), V.add(from, V.by(half, b)));
   }
-  return gpu.lines(list);
+  return gpu.lines(list, true);
 })();
 const traces = scene.traces.map(name => {
   const column = index.get(name + ".x");
   if (column === undefined || !gpu) return null;
-  const list = [];
-  for (let row = 0; row < times.length; row++) list.push(vector_at([row, 0], column));
+  const list = [], stride = Math.max(1, Math.floor(times.length / 720));
+  for (let row = 0; row < times.length; row += stride) list.push(vector_at([row, 0], column));
+  list.push(vector_at([times.length - 1, 0], column));
   return gpu.lines(list);
 });
 
+const F = new Float64Array(3);
 function paint(when, bend, gap, show) {
-  const wide = canvas.width / canvas.height, lens = projection(wide), shape = figure(when, bend, gap), labels = [];
-  gpu.begin(lens.matrix, lens.light, colours.paper);
-  if (grid) grid(colours.line, "pairs");
-  if (show.traces) traces.forEach((trace, k) => trace && trace(colours.bodies[(k + 3) % 8]));
+  const lens = projection(canvas.width / canvas.height), labels = show.names ? [] : null, { rod, thin, box, cone } = gpu.meshes, put = gpu.put, few = scene.bodies.length > 20;
+  const along = (shape, p, d, from, to, r, colour) => put(shape, p[0] + from * d[0], p[1] + from * d[1], p[2] + from * d[2], p[0] + to * d[0], p[1] + to * d[1], p[2] + to * d[2], r, colour);
+  figure(when, bend, gap);
+  gpu.begin();
+  if (grid) grid.colour = colours.line;
+  traces.forEach((trace, k) => { if (trace) trace.colour = show.traces ? colours.bodies[(k + 3) % 8] : null; });
   scene.bodies.forEach((body, b) => {
-    const { places, curve } = shape[b], colour = colours.bodies[b % 8], r = thick(body), rod = body.square ? gpu.box : gpu.rod;
+    const { at, curve, rods } = body, colour = colours.bodies[b % 8], r = thick(body), shape = body.square ? box : few ? thin : rod, wide = body.square ? r * Math.SQRT2 : r;
     if (curve) {
-      for (let k = 0; k + 1 < curve.length; k++) gpu.rod(curve[k], curve[k + 1], r, colour);
-      gpu.ball(curve[0], r, colour);
-      gpu.ball(curve[curve.length - 1], r, colour);
+      for (let k = 0; k + 3 < curve.length; k += 3) put(thin, curve[k], curve[k + 1], curve[k + 2], curve[k + 3], curve[k + 4], curve[k + 5], r, colour);
+      const end = curve.length - 3;
+      gpu.ball(curve[0], curve[1], curve[2], r, colour);
+      gpu.ball(curve[end], curve[end + 1], curve[end + 2], r, colour);
     }
-    body.rods.forEach(([p, q], k) => { if (!curve || k) rod(places[p], places[q], r, colour); });
-    if (!body.rods.length && places[0]) gpu.ball(places[0], 2 * r, colour);
-    if (show.names && places[0]) labels.push([body.name, V.by(0.5, V.add(places[(body.rods[0] || [0])[0]], places[(body.rods[0] || [0, 0])[1] || 0])), b]);
+    for (let k = curve ? 1 : 0; k < rods.length; k++) {
+      const p = 3 * rods[k][0], q = 3 * rods[k][1];
+      put(shape, at[p], at[p + 1], at[p + 2], at[q], at[q + 1], at[q + 2], wide, colour);
+    }
+    if (!rods.length && at.length) gpu.ball(at[0], at[1], at[2], 2 * r, colour);
+    if (labels && at.length) { const [p, q] = rods[0] || [0, 0]; labels.push([body.name, [0, 1, 2].map(i => 0.5 * (at[3 * p + i] + at[3 * q + i])), b]); }
   });
-  scene.joints.forEach(joint => {
-    const spot = side => { const [body, p] = joint.sides[side]; if (body === null) return p; const k = scene.bodies[body].places.findIndex(q => V.norm(V.sub(p, q)) < 1e-9); return k < 0 ? moved(when, scene.bodies[body], p) : shape[body].places[k]; };
-    const [parent, child] = [spot(0), spot(1)], [body] = joint.sides[0];
-    const axis = joint.axis && V.unit(body === null ? joint.axis : turned(when, scene.bodies[body], joint.axis));
-    if (joint.look === "ball") gpu.ball(child, 1.25 * knob, colours.soft);
-    if (axis && joint.look !== "rigid") {
-      const long = joint.look === "pin" || joint.look === "short" ? 1.7 * knob : 4 * knob;
-      const draw = joint.look === "slider" ? gpu.box : gpu.rod;
-      draw(V.add(parent, V.by(-long, axis)), V.add(parent, V.by(long, axis)), 1.1 * knob, colours.soft);
-      if (joint.clearance) gpu.rod(V.add(child, V.by(-1.35 * long, axis)), V.add(child, V.by(1.35 * long, axis)), 0.6 * knob, colours.ink);
+  for (const joint of scene.joints) {
+    const [parent, child] = [joint.ends[0].at, joint.ends[1].at];
+    if (joint.look === "ball") gpu.ball(child[0], child[1], child[2], 1.25 * knob, colours.soft);
+    if (joint.axis && joint.look !== "rigid") {
+      const d = joint.along, long = joint.look === "pin" || joint.look === "short" ? 1.7 * knob : 4 * knob, slides = joint.look === "slider";
+      along(slides ? box : few ? thin : rod, parent, d, -long, long, slides ? 1.1 * knob * Math.SQRT2 : 1.1 * knob, colours.soft);
+      if (joint.clearance) along(few ? thin : rod, child, d, -1.35 * long, 1.35 * long, 0.6 * knob, colours.ink);
     }
-    if (body === null || joint.sides[1][0] === null) {
-      const ground = body === null ? parent : child, foot = V.add(ground, V.by(-3.2 * knob, up));
-      gpu.cone(foot, ground, 1.9 * knob, colours.soft);
-      gpu.box(V.add(foot, V.by(-0.5 * knob, up)), foot, 2.3 * knob, colours.soft);
+    if (!joint.ends[0].body || !joint.ends[1].body) {
+      const ground = joint.ends[0].body ? child : parent;
+      along(cone, ground, up, -3.2 * knob, 0, 1.9 * knob, colours.soft);
+      along(box, ground, up, -3.7 * knob, -3.2 * knob, 2.3 * knob * Math.SQRT2, colours.soft);
     }
     if (show.forces && joint.force !== undefined && force_most > 0) {
-      const force = vector_at(when, joint.force), long = 0.3 * size * V.norm(force) / force_most;
+      for (let i = 0; i < 3; i++) F[i] = value_at(when, joint.force + i);
+      const size_of = Math.hypot(F[0], F[1], F[2]), long = 0.3 * size * size_of / force_most;
       if (long > 0.01 * size) {
-        const d = V.unit(force), tip = V.add(child, V.by(long, d)), neck = V.add(child, V.by(long - Math.min(0.035 * size, 0.5 * long), d));
-        gpu.rod(child, neck, 0.0035 * size, colours.force);
-        gpu.cone(neck, tip, 0.011 * size, colours.force);
+        for (let i = 0; i < 3; i++) F[i] /= size_of;
+        const neck = long - Math.min(0.035 * size, 0.5 * long);
+        along(thin, child, F, 0, neck, 0.0035 * size, colours.force);
+        along(cone, child, F, neck, long, 0.011 * size, colours.force);
       }
     }
-    if (show.names) labels.push([joint.name, child, -1]);
-  });
-  place_labels(labels, lens.rows);
+    if (labels) labels.push([joint.name, child, -1]);
+  }
+  gpu.end(lens.matrix, lens.light, colours.paper);
+  if (labels || spans.length) place_labels(labels || [], lens.rows);
 }
 const spans = [];
 function place_labels(labels, rows) {

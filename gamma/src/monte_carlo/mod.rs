@@ -6,4 +6,5 @@ mod side_by_side;
 mod trajectories;
 
 pub use draw::{GammaDraw, GammaMean, MICRO, PER_METRE};
+pub use side_by_side::Heard;
 pub use trajectories::{Ended, Keep, Lives, MonteCarlo, Scale};

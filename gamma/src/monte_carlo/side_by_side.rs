@@ -3,28 +3,36 @@
 
 use linkwear_runtime::life::{FailureEvent, IncrementModel, LANES, Lanes, LifeSettings, WearFlow};
 
+/// Hears of whole cycles: trajectory, cycle from 1, wear W [m] of every joint at its end. A life that is lived twice is heard of twice,
+/// from its first cycle on.
+pub type Heard<'a> = &'a (dyn Fn(u64, u64, &[f64]) + Sync);
+
 /// Lives at hand, one in each lane. Nothing is allocated for a life or a cycle.
 pub(super) struct SideBySide<'a> {
     settings: &'a LifeSettings,
     flow: WearFlow,
     draw: &'a (dyn IncrementModel + Sync),
+    heard: Option<Heard<'a>>,
     lanes: Lanes,
     is_busy: [bool; LANES],
     /// W [m] of each joint in each lane, and after the cycle at hand.
     wear: Vec<[f64; LANES]>,
     gains: Vec<[f64; LANES]>,
     next: Vec<[f64; LANES]>,
+    /// W [m] of each joint of one life, for who hears of it.
+    told: Vec<f64>,
 }
 
 impl<'a> SideBySide<'a> {
     pub(super) fn new(
         settings: &'a LifeSettings,
         flow: WearFlow,
-        draw: &'a (dyn IncrementModel + Sync),
+        (draw, heard): (&'a (dyn IncrementModel + Sync), Option<Heard<'a>>),
     ) -> Self {
         let zeros = || vec![[0.0; LANES]; flow.joints()];
         let (wear, gains, next) = (zeros(), zeros(), zeros());
-        Self { settings, draw, lanes: Lanes::default(), is_busy: [false; LANES], wear, gains, next, flow }
+        let (lanes, is_busy, told) = (Lanes::default(), [false; LANES], vec![0.0; flow.joints()]);
+        Self { settings, draw, heard, lanes, is_busy, wear, gains, next, told, flow }
     }
 
     /// Lives these trajectories; `ended` hears of each, in the order in which they end. Nothing as its end: the life is one that
@@ -41,6 +49,7 @@ impl<'a> SideBySide<'a> {
                 if !self.is_busy[lane] {
                     continue;
                 }
+                self.tell(lane);
                 let end = match self.end(lane) {
                     Ok(None) => {
                         self.lanes.cycles[lane] += 1;
@@ -78,6 +87,14 @@ impl<'a> SideBySide<'a> {
             let drawn = self.draw.draw_lanes(joint, &self.lanes, &gains);
             self.gains[joint] = gains;
             self.next[joint] = std::array::from_fn(|lane| wear[lane] + drawn[lane]);
+        }
+    }
+
+    /// Tells of the cycle at hand of a life.
+    fn tell(&mut self, lane: usize) {
+        if let Some(heard) = self.heard {
+            self.told.iter_mut().zip(&self.next).for_each(|(told, next)| *told = next[lane]);
+            heard(self.lanes.trajectories[lane], self.lanes.cycles[lane] + 1, &self.told);
         }
     }
 

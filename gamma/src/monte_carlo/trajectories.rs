@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-use super::side_by_side::SideBySide;
+use super::side_by_side::{Heard, SideBySide};
 use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
     FailureEvent, IncrementModel, LifeError, LifeOutcome, LifeSettings, LifeState, WearSource, run_life,
@@ -99,6 +99,18 @@ impl MonteCarlo<'_> {
         scale: Scale<'_, S, E>,
         watch: Watch<'_>,
     ) -> Lives<E> {
+        self.go_on_heard(known, (keep, None), scale, watch)
+    }
+
+    /// As [`Self::go_on`]; `heard` hears of the cycles of further lives, those of a life before `keep` hears of its end. It changes no
+    /// bit.
+    pub fn go_on_heard<S: Clone + Default, E: Send>(
+        &self,
+        known: &BTreeMap<u64, FailureEvent>,
+        (keep, heard): (Keep<'_>, Option<Heard<'_>>),
+        scale: Scale<'_, S, E>,
+        watch: Watch<'_>,
+    ) -> Lives<E> {
         let known: Vec<(u64, FailureEvent)> =
             known.range(self.trajectories.clone()).map(|(number, end)| (*number, *end)).collect();
         let is_known: Vec<u64> = known.iter().map(|(number, _)| *number).collect();
@@ -134,10 +146,12 @@ impl MonteCarlo<'_> {
         };
         let live_all = |at: &Cell<u64>| {
             let made = scale(&mut |mut fine| {
-                let one = |fine: &mut _, trajectory| match self.live(fine, trajectory, Watch::new(&go_on)) {
-                    Ok(end) => failed(&[(trajectory, end)]),
-                    Err(why) => stopped(trajectory, why),
-                };
+                let one =
+                    |fine: &mut _, trajectory| match self.live(fine, trajectory, (Watch::new(&go_on), heard))
+                    {
+                        Ok(end) => failed(&[(trajectory, end)]),
+                        Err(why) => stopped(trajectory, why),
+                    };
                 let Some(flow) = fine.flow(self.settings) else {
                     while !halt.load(Ordering::Relaxed) {
                         let Some(numbers) = take(1) else { break };
@@ -148,7 +162,7 @@ impl MonteCarlo<'_> {
                     }
                     return;
                 };
-                let mut lanes = SideBySide::new(self.settings, flow, self.draw);
+                let mut lanes = SideBySide::new(self.settings, flow, (self.draw, heard));
                 let (mut ends, mut others) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
                 while let Some(numbers) = take(BLOCK as u64) {
                     if go_on(0.0).is_break() {
@@ -193,12 +207,32 @@ impl MonteCarlo<'_> {
         Lives { failures, ended, missing_threads }
     }
 
-    fn live<F: WearSource>(&self, fine: &mut F, trajectory: u64, watch: Watch<'_>) -> Result<F::Error> {
+    fn live<F: WearSource>(
+        &self,
+        fine: &mut F,
+        trajectory: u64,
+        (watch, heard): (Watch<'_>, Option<Heard<'_>>),
+    ) -> Result<F::Error> {
         let stopped = |stop| Ended::Stopped { trajectory, stop };
+        let heard_of;
+        let settings = if heard.is_some() {
+            heard_of = LifeSettings { keep_cycles: true, ..self.settings.clone() };
+            &heard_of
+        } else {
+            self.settings
+        };
         let mut state =
-            LifeState::new(self.settings, trajectory).map_err(|error| stopped(LifeError::Settings(error)))?;
-        match run_life(self.settings, fine, self.draw, &mut state, watch) {
-            Ok(LifeOutcome::Failed(failure)) => Ok(failure),
+            LifeState::new(settings, trajectory).map_err(|error| stopped(LifeError::Settings(error)))?;
+        match run_life(settings, fine, self.draw, &mut state, watch) {
+            Ok(LifeOutcome::Failed(failure)) => {
+                if let Some(heard) = heard {
+                    for record in &state.cycles {
+                        let wear: Vec<f64> = record.joints.iter().map(|joint| joint.wear).collect();
+                        heard(trajectory, record.cycle, &wear);
+                    }
+                }
+                Ok(failure)
+            }
             Ok(LifeOutcome::Cancelled) => Err(Ended::Cancelled),
             Ok(LifeOutcome::CycleLimit) => Err(Ended::Survived { trajectory }),
             Err(stop) => Err(stopped(stop)),

@@ -54,6 +54,9 @@ pub struct LifeAnswer<'a> {
     pub shared_factor: Option<f64>,
     /// Largest error of the table of wear per revolution, relative; null without a table.
     pub table_error: Option<f64>,
+    /// Wear at which each joint has failed [m].
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub thresholds_m: Map<String, Value>,
     /// Measurements of a revolution.
     pub measurements: u64,
     /// Cycles of the mean path.
@@ -158,6 +161,11 @@ pub struct ScatterAnswer {
     pub bin_error: Option<f64>,
     /// Part of the lives that is longer, from before the first failure to after the last.
     pub reliability: Vec<LongerAnswer>,
+    /// Part of the lives that ends in each cycle, or in each group of equally many where there are many.
+    pub histogram: Vec<EndedAnswer>,
+    /// Wear of the random lives at whole cycles, as they were lived: of the first 1000 of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wear_spread: Option<WearSpreadAnswer>,
     /// Part of the lives in which each joint is the first to fail.
     #[cfg_attr(test, schemars(with = "Numbers"))]
     pub failed_first: Map<String, Value>,
@@ -209,6 +217,53 @@ pub struct LongerAnswer {
     pub reliability: f64,
     /// Its standard error.
     pub standard_error: f64,
+}
+
+/// Part of the lives that ends in some cycles.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct EndedAnswer {
+    /// After so many whole cycles [cycles].
+    pub from: f64,
+    /// And not after more than so many [cycles].
+    pub to: f64,
+    /// The part, 0 to 1.
+    pub part: f64,
+}
+
+/// How wear scatters along the lives, what is worn being fed back in each of them.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct WearSpreadAnswer {
+    /// Number of lives, those of the lowest numbers.
+    pub lives: u64,
+    /// Whole cycles, evenly spaced, until all lives have ended.
+    pub cycles: Vec<SpreadAnswer>,
+}
+
+/// Wear of lives after a cycle. A life that has ended keeps the wear that it ended with.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct SpreadAnswer {
+    /// Which, from 1.
+    pub cycle: u64,
+    /// Part of the lives that have ended by then, 0 to 1.
+    pub ended: f64,
+    /// Each joint that wears.
+    pub joints: Vec<JointSpreadAnswer>,
+}
+
+/// A joint of lives after a cycle.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct JointSpreadAnswer {
+    /// The joint.
+    pub joint: String,
+    /// Quantiles of its wear W [m].
+    pub wear_m: Quantiles<f64>,
+    /// Quantiles of its clearance [m]; absent where a worn profile is fed back, which no one number holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_m: Option<Quantiles<f64>>,
 }
 
 /// Half-widths at 95 % of the mean life.

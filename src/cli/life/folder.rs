@@ -1,21 +1,35 @@
-//! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent, the tables with what they are of.
+//! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent, the tables with what they are of; the
+//! mechanism, so that the folder says all that it is of.
 
+use std::fs::create_dir_all;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use crate::files::{WriteError, write_whole};
+use crate::files::{WriteError, folder_of, write_whole};
 use crate::life::{LifeFacts, LifeResult};
+use crate::mechanism::is_below;
 use crate::provenance::Provenance;
 use crate::table::write_table;
 use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 use linkwear_runtime::{Cells, Table};
 use serde_json::Value;
 
+/// What is told.
+pub const LIFE: &str = "life.json";
+/// The folder of the mechanism's file and of those that it names.
+pub const SOURCES: &str = "mechanism";
+
 /// Everything.
 pub fn write(folder: &Path, facts: &LifeFacts, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
     let lives: Vec<_> = (0..).zip(life.lives.iter().copied()).collect();
     write_parts(folder, &life.names(), (&life.cycles, &lives), &facts.provenance)?;
-    write_whole(&folder.join("life.json"), |file| writeln!(file, "{answer:#}"))
+    for (name, text) in facts.sources.iter().filter(|(name, _)| is_below(Path::new(name))) {
+        let path = folder.join(SOURCES).join(name);
+        let place = folder_of(&path);
+        create_dir_all(place).map_err(WriteError::of(place))?;
+        write_whole(&path, |file| file.write_all(text.as_bytes()))?;
+    }
+    write_whole(&folder.join(LIFE), |file| writeln!(file, "{answer:#}"))
 }
 
 /// The cycles of the mean path, and the random lives by their numbers. Returns the file of the cycles.

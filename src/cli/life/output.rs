@@ -2,29 +2,21 @@
 
 use std::fmt::Write as _;
 
-use crate::life::{Cost, Coupling, HOUR, JointProcess, LifeFacts, LifeNumbers, LifeResult, Shard};
+use crate::life::{Cost, HOUR, JointProcess, LifeFacts, LifeResult, Shard};
 use crate::number::number;
 use crate::wear_measure::paragraph;
-use linkwear_gamma::life::{Contribution, CountedLives, LifeStatistics, WithError};
+use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
 use linkwear_runtime::life::{CycleJoint, CycleRecord};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::super::answer::Answer;
-use super::super::answer::common::Ends;
-use super::super::answer::life::{
-    CycleAnswer, Duration, HalfWidths, Intervals, LifeAnswer, LongerAnswer, MeanPathAnswer, ProcessAnswer,
-    ScatterAnswer, ShardAnswer, Sources, StandardErrors, TimeAnswer,
-};
-use super::super::failure::remarks;
+use super::super::answer::life::{CycleAnswer, ShardAnswer};
 use super::super::table::{count, table};
+use super::told::{YEAR, told_of};
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
-/// Points of the reliability function.
-const POINTS: usize = 40;
-/// Seconds of a year of 365.25 days.
-const YEAR: f64 = 8766.0 * HOUR;
 
 /// The answer.
 pub fn answer(facts: &LifeFacts, life: &LifeResult) -> Answer {
@@ -91,101 +83,6 @@ fn about(seconds: f64) -> String {
         [(YEAR, "years"), (24.0 * HOUR, "days"), (HOUR, "h"), (60.0, "min"), (1.0, "s"), (1e-3, "ms")];
     let (size, unit) = units.into_iter().find(|(size, _)| seconds >= *size).unwrap_or((1e-3, "ms"));
     format!("{:.1} {unit}", seconds / size)
-}
-
-fn told_of<'a>(
-    facts: &'a LifeFacts,
-    life: &'a LifeResult,
-    statistics: Option<&LifeStatistics>,
-) -> LifeAnswer<'a> {
-    let names = life.names();
-    let joint = life.failed_joint();
-    let LifeNumbers { mean, std, cov, p10, p50, p90, mean_whole_cycles, revolutions, .. } =
-        life.numbers(statistics);
-    let quantiles = [p10, p50, p90];
-    let budget = life.budget();
-    LifeAnswer {
-        name: &facts.name,
-        backend: &facts.backend,
-        coupling: match life.coupling {
-            Coupling::Table => "table",
-            Coupling::Full => "full",
-        },
-        mean,
-        std,
-        cov,
-        quantiles: quantiles.into(),
-        mean_whole_cycles,
-        trajectories: life.random_lives().max(1),
-        random: life.random_lives() > 0,
-        seed: facts.seed,
-        mean_path: MeanPathAnswer {
-            cycles: life.end.cycles,
-            whole_cycles: life.end.whole_cycles,
-            step_error: life.step_error,
-        },
-        failed_joint: &joint.joint,
-        revolutions_per_cycle: joint.revolutions_per_cycle,
-        revolutions,
-        parameters: life.process.as_ref().map(|joints| joints.iter().map(process_entry).collect()),
-        shared_factor: facts.shared_factor,
-        table_error: life.table_error(),
-        measurements: life.measurements,
-        cycles: life.cycles.iter().map(|cycle| CycleAnswer::new(&names, cycle)).collect(),
-        wear_measures: &facts.wear_measures,
-        warnings: remarks(facts.warnings.clone(), "life", &life.warnings),
-        time: life.seconds_per_cycle().map(|seconds| {
-            let time =
-                |cycles: f64| Duration { hours: cycles * seconds / HOUR, years: cycles * seconds / YEAR };
-            TimeAnswer {
-                seconds_per_cycle: seconds,
-                mean: time(mean),
-                std: time(std),
-                quantiles: quantiles.map(time).into(),
-            }
-        }),
-        scatter: statistics.map(|lives| scatter_of(life, lives)),
-        error_budget: HalfWidths {
-            half_widths_95: Sources::of(&budget, Contribution::half_width),
-            total: budget.known_total(),
-        },
-    }
-}
-
-/// What random lives tell.
-fn scatter_of(life: &LifeResult, lives: &LifeStatistics) -> ScatterAnswer {
-    const PARTS: [f64; 3] = [0.1, 0.5, 0.9];
-    let ends = |[lower, upper]: [Option<f64>; 2]| Ends { lower, upper };
-    let (mean, half) = (lives.mean().value, lives.mean_half_width());
-    let (low, high) = lives.std_interval();
-    let first = life.names().into_iter().zip(life.failed_first().into_iter().map(Value::from));
-    ScatterAnswer {
-        standard_errors: StandardErrors {
-            mean: lives.mean().error,
-            std: lives.std().error,
-            cov: lives.cov().into(),
-            quantiles: PARTS.map(|p| Some(lives.quantile(p).ok()?.error)).into(),
-        },
-        intervals95: Intervals {
-            mean: ends([Some(mean - half), Some(mean + half)]),
-            std: ends([Some(low), Some(high)]),
-            quantiles: PARTS.map(|p| Some(ends(lives.quantile_interval(p).ok()?))).into(),
-        },
-        bin_error: life.counted.is_some().then_some(CountedLives::ERROR),
-        reliability: reliability(lives),
-        failed_first: first.collect(),
-    }
-}
-
-/// The part of the lives that is longer, from before the first failure to after the last.
-fn reliability(lives: &LifeStatistics) -> Vec<LongerAnswer> {
-    let (first, last) = (lives.shortest().floor(), lives.longest().ceil());
-    let points = (0..=POINTS).map(|at| {
-        let cycles = first + (last - first) * at as f64 / POINTS as f64;
-        let part = lives.reliability(cycles);
-        LongerAnswer { cycles, reliability: part.value, standard_error: part.error }
-    });
-    points.collect()
 }
 
 fn to_text(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatistics>) -> String {
@@ -297,16 +194,6 @@ fn hours(seconds: f64) -> String {
     let hours = seconds / HOUR;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between a hundred and 1e15")]
     if (100.0..1e15).contains(&hours) { count(hours.round() as u64) } else { number(hours) }
-}
-
-fn process_entry(joint: &JointProcess) -> ProcessAnswer<'_> {
-    let [alpha_per_um, beta_per_um] = joint.per_micrometre();
-    ProcessAnswer {
-        joint: &joint.joint,
-        alpha_per_um,
-        beta_per_um,
-        from: joint.from.as_deref().unwrap_or("file"),
-    }
 }
 
 fn process_line(joint: &JointProcess) -> String {
