@@ -132,7 +132,7 @@ fn the_spread_of_wear_is_that_of_the_lives() {
 fn lives_by_the_dynamics_are_followed_and_their_journal_keeps_what_was_seen() {
     let folder = Folder::new("report-full");
     let life = [
-        &["life", "mechanisms/rssr.toml", "--rigid", "--step", "1e-4", "--settle", "0", "--coupling", "full"]
+        &["life", "mechanisms/rssr.toml", "--rigid", "--step", "5e-5", "--settle", "0", "--coupling", "full"]
             [..],
         &["--trajectories", "3", "--format", "json"],
     ]

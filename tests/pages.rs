@@ -110,42 +110,55 @@ fn charts_are_drawn_of_runs_lives_and_fits() {
     }
 }
 
-/// What a page does by itself, told in its title: pixels that differ and change, controls that act.
+/// What a page does by itself, told in its title: pixels that differ and change, controls that act, no request.
 const TRIAL: &str = r#"<script>
 addEventListener("error", event => { document.title = "error: " + event.message; });
 addEventListener("load", () => setTimeout(() => {
-  const canvas = document.getElementById("view"), { state, camera } = window.linkwear;
-  const picture = () => { const gl = canvas.getContext("webgl"), p = new Uint8Array(4 * canvas.width * canvas.height); gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, p); return p; };
+  const $ = id => document.getElementById(id), canvas = $("view"), { state, camera, draw } = window.linkwear;
+  const picture = () => { draw(); const gl = canvas.getContext("webgl2") || canvas.getContext("webgl"), p = new Uint8Array(4 * canvas.width * canvas.height); gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, p); return p; };
   const kinds = p => { const seen = new Set(); for (let i = 0; i < p.length; i += 4) seen.add(p[i] << 16 | p[i + 1] << 8 | p[i + 2]); return seen.size; };
-  const differ = (p, q) => { let n = 0; for (let i = 0; i < p.length; i += 4) n += p[i] !== q[i] || p[i + 1] !== q[i + 1]; return n; };
-  const first = picture(), results = [];
-  const say = (what, is) => results.push((is ? "ok " : "FAILED ") + what);
+  const differ = (p, q) => { let n = Math.abs(p.length - q.length); for (let i = 0; i < p.length; i += 4) n += p[i] !== q[i] || p[i + 1] !== q[i + 1]; return n; };
+  const set = (id, value) => { $(id).value = value; $(id).dispatchEvent(new Event("input", { bubbles: true })); };
+  const press = (key, to) => to.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const results = [], say = (what, is) => results.push((is ? "ok " : "FAILED ") + what);
+  const first = picture();
+  say("colours", kinds(first) > 15);
   setTimeout(() => {
-    const second = picture();
-    say("colours", kinds(second) > 20);
-    say("moves", differ(first, second) > 100);
-    document.getElementById("play").click();
-    say("pauses", !state.playing);
-    const yaw = camera.yaw, far = camera.distance, t = state.t;
-    canvas.focus();
-    for (const key of ["ArrowLeft", "+", "."]) canvas.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
-    say("keys", camera.yaw !== yaw && camera.distance < far && state.t > t);
-    const chart = document.querySelector("svg[data-time]"), box = chart.getBoundingClientRect();
-    chart.dispatchEvent(new PointerEvent("pointermove", { clientX: box.left + box.width / 2, clientY: box.top + 50, bubbles: true }));
-    const at = state.t;
-    say("curves", at > 0.3 * 0.5 && at < 0.7 * 0.5);
-    setTimeout(() => { say("turned", differ(second, picture()) > 100); document.title = results.join("; "); }, 400);
+    say("moves", differ(first, picture()) > 100);
+    $("play").click();
+    const t = state.t;
+    setTimeout(() => {
+      say("pauses", !state.playing && state.t === t);
+      press(" ", document.body);
+      say("space", state.playing);
+      press(" ", document.body);
+      const [slow, gap] = [state.slow, state.gap], before = picture();
+      set("slow", 2.5);
+      set("gap", 3.7);
+      say("slow motion", state.slow !== slow);
+      say("exaggerates", state.gap !== gap && differ(before, picture()) > 10);
+      const { yaw, distance: far } = camera;
+      canvas.focus();
+      for (const key of ["ArrowLeft", "+", "."]) press(key, canvas);
+      say("keys", camera.yaw !== yaw && camera.distance < far && state.t > t);
+      const turned = picture();
+      say("turned", differ(before, turned) > 100);
+      const chart = document.querySelector("svg[data-time]"), box = chart.getBoundingClientRect(), mark = () => chart.querySelector(".cursor").getAttribute("transform");
+      chart.scrollIntoView();
+      chart.dispatchEvent(new PointerEvent("pointermove", { clientX: box.left + box.width / 2, clientY: box.top + 50, bubbles: true }));
+      say("curves", state.t > 0.3 * 0.5 && state.t < 0.7 * 0.5 && differ(turned, picture()) > 100);
+      const orbit = $("bearings").querySelector("canvas");
+      if (orbit) say("orbit", kinds(orbit.getContext("2d").getImageData(0, 0, orbit.width, orbit.height).data) > 5);
+      say("no request", performance.getEntriesByType("resource").length === 0);
+      document.title = results.join("; ");
+    }, 300);
   }, 600);
 }, 600));
 </script>"#;
 
-#[test]
-#[ignore = "needs a browser: apt-get install chromium"]
-fn a_page_moves_in_a_browser() {
-    let (folder, page) = page_of(&["report", RSSR, "--mean"], "pages-browser");
-    let tried = folder.path("tried.html");
-    fs::write(&tried, page + TRIAL).expect("a file");
-    let file = Path::new(&tried).canonicalize().expect("a path");
+/// The title that a page has given itself in Chromium, and what its console says.
+fn tried(file: &str, more: &[&str]) -> (String, Vec<String>) {
+    let file = Path::new(file).canonicalize().expect("a path");
     let words = [
         "--headless",
         "--no-sandbox",
@@ -155,13 +168,48 @@ fn a_page_moves_in_a_browser() {
         "--virtual-time-budget=9000",
         "--dump-dom",
     ];
-    let output = Command::new("chromium").args(words).arg(format!("file://{}", file.display())).output();
+    let output =
+        Command::new("chromium").args(words).args(more).arg(format!("file://{}", file.display())).output();
     let output = output.expect("chromium runs");
     let [dom, log] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
-    let title =
-        dom.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>")).expect("a title").0;
-    assert_eq!(title, "ok colours; ok moves; ok pauses; ok keys; ok curves; ok turned");
+    let title = dom.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>"));
     // What the driver says of reading pixels back is no error of the page.
     let said = log.lines().filter(|line| line.contains("CONSOLE") && !line.contains("GL Driver Message"));
-    assert_eq!(said.collect::<Vec<_>>(), Vec::<&str>::new());
+    (title.expect("a title").0.to_owned(), said.map(str::to_owned).collect())
+}
+
+#[test]
+#[ignore = "needs a browser: apt-get install chromium"]
+fn a_page_moves_in_a_browser() {
+    let (folder, page) = page_of(&["report", RSSR, "--trajectories", "20"], "pages-browser");
+    let place = folder.path("tried.html");
+    fs::write(&place, page + TRIAL).expect("a file");
+    let (title, said) = tried(&place, &[]);
+    let parts: Vec<&str> = title.split("; ").collect();
+    assert!(parts.len() >= 11 && parts.iter().all(|part| part.starts_with("ok ")), "{title}");
+    assert_eq!(said, Vec::<String>::new());
+}
+
+/// A page in a frame as wide as a phone, whose title says how wide what is in it is, and of which colour its paper.
+const PHONE: &str = r#"<!doctype html><title></title><iframe id="phone" style="width:420px;height:850px;border:0"></iframe><script>
+const frame = document.getElementById("phone");
+frame.srcdoc = PAGE;
+frame.addEventListener("load", () => setTimeout(() => {
+  const inside = frame.contentDocument, paper = getComputedStyle(inside.body).backgroundColor.match(/\d+/g).map(Number);
+  document.title = `${inside.documentElement.scrollWidth <= 420 ? "fits" : "scrolls " + inside.documentElement.scrollWidth}, ${paper[0] < 60 ? "dark" : "light"}`;
+}, 800));
+</script>"#;
+
+#[test]
+#[ignore = "needs a browser: apt-get install chromium"]
+fn a_page_fits_a_phone_and_follows_its_colours() {
+    let (folder, page) = page_of(&["report", RSSR, "--mean"], "pages-phone");
+    let text = serde_json::to_string(&page).expect("text").replace('<', "\\u003c");
+    let place = folder.path("phone.html");
+    fs::write(&place, PHONE.replace("PAGE", &text)).expect("a file");
+    for (scheme, colours) in [("0", "dark"), ("1", "light")] {
+        let (title, said) = tried(&place, &[&format!("--blink-settings=preferredColorScheme={scheme}")]);
+        assert_eq!(title, format!("fits, {colours}"));
+        assert_eq!(said, Vec::<String>::new());
+    }
 }
