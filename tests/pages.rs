@@ -110,6 +110,43 @@ fn charts_are_drawn_of_runs_lives_and_fits() {
     }
 }
 
+#[test]
+fn what_has_no_life_shows_its_motion_and_loads() {
+    // Without clearance and driven along its legs; wear on what nothing turns, so that no revolutions can be counted; no driver.
+    let folder = Folder::new("pages-no-life");
+    let worn = folder.path("worn.toml");
+    let slides = fs::read_to_string("mechanisms/slider_crank_clearance.toml").expect("a mechanism");
+    let pushed = slides.replace(", drive = \"2*pi*speed*t\"", "");
+    assert_ne!(pushed, slides);
+    let wear = "\n[wear.slider_pin]\ncoefficient = 1e-8\nhardness = \"1 GPa\"\nthreshold = \"0.1 mm\"\narea = \"hertz\"\nrevolutions_per_cycle = 1e5\n";
+    fs::write(&worn, pushed + wear).expect("a file");
+    let shipped =
+        ["tests/data/stewart.toml", "mechanisms/pendulum.toml", "mechanisms/slider_crank_clearance.toml"];
+    for file in shipped.into_iter().chain([&*worn]) {
+        let (_folder, page) = page_of(&["report", file], "pages-no-life-of");
+        assert_eq!(data(&page, "life"), Value::Null, "{file}");
+        assert!(page.contains("<h2>Loads</h2>") && page.contains("<h2>Curves</h2>"), "{file}");
+        assert!(!page.contains("<h2>Life</h2>"), "{file}");
+    }
+}
+
+#[test]
+fn pictures_are_png_by_their_feature_or_say_how_to_get_it() {
+    let folder = Folder::new("pages-png");
+    let out = folder.path("x.png");
+    for words in [&["draw", RSSR, "-o", &out][..], &["simulate", RSSR, "--plot", &out]] {
+        let answer = linkwear(words);
+        if cfg!(feature = "png") {
+            assert_eq!(answer.code, 0, "{}", answer.err);
+            let bytes = fs::read(&out).expect("a picture");
+            assert!(bytes.starts_with(b"\x89PNG") && bytes.len() > 10_000, "{}", bytes.len());
+        } else {
+            assert!(answer.code == 2 && answer.err.contains("--features png"), "{}", answer.err);
+            assert!(!fs::exists(&out).unwrap_or(true));
+        }
+    }
+}
+
 /// What a page does by itself, told in its title: pixels that differ and change, controls that act, no request.
 const TRIAL: &str = r#"<script>
 addEventListener("error", event => { document.title = "error: " + event.message; });

@@ -23,7 +23,7 @@ use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
 use crate::files::write_whole;
-use crate::life::{LifeFacts, LifeStudy};
+use crate::life::{Cause, LifeFacts, LifeStudy};
 use crate::mechanism::{Mechanism, read_source};
 use crate::page::document::Page;
 use crate::page::drawing;
@@ -74,28 +74,40 @@ pub fn report_page(
     source: &SourceFile,
     ear: Ear<'_>,
 ) -> Result<(String, bool), Failure> {
-    let ReportArguments { input, lives, revolutions, threads, turns, equations, .. } = arguments;
+    let ReportArguments { input, turns, equations, .. } = arguments;
     let seen = see((input, source), &motion(*turns, ROWS), *equations, ear)?;
     let mut plain = compile(&seen.compiled.source, &options(input, equations.rigid))?;
     plain.warnings.clone_from(&seen.compiled.warnings);
     let mechanism = Mechanism::of(&plain, &options(input, equations.rigid), equations.backend)?;
     let wears = mechanism.description.contacts.iter().any(|contact| contact.wear.is_some());
-    let life = if wears {
-        let (study, warnings) = life::lives(lives, (revolutions.step, revolutions.tol), &mechanism)?;
-        let study = LifeStudy { threads: *threads, ..study };
-        let failed = |error| life::failed(&input.file, error, None);
-        if let Some(cost) = study.cost(ear.watch).map_err(failed)?
+    let life = if wears { lived(arguments, &mechanism, ear)? } else { None };
+    Ok((page(&seen, life.as_ref(), true), wears))
+}
+
+/// What is told of the life; nothing where revolutions cannot be counted, which leaves the motion and the loads.
+fn lived(arguments: &ReportArguments, mechanism: &Mechanism, ear: Ear<'_>) -> Result<Option<Value>, Failure> {
+    let ReportArguments { input, lives, revolutions, threads, .. } = arguments;
+    let (study, warnings) = life::lives(lives, (revolutions.step, revolutions.tol), mechanism)?;
+    let study = LifeStudy { threads: *threads, ..study };
+    let run = || {
+        if let Some(cost) = study.cost(ear.watch)?
             && ear.remarks
         {
             eprintln!("{}", life::output::cost(&cost));
         }
-        let mut result = study.run_watched(ear.watch).map_err(failed)?;
-        result.warnings.extend(warnings);
-        Some(life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json)
-    } else {
-        None
+        study.run_watched(ear.watch)
     };
-    Ok((page(&seen, life.as_ref(), true), wears))
+    let mut result = match run() {
+        Err(error) if matches!(*error.cause, Cause::NoTurns) => {
+            if ear.remarks {
+                eprintln!("warning: no life in the page: {error}");
+            }
+            return Ok(None);
+        }
+        lived => lived.map_err(|error| life::failed(&input.file, error, None))?,
+    };
+    result.warnings.extend(warnings);
+    Ok(Some(life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json))
 }
 
 /// The page of a life that was lived before, in a folder.

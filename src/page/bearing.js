@@ -84,7 +84,9 @@ function around({ angle, Fn, vt }) {
 const worn = $("worn");
 if (worn && life) {
   const shown = life.cycles.length ? life.cycles[0].joints.map((entry, at) => ({ at, bearing: bearings.find(b => b.joint.name === entry.joint) })).filter(o => o.bearing) : [];
-  const parts = shown.map(({ at, bearing }) => ({ at, bearing, canvas: sharp(280, $("polars")), shape: around(bearing.columns) }));
+  // Where a ball bears in its socket is no one angle: of it there is no such picture.
+  const around_of = shown.map(({ at, bearing }) => ({ at, bearing, shape: around(bearing.columns) })).filter(({ shape }) => shape.some(x => x > 0));
+  const parts = around_of.map(part => ({ ...part, canvas: sharp(280, $("polars")) }));
   const slider = $("cycle");
   slider.max = life.cycles.length;
   slider.value = life.cycles.length;
@@ -130,5 +132,5 @@ if (worn && life) {
   slider.addEventListener("input", draw);
   worn.redraw = draw;
   draw();
-  if (!parts.length) $("polars").textContent = "";
+  worn.hidden = !parts.length;
 }

@@ -87,7 +87,10 @@ impl Page<'_> {
         if let Some(life) = self.life {
             let first = |key: &str| shown(&life["quantiles"][key]);
             facts = vec![
-                ("mean life", format!("{} cycles", shown(&life["mean"]))),
+                (
+                    if life["random"] == true { "mean life" } else { "life of the mean path" },
+                    format!("{} cycles", shown(&life["mean"])),
+                ),
                 ("revolutions", shown(&life["revolutions"])),
             ];
             if life["random"] == true {
@@ -141,24 +144,34 @@ impl Page<'_> {
                 &json["intervals95"]["quantiles"][key],
             )
         };
-        let rows = [
-            of("mean", "mean"),
-            of("standard deviation", "std"),
-            quantile("10 % fail before (B10)", "p10"),
-            quantile("half fail before (B50)", "p50"),
-            quantile("90 % fail before (B90)", "p90"),
-        ];
+        let is_random = json["random"] == true;
+        let rows = if is_random {
+            vec![
+                of("mean", "mean"),
+                of("standard deviation", "std"),
+                quantile("10 % fail before (B10)", "p10"),
+                quantile("half fail before (B50)", "p50"),
+                quantile("90 % fail before (B90)", "p90"),
+            ]
+        } else {
+            // One path has no spread: what is no number is not told as one.
+            vec![row("mean path", &json["mean_path"]["cycles"], &Value::Null, &Value::Null)]
+        };
         table(out, "Life in cycles", &["", "cycles ± standard error", "95 %"], &rows);
         let time = |name: &str, of: &Value| vec![name.to_owned(), shown(&of["hours"]), shown(&of["years"])];
         if json["time"].is_object() {
             let (of, quantiles) = (&json["time"], &json["time"]["quantiles"]);
-            let rows = [
-                time("mean", &of["mean"]),
-                time("standard deviation", &of["std"]),
-                time("10 % fail before (B10)", &quantiles["p10"]),
-                time("half fail before (B50)", &quantiles["p50"]),
-                time("90 % fail before (B90)", &quantiles["p90"]),
-            ];
+            let rows = if is_random {
+                vec![
+                    time("mean", &of["mean"]),
+                    time("standard deviation", &of["std"]),
+                    time("10 % fail before (B10)", &quantiles["p10"]),
+                    time("half fail before (B50)", &quantiles["p50"]),
+                    time("90 % fail before (B90)", &quantiles["p90"]),
+                ]
+            } else {
+                vec![time("mean path", &of["mean"])]
+            };
             table(out, "Life in time, running without a pause", &["", "hours", "years"], &rows);
         }
         let budget = json["error_budget"]["half_widths_95"].as_object();

@@ -172,7 +172,9 @@ for (const bearing of bearings) sight.observe(bearing.canvas);
 
 // What is out of sight is drawn first of all, for paper, and in other colours.
 let everything = true;
-addEventListener("beforeprint", () => { everything = true; restyle(); draw(); });
+const on_paper = is => { document.documentElement.classList.toggle("on-paper", is); restyle(); draw(); };
+addEventListener("beforeprint", () => on_paper(true));
+addEventListener("afterprint", () => on_paper(false));
 
 const draw = () => {
   const when = place_in(state.t), now = performance.now(), tell = !state.playing || now - told > 100;
