@@ -98,7 +98,7 @@ tables! {
         /// [m; above 0; required, of a ball twice its radius; e.g. "20 mm"]
         pub length: Option<Quantity>,
         /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
-        /// [Pa; above 0; required without `stiffness`; e.g. "115 GPa"]
+        /// [Pa; above 0; required; e.g. "115 GPa"]
         pub modulus: Option<Quantity>,
         /// Contact stiffness in SI, a bare number, instead of the one that follows from `modulus` and the radii.
         /// [1; above 0; default from modulus and radii; e.g. 5e9]
