@@ -6,8 +6,11 @@ mod answer;
 mod arguments;
 pub mod ask;
 mod check;
+mod colour;
 mod cost;
+mod diff;
 mod equations;
+mod explain;
 pub mod failure;
 mod fit;
 #[cfg(feature = "fmu")]
@@ -27,6 +30,7 @@ mod plot;
 mod predict;
 mod shipped_schemas;
 mod simulate;
+mod starters;
 mod study;
 mod summary;
 mod table;
@@ -56,8 +60,9 @@ pub fn run() -> ExitCode {
         let (message, help) = ("--out -: stdout has one JSON object and nothing else", "give --out a file");
         return Failure::usage(message, help).report(format);
     }
-    match answer(&parsed.command).and_then(|answer| Ok(answer.print(format)?)) {
-        Ok(()) => ExitCode::SUCCESS,
+    let printed = |answer: Answer| answer.print(format).map(|()| answer.disagrees);
+    match answer(&parsed.command).and_then(|answer| Ok(printed(answer)?)) {
+        Ok(disagrees) => ExitCode::from(u8::from(disagrees)),
         Err(failure) => failure.report(format),
     }
 }
@@ -84,9 +89,11 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Predict(arguments) => predict::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),
+        Command::Diff(arguments) => diff::run(arguments),
+        Command::Explain { code } => explain::run(code),
         Command::Schema { output } => Ok(packaging::schema(*output)),
         Command::Completions { shell } => Ok(packaging::completions(*shell)),
-        Command::Man => packaging::manual(),
+        Command::Man { subcommand, out } => packaging::manual(subcommand.as_deref(), out.as_deref()),
     }
 }
 

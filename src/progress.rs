@@ -42,15 +42,17 @@ fn ignores_hang_up() -> bool {
 }
 
 /// Does long work under a watch that shows a bar and stops it at Ctrl-C, SIGTERM or SIGHUP; a second one of them ends
-/// the process.
-pub fn watched<T>(work: impl FnOnce(Watch<'_>) -> T) -> T {
+/// the process. `stage` is what the work begins with, in a word; it may say others as it goes on.
+pub fn watched<T>(stage: &'static str, work: impl FnOnce(Watch<'_>) -> T) -> T {
     LazyLock::force(&STOP);
     UNHEARD.store(false, Ordering::Relaxed);
-    let progress = Mutex::new(Progress::new());
-    let result = work(Watch::new(&|part| {
-        progress.lock().unwrap_or_else(PoisonError::into_inner).set(part);
+    let progress = Mutex::new(Progress::new(stage));
+    let shown = || progress.lock().unwrap_or_else(PoisonError::into_inner);
+    let hear = |part| {
+        shown().set(part);
         go_on(part)
-    }));
+    };
+    let result = work(Watch::new(&hear).with_stages(&|stage| shown().begin(stage)));
     progress.into_inner().unwrap_or_else(PoisonError::into_inner).finish();
     result
 }
@@ -96,20 +98,22 @@ const MOST_CALLS: u32 = 16;
 /// Plain lines are no closer than this.
 const BETWEEN_LINES: Duration = Duration::from_secs(5);
 
-/// A plain line after so long: two digits at least, so that a slow run can be told from one that stands still.
-fn line(fraction: f64, elapsed: Duration) -> String {
+/// A plain line of a stage after so long in it: two digits at least, so that a slow run can be told from one that stands still.
+fn line(stage: &str, fraction: f64, elapsed: Duration) -> String {
     let percent = fraction * 100.0;
     let small = if percent > 0.0 { percent.clamp(1e-6, 1.0) } else { 1.0 };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and 7")]
     let digits = (1.0 - small.log10().floor()) as usize;
     let rest = Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 / fraction - 1.0));
     let rest = rest.map_or_else(|_| String::new(), |rest| format!(", about {} left", HumanDuration(rest)));
-    format!("{percent:.digits$} %{rest}")
+    format!("{stage} {percent:.digits$} %{rest}")
 }
 
 /// Progress of one run.
 struct Progress {
     bar: Option<ProgressBar>,
+    stage: &'static str,
+    /// When the stage began.
     start: Instant,
     last_line: Instant,
     last_look: Instant,
@@ -120,14 +124,28 @@ struct Progress {
 
 impl Progress {
     /// Starts; shows nothing yet.
-    fn new() -> Self {
+    fn new(stage: &'static str) -> Self {
         let now = Instant::now();
         let bar = stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(1000);
-            let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left  (Ctrl-C stops)");
-            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+            let style =
+                ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left  (Ctrl-C stops)");
+            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(stage)
         });
-        Self { bar, start: now, last_line: now, last_look: now, calls: 0, left: 0 }
+        Self { bar, stage, start: now, last_line: now, last_look: now, calls: 0, left: 0 }
+    }
+
+    /// Another stage, which counts from 0 again.
+    fn begin(&mut self, stage: &'static str) {
+        if self.stage == stage {
+            return;
+        }
+        (self.stage, self.start, self.left) = (stage, Instant::now(), 0);
+        if let Some(bar) = &self.bar {
+            bar.set_message(stage);
+            bar.set_position(0);
+            bar.reset_eta();
+        }
     }
 
     /// Shows how far it is, `fraction` in 0..1.
@@ -149,7 +167,7 @@ impl Progress {
             bar.set_position(thousandths);
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
-            eprintln!("{}", line(fraction, self.start.elapsed()));
+            eprintln!("{}", line(self.stage, fraction, self.start.elapsed()));
         }
     }
 
@@ -168,8 +186,18 @@ mod tests {
     #[test]
     fn a_line_says_how_far_and_how_long_still() {
         let after = Duration::from_secs(10);
-        assert_eq!(line(0.25, after), "25.0 %, about 30 seconds left");
-        assert_eq!(line(0.000_123, after), "0.012 %, about 23 hours left");
-        assert_eq!(line(0.0, after), "0.0 %");
+        assert_eq!(line("table", 0.25, after), "table 25.0 %, about 30 seconds left");
+        assert_eq!(line("lives", 0.000_123, after), "lives 0.012 %, about 23 hours left");
+        assert_eq!(line("run", 0.0, after), "run 0.0 %");
+    }
+
+    #[test]
+    fn another_stage_counts_from_its_own_begin() {
+        let mut progress = Progress::new("table");
+        let began = progress.start;
+        progress.begin("table");
+        assert_eq!(progress.start, began);
+        progress.begin("lives");
+        assert!(progress.stage == "lives" && progress.start > began);
     }
 }

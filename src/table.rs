@@ -10,6 +10,8 @@ mod columns;
 mod npy;
 #[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "cli")]
+mod read;
 
 use std::ffi::OsString;
 use std::fs;
@@ -18,6 +20,8 @@ use std::path::{Path, PathBuf};
 
 pub use columns::{ColumnForm, tables};
 use linkwear_runtime::{Table, write_csv};
+#[cfg(feature = "cli")]
+pub use read::CellsRead;
 use serde_json::Value;
 
 use crate::files::{WriteError, check_target, write_stdout, write_whole};
@@ -33,6 +37,9 @@ pub struct TableFormat {
     pub write: fn(&mut (dyn Write + Send), &Table<'_>, &Value) -> io::Result<()>,
     /// Whether it has.
     pub has_room: bool,
+    /// Reads a file back.
+    #[cfg(feature = "cli")]
+    read: fn(&Path) -> io::Result<read::Read>,
 }
 
 /// All formats; the first is taken where the extension is none of these.
@@ -42,16 +49,63 @@ pub static FORMATS: &[TableFormat] = &[
         purpose: "text",
         write: |out, table, _| write_csv(out, table),
         has_room: false,
+        #[cfg(feature = "cli")]
+        read: read::read_csv,
     },
     TableFormat {
         extension: "npy",
         purpose: "NumPy structured array",
         write: |out, table, _| npy::write(out, table),
         has_room: false,
+        #[cfg(feature = "cli")]
+        read: npy::read,
     },
     #[cfg(feature = "parquet")]
-    TableFormat { extension: "parquet", purpose: "Apache Parquet", write: parquet::write, has_room: true },
+    TableFormat {
+        extension: "parquet",
+        purpose: "Apache Parquet",
+        write: parquet::write,
+        has_room: true,
+        #[cfg(feature = "cli")]
+        read: parquet::read,
+    },
 ];
+
+/// A table in memory.
+#[cfg(feature = "cli")]
+#[derive(Debug, Default)]
+pub struct TableRead {
+    /// Its columns with their titles, as `R1.q [rad]`.
+    pub columns: Vec<(String, CellsRead)>,
+    /// What it is of, if that is known.
+    pub provenance: Option<Value>,
+}
+
+/// Whether the extension is that of a table.
+#[cfg(feature = "cli")]
+pub fn is_table(file: &Path) -> bool {
+    file.extension().is_some_and(|end| FORMATS.iter().any(|format| end == format.extension))
+}
+
+/// Reads a table, by the extension of its file, with what stands beside it.
+///
+/// # Errors
+/// If the file cannot be read or is none.
+#[cfg(feature = "cli")]
+pub fn read_table(file: &Path) -> io::Result<TableRead> {
+    let format = FORMATS.iter().find(|format| file.extension().is_some_and(|end| end == format.extension));
+    let format = format.ok_or_else(|| read::broken("its extension is that of no table"))?;
+    let (columns, about) = (format.read)(file)?;
+    let provenance = about.and_then(|about| about.get("provenance").cloned()).or_else(|| told_beside(file));
+    Ok(TableRead { columns, provenance })
+}
+
+/// What `FILE-metadata.json` says that the table is of.
+#[cfg(feature = "cli")]
+fn told_beside(file: &Path) -> Option<Value> {
+    let about: Value = serde_json::from_str(&fs::read_to_string(beside(file)).ok()?).ok()?;
+    about["notes"].get(0)?.get("provenance").cloned()
+}
 
 /// Whether rows go to stdout, as text and alone.
 pub fn is_stdout(file: &Path) -> bool {

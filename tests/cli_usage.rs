@@ -20,6 +20,8 @@ fn help_of_every_subcommand_has_an_example() {
         "predict",
         "new",
         "fmu",
+        "diff",
+        "explain",
         "schema",
         "completions",
         "man",
@@ -128,16 +130,36 @@ fn packagers_get_completions_and_a_manual() {
     assert!(script.code == 0 && script.out.contains("simulate"));
     let page = linkwear(&["man"]);
     assert!(page.code == 0 && page.out.contains(".TH linkwear"));
+    let page = linkwear(&["man", "life"]);
+    assert!(
+        page.code == 0 && page.out.contains(".TH linkwear-life") && page.out.contains("\\-\\-trajectories")
+    );
+    let unknown = linkwear(&["man", "lief"]);
+    assert!(unknown.code == 2 && unknown.err.contains("did you mean `life`?"), "{}", unknown.err);
 }
 
 #[test]
-fn a_starter_file_is_written_once_and_is_good() {
-    let folder = command::Folder::new("starter");
-    let answer = folder.linkwear(&["new", "my_bars"]);
-    assert_eq!(answer.code, 0, "{}", answer.err);
-    let check = folder.linkwear(&["check", "my_bars.toml", "--format", "json"]).json();
-    assert_eq!(check["warnings"], Value::Array(Vec::new()));
-    let again = folder.linkwear(&["new", "my_bars"]);
-    assert_eq!(again.code, 1);
-    assert!(again.err.contains("C0004"), "{}", again.err);
+fn pages_of_the_manual_name_only_pages_that_exist() {
+    let folder = command::Folder::new("man");
+    let told = folder.linkwear(&["man", "--out", "man1", "--format", "json"]).json();
+    let files: Vec<&str> =
+        told["files"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+    assert!(files.contains(&"man1/linkwear.1") && files.contains(&"man1/linkwear-simulate.1"), "{files:?}");
+    let mut links = 0;
+    for file in &files {
+        let page = folder.read(file);
+        assert!(page.contains(".SH NAME") && page.contains(".SH SYNOPSIS"), "{file}");
+        for link in
+            page.split("(1)").map(|before| before.rsplit(char::is_whitespace).next().unwrap_or_default())
+        {
+            let name = link.replace('\\', "");
+            if name.starts_with("linkwear-") {
+                links += 1;
+                assert!(files.contains(&format!("man1/{name}.1").as_str()), "{file}: {name}(1)");
+            }
+        }
+    }
+    assert_eq!(links, files.len() - 1, "linkwear(1) names every other page");
+    // Again over what is there, as a packager does.
+    assert_eq!(folder.linkwear(&["man", "--out", "man1"]).code, 0);
 }

@@ -114,7 +114,7 @@ fn answer(arguments: &Arguments) -> Result<(), Failure> {
     let options = Options { quick: arguments.quick, seed: arguments.seed };
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let threads = arguments.threads.map_or_else(processors, |threads| usize::from(threads.get()));
-    let studied = watched(|watch| run(options, threads, watch));
+    let studied = watched("study", |watch| run(options, threads, watch));
     let drawn = studied.and_then(|study| Ok((pictures(&study)?, study)));
     let (pictures, study) = drawn.map_err(Failure::study).inspect_err(|_| {
         if is_new {

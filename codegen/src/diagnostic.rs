@@ -6,11 +6,13 @@ use crate::source::Span;
 mod brief;
 mod code;
 mod collector;
+mod explanation;
 mod render;
 
 pub use brief::{bounded, brief, cut};
 pub use code::{Code, Severity};
 pub use collector::{Diagnostics, Entry};
+pub use explanation::Explanation;
 
 /// A place in the file with what there is to say about it.
 #[derive(Clone, Debug, PartialEq, Eq)]

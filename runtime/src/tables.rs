@@ -86,6 +86,9 @@ pub struct WearInfo {
     pub pressure_speed: Option<f64>,
     /// Scatter of the wear increments; if nothing, only the mean is known.
     pub scatter: Option<GammaRates>,
+    /// The same by the coefficient of variation of what the first cycle wears, instead of `scatter`: alpha and beta are what gives
+    /// it.
+    pub cycle_variation: Option<f64>,
 }
 
 impl WearInfo {

@@ -8,30 +8,43 @@ use std::ops::ControlFlow;
 #[must_use]
 pub struct Watch<'a> {
     hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync),
+    begin: Option<&'a (dyn Fn(&'static str) + Sync)>,
     from: f64,
     length: f64,
 }
 
 impl Watch<'_> {
     /// Nobody watches, nothing stops.
-    pub const NONE: Self = Self { hear: &|_| ControlFlow::Continue(()), from: 0.0, length: 1.0 };
+    pub const NONE: Self = Self { hear: &|_| ControlFlow::Continue(()), begin: None, from: 0.0, length: 1.0 };
 }
 
 impl<'a> Watch<'a> {
     /// A watch that calls `hear`.
     pub const fn new(hear: &'a (dyn Fn(f64) -> ControlFlow<()> + Sync)) -> Self {
-        Self { hear, from: 0.0, length: 1.0 }
+        Self { hear, begin: None, from: 0.0, length: 1.0 }
+    }
+
+    /// The same, hearing too what begins, where work consists of stages that each count from 0 to 1.
+    pub const fn with_stages(self, begin: &'a (dyn Fn(&'static str) + Sync)) -> Self {
+        Self { begin: Some(begin), ..self }
     }
 
     /// The same for a piece of the work, from one part of it to another.
     pub fn piece(self, from: f64, to: f64) -> Self {
-        Self { hear: self.hear, from: self.from + from * self.length, length: (to - from) * self.length }
+        Self { from: self.from + from * self.length, length: (to - from) * self.length, ..self }
     }
 
     /// The same for equal pieces of the work, one after the other.
     pub fn pieces(self, count: u32) -> impl Iterator<Item = Self> {
         let part = move |piece: u32| f64::from(piece) / f64::from(count);
         (0..count).map(move |piece| self.piece(part(piece), part(piece + 1)))
+    }
+
+    /// Tells that a stage of the work begins, in a word.
+    pub fn begin(self, stage: &'static str) {
+        if let Some(begin) = self.begin {
+            begin(stage);
+        }
     }
 
     /// Tells the finished part; answers whether to go on.
@@ -62,5 +75,10 @@ mod tests {
         assert!(half.report(0.0).is_continue() && half.piece(0.5, 1.0).report(0.5).is_break());
         assert_eq!(*heard.lock().unwrap(), [0.5, 0.875]);
         assert!(Watch::NONE.report(1.0).is_continue());
+        let stages = Mutex::new(Vec::new());
+        let begin = |stage| stages.lock().unwrap().push(stage);
+        Watch::new(&hear).with_stages(&begin).piece(0.5, 1.0).begin("table");
+        Watch::new(&hear).begin("lives");
+        assert_eq!(*stages.lock().unwrap(), ["table"]);
     }
 }

@@ -3,9 +3,11 @@
 
 pub mod check;
 pub mod common;
+pub mod diff;
 pub mod equations;
 #[cfg(test)]
 mod errors;
+pub mod explain;
 pub mod fit;
 pub mod life;
 #[cfg(test)]
@@ -30,12 +32,14 @@ pub struct Answer {
     pub text: String,
     /// For machines.
     pub json: Value,
+    /// Whether the answer is no to what was asked: then the exit code is 1.
+    pub disagrees: bool,
 }
 
 impl Answer {
     /// With the format of its JSON, and what it is of if that has a name.
     pub fn new(text: String, answer: impl Serialize, provenance: Option<&Provenance>) -> Self {
-        Self { text, json: sealed(json!(answer), provenance) }
+        Self { text, json: sealed(json!(answer), provenance), disagrees: false }
     }
 
     /// Prints the form that was asked for.

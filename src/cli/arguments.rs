@@ -8,10 +8,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear_codegen::render::TextFormat;
 use linkwear_gamma::process::{PROCESSES, Process};
 
+use super::diff::DiffArguments;
 use super::options::{
     EquationsChoice, Input, LivesArguments, MotionArguments, RevolutionArguments, rows_help,
 };
 use super::shipped_schemas::SCHEMAS;
+use super::starters::Starter;
 use super::study::StudyArguments;
 use super::value::{covariate, one_of, output, positive, threads};
 
@@ -111,8 +113,21 @@ pub enum Command {
     )]
     Fit(FitArguments),
     /// Write a commented starter file to edit.
-    #[command(after_help = "Example:\n  linkwear new four_bar && linkwear check four_bar.toml")]
+    #[command(after_help = "Examples:\n  linkwear new four_bar && linkwear check four_bar.toml\n  \
+                      linkwear new press --starter slider-crank && linkwear life press.toml")]
     New(NewArguments),
+    /// Say what two results of one kind, or two mechanism files, have different, and by how much.
+    #[command(
+        after_help = "Examples:\n  linkwear diff coarse.csv fine.csv --tolerance 1e-3\n  linkwear diff before.json after.json\n  \
+                      linkwear diff mechanisms/rssr.toml mechanisms/rssr_rigid.toml"
+    )]
+    Diff(DiffArguments),
+    /// Say what a code of a message means, with an example and its cure.
+    #[command(after_help = "Examples:\n  linkwear explain E0602\n  linkwear explain C0008")]
+    Explain {
+        /// The code, as it stands in brackets in the message.
+        code: String,
+    },
     /// Print the JSON Schema of mechanism files, for editors, or of an output.
     #[command(after_help = "Examples:\n  linkwear schema > linkwear.schema.json\n  linkwear schema life")]
     Schema {
@@ -128,9 +143,17 @@ pub enum Command {
         /// Which shell.
         shell: clap_complete::Shell,
     },
-    /// Print the manual page (troff).
-    #[command(after_help = "Example:\n  linkwear man > linkwear.1")]
-    Man,
+    /// Print a manual page (troff), or write all of them.
+    #[command(
+        after_help = "Examples:\n  linkwear man simulate | man -l -\n  linkwear man --out ~/.local/share/man/man1"
+    )]
+    Man {
+        /// The subcommand the page is of [default: all in a survey].
+        subcommand: Option<String>,
+        /// Folder for linkwear.1 and a page for each subcommand.
+        #[arg(long, value_name = "DIR", conflicts_with = "subcommand", value_parser = output())]
+        out: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -408,6 +431,9 @@ pub enum Target {
 pub struct NewArguments {
     /// Name of the mechanism; the file is NAME.toml in the current folder.
     pub name: String,
+    /// What to start from.
+    #[arg(long, value_name = "KIND", value_enum, default_value_t = Starter::FourBar)]
+    pub starter: Starter,
 }
 
 #[cfg(test)]

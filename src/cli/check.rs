@@ -1,5 +1,8 @@
 //! `check`: what a mechanism is, before anything moves.
 
+mod contacts;
+mod start;
+
 use std::fmt::Write as _;
 
 use crate::mechanism::told;
@@ -20,6 +23,8 @@ use super::failure::Failure;
 use super::input::{load, options};
 use super::options::Input;
 use super::table::{plural, short_table, table};
+use contacts::{Contact, contacts};
+use start::Start;
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
@@ -34,11 +39,23 @@ pub fn answer(compiled: &Compiled, options: &Options, warnings: &[Value]) -> Ans
     provenance.options = told(options);
     let parameters = description.parameters.iter();
     provenance.parameters = parameters.map(|known| (known.name.to_string(), json!(known.default))).collect();
-    let told = told_of(compiled, &assemblies, warnings);
-    Answer::new(text(compiled, &assemblies), told, Some(&provenance))
+    let start = Start::of(compiled);
+    let contacts = contacts(compiled, start.as_ref().map_or(&[], |start| &start.clearances));
+    let found = Found { compiled, assemblies, start, contacts };
+    let told = told_of(&found, warnings);
+    Answer::new(text(&found), told, Some(&provenance))
 }
 
-fn told_of<'a>(compiled: &'a Compiled, assemblies: &Assemblies, warnings: &'a [Value]) -> CheckAnswer<'a> {
+/// All that is told about.
+struct Found<'a> {
+    compiled: &'a Compiled,
+    assemblies: Assemblies,
+    start: Option<Start>,
+    contacts: Vec<Contact<'a>>,
+}
+
+fn told_of<'a>(found: &'a Found<'_>, warnings: &'a [Value]) -> CheckAnswer<'a> {
+    let Found { compiled, assemblies, start, contacts } = found;
     let values = |coordinates: &Vec<Coordinate>| -> Map<String, Value> {
         coordinates.iter().map(|at| (format!("{}.{}", at.joint, at.name), json!(at.value))).collect()
     };
@@ -65,6 +82,9 @@ fn told_of<'a>(compiled: &'a Compiled, assemblies: &Assemblies, warnings: &'a [V
             taken: values(&assemblies.taken),
             others: assemblies.others.iter().map(values).collect(),
         },
+        start: start.as_ref().map(Start::by_column).unwrap_or_default(),
+        clearances: contacts.iter().map(Contact::clearance_answer).collect(),
+        wear: contacts.iter().filter_map(Contact::wear_answer).collect(),
         modal_coordinates: analysis.modes,
         flexible: mechanism.bodies.iter().filter_map(flexible_entry).collect(),
         parameters: parameters(compiled, false).map(parameter_entry).collect(),
@@ -103,7 +123,7 @@ fn parameter_entry(parameter: &Parameter) -> ParameterAnswer<'_> {
     }
 }
 
-fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {
+fn text(Found { compiled, assemblies, start, contacts }: &Found<'_>) -> String {
     let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
     let mut text = format!(
         "{}: {}, {}\n\n",
@@ -154,9 +174,12 @@ fn text(compiled: &Compiled, assemblies: &Assemblies) -> String {
         }
     }
     if !mechanism.joints.is_empty() {
-        let rows: Vec<_> = mechanism.joints.iter().map(|joint| joint_row(compiled, joint)).collect();
-        let _ = write!(text, "\nJoints\n{}", short_table(&["name", "kind", "parent", "child", ""], rows));
+        let row = |joint| joint_row(compiled, joint, start.as_ref());
+        let rows: Vec<_> = mechanism.joints.iter().map(row).collect();
+        let head = ["name", "kind", "parent", "child", "start", ""];
+        let _ = write!(text, "\nJoints\n{}", short_table(&head, rows));
     }
+    text.push_str(&contacts::text(contacts));
     text.push_str(&paragraph(&wear_measures(compiled.description())));
     for (title, column, inputs) in [("Parameters", "value", false), ("Inputs", "default", true)] {
         let rows: Vec<_> = parameters(compiled, inputs).map(parameter_row).collect();
@@ -272,7 +295,7 @@ fn list(text: &mut String, title: &str, items: &[String]) {
     }
 }
 
-fn joint_row(compiled: &Compiled, joint: &Joint) -> Vec<String> {
+fn joint_row(compiled: &Compiled, joint: &Joint, start: Option<&Start>) -> Vec<String> {
     let mechanism = &compiled.mechanism;
     let is_cut = compiled.topology.cuts.iter().any(|id| mechanism.joint(*id).name == joint.name);
     let clearance = if joint.model.clearance { ", clearance" } else { "" };
@@ -283,7 +306,8 @@ fn joint_row(compiled: &Compiled, joint: &Joint) -> Vec<String> {
         (false, true) => "",
     };
     let carrier = |carrier| mechanism.carrier_name(carrier).to_owned();
-    vec![joint.name.clone(), kind, carrier(joint.parent), carrier(joint.child), note.into()]
+    let start = start.map_or_else(String::new, |start| start.of_joint(&joint.name));
+    vec![joint.name.clone(), kind, carrier(joint.parent), carrier(joint.child), start, note.into()]
 }
 
 fn parameter_row(parameter: &Parameter) -> Vec<String> {

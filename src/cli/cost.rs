@@ -36,7 +36,7 @@ fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<TurnCos
     let settings = Settings::new(integrator, span, 2);
     let (system, parameters) = (equations.system(), compiled.parameters());
     let start = Instant::now();
-    let run = watched(|watch| simulate(&*system, description, &parameters, &settings, watch));
+    let run = watched("run", |watch| simulate(&*system, description, &parameters, &settings, watch));
     let wall_seconds = start.elapsed().as_secs_f64();
     let run = run.map_err(|error| Failure::run(&input.file, &error, None))?;
     if let Some(error) = &run.stopped {

@@ -22,6 +22,7 @@ use serde_json::{Value, json};
 
 use super::answer::Answer;
 use super::arguments::Format;
+use super::colour;
 
 /// The input or the run failed.
 const FAILED: u8 = 1;
@@ -33,6 +34,8 @@ const USAGE: u8 = 2;
 pub struct Failure {
     exit: u8,
     text: String,
+    /// The text in colours, where it has more than its code.
+    coloured: Option<String>,
     errors: Vec<Value>,
     /// What a life had lived before it stopped, if that is in no file.
     cycles: Option<Box<Answer>>,
@@ -59,7 +62,7 @@ impl Failure {
             "code": code, "file": file.map(|file| file.display().to_string()),
             "line": line, "column": Value::Null, "message": message, "help": help,
         });
-        Self { exit: FAILED, text, errors: vec![error], cycles: None }
+        Self { exit: FAILED, text, coloured: None, errors: vec![error], cycles: None }
     }
 
     /// The arguments do not fit this mechanism or each other.
@@ -92,6 +95,11 @@ impl Failure {
     pub fn unknown_name(what: &str, name: &str, known: &[String], listed: &[String]) -> Self {
         let message = format!("there is no {what} `{name}`");
         Self::new("C0006", None, message, suggestion(name, known, listed))
+    }
+
+    /// There is no such subcommand.
+    pub fn no_subcommand(name: &str, known: &[String]) -> Self {
+        Self::usage(format!("there is no subcommand `{name}`"), suggestion(name, known, known))
     }
 
     /// The simulation failed, or was stopped by Ctrl-C; the rows computed before may be in a file.
@@ -214,13 +222,25 @@ impl Failure {
         self.exit == USAGE
     }
 
+    fn in_colours(&self) -> String {
+        self.coloured.clone().unwrap_or_else(|| colour::painted(&self.text))
+    }
+
+    /// Where to read more about the first of the faults; arguments are explained by their help.
+    fn more(&self) -> String {
+        let code = self.errors.first().and_then(|error| error["code"].as_str());
+        let code = code.filter(|_| !self.is_usage());
+        code.map_or_else(String::new, |code| format!("\n\nMore about {code}: linkwear explain {code}"))
+    }
+
     /// Says it, and returns the exit code.
     pub fn report(&self, format: Format) -> ExitCode {
         // A reader of stdout who has gone away cannot be told; the exit code still says it.
         match format {
             Format::Text => {
                 let _ = self.cycles.as_ref().map(|cycles| cycles.print(format));
-                eprintln!("{}", self.text);
+                let coloured = colour::wanted().then(|| self.in_colours());
+                eprintln!("{}{}", coloured.as_ref().unwrap_or(&self.text), self.more());
             }
             Format::Json => {
                 let mut answer = sealed(json!({ "errors": self.errors }), None);
@@ -245,7 +265,8 @@ impl std::error::Error for Failure {}
 impl From<Diagnostics> for Failure {
     fn from(wrong: Diagnostics) -> Self {
         let text = wrong.to_string().trim_end().to_owned();
-        Self { exit: FAILED, text, errors: entries(&wrong), cycles: None }
+        let coloured = Some(wrong.in_colours());
+        Self { exit: FAILED, text, coloured, errors: entries(&wrong), cycles: None }
     }
 }
 

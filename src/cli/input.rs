@@ -10,6 +10,7 @@ use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limi
 use linkwear_gamma::FitFile;
 use serde_json::Value;
 
+use super::colour;
 use super::failure::{Failure, entries};
 use super::options::{EquationsChoice, Input};
 
@@ -60,7 +61,11 @@ pub fn options(input: &Input, rigid: bool) -> Options {
 
 fn print_warnings(warnings: &Diagnostics) {
     if !warnings.is_empty() {
-        eprintln!("{warnings}");
+        if colour::wanted() {
+            eprintln!("{}", warnings.in_colours());
+        } else {
+            eprintln!("{warnings}");
+        }
     }
 }
 

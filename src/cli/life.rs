@@ -35,12 +35,12 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let journal = folder.map(open).transpose().map_err(Failure::journal)?;
     let (study, warnings) = study(arguments, &mechanism)?;
     let kept = folder.map(|folder| Kept::new(folder, &study));
-    let cost = watched(|watch| study.cost(watch))
+    let cost = watched("first turn", |watch| study.cost(watch))
         .map_err(|error| failed(&arguments.input.file, error, kept.as_ref()))?;
     if let Some(cost) = cost {
         eprintln!("{}", output::cost(&cost));
     }
-    let lived = watched(|watch| match &journal {
+    let lived = watched("table", |watch| match &journal {
         Some(journal) => study.run_kept(journal, watch),
         None => study.run_watched(watch),
     });

@@ -1,4 +1,4 @@
-//! `new`: a commented file to start from.
+//! `new`: a commented file to start from, and the commands to go on with.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -9,8 +9,25 @@ use super::answer::Answer;
 use super::answer::equations::NewAnswer;
 use super::arguments::NewArguments;
 use super::failure::Failure;
+use super::table::table;
 
-const STARTER: &str = include_str!("starter.toml");
+/// What to ask next, in this order: the question, what else stands on its line for a mechanism of this name, what it tells.
+const NEXT: [(&str, &str, &str); if cfg!(feature = "page") { 5 } else { 3 }] = {
+    const CHECK: (&str, &str, &str) = ("check", "", "what it is, and what is wrong with it");
+    const SIMULATE: (&str, &str, &str) = ("simulate", "", "one turn: motion, forces, energies");
+    const LIFE: (&str, &str, &str) = ("life", "", "how long what wears lasts");
+    #[cfg(feature = "page")]
+    let next = [
+        CHECK,
+        ("view", " -o NAME_moving.html", "look at it in a browser"),
+        SIMULATE,
+        LIFE,
+        ("report", " -o NAME.html", "all of it on one page"),
+    ];
+    #[cfg(not(feature = "page"))]
+    let next = [CHECK, SIMULATE, LIFE];
+    next
+};
 
 pub fn run(arguments: &NewArguments) -> Result<Answer, Failure> {
     let name = &arguments.name;
@@ -22,11 +39,17 @@ pub fn run(arguments: &NewArguments) -> Result<Answer, Failure> {
     if path.exists() {
         return Err(WriteError::Exists(path).into());
     }
-    let starter = STARTER.replace("starter", name);
+    let starter = arguments.starter.text().replace("starter", name);
     write_whole(&path, |file| file.write_all(starter.as_bytes()))?;
     let shown = path.display();
-    let text = format!("{shown} written. Next:\n  linkwear check {shown}\n  linkwear simulate {shown}");
-    Ok(Answer::new(text, NewAnswer { file: shown.to_string() }, None))
+    let next: Vec<String> = NEXT
+        .iter()
+        .map(|(question, rest, _)| format!("linkwear {question} {shown}{}", rest.replace("NAME", name)))
+        .collect();
+    let lines: Vec<Vec<String>> =
+        next.iter().zip(NEXT).map(|(line, (.., tells))| vec![line.clone(), tells.to_owned()]).collect();
+    let text = format!("{shown} written. Next:\n{}", table(&["", ""], &lines));
+    Ok(Answer::new(text.trim_end().to_owned(), NewAnswer { file: shown.to_string(), next }, None))
 }
 
 fn is_name(text: &str) -> bool {
@@ -36,14 +59,22 @@ fn is_name(text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::starters::Starter;
     use super::*;
+    use clap::ValueEnum;
     use linkwear_codegen::{Options, SourceFile, compile};
 
     #[test]
-    fn the_starter_compiles_without_a_warning() {
-        let source = SourceFile { name: "starter.toml".to_owned(), text: STARTER.to_owned() };
-        let compiled = compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
-        assert!(compiled.warnings.is_empty());
+    fn every_starter_compiles_without_a_warning_and_wears() {
+        for starter in Starter::value_variants() {
+            let source = SourceFile { name: "starter.toml".to_owned(), text: starter.text().to_owned() };
+            let compiled = compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
+            assert!(compiled.warnings.is_empty(), "{starter:?}: {:?}", compiled.warnings);
+            assert!(
+                compiled.description().contacts.iter().any(|contact| contact.wear.is_some()),
+                "{starter:?}"
+            );
+        }
     }
 
     #[test]

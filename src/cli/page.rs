@@ -190,7 +190,7 @@ fn to_file(
 ) -> Result<Answer, Failure> {
     may_write(input, out, force)?;
     let begin = Instant::now();
-    let (bytes, note) = watched(|watch| make(Ear { watch, remarks: true }))?;
+    let (bytes, note) = watched("run", |watch| make(Ear { watch, remarks: true }))?;
     write_whole(out, |file| file.write_all(&bytes))?;
     let seconds = begin.elapsed().as_secs_f64();
     let (file, size) = (out.display(), bytes.len().div_ceil(1000));

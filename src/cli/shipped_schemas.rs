@@ -8,7 +8,7 @@ macro_rules! schemas {
 }
 
 /// The schemas of all outputs.
-pub const SCHEMAS: [(&str, &str); 20] = schemas![
+pub const SCHEMAS: [(&str, &str); 22] = schemas![
     "check",
     "equations",
     "cost",
@@ -23,6 +23,8 @@ pub const SCHEMAS: [(&str, &str); 20] = schemas![
     "fit",
     "fit-file",
     "predict",
+    "diff",
+    "explain",
     "new",
     "completions",
     "man",

@@ -44,7 +44,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();
-    let run = watched(|watch| asked.run(watch))?;
+    let run = watched("run", |watch| asked.run(watch))?;
     let (settings, wall_seconds) = (asked.settings, start.elapsed().as_secs_f64());
     if let Some(error) = &run.stopped {
         // A file that they were meant for is left as it was.

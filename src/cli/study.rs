@@ -33,7 +33,7 @@ pub fn run(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let command = life::command(std::env::args());
     let result = kept(arguments, &read_source(file)?, (command, !is_stream), |study, journal| {
         print_remarks(study.cases.base());
-        watched(|watch| match journal {
+        watched("study", |watch| match journal {
             Some(journal) => study.run_kept(journal, watch),
             None => study.run(watch),
         })

@@ -65,6 +65,14 @@ pub fn covariate(text: &str) -> Result<(String, f64), String> {
     Ok((name, positive(&value)?))
 }
 
+/// A part, from 0 on.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a number from 0 on is needed, as 1e-6".to_owned()),
+    }
+}
+
 /// A positive number.
 pub fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {

@@ -48,6 +48,7 @@ impl Plan<'_> {
         threads: NonZero<usize>,
     ) -> Result<(), LifeError> {
         let (Some(process), Some(count)) = (&self.process, self.trajectories) else { return Ok(()) };
+        self.watch.begin("lives");
         let failed =
             |(cause, lives): (Cause, Numbered)| LifeError { lives, ..self.error(cause, &result.cycles) };
         // Shards agree on what they tell: it goes by the lives of all.

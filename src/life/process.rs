@@ -4,6 +4,7 @@
 use linkwear_gamma::life::{Estimate, LifeError as LawError};
 use linkwear_gamma::monte_carlo::{GammaDraw, GammaMean, PER_METRE};
 use linkwear_gamma::series::SharedFactor;
+use linkwear_runtime::life::CycleRecord;
 use linkwear_runtime::{Description, GammaRates};
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,9 @@ pub struct JointProcess {
     pub rates: GammaRates,
     /// The `from` of [`JointFit::new`]; none: the mechanism's file.
     pub from: Option<String>,
+    /// Coefficient of variation of what the first cycle wears, if the mechanism's file gives it in place of alpha and beta.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cycle_variation: Option<f64>,
 }
 
 impl JointProcess {
@@ -60,11 +64,15 @@ impl Process {
         let mut joints = Vec::new();
         for (contact, joint) in contacts().zip(known) {
             let fit = study.fits.iter().find(|fit| fit.joint == joint);
-            let of_file = contact.wear.and_then(|wear| wear.scatter);
+            let variation = contact.wear.and_then(|wear| wear.cycle_variation).filter(|_| fit.is_none());
+            // Until the mean path, which needs no more than their quotient, has told them.
+            let of_variation = variation.map(|_| GammaRates { alpha: PER_METRE, beta: PER_METRE });
+            let of_file = contact.wear.and_then(|wear| wear.scatter).or(of_variation);
             let Some(rates) = fit.map(|fit| rates(&fit.estimate)).or(of_file) else {
                 return if is_asked { Err(Cause::NoProcess { joint }) } else { Ok(None) };
             };
-            joints.push(JointProcess { joint, rates, from: fit.map(|fit| fit.from.clone()) });
+            let from = fit.map(|fit| fit.from.clone());
+            joints.push(JointProcess { joint, rates, from, cycle_variation: variation });
         }
         let mut fits: Vec<JointFit> = Vec::new();
         for fit in &study.fits {
@@ -73,6 +81,18 @@ impl Process {
             }
         }
         Ok(Some(Self { joints, fits, shared, seed: study.seed }))
+    }
+
+    /// Takes alpha and beta from the coefficient of variation of the first cycle, where the file gives that: an increment of mean m has
+    /// the shape alpha m and so the coefficient of variation 1 / sqrt(alpha m).
+    pub fn know(&mut self, cycles: &[CycleRecord]) {
+        let Some(first) = cycles.first() else { return };
+        for (joint, worn) in self.joints.iter_mut().zip(&first.joints) {
+            if let Some(variation) = joint.cycle_variation {
+                let alpha = 1.0 / (variation * variation * worn.mean_increment);
+                joint.rates = GammaRates { alpha, beta: alpha };
+            }
+        }
     }
 
     /// Random increments.

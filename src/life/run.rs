@@ -76,12 +76,13 @@ impl LifeStudy<'_> {
             let [last, next] = [&last, &next].map(|part| f64::from_bits(part.load(Ordering::Relaxed)));
             may_go_on(watch.report(last + part * (next - last)))
         };
-        let (watch, between) = (Watch::new(&tell), Watch::new(&ask));
+        let begin = |stage| watch.begin(stage);
+        let (told, between) = (Watch::new(&tell).with_stages(&begin), Watch::new(&ask));
         self.wears()?;
         let system = self.mechanism.system();
         let mut source = self.source(&*system, between).map_err(Cause::from)?;
         let seconds = source.seconds_per_revolution();
-        let plan = Plan::new(self, &source, journal, (watch, between))?;
+        let mut plan = Plan::new(self, &source, journal, (told, between))?;
         if let Some(journal) = journal {
             journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
         }
@@ -173,10 +174,12 @@ impl<'s> Plan<'s> {
         })
     }
 
-    fn by_table(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
+    fn by_table(&mut self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
+        self.watch.begin("table");
         let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
         let mut table = measured.map_err(|error| self.error(self.cause(error, None), &[]))?;
         let mut result = self.mean_path(&mut table, self.between)?;
+        self.know_process(&mut result);
         let scale = |body: Body<'_, Infallible, ()>| {
             body(&mut table.clone());
             Ok(())
@@ -187,8 +190,10 @@ impl<'s> Plan<'s> {
         Ok(result)
     }
 
-    fn by_dynamics(&self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
+    fn by_dynamics(&mut self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
+        self.watch.begin("mean path");
         let mut result = self.mean_path(source, self.watch)?;
+        self.know_process(&mut result);
         match self.lanes() {
             Some(Lanes::Eight(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
             Some(Lanes::Four(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
@@ -202,6 +207,14 @@ impl<'s> Plan<'s> {
             }
         }
         Ok(result)
+    }
+
+    /// Once the mean path has told what the first cycle wears.
+    fn know_process(&mut self, result: &mut LifeResult) {
+        if let Some(process) = &mut self.process {
+            process.know(&result.cycles);
+            result.process = Some(process.joints.clone());
+        }
     }
 
     /// The life in which every increment is its mean.

@@ -2,7 +2,9 @@
 //! bit for bit with their types. What is known about the table is in the file's metadata under `linkwear`. Nothing is compressed, and
 //! nothing depends on when and where it was written.
 
+use std::fs::File;
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::Arc;
 
 use linkwear_runtime::{Cells, Table, TableColumn};
@@ -12,9 +14,13 @@ use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
+use parquet::file::reader::{FileReader as _, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
+use parquet::record::Field;
 use parquet::schema::types::{ColumnPath, Type, TypePtr};
 use serde_json::Value;
+
+use super::read::{CellsRead, Read};
 
 /// Rows that are held in memory column by column, and that readers may share out among threads.
 const GROUP: usize = 1 << 17;
@@ -99,12 +105,45 @@ fn properties(table: &Table<'_>, about: &Value) -> WriterProperties {
     names.map(TableColumn::title).fold(properties, enabled).build()
 }
 
+/// Reads a file of plain columns, as [`write`] writes it.
+#[cfg(feature = "cli")]
+pub fn read(file: &Path) -> io::Result<Read> {
+    let reader = SerializedFileReader::new(File::open(file)?).map_err(io::Error::other)?;
+    let about = reader.metadata().file_metadata().key_value_metadata();
+    let about = about.and_then(|pairs| pairs.iter().find(|pair| pair.key == KEY)?.value.as_ref());
+    let about = about.and_then(|text| serde_json::from_str(text).ok());
+    let mut columns: Vec<(String, CellsRead)> = Vec::new();
+    for row in reader.get_row_iter(None).map_err(io::Error::other)? {
+        for (at, (title, cell)) in row.map_err(io::Error::other)?.get_column_iter().enumerate() {
+            let number = match cell {
+                Field::Double(number) => Some(*number),
+                Field::ULong(number) => Some(*number as f64),
+                Field::Long(number) => Some(*number as f64),
+                _ => None,
+            };
+            if columns.len() == at {
+                let empty = match number {
+                    Some(_) => CellsRead::Numbers(Vec::new()),
+                    None => CellsRead::Texts(Vec::new()),
+                };
+                columns.push((title.clone(), empty));
+            }
+            match &mut columns[at].1 {
+                CellsRead::Numbers(cells) => cells.push(number.unwrap_or(f64::NAN)),
+                CellsRead::Texts(cells) => cells.push(match cell {
+                    Field::Str(text) => text.clone(),
+                    other => other.to_string(),
+                }),
+            }
+        }
+    }
+    Ok((columns, about))
+}
+
 #[cfg(test)]
 mod tests {
-    use std::fs::File;
 
     use super::*;
-    use parquet::file::reader::{FileReader as _, SerializedFileReader};
     use parquet::record::RowAccessor as _;
     use serde_json::json;
 

@@ -10,14 +10,14 @@ pub enum Severity {
 }
 
 macro_rules! codes {
-    ($($(#[$doc:meta])* $name:ident = $text:literal,)*) => {
+    ($(#[doc = $title:literal] $name:ident = $text:literal,)*) => {
         /// Which fault: printed as `E0204`, warnings as `W0101`.
         ///
         /// E01 form of the file, E02 names, E03 quantities and formulas, E04 mechanics, E05 how bodies hang
         /// together, E06 assembly and rank.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Code {
-            $($(#[$doc])* $name,)*
+            $(#[doc = $title] $name,)*
         }
 
         impl Code {
@@ -28,6 +28,13 @@ macro_rules! codes {
             pub const fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$name => $text,)*
+                }
+            }
+
+            /// What it is, in a sentence.
+            pub fn title(self) -> &'static str {
+                match self {
+                    $(Self::$name => $title.trim_ascii(),)*
                 }
             }
         }

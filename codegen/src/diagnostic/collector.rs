@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use annotate_snippets::Renderer;
 use serde::Serialize;
 
 use super::brief::bounded;
@@ -98,15 +99,26 @@ impl Diagnostics {
     }
 }
 
+impl Diagnostics {
+    /// The text of [`Display`](fmt::Display) in colours, for terminals.
+    pub fn in_colours(&self) -> String {
+        self.text(&Renderer::styled())
+    }
+
+    fn text(&self, renderer: &Renderer) -> String {
+        let shown = self.list.iter().take(SHOWN);
+        let texts = shown.map(|diagnostic| render::text(diagnostic, self.source.as_ref(), renderer));
+        let text = texts.collect::<Vec<_>>().join("\n\n");
+        match self.list.len().saturating_sub(SHOWN) {
+            0 => text,
+            more => format!("{text}\n\n... and {more} more: {} faults in all", self.list.len()),
+        }
+    }
+}
+
 impl fmt::Display for Diagnostics {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shown = self.list.iter().take(SHOWN);
-        let texts = shown.map(|diagnostic| render::plain(diagnostic, self.source.as_ref()));
-        formatter.write_str(&texts.collect::<Vec<_>>().join("\n\n"))?;
-        match self.list.len().saturating_sub(SHOWN) {
-            0 => Ok(()),
-            more => write!(formatter, "\n\n... and {more} more: {} faults in all", self.list.len()),
-        }
+        formatter.write_str(&self.text(&Renderer::plain()))
     }
 }
 
@@ -131,6 +143,25 @@ mod tests {
         let entry = &all.located(&source).entries()[0];
         assert_eq!((entry.line, entry.column), (2, 5));
         assert_eq!((entry.code, entry.help.as_str()), ("E0204", "h1; h2"));
+    }
+
+    #[test]
+    fn colours_change_no_letter() {
+        let source = SourceFile { name: "a.toml".into(), text: "abc = \u{1b}[31m".into() };
+        let mut all = Diagnostics::new();
+        all.push(
+            Diagnostic::new(Code::ZeroAxis, "no axis").at(Span { start: 0, end: 3 }, "here").help("add it"),
+        );
+        let all = all.located(&source);
+        let (plain, coloured) = (all.to_string(), all.in_colours());
+        assert!(!plain.contains('\u{1b}') && coloured.contains("\u{1b}["), "{coloured:?}");
+        let mut rest = coloured.as_str();
+        let mut bare = String::new();
+        while let Some((before, after)) = rest.split_once("\u{1b}[") {
+            bare.push_str(before);
+            rest = after.split_once('m').expect("the end of a style").1;
+        }
+        assert_eq!(bare + rest, plain);
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Diagnostics as plain text with the lines of the file they are about.
-//! In: one [`Diagnostic`] and, if known, its file. Out: text without colour or a final newline.
+//! Diagnostics as text with the lines of the file they are about.
+//! In: one [`Diagnostic`] and, if known, its file. Out: text, plain or in colours, without a final newline.
 
 use annotate_snippets::{AnnotationKind, Element, Group, Level, Renderer, Snippet};
 
@@ -7,7 +7,7 @@ use super::brief::bounded;
 use super::{Diagnostic, Severity};
 use crate::source::SourceFile;
 
-pub(super) fn plain(diagnostic: &Diagnostic, source: Option<&SourceFile>) -> String {
+pub(super) fn text(diagnostic: &Diagnostic, source: Option<&SourceFile>, renderer: &Renderer) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -35,5 +35,5 @@ pub(super) fn plain(diagnostic: &Diagnostic, source: Option<&SourceFile>) -> Str
     for help in &helps {
         group = group.element(Level::HELP.message(help.as_str()));
     }
-    Renderer::plain().render(&[group])
+    renderer.render(&[group])
 }

@@ -143,7 +143,7 @@ tables! {
         /// Dimensionless wear coefficient k of Archard's law.
         /// [1; above 0; required; e.g. 1e-8]
         pub coefficient: Option<Quantity>,
-        /// Hardness of the softer side.
+        /// Hardness of the softer side: a pressure, or a number of Brinell, Vickers or Rockwell such as "120 HB", "400 HV", "58 HRC".
         /// [Pa; above 0; required; e.g. "3.5 GPa"]
         pub hardness: Option<Quantity>,
         /// Area that carries the load.
@@ -176,6 +176,9 @@ tables! {
         /// Gamma process: rate.
         /// [1/m; above 0; default `alpha`; e.g. "13.65 1/um"]
         pub beta: Option<Quantity>,
+        /// Coefficient of variation of what the first cycle wears, from which `alpha` and `beta` follow: instead of them.
+        /// [1; above 0; default none; e.g. "20 %"]
+        pub cycle_variation: Option<Quantity>,
         /// Our own assumption.
         /// [mark]
         pub assumed: bool,

@@ -12,6 +12,7 @@ mod parse;
 mod point;
 mod read;
 mod repeat;
+mod rockwell;
 #[cfg(test)]
 mod schema;
 mod start;

@@ -20,6 +20,8 @@ pub(super) struct Unit {
     pub dimension: Dimension,
     /// Turns and angles in it.
     pub turning: Turning,
+    /// It counts hardness.
+    pub hardness: bool,
 }
 
 /// Symbols that take the prefixes below.
@@ -43,7 +45,13 @@ const PLAIN: &[(&str, f64, f64, Dimension)] = &[
     ("deg", PI, 180.0, Dimension::NONE),
     ("rpm", 1.0, 60.0, Dimension::of(0, 0, -1)),
     ("%", 1.0, 100.0, Dimension::NONE),
+    // Brinell and Vickers numbers are kgf/mm^2.
+    ("HB", 9_806_650.0, 1.0, PRESSURE),
+    ("HBW", 9_806_650.0, 1.0, PRESSURE),
+    ("HV", 9_806_650.0, 1.0, PRESSURE),
 ];
+
+const PRESSURE: Dimension = Dimension::of(-1, 1, -2);
 
 /// Prefixes as powers of ten.
 const PREFIXES: &[(&str, i32)] = &[
@@ -66,6 +74,7 @@ impl Unit {
         divisor: 1.0,
         dimension: Dimension::NONE,
         turning: Turning { turns: 0, angles: 0 },
+        hardness: false,
     };
 
     /// Product; `None` if an exponent overflows.
@@ -75,6 +84,7 @@ impl Unit {
             divisor: self.divisor * other.divisor,
             dimension: self.dimension.times(other.dimension)?,
             turning: self.turning.times(other.turning),
+            hardness: self.hardness || other.hardness,
         })
     }
 
@@ -85,13 +95,19 @@ impl Unit {
         let size = i32::try_from(exponent.unsigned_abs()).ok()?;
         let dimension = self.dimension.to_power(exponent)?;
         let turning = self.turning.to_power(exponent);
-        Some(Self { factor: factor.powi(size), divisor: divisor.powi(size), dimension, turning })
+        let [factor, divisor] = [factor, divisor].map(|part| part.powi(size));
+        Some(Self { factor, divisor, dimension, turning, hardness: self.hardness })
     }
 
     /// `number` of this unit in SI.
     pub fn to_si(self, number: f64) -> f64 {
         number * self.factor / self.divisor
     }
+}
+
+/// Whether the symbol is that of a hardness that is proportional to a pressure.
+pub(super) fn is_hardness(symbol: &str) -> bool {
+    matches!(symbol, "HB" | "HBW" | "HV")
 }
 
 /// The unit with this symbol.
@@ -103,7 +119,8 @@ pub(super) fn unit(symbol: &str) -> Option<Unit> {
             "rad" | "deg" => Turning::ANGLE,
             _ => Turning::default(),
         };
-        Some(Unit { factor: *factor, divisor: *divisor, dimension: *dimension, turning })
+        let hardness = is_hardness(symbol);
+        Some(Unit { factor: *factor, divisor: *divisor, dimension: *dimension, turning, hardness })
     };
     if symbol == "kg" {
         return Some(Unit { dimension: Dimension::MASS, ..Unit::ONE });
@@ -134,7 +151,7 @@ pub(super) fn suggestion(symbol: &str) -> Option<String> {
     }
     const COMMON: &[&str] = &[
         "mm", "cm", "km", "um", "kg", "g", "ms", "min", "rad", "deg", "Hz", "kHz", "rpm", "N", "kN", "J",
-        "W", "Pa", "kPa", "MPa", "GPa", "m", "s", "h",
+        "W", "Pa", "kPa", "MPa", "GPa", "m", "s", "h", "HV",
     ];
     crate::diagnostic::nearest(symbol, COMMON.iter().copied()).map(str::to_owned)
 }
@@ -162,6 +179,13 @@ mod tests {
     fn minutes_and_tonnes_are_not_prefixes() {
         assert_eq!(unit("min").unwrap().to_si(1.0), 60.0);
         assert_eq!(unit("t").unwrap().dimension, Dimension::MASS);
+    }
+
+    #[test]
+    fn brinell_and_vickers_numbers_are_kilogram_forces_per_square_millimetre() {
+        for symbol in ["HB", "HBW", "HV"] {
+            assert_eq!(unit(symbol).unwrap().to_si(120.0), 120.0 * 9.80665e6);
+        }
     }
 
     #[test]

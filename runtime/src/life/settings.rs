@@ -351,6 +351,7 @@ mod tests {
         revolutions_per_cycle: 1e7,
         pressure_speed: Some(2e6),
         scatter: None,
+        cycle_variation: None,
     };
 
     #[test]

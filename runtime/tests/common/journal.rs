@@ -67,6 +67,7 @@ pub fn wear(area: Area, profile: bool) -> Option<WearInfo> {
         revolutions_per_cycle: 1e6,
         pressure_speed: None,
         scatter: None,
+        cycle_variation: None,
     })
 }
 

@@ -44,6 +44,13 @@ pub struct CheckAnswer<'a> {
     pub cut_joints: Vec<&'a str>,
     /// How the loops close.
     pub assembly: AssemblyAnswer,
+    /// Where the joints stand at t = 0, by column (`R1.q`, `S2.q0`) [rad, m; 1 for quaternions]; empty where a run would not start.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub start: Map<String, Value>,
+    /// Joints with clearance, as they were read.
+    pub clearances: Vec<ClearanceAnswer<'a>>,
+    /// Joints that wear, as they were read.
+    pub wear: Vec<WearAnswer<'a>>,
     /// Modal coordinates of flexible bodies.
     pub modal_coordinates: usize,
     /// Flexible bodies.
@@ -81,6 +88,94 @@ pub struct AssemblyAnswer {
     /// Others that were found; `[assembly]` in the file chooses.
     #[cfg_attr(test, schemars(with = "Vec<Numbers>"))]
     pub others: Vec<Map<String, Value>>,
+}
+
+/// A joint with clearance.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[allow(non_snake_case, reason = "units are written as they are")]
+pub struct ClearanceAnswer<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Body with the bearing or socket.
+    pub bearing: &'a str,
+    /// Body with the journal or ball.
+    pub journal: &'a str,
+    /// Whether it is a ball in a socket.
+    pub ball: bool,
+    /// Radial clearance [m]; null where a run would not start.
+    pub radial_m: Option<f64>,
+    /// Radius of the journal or ball [m].
+    pub journal_radius_m: f64,
+    /// Length of the bearing [m].
+    pub length_m: f64,
+    /// Elastic modulus E* of the pair [Pa].
+    pub modulus_Pa: f64,
+    /// Stiffness K at this clearance, in F = K p^n [N/m^n]; null as `radial_m`.
+    pub stiffness: Option<f64>,
+    /// Whether the file gives it; else it follows from the modulus and, as that wears, the clearance.
+    pub stiffness_given: bool,
+    /// Exponent n.
+    pub exponent: f64,
+    /// Law of restitution, as in files.
+    pub law: &'a str,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Least impact speed that damping is related to [m/s].
+    pub impact_speed_floor_m_per_s: f64,
+    /// Friction; null without.
+    pub friction: Option<FrictionAnswer>,
+}
+
+/// Friction of a joint with clearance.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct FrictionAnswer {
+    /// Coefficient at high speed.
+    pub coefficient: f64,
+    /// Coefficient at rest; null where it is the same.
+    pub static_coefficient: Option<f64>,
+    /// Speed over which the one goes over into the other [m/s]; null where there is no other.
+    pub stribeck_speed_m_per_s: Option<f64>,
+    /// Growth of the coefficient with sliding speed [s/m].
+    pub slope_s_per_m: f64,
+    /// Speed below which friction is smoothed, or the two of Ambrosio's correction [m/s].
+    pub friction_speed_m_per_s: Vec<f64>,
+}
+
+/// How a joint wears.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[allow(non_snake_case, reason = "units are written as they are")]
+pub struct WearAnswer<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Dimensionless wear coefficient k.
+    pub coefficient: f64,
+    /// Hardness of the softer side [Pa].
+    pub hardness_Pa: f64,
+    /// Wear depth at which the joint has failed [m].
+    pub threshold_m: f64,
+    /// Area that carries the load, as in files.
+    pub area: &'a str,
+    /// What counts as wear, as in files; null: the depth by the area, with `profile` the mean.
+    pub measure: Option<&'a str>,
+    /// Whether the worn profile changes the gap.
+    pub profile: bool,
+    /// Bearing angles of the profile.
+    pub bins: usize,
+    /// Growth of the clearance per wear.
+    pub feedback: f64,
+    /// Revolutions that a cycle stands for.
+    pub revolutions_per_cycle: f64,
+    /// Limit of mean pressure times sliding speed [Pa m/s]; null without.
+    pub pressure_speed_Pa_m_per_s: Option<f64>,
+    /// Gamma process: shape per mean wear [1/m]; null without one.
+    pub alpha_per_m: Option<f64>,
+    /// Its rate [1/m]; null without one.
+    pub beta_per_m: Option<f64>,
+    /// Coefficient of variation of what the first cycle wears, from which `life` takes alpha and beta; null where the file gives these.
+    pub cycle_variation: Option<f64>,
 }
 
 /// Modes of a flexible body.

@@ -209,9 +209,23 @@ pub struct PageAnswer {
 pub struct NewAnswer {
     /// The file.
     pub file: String,
+    /// Commands to go on with, in this order.
+    pub next: Vec<String>,
 }
 
-/// A text: a completion script or the manual page.
+/// Manual pages.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct PagesAnswer {
+    /// The page (troff); absent where pages are written to files.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub text: Option<String>,
+    /// Files that were written; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<String>,
+}
+
+/// A text: a completion script.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 pub struct TextAnswer {

@@ -99,6 +99,9 @@ pub struct ProcessAnswer<'a> {
     pub beta_per_um: f64,
     /// Where it is from: `file`, the mechanism's, or the file of a fit.
     pub from: &'a str,
+    /// Coefficient of variation of what the first cycle wears, where the file gives that instead of the parameters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycle_variation: Option<f64>,
 }
 
 /// A cycle of the mean path.

@@ -8,7 +8,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::super::shipped_schemas::SCHEMAS;
-use super::{check, equations, errors, fit, life, predict, simulate, study};
+use super::{check, diff, equations, errors, explain, fit, life, predict, simulate, study};
 use crate::provenance::{FORMAT, Provenance};
 use crate::table::{about, tables};
 
@@ -40,9 +40,11 @@ fn outputs() -> Vec<(&'static str, Value)> {
         ("fit", schema::<fit::FitAnswer<'_>>("fit", true)),
         ("fit-file", schema::<fit::FittedProcess>("fit-file", true)),
         ("predict", schema::<predict::PredictAnswer<'_>>("predict", true)),
+        ("diff", schema::<diff::DiffAnswer>("diff", false)),
+        ("explain", schema::<explain::ExplainAnswer>("explain", false)),
         ("new", schema::<equations::NewAnswer>("new", false)),
         ("completions", schema::<equations::TextAnswer>("completions", false)),
-        ("man", schema::<equations::TextAnswer>("man", false)),
+        ("man", schema::<equations::PagesAnswer>("man", false)),
         ("errors", schema::<errors::Errors>("errors", false)),
         ("table", plain::<about::TableBeside>("table")),
         ("parquet", schema::<about::TableWithin>("parquet", true)),

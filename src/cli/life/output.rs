@@ -33,13 +33,13 @@ pub fn of_shard(answer: Answer, shard: Shard) -> Answer {
     );
     let mut json = answer.json;
     json["shard"] = json!(ShardAnswer { index: shard.index, of: shard.of });
-    Answer { text, json }
+    Answer { text, json, disagrees: false }
 }
 
 /// Cycles alone, of a life that stopped.
 pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
     let json = cycles.iter().map(|cycle| json!(CycleAnswer::new(names, cycle))).collect();
-    Answer { text: cycles_table(names, cycles), json }
+    Answer { text: cycles_table(names, cycles), json, disagrees: false }
 }
 
 /// What a life with the dynamics at every wear step will cost, and what a table would.
@@ -108,7 +108,7 @@ fn to_text(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
     }
     text.push_str(&paragraph(&facts.wear_measures));
     let joints = life.process.as_deref().unwrap_or_default();
-    if joints.iter().any(|joint| joint.from.is_some()) {
+    if joints.iter().any(|joint| joint.from.is_some() || joint.cycle_variation.is_some()) {
         joints.iter().for_each(|joint| text.push_str(&process_line(joint)));
     }
     text.push_str(&statistics.map_or_else(String::new, |lives| scatter(facts, life, lives)));
@@ -197,9 +197,10 @@ fn hours(seconds: f64) -> String {
 }
 
 fn process_line(joint: &JointProcess) -> String {
-    let from = match &joint.from {
-        Some(from) => format!("from `{from}`"),
-        None => "from the mechanism's file, taken as known".to_owned(),
+    let from = match (&joint.from, joint.cycle_variation) {
+        (Some(from), _) => format!("from `{from}`"),
+        (None, Some(part)) => format!("by which its first cycle scatters by {} %", number(100.0 * part)),
+        (None, None) => "from the mechanism's file, taken as known".to_owned(),
     };
     let [alpha, beta] = joint.per_micrometre().map(number);
     format!("{}: alpha {alpha}/um, beta {beta}/um, {from}\n", joint.joint)

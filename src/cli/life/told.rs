@@ -161,5 +161,6 @@ fn process_entry(joint: &JointProcess) -> ProcessAnswer<'_> {
         alpha_per_um,
         beta_per_um,
         from: joint.from.as_deref().unwrap_or("file"),
+        cycle_variation: joint.cycle_variation,
     }
 }

@@ -46,7 +46,7 @@ stored!(struct DriverInfo { joint, angular });
 stored!(struct Channel { name, unit, wraps });
 stored!(struct WearInfo {
     coefficient, hardness, area, measure, feedback, profile, bins, threshold, revolutions_per_cycle,
-    pressure_speed, scatter,
+    pressure_speed, scatter, cycle_variation,
 });
 stored!(struct ContactInfo {
     joint, ball, journal_radius, length, modulus, stiffness, law, restitution, exponent, impact_speed_floor,

@@ -71,12 +71,13 @@ fn wear(info: &WearInfo, runtime: &TokenStream) -> TokenStream {
         quote!(#runtime::GammaRates { alpha: #alpha, beta: #beta })
     }));
     let limit = option(info.pressure_speed.map(number));
+    let variation = option(info.cycle_variation.map(number));
     quote! {
         #runtime::WearInfo {
             coefficient: #k, hardness: #hardness, area: #runtime::wear::Area::#area,
             measure: #measure, feedback: #feedback, profile: #profile, bins: #bins,
             threshold: #threshold, revolutions_per_cycle: #revolutions, pressure_speed: #limit,
-            scatter: #scatter,
+            scatter: #scatter, cycle_variation: #variation,
         }
     }
 }

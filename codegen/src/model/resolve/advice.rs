@@ -33,6 +33,11 @@ fn key(what: &str) -> &str {
     what.split('`').nth(1).unwrap_or_default()
 }
 
+/// Whether a hardness is filled in.
+pub(super) fn is_hardness(what: &str) -> bool {
+    key(what) == "hardness"
+}
+
 fn example(what: &str, expected: Dimension) -> String {
     if key(what) == "drive" {
         let law = if expected == Dimension::LENGTH { "10 mm*sin(2*pi*speed*t)" } else { "2*pi*speed*t" };
@@ -55,10 +60,10 @@ pub(super) fn like(what: &str, expected: Dimension) -> String {
 /// A bare number where a unit is needed.
 pub(super) fn missing_unit(what: &str, number: f64, expected: Dimension) -> String {
     let si = expected.si_unit();
-    if key(what) == "hardness" {
+    if is_hardness(what) {
         return format!(
-            "write \"{number} MPa\" or \"{number} GPa\"; a Brinell or Vickers number counts 9.81 MPa: \"{:.3} GPa\"",
-            number * 9.81e-3
+            "write \"{number} HB\", \"{number} HV\" or \"{number} HRC\" for a number of Brinell, Vickers or Rockwell, else the \
+             pressure: \"{number} MPa\" or \"{number} GPa\"; docs/choosing-values.md has usual values"
         );
     }
     let example = example(what, expected);

@@ -199,6 +199,19 @@ impl Resolver<'_> {
         }
     }
 
+    /// The scatter is said once: by rates, or by what it does to the first cycle.
+    fn check_variation(&mut self, name: &Name, own: &WearSpec) {
+        let Some(variation) = own.cycle_variation.as_ref() else { return };
+        for (key, rate) in [("alpha", &own.alpha), ("beta", &own.beta)] {
+            let Some(rate) = rate else { continue };
+            let message =
+                format!("the wear of joint `{}` has both `cycle_variation` and `{key}`", name.value);
+            self.refuse(Code::ConflictingKeys, rate.span, message)
+                .also(variation.span, "from which alpha and beta follow")
+                .help("leave out one of them; `life` tells the alpha of a `cycle_variation`");
+        }
+    }
+
     fn wear(&mut self, name: &Name, written: &At<WearSpec>) -> WearInfo {
         let own = &written.value;
         let lacking = [
@@ -213,6 +226,7 @@ impl Resolver<'_> {
             self.refuse(Code::BadClearance, bins.span, message)
                 .help("72 are one every 5 degrees; 8 to 10000 are possible");
         }
+        self.check_variation(name, own);
         let feedback = self.number(name, ("feedback", own.feedback.as_ref()), Dimension::NONE, true, 1.0);
         let mut positive = |key: &str, written: &Option<Quantity>, dimension: Dimension, default: f64| {
             self.number(name, (key, written.as_ref()), dimension, false, default)
@@ -221,6 +235,7 @@ impl Resolver<'_> {
         let pressure_speed = positive("pressure_speed", &own.pressure_speed, PRESSURE_SPEED, f64::NAN);
         let alpha = positive("alpha", &own.alpha, PER_LENGTH, f64::NAN);
         let beta = positive("beta", &own.beta, PER_LENGTH, f64::NAN);
+        let variation = positive("cycle_variation", &own.cycle_variation, Dimension::NONE, f64::NAN);
         let [alpha, beta] =
             [(&own.alpha, alpha), (&own.beta, beta)].map(|(key, rate)| key.as_ref().map(|_| rate));
         WearInfo {
@@ -236,6 +251,7 @@ impl Resolver<'_> {
             pressure_speed: own.pressure_speed.as_ref().map(|_| pressure_speed),
             // The Gamma process; with one of its rates, wear has the mean that physics gives.
             scatter: alpha.or(beta).zip(beta.or(alpha)).map(|(alpha, beta)| GammaRates { alpha, beta }),
+            cycle_variation: own.cycle_variation.as_ref().map(|_| variation),
         }
     }
 }

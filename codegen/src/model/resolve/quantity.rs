@@ -107,6 +107,7 @@ impl Resolver<'_> {
                     }
                 };
                 self.warn_shadowed(origin, &expression);
+                self.check_hardness(origin, &expression, expected)?;
                 let bare = bare_number(&expression);
                 (self.term(&expression, origin)?, bare)
             }
@@ -138,6 +139,24 @@ impl Resolver<'_> {
                 "to divide by `{unit}`, put the quantity in brackets: `(2 m)/{unit}`; to be rid of the doubt, rename it"
             ));
         }
+    }
+
+    /// A hardness is a pressure that only a hardness can have: a modulus of 120 HB is a slip.
+    fn check_hardness(
+        &mut self,
+        origin: &Origin<'_>,
+        expression: &Expression,
+        expected: Option<Dimension>,
+    ) -> Option<()> {
+        let is_pressure = expected == Some(Dimension::of(-1, 1, -2));
+        let Some(range) = expression.hardness().filter(|_| is_pressure && !advice::is_hardness(origin.what))
+        else {
+            return Some(());
+        };
+        let help = advice::like(origin.what, expected?);
+        let message = format!("{} is a pressure, but no hardness", origin.what);
+        self.refuse(Code::UnitMismatch, self.span_in(origin.quantity, range.clone()), message).help(help);
+        None
     }
 
     fn report_dimension(

@@ -28,6 +28,8 @@ pub enum Form {
         turning: Turning,
         /// No unit is written.
         bare: bool,
+        /// The unit counts hardness.
+        hardness: bool,
     },
     /// A parameter, `t` or `pi`.
     Name(String),
@@ -61,6 +63,19 @@ impl Expression {
             Form::Number { value, dimension, .. } => Some((*value, *dimension)),
             Form::Neg(inner) => inner.quantity().map(|(value, dimension)| (-value, dimension)),
             _ => None,
+        }
+    }
+}
+
+impl Expression {
+    /// Where a hardness is written in it, as `120 HB`.
+    pub fn hardness(&self) -> Option<&Range<usize>> {
+        match &self.form {
+            Form::Number { hardness, .. } => hardness.then_some(&self.range),
+            Form::Name(_) | Form::Member(..) => None,
+            Form::Neg(inner) | Form::Power(inner, _) => inner.hardness(),
+            Form::Binary(_, left, right) => left.hardness().or_else(|| right.hardness()),
+            Form::Call(_, arguments) => arguments.iter().find_map(Self::hardness),
         }
     }
 }

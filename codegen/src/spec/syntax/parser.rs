@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use super::super::dimension::Dimension;
+use super::super::rockwell::{RANGE, pressure};
+use super::super::turning::Turning;
 use super::expression::{Expression, Form, Operator, SyntaxError, fault};
 use super::lex::{Kind, Token};
 
@@ -231,8 +234,29 @@ impl<'a> Parser<'a> {
         Ok(expression(Form::Name(word.to_owned()), range))
     }
 
+    /// The pressure of a Rockwell number, if one is written.
+    fn rockwell(&mut self, number: f64) -> Result<Option<f64>, SyntaxError> {
+        let word = self.word_at(0).filter(|word| *word == "HRC");
+        let Some(word) = word.filter(|word| !(self.is_name)(word)) else { return Ok(None) };
+        let range = self.here();
+        self.next += 1;
+        let value = pressure(number).ok_or_else(|| {
+            let [lowest, highest] = RANGE;
+            let message =
+                format!("{number} {word} is outside {lowest} to {highest} HRC, where steels are compared");
+            SyntaxError { unit: true, ..fault(message, range) }.advise("write the hardness in HV, HB or GPa")
+        })?;
+        Ok(Some(value))
+    }
+
     fn quantity(&mut self, number: f64, range: Range<usize>) -> Result<Expression, SyntaxError> {
         let first = self.next;
+        if let Some(value) = self.rockwell(number)? {
+            let end = self.tokens[first].range.end;
+            let (dimension, turning) = (Dimension::of(-1, 1, -2), Turning::default());
+            let form = Form::Number { value, dimension, turning, bare: false, hardness: true };
+            return Ok(expression(form, range.start..end));
+        }
         let unit = self.unit()?;
         let end = self.tokens[self.next - 1].range.end;
         let value = unit.to_si(number);
@@ -244,6 +268,7 @@ impl<'a> Parser<'a> {
             dimension: unit.dimension,
             turning: unit.turning,
             bare: self.next == first,
+            hardness: unit.hardness,
         };
         Ok(expression(form, range.start..end))
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::unit::{Unit, suggestion, unit};
+use super::super::unit::{Unit, is_hardness, suggestion, unit};
 use super::expression::{SyntaxError, fault};
 use super::lex::{Kind, Token};
 use super::parser::Parser;
@@ -54,11 +54,12 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the token at `offset` continues a unit. `t` after an operator is always the time.
+    /// Whether the token at `offset` continues a unit. `t` after an operator is always the time, and a hardness stands alone.
     fn unit_word(&self, offset: usize, names_win: bool) -> bool {
         let Some(word) = self.word_at(offset) else { return false };
         let is_used_otherwise = matches!(self.mark_at(offset + 1), Some('(' | '.'));
-        unit(word).is_some() && word != "t" && !is_used_otherwise && !(names_win && (self.is_name)(word))
+        let binds_alone = word == "t" || is_hardness(word);
+        unit(word).is_some() && !binds_alone && !is_used_otherwise && !(names_win && (self.is_name)(word))
     }
 
     /// `/(m s)` behind a unit, if the bracket holds nothing but units.
@@ -118,19 +119,10 @@ impl Parser<'_> {
             return fault(format!("an operator is missing before `{word}`"), range)
                 .advise(format!("write `*{word}` for a product"));
         }
-        // Hardness numbers are no units, but everybody writes them so.
-        let number = match self.tokens.get(self.next.wrapping_sub(1)).map(|token| &token.kind) {
-            Some(Kind::Number(number)) => *number,
-            _ => 120.0,
-        };
         let help = match suggestion(word) {
-            _ if matches!(word, "HB" | "HBW" | "HV") => format!(
-                "a hardness is a pressure here, 9.81 MPa times the number: `{number} {word}` is \"{:.3} GPa\"",
-                9.81e-3 * number
-            ),
-            _ if word == "HRC" => "a hardness is a pressure here: 60 HRC is about \"6.9 GPa\"".to_owned(),
             Some(symbol) => format!("did you mean `{symbol}`?"),
-            None => "units are m, g, s, N, J, W, Pa, Hz, rad with prefixes, and kg, t, min, h, deg, rpm, %"
+            None => "units are m, g, s, N, J, W, Pa, Hz, rad with prefixes, and kg, t, min, h, deg, rpm, %; HB, HV \
+                     and HRC for hardness"
                 .to_owned(),
         };
         SyntaxError { unit: true, ..fault(format!("`{word}` is not a unit"), range) }.advise(help)

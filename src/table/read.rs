@@ -1,0 +1,57 @@
+//! Cells that are read back, and CSV. In: a file. Out: its columns. Never knows what the numbers mean.
+
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use csv::ReaderBuilder;
+use serde_json::Value;
+
+/// The cells of a column.
+#[derive(Debug, PartialEq)]
+pub enum CellsRead {
+    /// Numbers; NaN where a cell is empty.
+    Numbers(Vec<f64>),
+    /// Words.
+    Texts(Vec<String>),
+}
+
+impl CellsRead {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Numbers(cells) => cells.len(),
+            Self::Texts(cells) => cells.len(),
+        }
+    }
+}
+
+/// What cannot be read, in a sentence.
+pub(super) fn broken(message: impl Into<String>) -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, message.into())
+}
+
+/// Columns, and what the file says about itself.
+pub(super) type Read = (Vec<(String, CellsRead)>, Option<Value>);
+
+/// Reads CSV: a line of titles, then rows.
+pub(super) fn read_csv(file: &Path) -> io::Result<Read> {
+    let mut reader = ReaderBuilder::new().comment(Some(b'#')).from_path::<PathBuf>(file.into())?;
+    let titles: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
+    let mut texts: Vec<Vec<String>> = titles.iter().map(|_| Vec::new()).collect();
+    for row in reader.records() {
+        for (column, cell) in texts.iter_mut().zip(&row?) {
+            column.push(cell.to_owned());
+        }
+    }
+    Ok((titles.into_iter().zip(texts.into_iter().map(cells)).collect(), None))
+}
+
+/// Numbers, if all cells with anything in them are.
+fn cells(texts: Vec<String>) -> CellsRead {
+    let number = |text: &String| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+    let numbers: Option<Vec<f64>> = texts.iter().map(number).collect();
+    match numbers {
+        Some(numbers) if texts.iter().any(|text| !text.is_empty()) => CellsRead::Numbers(numbers),
+        _ => CellsRead::Texts(texts),
+    }
+}
