@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn paragraphs_are_no_wider_than_a_terminal() {
-        let text = folded(&"word ".repeat(50).trim());
+        let text = folded("word ".repeat(50).trim());
         assert!(text.lines().all(|line| line.len() < 100) && text.lines().count() == 3, "{text}");
     }
 }

@@ -15,16 +15,6 @@ pub enum CellsRead {
     Texts(Vec<String>),
 }
 
-impl CellsRead {
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Numbers(cells) => cells.len(),
-            Self::Texts(cells) => cells.len(),
-        }
-    }
-}
-
 /// What cannot be read, in a sentence.
 pub(super) fn broken(message: impl Into<String>) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, message.into())

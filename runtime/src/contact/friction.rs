@@ -45,6 +45,16 @@ impl Strength {
             }
         }
     }
+
+    /// What [`Self::new`] makes it of.
+    pub fn given(self) -> (f64, Option<(f64, f64)>) {
+        match self {
+            Self::Coulomb { coefficient } => (coefficient, None),
+            Self::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, .. } => {
+                (kinetic_coefficient, Some((static_coefficient, stribeck_speed)))
+            }
+        }
+    }
 }
 
 /// How friction grows from zero speed.
@@ -70,6 +80,14 @@ impl Onset {
     /// By one speed [m/s] up to which friction is smoothed, or by the two between which it grows.
     pub fn new(speed: f64, upper: Option<f64>) -> Self {
         upper.map_or(Self::Smoothed { speed }, |upper| Self::Ambrosio { lower: speed, upper })
+    }
+
+    /// What [`Self::new`] makes it of.
+    pub fn given(self) -> (f64, Option<f64>) {
+        match self {
+            Self::Smoothed { speed } => (speed, None),
+            Self::Ambrosio { lower, upper } => (lower, Some(upper)),
+        }
     }
 }
 

@@ -47,6 +47,11 @@ impl Stiffness {
         given.map_or(Self::Hertz { modulus }, Self::Given)
     }
 
+    /// Whether it is given, whatever the clearance.
+    pub fn is_given(self) -> bool {
+        matches!(self, Self::Given(_))
+    }
+
     /// Itself, if its constant is in range.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use linkwear_codegen::model::{Joint, Mechanism};
 use linkwear_codegen::spec::{
     ClearanceSpec, Literal, Quantity, WearSpec, as_written, parse, parse_expression,
 };
-use linkwear_runtime::contact::{Onset, Stiffness, Strength};
+use linkwear_runtime::contact::{Onset, Strength};
 use linkwear_runtime::{ContactInfo, WearInfo};
 
 use super::super::answer::check::{ClearanceAnswer, FrictionAnswer, WearAnswer};
@@ -119,7 +119,7 @@ impl Contact<'_> {
         let (laws, written) = (self.laws, &self.written);
         let exponent = number(laws.exponent).trim_end_matches('0').trim_end_matches('.').to_owned();
         let stiffness = self.stiffness().map_or_else(String::new, |stiffness| {
-            let from = if matches!(laws.stiffness, Stiffness::Given(_)) { "given" } else { "by modulus" };
+            let from = if laws.stiffness.is_given() { "given" } else { "by modulus" };
             format!("{} N/m^{exponent}, {from}", number(stiffness))
         });
         let radial = self.radial.map_or_else(String::new, |radial| {
@@ -147,12 +147,12 @@ impl Contact<'_> {
         let rate = |key: Option<&Quantity>, rate: Option<f64>| {
             rate.map_or_else(String::new, |rate| self.quantity(key, rate, "1/um"))
         };
-        let or = |key: &'static str| if wear.scatter.is_some() { String::new() } else { key.to_owned() };
         let variation = wear.cycle_variation.map_or_else(String::new, |part| {
             format!("{} % of the first cycle; life tells alpha", number(100.0 * part))
         });
         let alpha = rate(written.alpha.as_ref(), wear.scatter.map(|rates| rates.alpha));
-        let none = wear.cycle_variation.is_none().then(|| or("none: a life is its mean")).unwrap_or_default();
+        let is_random = wear.scatter.is_some() || wear.cycle_variation.is_some();
+        let none = if is_random { "" } else { "none: a life is its mean" };
         let limit = wear.pressure_speed;
         vec![
             ("coefficient", self.quantity(written.coefficient.as_ref(), wear.coefficient, "")),
@@ -163,7 +163,7 @@ impl Contact<'_> {
             ("profile", if wear.profile { format!("{} bearing angles", wear.bins) } else { String::new() }),
             ("feedback", number(wear.feedback)),
             ("revolutions_per_cycle", number(wear.revolutions_per_cycle)),
-            ("alpha", if alpha.is_empty() { none } else { alpha }),
+            ("alpha", if alpha.is_empty() { none.to_owned() } else { alpha }),
             ("beta", rate(written.beta.as_ref(), wear.scatter.map(|rates| rates.beta))),
             ("cycle_variation", variation),
             (
@@ -188,7 +188,7 @@ impl Contact<'_> {
             length_m: laws.length,
             modulus_Pa: laws.modulus,
             stiffness: self.stiffness(),
-            stiffness_given: matches!(laws.stiffness, Stiffness::Given(_)),
+            stiffness_given: laws.stiffness.is_given(),
             exponent: laws.exponent,
             law: laws.law.name(),
             restitution: laws.restitution,
@@ -221,21 +221,17 @@ impl Contact<'_> {
 
 fn friction(laws: &ContactInfo) -> String {
     let Some((strength, onset, slope)) = laws.friction else { return "none".to_owned() };
-    let mut text = match strength {
-        Strength::Coulomb { coefficient } => number(coefficient),
-        Strength::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, .. } => format!(
-            "{}, at rest {} (Stribeck, {} mm/s)",
-            number(kinetic_coefficient),
-            number(static_coefficient),
-            number(1e3 * stribeck_speed)
-        ),
-    };
+    let (coefficient, at_rest) = strength.given();
+    let mut text = number(coefficient);
+    if let Some((at_rest, speed)) = at_rest {
+        let _ = write!(text, ", at rest {} (Stribeck, {} mm/s)", number(at_rest), number(1e3 * speed));
+    }
     if slope != 0.0 {
         let _ = write!(text, ", growing by {} s/m", number(slope));
     }
-    let _ = match onset {
-        Onset::Smoothed { speed } => write!(text, ", smoothed below {} mm/s", number(1e3 * speed)),
-        Onset::Ambrosio { lower, upper } => {
+    let _ = match onset.given() {
+        (speed, None) => write!(text, ", smoothed below {} mm/s", number(1e3 * speed)),
+        (lower, Some(upper)) => {
             write!(text, ", from {} to {} mm/s (Ambrosio)", number(1e3 * lower), number(1e3 * upper))
         }
     };
@@ -243,21 +239,13 @@ fn friction(laws: &ContactInfo) -> String {
 }
 
 fn friction_answer((strength, onset, slope): (Strength, Onset, f64)) -> FrictionAnswer {
-    let (coefficient, at_rest, stribeck) = match strength {
-        Strength::Coulomb { coefficient } => (coefficient, None, None),
-        Strength::Stribeck { static_coefficient, kinetic_coefficient, stribeck_speed, .. } => {
-            (kinetic_coefficient, Some(static_coefficient), Some(stribeck_speed))
-        }
-    };
-    let speeds = match onset {
-        Onset::Smoothed { speed } => vec![speed],
-        Onset::Ambrosio { lower, upper } => vec![lower, upper],
-    };
+    let (coefficient, at_rest) = strength.given();
+    let (first, second) = onset.given();
     FrictionAnswer {
         coefficient,
-        static_coefficient: at_rest,
-        stribeck_speed_m_per_s: stribeck,
+        static_coefficient: at_rest.map(|(coefficient, _)| coefficient),
+        stribeck_speed_m_per_s: at_rest.map(|(_, speed)| speed),
         slope_s_per_m: slope,
-        friction_speed_m_per_s: speeds,
+        friction_speed_m_per_s: [first].into_iter().chain(second).collect(),
     }
 }

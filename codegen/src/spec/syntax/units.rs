@@ -57,9 +57,9 @@ impl Parser<'_> {
     /// Whether the token at `offset` continues a unit. `t` after an operator is always the time, and a hardness stands alone.
     fn unit_word(&self, offset: usize, names_win: bool) -> bool {
         let Some(word) = self.word_at(offset) else { return false };
+        let goes_on = word != "t" && !is_hardness(word) && !(names_win && (self.is_name)(word));
         let is_used_otherwise = matches!(self.mark_at(offset + 1), Some('(' | '.'));
-        let binds_alone = word == "t" || is_hardness(word);
-        unit(word).is_some() && !binds_alone && !is_used_otherwise && !(names_win && (self.is_name)(word))
+        unit(word).is_some() && goes_on && !is_used_otherwise
     }
 
     /// `/(m s)` behind a unit, if the bracket holds nothing but units.
