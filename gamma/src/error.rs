@@ -91,6 +91,32 @@ pub enum LifeError {
         "with a flat prior the drift of a Wiener process may be near zero, so mean and standard deviation are not finite: use quantiles, or a fit as prior"
     )]
     HeavyDrift,
+    /// The drift of a unit may be so slow, or below zero, that lives have no mean.
+    #[error(
+        "the drift of a Wiener process that differs between units by a normal law may be near zero, so mean and standard deviation are not finite: use quantiles, or another process"
+    )]
+    DriftOfUnits,
+    /// Part of the lives never end.
+    #[error(
+        "no time is known by which the part {p} has failed: the part {ever} ever fails, as drifts of units may be below zero; fit another process"
+    )]
+    Never {
+        /// The part asked for.
+        p: f64,
+        /// The part that ever fails.
+        ever: f64,
+    },
+    /// The readings of a unit say that it does not wear.
+    #[error(
+        "by its readings the drift of the unit is not above zero, so nothing is known of when it fails: fit another process, or read it again later"
+    )]
+    UnitStandsStill,
+    /// No law is known by which units differ.
+    #[error("no law is known by which units of the {process} process differ")]
+    NoRandomEffect {
+        /// The process.
+        process: &'static str,
+    },
     /// A shared factor that is near zero too often for a mean.
     #[error(
         "a Gamma factor of coefficient of variation {cov} is near zero so often that mean or standard deviation are not finite: below {below:.3} they are; use quantiles, or a lognormal factor"

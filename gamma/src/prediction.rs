@@ -2,7 +2,9 @@
 //! readings. Out: numbers with their bands and error budget. Never knows files or terminals.
 
 use crate::error::LifeError;
-use crate::inspection::{Effort, History, InspectionError, Mixture, Particles, Posterior, Prior};
+use crate::inspection::{
+    Effort, History, InspectionError, Mixture, Particles, Posterior, Prior, UnitPosterior,
+};
 use crate::life::{
     Band, Bands, Contribution, ErrorBudget, Estimate, FirstPassage, LifeMixture, Lifetime, Method, Moments,
     OperatingState, Sample, WithError,
@@ -160,14 +162,17 @@ impl Prediction {
     /// # Errors
     /// [`InspectionError`].
     pub fn after(history: &History, prior: &Prior, state: &OperatingState) -> Result<Self, InspectionError> {
-        let posterior = Posterior::update(history, prior, state)?;
         let last = history.last();
         let now = state.clone().worn(last.wear, state.rate() * last.time)?;
         let from = match prior {
             Prior::Flat { .. } | Prior::Matching { .. } => "inspections alone",
             Prior::Fit(_) => "fit and inspections",
         };
-        let mut answer = Self::ask(&posterior, &now, from, &mut |ask| ask.of(&posterior))?;
+        let posterior: Box<dyn Mixture> = match prior {
+            Prior::Fit(fit) if fit.units_differ() => Box::new(UnitPosterior::update(history, fit, state)?),
+            _ => Box::new(Posterior::update(history, prior, state)?),
+        };
+        let mut answer = Self::ask(&*posterior, &now, from, &mut |ask| ask.of(&*posterior))?;
         answer.complete(Contribution::None("closed forms, quadrature over parameters"), Some(WITHIN));
         Ok(answer)
     }

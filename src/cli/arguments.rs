@@ -327,6 +327,10 @@ pub struct PredictArguments {
     /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
     #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
     pub at: Option<f64>,
+    /// A unit of the fit's data, by its name there: what has been read of it says how it differs; its last reading is the present,
+    /// or --current with --at. Without, a unit of which nothing is known.
+    #[arg(long, value_name = "NAME", conflicts_with = "inspections")]
+    pub unit: Option<String>,
     /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
     #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
     pub covariate: Vec<(String, f64)>,
@@ -401,7 +405,10 @@ pub struct FitArguments {
     /// Accept data of one unit, which cannot tell how units differ.
     #[arg(long)]
     pub one_unit: bool,
-    /// Compare with the other processes.
+    /// Let units differ: rates of the Gamma process by a Gamma law, drifts of the others by a normal one; says whether they do.
+    #[arg(long, conflicts_with_all = ["resolution", "one_unit"])]
+    pub random_effects: bool,
+    /// Compare with the other processes, each with units alike and with units that differ.
     #[arg(long)]
     pub compare: bool,
     /// Replicates of the parametric bootstrap: intervals, p-values of the goodness of fit.

@@ -56,21 +56,23 @@ pub fn fitted(
     table: &CsvTable<'_>,
     drawn: Option<&Replicates>,
 ) -> Result<Fitted, Failure> {
-    let (data, groups) = observed(arguments, table)?;
-    let analysis = |name: &str, data: &Observations| {
+    let (pooled, groups) = observed(arguments, table)?;
+    let analysis = |Observed { name, data, last }: &Observed| {
         let here = |fit: &Fit| bootstrap(fit, data, 0..arguments.bootstrap as u64, arguments.seed);
         let replicates = |fit: &Fit| match drawn {
             _ if arguments.bootstrap == 0 => None,
-            Some(drawn) => drawn.get(name).cloned(),
+            Some(drawn) => drawn.get(name.as_str()).cloned(),
             None => Some(here(fit)),
         };
-        Analysis::new(arguments, name, data, replicates).map_err(|error| no_fit(arguments, name, error))
+        Analysis::new(arguments, name, (data, last), replicates)
+            .map_err(|error| no_fit(arguments, name, error))
     };
-    let pooled = analysis(ALL, &data)?;
-    let parts = groups.iter().map(|(name, data)| analysis(name, data)).collect::<Result<Vec<_>, _>>()?;
+    let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
+    let data = &pooled.data;
+    let pooled = analysis(&pooled)?;
     let test = ratio(&pooled, &parts);
     #[cfg(feature = "page")]
-    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, &data))?;
+    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, data))?;
     let provenance = provenance(arguments, table);
     let file = format!("{:#}\n", sealed(pooled.file.to_json(), Some(&provenance)));
     Ok(Fitted { answer: report::answer(arguments, &pooled, &parts, test, &provenance), file })
@@ -82,51 +84,67 @@ pub fn replicates(
     table: &CsvTable<'_>,
     numbers: Range<u64>,
 ) -> Result<Replicates, Failure> {
-    let (data, groups) = observed(arguments, table)?;
-    let all = std::iter::once((ALL.to_owned(), data)).chain(groups);
-    let drawn = all.map(|(name, data)| {
+    let (pooled, groups) = observed(arguments, table)?;
+    let drawn = std::iter::once(pooled).chain(groups).map(|Observed { name, data, .. }| {
         let fit = estimate(&data, &model(arguments)).map_err(|error| no_fit(arguments, &name, error))?;
         Ok((name, bootstrap(&fit, &data, numbers.clone(), arguments.seed)))
     });
     drawn.collect()
 }
 
+/// Readings of a group, or of all.
+struct Observed {
+    name: String,
+    data: Observations,
+    /// Wear of each unit at its last reading.
+    last: Vec<f64>,
+}
+
+impl Observed {
+    fn new(arguments: &FitArguments, name: &str, readings: &[Reading]) -> Result<Self, Failure> {
+        let data = observe(arguments, readings)?;
+        let of = |unit: &String| readings.iter().rev().find(|reading| reading.unit == *unit);
+        let last = data.units.iter().map(|unit| of(unit).map_or(f64::NAN, |reading| reading.wear)).collect();
+        Ok(Self { name: name.to_owned(), data, last })
+    }
+}
+
 /// What is observed: of all units, and of each group that is asked for.
-fn observed(
-    arguments: &FitArguments,
-    table: &CsvTable<'_>,
-) -> Result<(Observations, Vec<(String, Observations)>), Failure> {
+fn observed(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<(Observed, Vec<Observed>), Failure> {
     let groups = groups(arguments, table)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
-    let data = observe(arguments, &all)?;
-    if data.units.len() == 1 && !arguments.one_unit {
+    let pooled = Observed::new(arguments, ALL, &all)?;
+    if pooled.data.units.len() == 1 && !arguments.one_unit {
         return Err(one_unit(arguments, &all));
     }
     let mut parts = Vec::new();
     if arguments.groups.is_some() {
         for Group { name, readings } in &groups {
-            parts.push((name.clone(), observe(arguments, readings)?));
+            parts.push(Observed::new(arguments, name, readings)?);
         }
     }
-    Ok((data, parts))
+    Ok((pooled, parts))
 }
 
 /// What a fit is of.
 fn provenance(arguments: &FitArguments, table: &CsvTable<'_>) -> Provenance {
-    let options = json!({
+    let mut options = json!({
         "unit": arguments.unit, "wear": arguments.wear, "exposure": arguments.exposure, "lambda": arguments.lambda,
         "process": arguments.process.name(), "power_law": arguments.power_law, "groups": arguments.groups,
         "from_zero": arguments.from_zero, "resolution": arguments.resolution, "gauge": arguments.gauge,
         "covariates": arguments.covariate, "one_unit": arguments.one_unit, "bootstrap": arguments.bootstrap,
     });
+    if arguments.random_effects {
+        options["random_effects"] = true.into();
+    }
     Provenance::new(table.sha256().to_owned(), Some(arguments.seed), options)
 }
 
 /// Groups with parameters of their own against one process for all.
 fn ratio(pooled: &Analysis, parts: &[Analysis]) -> Option<LikelihoodRatio> {
     let apart: f64 = parts.iter().map(|part| part.fit.log_likelihood).sum();
-    let degrees = parts.len().checked_sub(1)? * pooled.fit.parameters().len();
+    let degrees = parts.len().checked_sub(1)? * pooled.fit.model.parameters();
     (degrees > 0).then(|| likelihood_ratio(apart, pooled.fit.log_likelihood, degrees))
 }
 
@@ -177,6 +195,8 @@ fn cure(error: FitError) -> &'static str {
         FitError::BadResolution => "correct --resolution and --gauge",
         FitError::LargeError => "give a --resolution of a tenth of --gauge: a finer one is lost in the error",
         FitError::TooManyWindows { .. } => "fit fewer units, or every tenth reading of each",
+        FitError::OneUnit => "add readings of other units, or leave --random-effects out",
+        FitError::NoRandomEffect | FitError::RoundedUnits => "leave --random-effects out",
         FitError::NoResolution => "leave --process or --resolution out",
         _ => "look at the data; estimate fewer parameters",
     }

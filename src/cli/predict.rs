@@ -7,7 +7,7 @@ use crate::csv_table::CsvTable;
 use crate::number::number;
 use crate::provenance::Provenance;
 use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Reading};
-use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState};
+use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState, SeenUnit};
 use linkwear_gamma::{FitFile, Prediction};
 
 use serde_json::{Value, json};
@@ -28,43 +28,112 @@ pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
 
 /// The prediction by a fit.
 pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Failure> {
-    // Inspections update the fit's own law; without them the interval of lives asks for more.
+    // Inspections update the fit's own law; without them, and where units differ, the answer asks for more.
     let estimate = match arguments.inspections {
-        Some(_) => fit.estimate(&arguments.covariate),
-        None => fit.informed(&arguments.covariate),
+        Some(_) if !fit.units_differ() => fit.estimate(&arguments.covariate),
+        _ => fit.informed(&arguments.covariate),
     };
     let estimate = estimate.map_err(Failure::fit(&arguments.fit))?;
-    let state = state(arguments, &estimate)?;
+    let Asked { estimate, state, about, warning } = asked_for(arguments, fit, estimate)?;
     let inspections = arguments.inspections.as_deref().map(CsvTable::read).transpose()?;
     let inspections = inspections.as_ref();
     let mut answer = predict(arguments, estimate, &state, inspections)?;
+    answer.from.push_str(&about);
     for (at, (name, value)) in arguments.covariate.iter().enumerate() {
         let join = if at == 0 { " at" } else { "," };
         let _ = write!(answer.from, "{join} {name} = {value}");
     }
-    answer.warnings.splice(0..0, fit.warning().map(str::to_owned));
-    let options = json!({
+    answer.warnings.splice(0..0, fit.warning().into_iter().chain(warning).map(str::to_owned));
+    let mut options = json!({
         "threshold": arguments.threshold, "current": arguments.current, "at": arguments.at,
         "covariates": arguments.covariate.iter().map(|(name, value)| (name.clone(), json!(value))).collect::<Value>(),
         "rate": arguments.rate, "gauge": arguments.gauge, "flat_prior": arguments.flat_prior,
         "particles": arguments.gauge.map(|_| arguments.particles), "draws": arguments.draws,
         "inspections_sha256": inspections.map(CsvTable::sha256),
     });
+    if let Some(unit) = &arguments.unit {
+        options["unit"] = unit.as_str().into();
+    }
     let provenance = Provenance::new(sha256_of(fit.text().as_bytes()), Some(arguments.seed), options);
     Ok(Answer::new(to_text(&answer), PredictAnswer::from(&answer), Some(&provenance)))
 }
 
-fn state(arguments: &PredictArguments, estimate: &Estimate) -> Result<OperatingState, Failure> {
+/// Which unit is asked for, and where it stands.
+struct Asked {
+    estimate: Estimate,
+    state: OperatingState,
+    /// For people, after what the answer rests on.
+    about: String,
+    warning: Option<&'static str>,
+}
+
+fn asked_for(arguments: &PredictArguments, fit: &FitFile, estimate: Estimate) -> Result<Asked, Failure> {
+    let differ = estimate.units_differ();
+    if let Some(name) = &arguments.unit {
+        let (seen, current, at) = now(arguments, fit, name)?;
+        let estimate = if differ { estimate.of_unit(seen) } else { estimate };
+        let state = state(arguments, &estimate, Some(current), Some(at))?;
+        return Ok(Asked { estimate, state, about: format!(", unit {name} by its readings"), warning: None });
+    }
+    let state = state(arguments, &estimate, arguments.current, arguments.at)?;
+    if !differ || arguments.inspections.is_some() {
+        return Ok(Asked { estimate, state, about: String::new(), warning: None });
+    }
+    match (arguments.current.filter(|current| *current != 0.0), arguments.at.filter(|at| *at > 0.0)) {
+        (Some(wear), Some(at)) => {
+            let estimate = estimate.of_unit(SeenUnit { spans: vec![[0.0, at]], wear });
+            let about = ", a unit that has worn so far until now".to_owned();
+            Ok(Asked { estimate, state, about, warning: None })
+        }
+        (Some(_), None) => {
+            let warning = "units differ, and by which exposure this one has worn so far is not said: it is taken as any unit; add --at";
+            Ok(Asked { estimate, state, about: ", any unit".to_owned(), warning: Some(warning) })
+        }
+        _ => Ok(Asked { estimate, state, about: ", any unit".to_owned(), warning: None }),
+    }
+}
+
+/// A unit of the fit: what has been read of it, its wear and its exposure now.
+fn now(arguments: &PredictArguments, fit: &FitFile, name: &str) -> Result<(SeenUnit, f64, f64), Failure> {
+    let (mut seen, wear, exposure) = fit.unit(name).map_err(Failure::fit(&arguments.fit))?;
+    let refused = |message: String, help: &str| Err(Failure::data(&arguments.fit, None, message, help));
+    let (current, at) = match (arguments.current, arguments.at) {
+        (None, None) => return Ok((seen, wear, exposure)),
+        (Some(current), Some(at)) => (current, at),
+        _ => {
+            let message =
+                format!("of unit {name} either wear or exposure is given, and its last reading has both");
+            return refused(message, "give --current and --at, or none");
+        }
+    };
+    let falls = current <= wear && fit.process.is_increasing();
+    if at <= exposure || falls || !current.is_finite() {
+        let message = format!(
+            "unit {name} was last read with wear {wear} at {exposure}: wear {current} at {at} does not go on from there"
+        );
+        return refused(message, "give a later --at with more --current, or none of them");
+    }
+    seen.spans.push([exposure, at]);
+    seen.wear += current - wear;
+    Ok((seen, current, at))
+}
+
+fn state(
+    arguments: &PredictArguments,
+    estimate: &Estimate,
+    current: Option<f64>,
+    at: Option<f64>,
+) -> Result<OperatingState, Failure> {
     let wrong = |error: LifeError| asked(arguments, &error);
     let mut state = OperatingState::new(arguments.threshold).map_err(wrong)?;
     if let Some(rate) = arguments.rate {
         state = state.at_rate(rate).map_err(wrong)?;
     }
-    let current = arguments.current.unwrap_or(0.0);
-    if current > 0.0 && arguments.at.is_none() && estimate.exponent().is_some() {
+    let current = current.unwrap_or(0.0);
+    if current > 0.0 && at.is_none() && estimate.exponent().is_some() {
         return Err(asked(arguments, &LifeError::ExposureMissing));
     }
-    state.worn(current, arguments.at.unwrap_or(0.0)).map_err(wrong)
+    state.worn(current, at.unwrap_or(0.0)).map_err(wrong)
 }
 
 fn predict(

@@ -110,12 +110,19 @@ impl Process {
     }
 
     fn draw_of(&self, rates: &[GammaRates]) -> GammaDraw {
-        let draw = GammaDraw::new(self.seed, rates);
+        let draw =
+            GammaDraw::new(self.seed, rates).differing(self.joints.iter().map(|one| self.cv(one)).collect());
         match self.shared {
             #[expect(clippy::expect_used, reason = "`shared` has checked its coefficient of variation")]
             Some(factor) => draw.sharing(factor).expect("checked at the beginning"),
             None => draw,
         }
+    }
+
+    /// Coefficient of variation of a joint's rate over lives, by its fit; 0 where units do not differ.
+    fn cv(&self, joint: &JointProcess) -> f64 {
+        let fit = self.fits.iter().find(|fit| joint.from.as_ref() == Some(&fit.from));
+        fit.and_then(|fit| fit.estimate.cv()).unwrap_or(0.0)
     }
 
     /// Standard error that the fits' covariances leave to a mean life, to first order in the logarithms of alpha and

@@ -1,7 +1,7 @@
 //! Charts of a fit: probability paper, quantiles, residuals. In: a fit, its data. Out: charts. Never knows where readings are
 //! from.
 
-use linkwear_gamma::data::Observations;
+use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Fit, Goodness};
 use linkwear_gamma::special::normal_quantile;
 
@@ -14,12 +14,9 @@ pub fn charts(fit: &Fit, goodness: &Goodness, data: &Observations) -> Vec<Chart>
     let position = |at: usize| score((at as f64 + 0.5) / count);
     let paper = goodness.transforms.iter().enumerate().map(|(at, u)| [position(at), score(*u)]).collect();
     let quantiles = goodness.quantiles.iter().map(|(expected, seen)| [*expected, *seen]).collect();
-    let residual = |one: &linkwear_gamma::data::Increment| {
-        let u = fit.model.process.cumulative(fit.logs(), fit.lambda(one), one.wear);
-        [0.5 * (one.from + one.to), score(u)]
-    };
+    let residual = |(one, u): (&Increment, &f64)| [0.5 * (one.from + one.to), score(*u)];
     let residuals: Vec<[f64; 2]> = if fit.model.resolution.is_none() {
-        data.increments.iter().map(residual).collect()
+        data.increments.iter().zip(&goodness.in_order).map(residual).collect()
     } else {
         Vec::new()
     };

@@ -10,8 +10,10 @@ use rand::RngExt;
 use rand::distr::Open01;
 use serde::{Deserialize, Serialize};
 
+use super::error::FitError;
 use super::estimate::{Fit, estimate_increments};
 use super::goodness::goodness;
+use super::heterogeneity::estimate_units;
 use super::interval::Interval;
 use crate::data::{Increment, Observations, Rounding};
 use crate::order::sorted_quantile;
@@ -31,15 +33,19 @@ pub struct Bootstrap {
 }
 
 /// Draws data from the fit, with the spans, covariates and gauge of the observations, and estimates again.
-/// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i: replicates may be drawn in parts, by their numbers.
+/// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i, what differs between units from
+/// `(seed, r, 1 + unit)`: replicates may be drawn in parts, by their numbers.
 pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: Range<u64>, seed: u64) -> Bootstrap {
     let mut drawn = Bootstrap::default();
     for replicate in replicates {
         let increments = draw(fit, &observations.increments, seed, replicate);
-        match estimate_increments(&increments, &fit.model, Some(&fit.phi)) {
+        match again(fit, observations, &increments) {
             Ok(again) => {
                 let distances = goodness(&again, &increments, seed ^ replicate);
-                drawn.estimates.push(again.parameters());
+                let mut parameters = again.parameters();
+                // No difference found.
+                parameters.resize(fit.model.parameters(), 0.0);
+                drawn.estimates.push(parameters);
                 drawn.kolmogorov_smirnov.push(distances.kolmogorov_smirnov);
                 drawn.anderson_darling.push(distances.anderson_darling);
             }
@@ -49,6 +55,15 @@ pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: Range<u64>,
     drawn
 }
 
+/// The estimate of drawn data.
+fn again(fit: &Fit, observations: &Observations, increments: &[Increment]) -> Result<Fit, FitError> {
+    if !fit.model.units_differ {
+        return estimate_increments(increments, &fit.model, Some(&fit.phi));
+    }
+    let drawn = Observations { units: observations.units.clone(), increments: increments.to_vec() };
+    estimate_units(&drawn, &fit.model).map(|found| found.fit)
+}
+
 /// One data set of the estimated process; with a gauge's step, of its readings.
 pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> Vec<Increment> {
     let mut stream = Stream::new(seed, replicate, 0);
@@ -56,8 +71,14 @@ pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> 
     // True wear of the unit at hand, beside its first reading, and its reading in steps.
     let (mut level, mut last): (f64, f64) = (0.0, 0.0);
     let mut before: Option<&Increment> = None;
+    let mut logs = fit.logs();
     let drawn = like.iter().enumerate().map(|(at, increment)| {
-        let drawn = process.draw(fit.logs(), fit.lambda(increment), stream.at(at as u64));
+        if let (Some(cv), Some(effect)) = (fit.cv(), process.random_effect())
+            && before.is_none_or(|last| last.unit != increment.unit)
+        {
+            logs = effect.draw(fit.logs(), cv, &mut Stream::new(seed, replicate, 1 + increment.unit as u64));
+        }
+        let drawn = process.draw(logs, fit.lambda(increment), stream.at(at as u64));
         let wear = match fit.model.resolution {
             Some(Rounding { step, error }) => {
                 let read = |level: f64, stream: &mut Stream| {

@@ -46,4 +46,15 @@ pub enum FitError {
     /// A gauge's step for a process that has no use for it.
     #[error("only the Gamma process takes readings as rounded to a step of the gauge")]
     NoResolution,
+    /// Units cannot differ in this process.
+    #[error("no law is known by which units of this process differ")]
+    NoRandomEffect,
+    /// Units that differ and readings that are rounded.
+    #[error(
+        "differences between units are estimated from exact readings, not from readings with a resolution"
+    )]
+    RoundedUnits,
+    /// One unit.
+    #[error("readings of one unit cannot say how units differ")]
+    OneUnit,
 }

@@ -18,7 +18,7 @@ const MOST_ERROR: f64 = 100.0;
 pub struct Fit {
     /// What was estimated.
     pub model: Model,
-    /// Logarithms of the process's parameters, then c and the b.
+    /// As [`Model`] has it.
     pub(super) phi: Vec<f64>,
     /// Covariance of `phi`: inverse of the observed information.
     pub(super) covariance: Vec<Vec<f64>>,
@@ -29,15 +29,7 @@ pub struct Fit {
 }
 
 /// Maximum likelihood, [CS (25)]: for the process's parameters alone as the process has it, otherwise by Newton's method in
-/// their logarithms, c and the b.
-///
-/// # Errors
-/// [`FitError`].
-pub fn estimate(observations: &Observations, model: &Model) -> Result<Fit, FitError> {
-    estimate_increments(&observations.increments, model, None)
-}
-
-/// The same from increments; `near` is a start close to the estimate, if one is known.
+/// their logarithms, c and the b. `near` is a start close to the estimate, if one is known.
 pub(super) fn estimate_increments(
     increments: &[Increment],
     model: &Model,
@@ -89,9 +81,10 @@ impl Fit {
         [self.phi[0], self.phi[1]]
     }
 
-    /// The process's two parameters, then c, if it was estimated, and the b of each covariate.
+    /// The process's two parameters, then c, if it was estimated, the b of each covariate, and the coefficient of variation of units,
+    /// if they differ.
     pub fn parameters(&self) -> Vec<f64> {
-        self.phi.iter().enumerate().map(|(at, value)| natural(at, *value)).collect()
+        self.phi.iter().enumerate().map(|(at, value)| self.model.natural(at, *value)).collect()
     }
 
     /// Exponent c, if it was estimated.
@@ -101,12 +94,17 @@ impl Fit {
 
     /// Powers b of the covariates.
     pub fn powers(&self) -> &[f64] {
-        &self.phi[self.phi.len() - self.model.covariates..]
+        self.model.powers(&self.phi)
+    }
+
+    /// Coefficient of variation of what differs between units; None if they do not.
+    pub fn cv(&self) -> Option<f64> {
+        self.model.units_differ.then(|| self.phi.last().map_or(0.0, |log| libm::exp(*log)))
     }
 
     /// Covariance of [`Self::parameters`]. At the maximum the gradient is zero, so the change of variables is exact.
     pub fn covariance(&self) -> Vec<Vec<f64>> {
-        let slope = |at: usize| if at < 2 { libm::exp(self.phi[at]) } else { 1.0 };
+        let slope = |at: usize| if self.model.is_logarithm(at) { libm::exp(self.phi[at]) } else { 1.0 };
         let size = self.phi.len();
         (0..size).map(|i| (0..size).map(|j| self.covariance[i][j] * slope(i) * slope(j)).collect()).collect()
     }
@@ -140,11 +138,6 @@ impl Fit {
         let lambdas = observations.increments.iter().map(|increment| increment.to - increment.from);
         self.model.process.first_order_bias(self.logs(), &lambdas.collect::<Vec<_>>())
     }
-}
-
-/// A parameter from its entry in phi: the process's two are logarithms there.
-pub(super) fn natural(at: usize, phi: f64) -> f64 {
-    if at < 2 { libm::exp(phi) } else { phi }
 }
 
 /// A test of a wider model against a narrower one.

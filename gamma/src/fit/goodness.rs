@@ -4,7 +4,9 @@
 use super::estimate::Fit;
 use super::rounded::{Laws, transforms};
 use crate::data::Increment;
+use crate::process::{Process, RandomEffect};
 use crate::random::Stream;
+use crate::special::rising_root;
 
 /// How far the data are from the fitted law.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +17,8 @@ pub struct Goodness {
     pub anderson_darling: f64,
     /// Probability integral transforms of the increments, sorted.
     pub transforms: Vec<f64>,
+    /// The same in the order of the increments.
+    pub in_order: Vec<f64>,
     /// Pairs (expected, seen) of wear increments: expected is the quantile of the increment's own law at the plotting
     /// position (rank - 1/2) / n.
     pub quantiles: Vec<(f64, f64)>,
@@ -48,20 +52,27 @@ impl Goodness {
     }
 }
 
-/// Transforms each increment by its own law; of rounded readings each by its law given those before, spread evenly over its
+/// Transforms each increment by its own law; where units differ by its law given those of the unit before; of rounded readings each by its law given those before, spread evenly over its
 /// step with the seed's numbers.
 pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
-    let (process, logs) = (fit.model.process, fit.logs());
+    let process = fit.model.process;
     let mut stream = Stream::new(seed, u64::MAX, 0);
     let transforms = match fit.model.resolution {
         Some(rounding) => {
             let logs = |one: &Increment| fit.model.logs(&fit.phi, one);
             transforms(Laws { process, logs: &logs }, increments, rounding, &mut stream)
         }
-        None => increments.iter().map(|one| process.cumulative(logs, fit.lambda(one), one.wear)).collect(),
+        None => of_units(fit, increments, |law, lambda, wear| law.below(lambda, wear)),
     };
-    let mut seen: Vec<(f64, f64, f64)> =
-        transforms.into_iter().zip(increments).map(|(u, one)| (u, fit.lambda(one), one.wear)).collect();
+    // Positions in the sorted transforms say which quantile each increment is held against.
+    let in_order = transforms.clone();
+    let laws = of_units(fit, increments, |law, _, _| law);
+    let mut seen: Vec<(f64, UnitLaw, f64, f64)> = transforms
+        .into_iter()
+        .zip(laws)
+        .zip(increments)
+        .map(|((u, law), one)| (u, law, fit.lambda(one), one.wear))
+        .collect();
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     let transforms: Vec<f64> = seen.iter().map(|(u, ..)| *u).collect();
     let n = transforms.len() as f64;
@@ -71,10 +82,67 @@ pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
         kolmogorov_smirnov: kolmogorov_smirnov(&transforms),
         anderson_darling: anderson_darling(&transforms),
         quantiles: quantiles
-            .map(|(at, (_, lambda, wear))| (process.quantile(logs, *lambda, position(at)), *wear))
+            .map(|(at, (_, law, lambda, wear))| (law.quantile(*lambda, position(at)), *wear))
             .collect(),
         transforms,
+        in_order,
     }
+}
+
+/// The law of an increment of a unit, given what has been read of it.
+#[derive(Clone, Copy)]
+struct UnitLaw {
+    process: &'static dyn Process,
+    logs: [f64; 2],
+    /// Coefficient of variation of the unit's own parameter; 0 where it is known.
+    cv: f64,
+}
+
+impl UnitLaw {
+    fn effect(&self) -> Option<&'static dyn RandomEffect> {
+        self.process.random_effect().filter(|_| self.cv > 0.0)
+    }
+
+    fn below(self, lambda: f64, wear: f64) -> f64 {
+        match self.effect() {
+            Some(effect) => effect.tails(self.logs, self.cv, lambda, wear).0,
+            None => self.process.cumulative(self.logs, lambda, wear),
+        }
+    }
+
+    fn quantile(self, lambda: f64, p: f64) -> f64 {
+        let Some(effect) = self.effect() else { return self.process.quantile(self.logs, lambda, p) };
+        let tails = |wear: f64| effect.tails(self.logs, self.cv, lambda, wear);
+        let miss = |wear: f64| {
+            let (below, above) = tails(wear);
+            if p <= 0.5 { below - p } else { (1.0 - p) - above }
+        };
+        // Wear that may fall is looked for on the side of 0 where it lies.
+        if tails(0.0).0 > p {
+            return -rising_root(&|fall| -miss(-fall), self.process.quantile(self.logs, lambda, p).abs());
+        }
+        rising_root(&miss, self.process.quantile(self.logs, lambda, 0.5).abs())
+    }
+}
+
+/// Something of each increment and its law given those of its unit before.
+fn of_units<T>(fit: &Fit, increments: &[Increment], of: impl Fn(UnitLaw, f64, f64) -> T) -> Vec<T> {
+    let start = UnitLaw { process: fit.model.process, logs: fit.logs(), cv: fit.cv().unwrap_or(0.0) };
+    let (mut law, mut unit) = (start, usize::MAX);
+    let mut found = Vec::with_capacity(increments.len());
+    for one in increments {
+        if one.unit != unit {
+            (law, unit) = (start, one.unit);
+        }
+        let lambda = fit.lambda(one);
+        found.push(of(law, lambda, one.wear));
+        if let Some((logs, cv)) =
+            law.effect().and_then(|effect| effect.after(law.logs, law.cv, lambda, one.wear))
+        {
+            law = UnitLaw { logs, cv, ..law };
+        }
+    }
+    found
 }
 
 fn kolmogorov_smirnov(sorted: &[f64]) -> f64 {

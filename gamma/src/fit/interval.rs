@@ -2,7 +2,7 @@
 //! knows other kinds of intervals.
 
 use super::error::FitError;
-use super::estimate::{Fit, natural};
+use super::estimate::Fit;
 use super::maximise::maximise;
 use crate::data::Observations;
 use crate::special::normal_quantile;
@@ -36,7 +36,7 @@ pub fn profile_interval(
 ) -> Result<Interval, FitError> {
     let reach = normal_quantile(0.5 + 0.5 * level);
     let ends = [end(fit, observations, index, -reach)?, end(fit, observations, index, reach)?];
-    let [low, high] = ends.map(|end| natural(index, end));
+    let [low, high] = ends.map(|end| fit.model.natural(index, end));
     Ok(Interval { low, high })
 }
 

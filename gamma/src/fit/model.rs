@@ -1,11 +1,12 @@
 //! The log-likelihood of increments and its derivatives. In: increments, parameters. Out: value, gradient, Hessian. Never
 //! knows how it is maximised.
 //!
-//! Parameters are phi = (logarithms of the process's two, [c], [b..]). An increment's law is that over exposure 1 at
+//! Parameters are phi = (logarithms of the process's two, [c], [b..], [logarithm of the units' coefficient of variation]). An increment's law is that over exposure 1 at
 //! u_k = phi_k + power_k ln dLambda, with ln dLambda = ln(to^c - from^c) + sum b ln(covariate): the derivatives in phi follow
 //! from those in u.
 
 use super::rounded::{Laws, least_variance, ln_likelihood};
+use super::units::{Added, Total, added, value};
 use crate::data::{Increment, Rounding};
 use crate::process::{Gamma, Process, Term};
 
@@ -20,12 +21,14 @@ pub struct Model {
     pub covariates: usize,
     /// How the gauge rounds, if it does.
     pub resolution: Option<Rounding>,
+    /// Whether units differ, as [`Process::random_effect`] has it; not with a resolution.
+    pub units_differ: bool,
 }
 
 impl Default for Model {
     /// The Gamma process over the exposure as it is.
     fn default() -> Self {
-        Self { process: &Gamma, power_law: false, covariates: 0, resolution: None }
+        Self { process: &Gamma, power_law: false, covariates: 0, resolution: None, units_differ: false }
     }
 }
 
@@ -41,9 +44,25 @@ pub struct Point {
 }
 
 impl Model {
-    /// Number of parameters: 2, and 1 for the exponent, and the covariates.
+    /// Number of parameters: 2, and 1 for the exponent, and the covariates, and 1 if units differ.
     pub fn parameters(&self) -> usize {
-        2 + usize::from(self.power_law) + self.covariates
+        2 + usize::from(self.power_law) + self.covariates + usize::from(self.units_differ)
+    }
+
+    /// Powers b of the covariates among the parameters.
+    pub fn powers<'a>(&self, phi: &'a [f64]) -> &'a [f64] {
+        let first = 2 + usize::from(self.power_law);
+        &phi[first..first + self.covariates]
+    }
+
+    /// A parameter from its entry in phi: exponent and powers stand there as they are, all others by their logarithms.
+    pub fn natural(&self, at: usize, phi: f64) -> f64 {
+        if self.is_logarithm(at) { libm::exp(phi) } else { phi }
+    }
+
+    /// Whether a parameter stands in phi by its logarithm.
+    pub fn is_logarithm(&self, at: usize) -> bool {
+        at < 2 || (self.units_differ && at + 1 == self.parameters())
     }
 
     /// ln dLambda of an increment and its derivatives in the parameters from the third on; and its second derivative
@@ -67,7 +86,7 @@ impl Model {
             }
             slopes.push(slope);
         }
-        for (ln_covariate, b) in increment.ln_covariates.iter().zip(&phi[phi.len() - self.covariates..]) {
+        for (ln_covariate, b) in increment.ln_covariates.iter().zip(self.powers(phi)) {
             value += b * ln_covariate;
             slopes.push(*ln_covariate);
         }
@@ -87,7 +106,53 @@ impl Model {
         }
         let one =
             |increment: &Increment| self.process.density(self.logs(phi, increment), increment.wear).value;
-        increments.iter().map(one).sum()
+        increments.iter().map(one).sum::<f64>() + self.of_units(phi, increments)
+    }
+
+    /// What differences between units add to it.
+    pub fn of_units(&self, phi: &[f64], increments: &[Increment]) -> f64 {
+        if !self.units_differ {
+            return 0.0;
+        }
+        let of_unit = |(unit, lambda): (&[Increment], f64)| {
+            let wear = unit.iter().map(|one| one.wear).sum();
+            value(self.process, phi, libm::log(lambda), wear)
+        };
+        units(increments).zip(self.exposures(phi, increments)).map(of_unit).sum()
+    }
+
+    /// Exposures of the units.
+    pub fn exposures(&self, phi: &[f64], increments: &[Increment]) -> Vec<f64> {
+        units(increments).map(|unit| unit.iter().map(|one| self.lambda(phi, one)).sum()).collect()
+    }
+
+    /// Exposure and wear of a unit; `phi` has the units' variation.
+    fn total(&self, phi: &[f64], unit: &[Increment]) -> Total {
+        let size = phi.len() - 3;
+        let (mut lambda, mut wear) = (0.0, 0.0);
+        let (mut slopes, mut bends) = (vec![0.0; size], vec![vec![0.0; size]; size]);
+        for one in unit {
+            let (ln, of_one, bend) = self.ln_lambda(phi, one);
+            let own = libm::exp(ln);
+            lambda += own;
+            wear += one.wear;
+            for i in 0..size {
+                slopes[i] += own * of_one[i];
+                for j in 0..size {
+                    bends[i][j] += own * of_one[i] * of_one[j];
+                }
+            }
+            if self.power_law {
+                bends[0][0] += own * bend;
+            }
+        }
+        slopes.iter_mut().for_each(|slope| *slope /= lambda);
+        for i in 0..size {
+            for j in 0..size {
+                bends[i][j] = bends[i][j] / lambda - slopes[i] * slopes[j];
+            }
+        }
+        Total { ln_lambda: libm::log(lambda), slopes, bends, wear }
     }
 
     /// Logarithms of the parameters of an increment's law, that over exposure 1.
@@ -158,7 +223,7 @@ impl Model {
             let slope = |i: usize| match i {
                 0 => [1.0, 0.0],
                 1 => [0.0, 1.0],
-                _ => powers.map(|power| power * slopes[i - 2]),
+                _ => powers.map(|power| power * slopes.get(i - 2).copied().unwrap_or(0.0)),
             };
             point.value += value;
             for i in 0..size {
@@ -174,8 +239,21 @@ impl Model {
                 point.information[2][2] -= (gradient[0] * powers[0] + gradient[1] * powers[1]) * bend;
             }
         }
+        if self.units_differ {
+            let totals: Vec<Total> = units(increments).map(|unit| self.total(phi, unit)).collect();
+            let Added { value, gradient, information } = added(self.process, phi, &totals);
+            point.value += value;
+            point.gradient.iter_mut().zip(gradient).for_each(|(entry, more)| *entry += more);
+            let entries = point.information.iter_mut().flatten();
+            entries.zip(information.into_iter().flatten()).for_each(|(entry, more)| *entry += more);
+        }
         point
     }
+}
+
+/// Units one by one.
+fn units(increments: &[Increment]) -> impl Iterator<Item = &[Increment]> {
+    increments.chunk_by(|one, next| one.unit == next.unit)
 }
 
 #[cfg(test)]
@@ -195,15 +273,21 @@ mod tests {
     }
 
     fn derivatives_of(process: &'static dyn Process) {
-        let model = Model { process, power_law: true, covariates: 1, resolution: None };
+        for units_differ in [false, true] {
+            let model = Model { process, power_law: true, covariates: 1, units_differ, ..Model::default() };
+            derivatives_of_model(&model, &[0.7, 0.9, 0.8, 0.5, -0.9][..model.parameters()]);
+        }
+    }
+
+    fn derivatives_of_model(model: &Model, phi: &[f64]) {
+        let process = model.process;
         let data = [sample(0.8, 0.0, 2.0, 0.3), sample(1.7, 2.0, 5.0, -0.4)];
-        let phi = [0.7, 0.9, 0.8, 0.5];
-        let here = model.point(&phi, &data, None);
-        assert!((here.value - model.value(&phi, &data)).abs() < 1e-14);
+        let here = model.point(phi, &data, None);
+        assert!((here.value - model.value(phi, &data)).abs() < 1e-14);
         let step = 1e-5;
-        for i in 0..4 {
+        for i in 0..phi.len() {
             let moved = |by: f64| {
-                let mut phi = phi;
+                let mut phi = phi.to_vec();
                 phi[i] += by;
                 model.point(&phi, &data, None)
             };
@@ -211,7 +295,7 @@ mod tests {
             // Central differences: error step^2 and eps / step, both about 1e-10; the censored term's curvature 1e-6.
             let slope = (up.value - down.value) / (2.0 * step);
             assert!((slope - here.gradient[i]).abs() < 1e-8, "{process:?} {i}: {slope} {}", here.gradient[i]);
-            for j in 0..4 {
+            for j in 0..phi.len() {
                 let bend = -(up.gradient[j] - down.gradient[j]) / (2.0 * step);
                 assert!(
                     (bend - here.information[i][j]).abs() < 2e-6,

@@ -105,7 +105,9 @@ fn weighed(ln_density: &dyn Fn(&[f64]) -> f64, middle: &[f64], factor: &Factor, 
 fn ln_prior(model: &Model, phi: &[f64], increments: &[Increment]) -> f64 {
     let process = model.process;
     let spans: Vec<(f64, f64)> = increments.iter().map(|one| (model.lambda(phi, one), one.wear)).collect();
-    let known = process.flat_prior_power() * phi[0] + process.ln_matching_weight(phi[0], &spans);
+    // Flat in the units' coefficient of variation itself: flat in its logarithm, all weight would lie on no difference.
+    let of_units = if model.units_differ { phi[phi.len() - 1] } else { 0.0 };
+    let known = process.flat_prior_power() * phi[0] + process.ln_matching_weight(phi[0], &spans) + of_units;
     let Some(rounding) = model.resolution else { return known };
     let variance = |one: &Increment| process.variance(model.logs(phi, one));
     let scatter = increments.iter().map(variance).sum::<f64>() / increments.len() as f64;

@@ -7,6 +7,8 @@ use super::*;
 use crate::data::{Gauge, Increment, Observations, Reading, Rounding};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
+mod units;
+
 const GAAS: &str = include_str!("../../tests/data/gaas_lasers.csv");
 const SLIDING: &str = include_str!("../../tests/data/sliding_wear.csv");
 
@@ -40,7 +42,8 @@ fn load_100(from_zero: bool) -> Observations {
     Observations::new(&heavy, from_zero, Gauge::Exact).unwrap()
 }
 
-const POWER: Model = Model { process: &Gamma, power_law: true, covariates: 0, resolution: None };
+const POWER: Model =
+    Model { process: &Gamma, power_law: true, covariates: 0, resolution: None, units_differ: false };
 
 #[track_caller]
 fn close(found: f64, expected: f64, tolerance: f64) {

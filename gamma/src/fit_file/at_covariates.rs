@@ -3,9 +3,9 @@
 
 use super::definition::FitFile;
 use super::error::{FitFileError, WRITE_ONE};
-use crate::data::Rounding;
+use crate::data::{Increment, Rounding};
 use crate::fit::{Model, parameter_sets};
-use crate::life::{Estimate, LifeError, ParameterSet, Sample};
+use crate::life::{Estimate, LifeError, ParameterSet, Sample, SeenUnit};
 use crate::matrix::Factor;
 
 /// How far parameters may be from the maximum of the increments beside them: digits lost in print, no other fit.
@@ -16,6 +16,8 @@ const SAME_LIKELIHOOD: f64 = 1e-2;
 
 /// Increments up to which the parameters are integrated over; of more the normal law of their logarithms is as good, and quicker.
 const MOST: usize = 400;
+/// The same where units differ, whose number says how well the normal law of the logarithms does, and not that of increments.
+const MOST_OF_UNITS: usize = 4000;
 /// The same of rounded readings, whose likelihood costs a thousand times as much.
 const MOST_ROUNDED: usize = 100;
 
@@ -27,7 +29,12 @@ impl FitFile {
     /// [`FitFileError`] for values that are missing, unknown or not positive, and for a covariance that is none.
     pub fn estimate(&self, values: &[(String, f64)]) -> Result<Estimate, FitFileError> {
         let wrong = |error: LifeError| self.fault("covariance", &error.to_string(), WRITE_ONE);
-        let (all, kept) = (self.names().len(), self.names().len() - self.covariates.len());
+        let all = self.names().len();
+        // Of all parameters those that are no power of a covariate, by their places.
+        let first = 2 + usize::from(self.exponent.is_some());
+        let after = first + self.covariates.len();
+        let places: Vec<usize> = (0..first).chain(after..all).collect();
+        let kept = places.len();
         let sized = self.covariance.len() == all && self.covariance.iter().all(|row| row.len() == all);
         if !(self.covariance.is_empty() || sized) {
             let message = format!("`covariance` is not one of {all} parameters");
@@ -40,6 +47,10 @@ impl FitFile {
         let factors = scales.map(|scale| libm::exp(scale * ln_factor));
         let parameters = [self.parameters[0] * factors[0], self.parameters[1] * factors[1]];
         let estimate = Estimate::new(self.process, parameters, self.exponent).map_err(wrong)?;
+        let estimate = match self.cv.filter(|cv| *cv > 0.0) {
+            Some(cv) => estimate.differing(cv).map_err(wrong)?,
+            None => estimate,
+        };
         let estimate = estimate.with_sample(self.sample()?);
         if self.covariance.is_empty() {
             return Ok(estimate);
@@ -47,9 +58,9 @@ impl FitFile {
         // Derivatives of the parameters kept by all of them.
         let mut slopes = vec![vec![0.0; all]; kept];
         for (at, row) in slopes.iter_mut().enumerate() {
-            row[at] = factors.get(at).copied().unwrap_or(1.0);
+            row[places[at]] = factors.get(at).copied().unwrap_or(1.0);
             let through = if at < 2 { scales[at] * parameters[at] } else { 0.0 };
-            for (slope, ln) in row[kept..].iter_mut().zip(&ln_values) {
+            for (slope, ln) in row[first..after].iter_mut().zip(&ln_values) {
                 *slope = through * ln;
             }
         }
@@ -65,7 +76,7 @@ impl FitFile {
         if self.increments.is_empty() {
             return Ok(Sample::Unknown);
         }
-        if self.resolution.is_some() || !self.covariates.is_empty() {
+        if self.resolution.is_some() || !self.covariates.is_empty() || self.units_differ() {
             return Ok(Sample::Indirect { increments: self.increments.len() });
         }
         if self.exponent.is_none() {
@@ -92,17 +103,23 @@ impl FitFile {
     /// [`FitFileError`], also for increments that the parameters were not estimated from.
     pub fn informed(&self, values: &[(String, f64)]) -> Result<Estimate, FitFileError> {
         let estimate = self.estimate(values)?;
-        let most = if self.resolution.is_some() { MOST_ROUNDED } else { MOST };
+        let most = match self.resolution {
+            Some(_) => MOST_ROUNDED,
+            None if self.units_differ() => MOST_OF_UNITS,
+            None => MOST,
+        };
         let is_told = matches!(estimate.sample(), Sample::Indirect { increments } if *increments <= most);
         if !is_told || !estimate.is_uncertain() || !self.has_covariates_of_increments() {
             return Ok(estimate);
         }
         let resolution = self.resolution.map(|step| Rounding { step, error: self.gauge.unwrap_or(0.0) });
         let (power_law, covariates) = (self.exponent.is_some(), self.covariates.len());
-        let model = Model { process: self.process, power_law, covariates, resolution };
+        let units_differ = self.units_differ();
+        let model = Model { process: self.process, power_law, covariates, resolution, units_differ };
         let mut phi: Vec<f64> = self.parameters.map(libm::log).to_vec();
         phi.extend(self.exponent);
         phi.extend(self.covariates.iter().map(|covariate| covariate.coefficient));
+        phi.extend(self.cv.filter(|_| units_differ).map(libm::log));
         let point = model.point(&phi, &self.increments, None);
         let gain = Factor::definite(&point.information).and_then(|factor| factor.distance(&point.gradient));
         if !gain.is_some_and(|gain| gain < SAME_LIKELIHOOD) {
@@ -112,14 +129,42 @@ impl FitFile {
         let sets = inverse.and_then(|covariance| parameter_sets(&model, &self.increments, &phi, &covariance));
         let Some(sets) = sets else { return Ok(estimate) };
         let ln_values: Vec<f64> = self.in_order(values)?.into_iter().map(libm::log).collect();
-        let (scales, kept) = (self.process.exposure_powers(), phi.len() - covariates);
+        let (scales, first) = (self.process.exposure_powers(), 2 + usize::from(power_law));
         let at_values = |(mut logs, weight): (Vec<f64>, f64)| {
-            let ln_factor: f64 = logs[kept..].iter().zip(&ln_values).map(|(power, ln)| power * ln).sum();
-            logs.truncate(kept);
+            let powers = logs.drain(first..first + covariates);
+            let ln_factor: f64 = powers.zip(&ln_values).map(|(power, ln)| power * ln).sum();
             logs.iter_mut().zip(scales).for_each(|(log, scale)| *log += scale * ln_factor);
             ParameterSet { logs, weight }
         };
         Ok(estimate.with_sample(Sample::Sets(sets.into_iter().map(at_values).collect())))
+    }
+
+    /// What the fit has read of a unit: its readings, its wear and its exposure (before any exponent) at the last of them.
+    ///
+    /// # Errors
+    /// [`FitFileError`] for a fit whose units do not differ, or that has covariates; for an unknown unit.
+    pub fn unit(&self, name: &str) -> Result<(SeenUnit, f64, f64), FitFileError> {
+        let again = "fit again with --random-effects";
+        if self.cv.is_none() {
+            let message = "the fit takes all units as alike: it says the same of each";
+            return Err(self.fault("process", message, &format!("leave --unit out, or {again}")));
+        }
+        if !self.covariates.is_empty() {
+            let message = "the fit has covariates: what one of its units met is not what comes";
+            return Err(self.fault("covariates", message, "leave --unit out, or fit without covariates"));
+        }
+        let names: Vec<&str> = self.seen.iter().map(|(name, _)| name.as_str()).collect();
+        let Some(at) = names.iter().position(|known| *known == name) else {
+            let cure = format!("its units are: `{}`", names.join("`, `"));
+            return Err(self.fault("unit_names", &format!("the fit has no unit `{name}`"), &cure));
+        };
+        let own: Vec<&Increment> = self.increments.iter().filter(|one| one.unit == at).collect();
+        let Some(last) = own.last() else {
+            return Err(self.fault("increments", &format!("`increments` have none of unit `{name}`"), again));
+        };
+        let spans = own.iter().map(|one| [one.from, one.to]).collect();
+        let unit = SeenUnit { spans, wear: own.iter().map(|one| one.wear).sum() };
+        Ok((unit, self.seen[at].1, last.to))
     }
 
     /// Values in the order of the fit's covariates.

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::error::{FitFileError, fault};
 use crate::data::{Increment, Observations};
-use crate::fit::Fit;
+use crate::fit::{Fit, Heterogeneity, UnitsTest};
 use crate::process::Process;
 
 /// A fitted process: what a prediction needs, in the units of the data.
@@ -19,7 +19,13 @@ pub struct FitFile {
     pub exponent: Option<f64>,
     /// Covariates that multiply Lambda, each as value^b.
     pub covariates: Vec<Covariate>,
-    /// Covariance of (the two parameters, [exponent], [b of each covariate]): square, symmetric; empty if unknown.
+    /// Coefficient of variation of what differs between units, 0 if no difference was found; none: it was not looked for.
+    pub cv: Option<f64>,
+    /// The test of no difference, if it was looked for.
+    pub units_test: Option<UnitsTest>,
+    /// Names of the units and what each had worn at its last reading, if it was looked for; empty if not known.
+    pub seen: Vec<(String, f64)>,
+    /// Covariance of (the two parameters, [exponent], [b of each covariate], [cv]): square, symmetric; empty if unknown.
     pub covariance: Vec<Vec<f64>>,
     /// Log-likelihood at the estimate, of the wear increments in the units given; NaN if the file has none.
     pub log_likelihood: f64,
@@ -87,6 +93,9 @@ impl FitFile {
             parameters: [found[0], found[1]],
             exponent: fit.exponent(),
             covariates: covariates.iter().zip(fit.powers()).map(covariate).collect(),
+            cv: fit.cv(),
+            units_test: None,
+            seen: Vec::new(),
             covariance: fit.covariance(),
             log_likelihood: fit.log_likelihood,
             n: fit.increments,
@@ -105,12 +114,24 @@ impl FitFile {
         }
     }
 
-    /// Names of the process's parameters, `exponent`, `power of` each covariate: those that were estimated, in the order of
+    /// With what was found of differences between units, and the wear of each at its last reading.
+    pub fn with_units(self, found: &Heterogeneity, last: &[f64], observations: &Observations) -> Self {
+        let seen = observations.units.iter().cloned().zip(last.iter().copied()).collect();
+        Self { cv: Some(found.fit.cv().unwrap_or(0.0)), units_test: Some(found.test), seen, ..self }
+    }
+
+    /// Whether units differ by this fit.
+    pub fn units_differ(&self) -> bool {
+        self.cv.is_some_and(|cv| cv > 0.0)
+    }
+
+    /// Names of the process's parameters, `exponent`, `power of` each covariate, `cv`: those that were estimated, in the order of
     /// the covariance.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.process.parameters().map(str::to_owned).to_vec();
         names.extend(self.exponent.map(|_| "exponent".to_owned()));
         names.extend(self.covariates.iter().map(|covariate| format!("power of {}", covariate.name)));
+        names.extend(self.cv.filter(|cv| *cv > 0.0).map(|_| "cv".to_owned()));
         names
     }
 
@@ -146,7 +167,29 @@ impl FitFile {
             "increments": columns,
         });
         file.extend(more.as_object().cloned().unwrap_or_default());
+        file.extend(self.units_json());
         Value::Object(file)
+    }
+
+    /// What the file says of differences between units: nothing where they were not looked for.
+    fn units_json(&self) -> Map<String, Value> {
+        let (Some(cv), Some(effect)) = (self.cv, self.process.random_effect()) else { return Map::new() };
+        let own = effect.numbers(self.parameters.map(libm::log), cv);
+        let (shape, rate) = if cv > 0.0 { (own.shape, own.rate) } else { (None, None) };
+        let test = self.units_test.map(|test| {
+            json!({ "statistic": test.statistic, "p": test.p_value, "p_asymptotic": test.asymptotic_p })
+        });
+        let known = json!({
+            "random": {
+                "parameter": effect.parameter(), "law": effect.law(),
+                "shape": shape, "rate": rate, "mean": own.mean, "std": own.std, "cv": cv,
+            },
+            "boundary": cv == 0.0,
+            "lr_test": test,
+            "unit_names": self.seen.iter().map(|(name, _)| name).collect::<Vec<_>>(),
+            "unit_wear": self.seen.iter().map(|(_, wear)| wear).collect::<Vec<_>>(),
+        });
+        known.as_object().cloned().unwrap_or_default()
     }
 
     /// Whether each increment has a value of each covariate.

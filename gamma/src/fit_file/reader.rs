@@ -6,6 +6,7 @@ use super::definition::{Columns, Covariate, FitFile};
 use super::error::{FitFileError, WRITE_ONE, fault};
 use super::once::Once;
 use crate::data::Increment;
+use crate::fit::UnitsTest;
 use crate::process::{PROCESSES, Process, named};
 
 /// How far printed standard errors may be from the root of the variance beside them.
@@ -33,6 +34,9 @@ impl FitFile {
             parameters: [first?, second?],
             exponent: reader.given("exponent").map(|_| reader.positive("exponent")).transpose()?,
             covariates: reader.covariates()?,
+            cv: reader.cv(process)?,
+            units_test: reader.units_test(),
+            seen: reader.seen()?,
             covariance: reader.covariance(process)?,
             log_likelihood: value.get("log_likelihood").and_then(Value::as_f64).unwrap_or(f64::NAN),
             n: count("n"),
@@ -84,6 +88,36 @@ impl Reader<'_> {
             let message = format!("`covariates` is no list of names and coefficients: {error}");
             self.wrong("covariates", &message)
         })
+    }
+
+    fn cv(&self, process: &dyn Process) -> Result<Option<f64>, FitFileError> {
+        let Some(random) = self.given("random") else { return Ok(None) };
+        if process.random_effect().is_none() {
+            return Err(self.wrong("random", "no law is known by which units of this process differ"));
+        }
+        let cv = random.get("cv").and_then(Value::as_f64).filter(|cv| *cv >= 0.0 && cv.is_finite());
+        cv.map(Some).ok_or_else(|| self.wrong("random", "`random` has no `cv`, a number of zero or more"))
+    }
+
+    fn units_test(&self) -> Option<UnitsTest> {
+        let number = |key: &str| self.given("lr_test")?.get(key)?.as_f64();
+        Some(UnitsTest {
+            statistic: number("statistic")?,
+            p_value: number("p")?,
+            asymptotic_p: number("p_asymptotic")?,
+        })
+    }
+
+    fn seen(&self) -> Result<Vec<(String, f64)>, FitFileError> {
+        let list = |key: &str| self.given(key).cloned().unwrap_or_else(|| Value::Array(Vec::new()));
+        let names: Option<Vec<String>> = serde_json::from_value(list("unit_names")).ok();
+        let wears: Option<Vec<f64>> = serde_json::from_value(list("unit_wear")).ok();
+        match (names, wears) {
+            (Some(names), Some(wears)) if names.len() == wears.len() => {
+                Ok(names.into_iter().zip(wears).collect())
+            }
+            _ => Err(self.wrong("unit_names", "`unit_names` and `unit_wear` do not belong together")),
+        }
     }
 
     fn increments(&self) -> Result<Vec<Increment>, FitFileError> {

@@ -89,6 +89,16 @@ pub enum InspectionError {
         /// Reading that left the fewest.
         row: usize,
     },
+    /// Readings and prior contradict each other.
+    #[error(
+        "only {distinct} of the fit's parameter sets explain the readings: they contradict the fit; correct them, or fit again with this unit's readings among the data"
+    )]
+    Contradiction {
+        /// Sets left.
+        distinct: usize,
+        /// The last reading.
+        row: usize,
+    },
     /// Threshold, rate or parameters.
     #[error(transparent)]
     Life(#[from] LifeError),
@@ -102,6 +112,7 @@ impl InspectionError {
             | Self::Order { row, .. }
             | Self::Falls { row, .. }
             | Self::StandsStill { row, .. }
+            | Self::Contradiction { row, .. }
             | Self::Degenerate { row, .. } => Some(*row),
             Self::TooFew { .. } | Self::Proportional { .. } | Self::Gauge { .. } | Self::Life(_) => None,
         }

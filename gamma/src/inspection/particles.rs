@@ -149,7 +149,7 @@ impl Particles {
 
 impl Particle {
     fn new(origin: usize, prior: &Estimate, draws: &mut Stream) -> Self {
-        Self { origin, logs: prior.drawn_logs(draws), wear: 0.0 }
+        Self { origin, logs: prior.drawn_unit(draws), wear: 0.0 }
     }
 
     /// Draws the wear between two exposures.

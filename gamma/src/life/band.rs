@@ -70,7 +70,7 @@ fn drawn_lives(
     // One stream for each draw, the joint 0: more draws leave the first ones as they are.
     let at = |at: usize| {
         let logs = estimate.drawn_logs(&mut Stream::new(seed, at as u64, 0));
-        state.life_at(estimate.process(), &logs)
+        state.life_by(estimate, &logs)
     };
     (0..count).map(at).collect()
 }
@@ -168,7 +168,7 @@ impl<'a> Bands<'a> {
             let shifted = |step: f64| -> Result<f64, LifeError> {
                 let mut logs = self.estimate.logs().to_vec();
                 logs[at] += step;
-                Ok(scale.out(of(&self.state.life_at(self.estimate.process(), &logs)?)?))
+                Ok(scale.out(of(&self.state.life_by(self.estimate, &logs)?)?))
             };
             gradient.push((shifted(STEP)? - shifted(-STEP)?) / (2.0 * STEP));
         }

@@ -3,6 +3,7 @@
 
 use rand::RngExt;
 
+use super::law::Law;
 use crate::error::{LifeError, positive};
 use crate::matrix::Factor;
 use crate::process::Process;
@@ -29,18 +30,31 @@ pub enum Sample {
 /// Parameters of a process as data may have come from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterSet {
-    /// Logarithms of the two parameters, and of the exponent if it was estimated.
+    /// Logarithms, as those of the estimate.
     pub logs: Vec<f64>,
     /// Its probability.
     pub weight: f64,
 }
 
-/// The parameters of a process and perhaps the exponent of exposure, with the covariance of their logarithms.
+/// What has been read of one unit: what the law of its own parameter follows from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SeenUnit {
+    /// Exposures, before any exponent, that its readings lie between.
+    pub spans: Vec<[f64; 2]>,
+    /// Wear over all of them.
+    pub wear: f64,
+}
+
+/// The parameters of a process, perhaps the exponent of exposure and how units differ, with the covariance of their logarithms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     process: &'static dyn Process,
-    /// Logarithms of the two parameters, and of the exponent if it was estimated.
+    /// Logarithms of the two parameters, of the exponent if it was estimated, of the units' coefficient of variation if they
+    /// differ.
     logs: Vec<f64>,
+    units_differ: bool,
+    /// The unit that is asked for; none: one of which nothing has been read.
+    unit: Option<SeenUnit>,
     /// Of the covariance of `logs`; empty if the parameters are taken as known.
     factor: Factor,
     sample: Sample,
@@ -64,7 +78,40 @@ impl Estimate {
         if let Some(exponent) = exponent {
             logs.push(libm::log(positive("the exponent", exponent)?));
         }
-        Ok(Self { process, logs, factor: Factor::default(), sample: Sample::Unknown })
+        let (factor, sample) = (Factor::default(), Sample::Unknown);
+        Ok(Self { process, logs, units_differ: false, unit: None, factor, sample })
+    }
+
+    /// With units that differ, as [`Process::random_effect`] has it; `cv` is the coefficient of variation. Before a covariance is
+    /// given.
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`]; [`LifeError::NoRandomEffect`].
+    pub fn differing(mut self, cv: f64) -> Result<Self, LifeError> {
+        self.process.random_effect().ok_or(LifeError::NoRandomEffect { process: self.process.title() })?;
+        self.logs.push(libm::log(positive("the coefficient of variation of units", cv)?));
+        self.units_differ = true;
+        Ok(self)
+    }
+
+    /// Of a unit that has been read, where units differ; of one in service, not of a new one of its kind.
+    pub fn of_unit(self, unit: SeenUnit) -> Self {
+        Self { unit: Some(unit), ..self }
+    }
+
+    /// The same estimate about a unit of which nothing has been read.
+    pub fn of_new_unit(self) -> Self {
+        Self { unit: None, ..self }
+    }
+
+    /// Coefficient of variation of what differs between units; None if they do not.
+    pub fn cv(&self) -> Option<f64> {
+        self.logs.last().filter(|_| self.units_differ).map(|log| libm::exp(*log))
+    }
+
+    /// Whether units differ.
+    pub fn units_differ(&self) -> bool {
+        self.units_differ
     }
 
     /// With the covariance of the parameters themselves, as a fit prints it. It is taken over to the logarithms to first
@@ -119,7 +166,57 @@ impl Estimate {
 
     /// Exponent of exposure, if one was estimated.
     pub fn exponent(&self) -> Option<f64> {
-        self.logs.get(2).map(|log| libm::exp(*log))
+        exponent_of(&self.logs, self.units_differ)
+    }
+
+    /// The law of wear at these logarithms, of the unit that is asked for.
+    pub(crate) fn law_at(&self, logs: &[f64]) -> Result<Law, LifeError> {
+        let (common, effect) = ([logs[0], logs[1]], self.process.random_effect());
+        let (Some(effect), Some(ln_cv), true) = (effect, logs.last(), self.units_differ) else {
+            return Law::from_logs(self.process, common);
+        };
+        let cv = libm::exp(*ln_cv);
+        let Some(SeenUnit { spans, wear }) = &self.unit else {
+            return Law::of_units(self.process, common, cv);
+        };
+        let exponent = exponent_of(logs, true).unwrap_or(1.0);
+        let exposure: f64 =
+            spans.iter().map(|[from, to]| libm::pow(*to, exponent) - libm::pow(*from, exponent)).sum();
+        let (own, cv) = effect.after(common, cv, exposure, *wear).ok_or(LifeError::UnitStandsStill)?;
+        Law::of_units(self.process, own, cv)
+    }
+
+    /// ln density of readings of the unit, given these logarithms, but for what does not depend on its own parameter.
+    pub(crate) fn ln_likelihood(&self, logs: &[f64], increments: &[[f64; 3]]) -> f64 {
+        let Some(effect) = self.process.random_effect().filter(|_| self.units_differ) else {
+            return f64::NAN;
+        };
+        let exponent = exponent_of(logs, true).unwrap_or(1.0);
+        let powers = self.process.exposure_powers();
+        let at = |exposure: f64| {
+            let ln = libm::log(exposure);
+            [logs[0] + powers[0] * ln, logs[1] + powers[1] * ln]
+        };
+        let (mut all, mut total, mut value) = (0.0, 0.0, 0.0);
+        for [from, to, wear] in increments {
+            let exposure = libm::pow(*to, exponent) - libm::pow(*from, exponent);
+            value += self.process.ln_density(at(exposure), *wear);
+            all += exposure;
+            total += wear;
+        }
+        let cv = libm::exp(logs[logs.len() - 1]);
+        value + effect.ln_density(at(all), cv, total) - self.process.ln_density(at(all), total)
+    }
+
+    /// Logarithms of the parameters of one unit and of the exponent, drawn: where units differ, of one of them.
+    pub(crate) fn drawn_unit(&self, stream: &mut Stream) -> Vec<f64> {
+        let mut logs = self.drawn_logs(stream);
+        if let (Some(effect), true) = (self.process.random_effect(), self.units_differ) {
+            let cv = logs.pop().map_or(0.0, libm::exp);
+            let own = effect.draw([logs[0], logs[1]], cv, stream);
+            logs[..2].copy_from_slice(&own);
+        }
+        logs
     }
 
     /// Whether a covariance is known.
@@ -149,6 +246,12 @@ impl Estimate {
         let steps = self.factor.times(&z).into_iter().chain(std::iter::repeat(0.0));
         self.logs.iter().zip(steps).map(|(log, step)| log + step).collect()
     }
+}
+
+/// Exponent of exposure among logarithms, if it was estimated.
+pub(crate) fn exponent_of(logs: &[f64], units_differ: bool) -> Option<f64> {
+    let own = logs.len() - usize::from(units_differ);
+    logs[..own].get(2).map(|log| libm::exp(*log))
 }
 
 #[cfg(test)]

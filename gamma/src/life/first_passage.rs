@@ -97,6 +97,14 @@ impl Lifetime for FirstPassage {
         self.clock.time(self.exposure_now + self.law.mean_exposure(self.left)) - self.now
     }
 
+    fn ever(&self) -> f64 {
+        self.law.ever(self.left)
+    }
+
+    fn finite_moments(&self) -> Result<(), LifeError> {
+        if self.law.has_moments() { Ok(()) } else { Err(LifeError::DriftOfUnits) }
+    }
+
     fn breaks(&self) -> Vec<f64> {
         self.clock.breaks().into_iter().map(|t| t - self.now).collect()
     }

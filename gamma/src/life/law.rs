@@ -1,14 +1,21 @@
-//! The law of wear: a process with its parameters. In and out: numbers. Never knows time.
+//! The law of wear: a process with its parameters, perhaps of a unit whose own parameter has a law. In and out: numbers. Never knows time.
 
 use crate::error::{LifeError, positive};
-use crate::process::Process;
+use crate::process::{Process, RandomEffect};
 
 /// A process with its two parameters, in the units of the caller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Law {
     process: &'static dyn Process,
     logs: [f64; 2],
+    /// Coefficient of variation of what differs between units; 0: the parameters are those of the unit.
+    cv: f64,
 }
+
+/// Step of differences in the exposure, as a part of it: errors of 1e-10 by curvature and by rounding.
+const STEP: f64 = 1e-5;
+/// Exposure, in those that wear takes in the mean, after which a unit that has not failed never does.
+const FOREVER: f64 = 1e12;
 
 impl Law {
     /// The parameters in the order of [`Process::parameters`].
@@ -19,7 +26,7 @@ impl Law {
         let names = process.parameters();
         let logs = [0, 1].map(|at: usize| positive(names[at], parameters[at]).map(libm::log));
         let [first, second] = logs;
-        Ok(Self { process, logs: [first?, second?] })
+        Ok(Self { process, logs: [first?, second?], cv: 0.0 })
     }
 
     /// The same from the logarithms of the parameters.
@@ -30,22 +37,66 @@ impl Law {
         for (name, log) in process.parameters().into_iter().zip(logs) {
             positive(name, libm::exp(log))?;
         }
-        Ok(Self { process, logs })
+        Ok(Self { process, logs, cv: 0.0 })
+    }
+
+    /// Of a unit whose parameter has the law of [`Process::random_effect`].
+    ///
+    /// # Errors
+    /// [`LifeError::NotPositive`] for numbers out of their range.
+    pub(crate) fn of_units(
+        process: &'static dyn Process,
+        logs: [f64; 2],
+        cv: f64,
+    ) -> Result<Self, LifeError> {
+        let cv = positive("the coefficient of variation of units", cv)?;
+        Ok(Self { cv, ..Self::from_logs(process, logs)? })
+    }
+
+    fn effect(&self) -> Option<&'static dyn RandomEffect> {
+        self.process.random_effect().filter(|_| self.cv > 0.0)
+    }
+
+    /// Whether lives have a mean and a standard deviation.
+    pub(crate) fn has_moments(&self) -> bool {
+        self.effect().is_none_or(RandomEffect::has_moments)
+    }
+
+    /// Probability that wear ever reaches `left`.
+    pub(crate) fn ever(&self, left: f64) -> f64 {
+        if self.has_moments() { 1.0 } else { self.failure(FOREVER * self.mean_exposure(left), left) }
     }
 
     /// Probability that wear stays below `left` throughout an exposure.
     pub(crate) fn survival(&self, exposure: f64, left: f64) -> f64 {
-        if exposure > 0.0 { self.process.survival(self.logs, exposure, left) } else { 1.0 }
+        match self.effect() {
+            _ if exposure <= 0.0 => 1.0,
+            Some(effect) => effect.survival(self.logs, self.cv, exposure, left).0,
+            None => self.process.survival(self.logs, exposure, left),
+        }
     }
 
     /// Probability that wear reaches `left` within an exposure.
     pub(crate) fn failure(&self, exposure: f64, left: f64) -> f64 {
-        if exposure > 0.0 { self.process.failure(self.logs, exposure, left) } else { 0.0 }
+        match self.effect() {
+            _ if exposure <= 0.0 => 0.0,
+            Some(effect) => effect.survival(self.logs, self.cv, exposure, left).1,
+            None => self.process.failure(self.logs, exposure, left),
+        }
     }
 
     /// Failures per unit of exposure among the survivors.
     pub(crate) fn hazard(&self, exposure: f64, left: f64) -> f64 {
-        self.process.hazard(self.logs, exposure, left)
+        let Some(effect) = self.effect() else { return self.process.hazard(self.logs, exposure, left) };
+        if exposure <= 0.0 {
+            return 0.0;
+        }
+        let at = |exposure: f64| effect.survival(self.logs, self.cv, exposure, left);
+        let step = STEP * exposure;
+        let ((before, failed_before), (after, failed_after)) = (at(exposure - step), at(exposure + step));
+        // Of both differences the one that keeps its digits.
+        let change = if before < 0.5 { before - after } else { failed_after - failed_before };
+        change / (step * (before + after))
     }
 
     /// Mean exposure at which wear reaches `left`.

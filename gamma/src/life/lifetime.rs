@@ -50,6 +50,11 @@ pub trait Lifetime {
         1.0 - self.reliability(t)
     }
 
+    /// Probability of ever failing.
+    fn ever(&self) -> f64 {
+        1.0
+    }
+
     /// Relative accuracy asked of integrals. Mixtures of many laws ask for less: each value costs them more, and they are
     /// no more accurate themselves.
     fn accuracy(&self) -> f64 {
@@ -95,9 +100,13 @@ pub trait Lifetime {
     /// Time until which the part `p` has failed: B10 is `quantile(0.1)`. Relative accuracy 1e-12.
     ///
     /// # Errors
-    /// [`LifeError::Probability`].
+    /// [`LifeError::Probability`]; [`LifeError::Never`] where fewer ever fail.
     fn quantile(&self, p: f64) -> Result<f64, LifeError> {
         probability(p)?;
+        let ever = self.ever();
+        if p >= ever {
+            return Err(LifeError::Never { p, ever });
+        }
         // The smaller of the two tails keeps its digits.
         let miss = |t: f64| if p <= 0.5 { self.failed(t) - p } else { (1.0 - p) - self.reliability(t) };
         Ok(rising_root(&miss, self.typical()))

@@ -45,7 +45,7 @@ impl LifeMixture {
         state: &OperatingState,
         sets: impl Iterator<Item = ParameterSet>,
     ) -> Result<Self, LifeError> {
-        let life = |set: ParameterSet| Ok((set.weight, state.life_at(estimate.process(), &set.logs)?));
+        let life = |set: ParameterSet| Ok((set.weight, state.life_by(estimate, &set.logs)?));
         Ok(Self {
             lives: sets.map(life).collect::<Result<_, _>>()?,
             typical: state.life(estimate)?.typical(),
@@ -68,5 +68,13 @@ impl Lifetime for LifeMixture {
 
     fn typical(&self) -> f64 {
         self.typical
+    }
+
+    fn ever(&self) -> f64 {
+        self.mean(FirstPassage::ever)
+    }
+
+    fn finite_moments(&self) -> Result<(), LifeError> {
+        self.lives.first().map_or(Ok(()), |(_, life)| life.finite_moments())
     }
 }

@@ -23,7 +23,7 @@ pub use band::{Band, Bands, Method};
 pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
 pub use counted::CountedLives;
-pub use estimate::{Estimate, ParameterSet, Sample};
+pub use estimate::{Estimate, ParameterSet, Sample, SeenUnit};
 pub use first_passage::FirstPassage;
 pub use law::Law;
 pub(crate) use lifetime::mixed_hazard;

@@ -2,7 +2,7 @@
 //! [`FirstPassage`]. Never knows how parameters were estimated.
 
 use super::clock::Clock;
-use super::estimate::Estimate;
+use super::estimate::{Estimate, exponent_of};
 use super::first_passage::FirstPassage;
 use super::law::Law;
 use crate::error::{LifeError, non_negative, positive};
@@ -68,17 +68,25 @@ impl OperatingState {
     /// # Errors
     /// [`LifeError`], if a parameter leaves the range of numbers.
     pub fn life(&self, estimate: &Estimate) -> Result<FirstPassage, LifeError> {
-        self.life_at(estimate.process(), estimate.logs())
+        self.life_by(estimate, estimate.logs())
     }
 
-    /// The same at given logarithms of the parameters and perhaps of the exponent.
+    /// The same at other logarithms of what was estimated.
+    pub(crate) fn life_by(&self, estimate: &Estimate, logs: &[f64]) -> Result<FirstPassage, LifeError> {
+        self.life_of(estimate.law_at(logs)?, exponent_of(logs, estimate.units_differ()))
+    }
+
+    /// The same of one joint, at given logarithms of its parameters and perhaps of the exponent.
     pub(crate) fn life_at(
         &self,
         process: &'static dyn Process,
         logs: &[f64],
     ) -> Result<FirstPassage, LifeError> {
-        let law = Law::from_logs(process, [logs[0], logs[1]])?;
-        let clock = Clock::power(self.rate, logs.get(2).map_or(1.0, |log| libm::exp(*log)))?;
+        self.life_of(Law::from_logs(process, [logs[0], logs[1]])?, exponent_of(logs, false))
+    }
+
+    fn life_of(&self, law: Law, exponent: Option<f64>) -> Result<FirstPassage, LifeError> {
+        let clock = Clock::power(self.rate, exponent.unwrap_or(1.0))?;
         Ok(FirstPassage::with_left(law, clock, self.threshold - self.current, self.exposure / self.rate))
     }
 

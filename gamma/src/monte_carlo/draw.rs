@@ -8,6 +8,7 @@ use linkwear_runtime::GammaRates;
 use linkwear_runtime::life::{IncrementModel, LANES, Lanes};
 
 use crate::error::LifeError;
+use crate::process::{Gamma, Process};
 use crate::random::{LnGamma, Stream, gamma_draws};
 use crate::series::SharedFactor;
 
@@ -24,6 +25,8 @@ pub struct GammaDraw {
     seed: u64,
     /// alpha [1/µm] and ln beta, beta in 1/µm.
     joints: Vec<(f64, f64)>,
+    /// Coefficient of variation of each joint's beta over lives; 0 or none: it is the same in all.
+    cvs: Vec<f64>,
     shared: Option<SharedFactor>,
 }
 
@@ -31,7 +34,7 @@ impl GammaDraw {
     /// For these joints, in the order of the wearing joints.
     pub fn new(seed: u64, joints: &[GammaRates]) -> Self {
         let joint = |rates: &GammaRates| (rates.alpha * MICRO, libm::log(rates.beta * MICRO));
-        Self { seed, joints: joints.iter().map(joint).collect(), shared: None }
+        Self { seed, joints: joints.iter().map(joint).collect(), cvs: Vec::new(), shared: None }
     }
 
     /// With a factor of mean 1, one draw for each trajectory, that multiplies the exposure dLambda of all its joints and
@@ -45,6 +48,20 @@ impl GammaDraw {
         Ok(Self { shared: Some(factor), ..self })
     }
 
+    /// With rates beta that differ between units by a Gamma law of these coefficients of variation, joint by joint, 0 for none: a joint
+    /// keeps its rate for all of a life. `joints` of [`Self::new`] are those of the mean rate.
+    pub fn differing(self, cvs: Vec<f64>) -> Self {
+        Self { cvs, ..self }
+    }
+
+    /// ln of a joint's rate over the mean one in a trajectory, if it differs.
+    fn ln_rate(&self, joint: usize, trajectory: u64) -> Option<f64> {
+        let cv = self.cvs.get(joint).filter(|cv| **cv > 0.0)?;
+        // Streams from the last one down: no joint has them.
+        let mut stream = Stream::new(self.seed, trajectory, TRAJECTORY - 1 - joint as u64);
+        Gamma.random_effect().map(|effect| effect.draw([0.0; 2], *cv, &mut stream)[1])
+    }
+
     /// An increment in a cycle of a trajectory whose factor is known.
     fn draw_with(&self, joint: usize, (trajectory, cycle): (u64, u64), mean: f64, factor: f64) -> f64 {
         let Some((alpha, ln_beta)) = self.joints.get(joint) else { return mean };
@@ -54,6 +71,7 @@ impl GammaDraw {
         }
         let mut stream = Stream::new(self.seed, trajectory, joint as u64);
         stream.at(cycle);
+        let ln_beta = ln_beta + self.ln_rate(joint, trajectory).unwrap_or(0.0);
         // Wear too small for a number is no wear: only here, where it is added to micrometres.
         libm::exp(stream.sample(LnGamma(shape)) - ln_beta) * MICRO
     }
@@ -79,12 +97,13 @@ impl IncrementModel for GammaDraw {
         let Some((alpha, ln_beta)) = self.joints.get(joint) else { return *means };
         let shapes = std::array::from_fn(|lane| alpha * (means[lane] / MICRO) * lanes.own[lane]);
         let streams = (self.seed, joint as u64);
+        let differs = self.cvs.get(joint).is_some_and(|cv| *cv > 0.0);
         let (drawn, holds) = gamma_draws(streams, &lanes.trajectories, &lanes.cycles, &shapes, *ln_beta);
         let one = |lane: usize| {
             let place = (lanes.trajectories[lane], lanes.cycles[lane]);
             self.draw_with(joint, place, means[lane], lanes.own[lane])
         };
-        std::array::from_fn(|lane| if holds[lane] { drawn[lane] * MICRO } else { one(lane) })
+        std::array::from_fn(|lane| if holds[lane] && !differs { drawn[lane] * MICRO } else { one(lane) })
     }
 }
 
@@ -143,6 +162,27 @@ mod tests {
             assert_ne!(first.to_bits(), other.to_bits());
         }
         assert_ne!(first.to_bits(), GammaDraw::new(2, &[RATES]).draw(0, 3, 5, 1e-6).to_bits());
+    }
+
+    #[test]
+    fn a_joint_keeps_its_rate_for_all_of_a_life() {
+        let plain = GammaDraw::new(1, &[RATES; 2]);
+        let own = plain.clone().differing(vec![0.3, 0.0]);
+        // The same numbers but for the rate, which is the trajectory's: alone and in lanes.
+        let ratio = |joint, trajectory, cycle| {
+            own.draw(joint, trajectory, cycle, 1e-6) / plain.draw(joint, trajectory, cycle, 1e-6)
+        };
+        assert!((ratio(0, 3, 5) / ratio(0, 3, 9) - 1.0).abs() < 1e-14 && ratio(1, 3, 5) == 1.0);
+        assert_ne!(ratio(0, 3, 5), ratio(0, 4, 5));
+        let lanes = Lanes { trajectories: [3; LANES], cycles: [5; LANES], own: [1.0; LANES] };
+        assert_eq!(own.draw_lanes(0, &lanes, &[1e-6; LANES])[0].to_bits(), own.draw(0, 3, 5, 1e-6).to_bits());
+        // Mean 1 and coefficient of variation 0.3 of the rates; four standard errors of 20,000 (kurtosis 3 + 6 cv²).
+        let count = 20_000_u32;
+        let rates: Vec<f64> = (0..count).map(|t| own.ln_rate(0, t.into()).unwrap().exp()).collect();
+        let mean = rates.iter().sum::<f64>() / f64::from(count);
+        let variance = rates.iter().map(|rate| (rate - mean).powi(2)).sum::<f64>() / f64::from(count);
+        assert!((mean - 1.0).abs() < 4.0 * 0.3 / f64::from(count).sqrt(), "{mean}");
+        assert!((variance / 0.09 - 1.0).abs() < 4.0 * (2.54 / f64::from(count)).sqrt(), "{variance}");
     }
 
     #[test]

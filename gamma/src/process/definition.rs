@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use super::random_effect::RandomEffect;
 use crate::random::Stream;
 
 /// Wear that grows by independent increments with a law of two positive parameters.
@@ -75,6 +76,11 @@ pub trait Process: Debug + Sync {
 
     /// Increments from which on a flat prior gives lives of finite variance; None if it never does.
     fn increments_for_variance(&self) -> Option<usize>;
+
+    /// How its units may differ; None where no law of that is known.
+    fn random_effect(&self) -> Option<&'static dyn RandomEffect> {
+        None
+    }
 
     /// Draws an increment over an exposure.
     fn draw(&self, logs: [f64; 2], exposure: f64, stream: &mut Stream) -> f64;

@@ -1,9 +1,13 @@
 //! The Gamma process, [CS (21)-(25)]: dW ~ Gamma(shape alpha dLambda, rate beta), of mean alpha dLambda / beta and variance
 //! alpha dLambda / beta². In and out: see [`Process`]. Never knows other processes.
 
+mod units;
+
 use rand::RngExt;
 
+use self::units::GammaRate;
 use super::definition::{Process, Slice, Term, scatters};
+use super::random_effect::RandomEffect;
 use crate::random::{LnGamma, Stream};
 use crate::special::{
     digamma, gamma_p, gamma_q, gamma_quantile, guarded, ln_gamma, ln_gamma_p_slope, tetragamma, trigamma,
@@ -141,6 +145,10 @@ impl Process for Gamma {
     /// S(t) falls as t^-(increments - 1).
     fn increments_for_variance(&self) -> Option<usize> {
         Some(4)
+    }
+
+    fn random_effect(&self) -> Option<&'static dyn RandomEffect> {
+        Some(&GammaRate)
     }
 
     /// Wear too small for a double is 0.

@@ -7,14 +7,16 @@
 //! S(L) = Phi(k [left / drift - L]) + exp(2 spread L / drift) Phi(-k [left / drift + L])
 //! ```
 
+mod units;
+
 use rand::RngExt;
 use rand::distr::Open01;
 
+use self::units::NormalSlowness;
 use super::definition::{Process, Slice, Term, scatters};
+use super::random_effect::RandomEffect;
 use crate::random::{StandardNormal, Stream};
-use crate::special::{inverse_gaussian, normal_mills, rising_root};
-
-const LN_2_PI: f64 = 1.837_877_066_409_345_5;
+use crate::special::{LN_2_PI, inverse_gaussian, normal_mills, rising_root};
 
 /// Parameters: the drift, mean wear per unit of exposure, and the spread, the law's shape lambda over a unit of exposure
 /// [unit of wear / unit of exposure²]: the larger, the less wear scatters.
@@ -87,6 +89,10 @@ impl Process for InverseGaussian {
     /// 1 / drift follows Student's law of one degree less than there are increments.
     fn increments_for_variance(&self) -> Option<usize> {
         Some(4)
+    }
+
+    fn random_effect(&self) -> Option<&'static dyn RandomEffect> {
+        Some(&NormalSlowness)
     }
 
     /// J. R. Michael, W. R. Schucany, R. W. Haas, Am. Stat. 30 (1976) 88: the smaller root of shape (w - mean)² /

@@ -8,11 +8,13 @@
 mod definition;
 mod gamma;
 mod inverse_gaussian;
+mod random_effect;
 mod wiener;
 
 pub use definition::{Process, Slice, Term};
 pub use gamma::Gamma;
 pub use inverse_gaussian::InverseGaussian;
+pub use random_effect::{RandomEffect, RandomLaw};
 pub use wiener::Wiener;
 
 /// All processes that can be fitted and predicted from; the first is the default.

@@ -142,3 +142,97 @@ fn the_mean_exposure_is_the_mean_of_the_passage() {
         assert!((moments.mean / mean - 1.0).abs() < 1e-8, "{process:?}: {} {mean}", moments.mean);
     }
 }
+
+/// Variations of what differs between units: far from 0, and so large that a normal law has to be cut off.
+const CVS: [f64; 2] = [0.1, 0.4];
+
+#[test]
+fn mixed_densities_sum_to_the_mixed_law() {
+    for process in PROCESSES {
+        let (effect, powers) = (process.random_effect().expect("a law"), process.exposure_powers());
+        for cv in CVS {
+            let exposure: f64 = 1.7;
+            let logs = [0, 1].map(|k: usize| LOGS[k] + powers[k] * exposure.ln());
+            let (from, to, cells) = (1.0, 4.0, 3000);
+            let width = (to - from) / f64::from(cells);
+            let density = |k: i32| effect.ln_density(logs, cv, from + width * (f64::from(k) + 0.5)).exp();
+            let sum: f64 = (0..cells).map(|k| width * density(k)).sum();
+            let tails = |wear: f64| effect.tails(LOGS, cv, exposure, wear);
+            // Midpoint rule: width² / 24 of the change of the slope.
+            assert!((sum - tails(to).0 + tails(from).0).abs() < 1e-6, "{process:?} {cv}");
+            assert!((tails(to).0 + tails(to).1 - 1.0).abs() < 1e-9, "{process:?} {cv}");
+        }
+    }
+}
+
+#[test]
+fn units_drawn_wear_and_fail_by_the_mixed_law() {
+    for process in PROCESSES {
+        let effect = process.random_effect().expect("a law");
+        for cv in CVS {
+            let (exposure, left, n) = (1.7, 3.0, 20_000);
+            let mut stream = Stream::new(27, 0, 0);
+            let units: Vec<[f64; 2]> = (0..n).map(|_| effect.draw(LOGS, cv, &mut stream)).collect();
+            let mut places: Vec<f64> = units
+                .iter()
+                .map(|logs| effect.tails(LOGS, cv, exposure, process.draw(*logs, exposure, &mut stream)).0)
+                .collect();
+            places.sort_by(f64::total_cmp);
+            let off = |(at, p): (usize, &f64)| (p - (at as f64 + 0.5) / f64::from(n)).abs();
+            let distance = places.iter().enumerate().map(off).fold(0.0, f64::max);
+            // Kolmogorov's critical value at 0.1 %.
+            assert!(distance < 1.95 / f64::from(n).sqrt(), "{process:?} {cv}: {distance}");
+            let alive =
+                units.iter().map(|logs| process.survival(*logs, exposure, left)).sum::<f64>() / f64::from(n);
+            let (survives, fails) = effect.survival(LOGS, cv, exposure, left);
+            // Four standard errors of a mean of values between 0 and 1.
+            assert!(
+                (alive - survives).abs() < 2.0 / f64::from(n).sqrt(),
+                "{process:?} {cv}: {alive} {survives}"
+            );
+            assert!((survives + fails - 1.0).abs() < 1e-9, "{process:?} {cv}");
+        }
+    }
+}
+
+#[test]
+fn what_a_unit_wore_and_what_comes_have_the_law_of_both_together() {
+    // f(w1) f(w2 | w1) = f(w1 + w2) times the plain density of the parts given their sum: the chain that likelihoods go by.
+    for process in PROCESSES {
+        let (effect, powers) = (process.random_effect().expect("a law"), process.exposure_powers());
+        let over = |logs: [f64; 2], exposure: f64| [0, 1].map(|k: usize| logs[k] + powers[k] * exposure.ln());
+        for cv in CVS {
+            let ((first, w1), (second, w2)) = ((0.8, 1.1), (1.9, 4.2));
+            let (own, own_cv) = effect.after(LOGS, cv, first, w1).expect("a law of the same kind");
+            let chain = effect.ln_density(over(LOGS, first), cv, w1)
+                + effect.ln_density(over(own, second), own_cv, w2);
+            let plain = |exposure: f64, wear: f64| process.ln_density(over(LOGS, exposure), wear);
+            let both = effect.ln_density(over(LOGS, first + second), cv, w1 + w2)
+                + plain(first, w1)
+                + plain(second, w2)
+                - plain(first + second, w1 + w2);
+            assert!((chain - both).abs() < 1e-12, "{process:?} {cv}: {chain} {both}");
+            // Two readings or one: the same law of the unit.
+            let (twice, cv_twice) = effect.after(own, own_cv, second, w2).expect("a law");
+            let (once, cv_once) = effect.after(LOGS, cv, first + second, w1 + w2).expect("a law");
+            assert!(
+                (twice[0] - once[0]).abs() + (twice[1] - once[1]).abs() + (cv_twice - cv_once).abs() < 1e-13
+            );
+        }
+    }
+}
+
+#[test]
+fn hardly_any_difference_is_none() {
+    for process in PROCESSES {
+        let effect = process.random_effect().expect("a law");
+        // cv² of the difference: 1e-8 of moderate numbers.
+        assert!(
+            (effect.ln_density(LOGS, 1e-4, 1.5) - process.ln_density(LOGS, 1.5)).abs() < 1e-7,
+            "{process:?}"
+        );
+        let (alive, failed) = effect.survival(LOGS, 1e-4, 1.7, 3.0);
+        assert!((alive - process.survival(LOGS, 1.7, 3.0)).abs() < 1e-7, "{process:?}");
+        assert!((failed - process.failure(LOGS, 1.7, 3.0)).abs() < 1e-7, "{process:?}");
+    }
+}

@@ -4,13 +4,15 @@
 //! First passage over `left` takes an exposure of the inverse Gaussian law with mean left / drift and shape
 //! (left / spread)² (E. Schrödinger 1915; J. L. Folks, R. S. Chhikara, J. R. Stat. Soc. B 40 (1978) 263).
 
+mod units;
+
 use rand::RngExt;
 
+use self::units::NormalDrift;
 use super::definition::{Process, Slice, Term, scatters};
+use super::random_effect::RandomEffect;
 use crate::random::{StandardNormal, Stream};
-use crate::special::{inverse_gaussian, normal_cdf, normal_mills, normal_quantile};
-
-const LN_2_PI: f64 = 1.837_877_066_409_345_5;
+use crate::special::{LN_2_PI, inverse_gaussian, normal_cdf, normal_mills, normal_quantile};
 
 /// Parameters: the drift, wear per unit of exposure, and the spread, its standard deviation over a unit of exposure.
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +81,10 @@ impl Process for Wiener {
     /// Drifts near 0 keep some density: lives go as 1 / drift.
     fn increments_for_variance(&self) -> Option<usize> {
         None
+    }
+
+    fn random_effect(&self) -> Option<&'static dyn RandomEffect> {
+        Some(&NormalDrift)
     }
 
     fn draw(&self, logs: [f64; 2], exposure: f64, stream: &mut Stream) -> f64 {

@@ -1,6 +1,6 @@
 //! The inverse Gaussian law. In and out: numbers. Never knows wear.
 
-use super::normal::{normal_cdf, normal_density, normal_mills};
+use super::reflected_normal::reflected_normal;
 
 /// Probabilities that an inverse Gaussian number of this mean and shape is at most x, and above x; each has its digits
 /// where it is small.
@@ -14,14 +14,13 @@ pub fn inverse_gaussian(mean: f64, shape: f64, x: f64) -> (f64, f64) {
     }
     let root = libm::sqrt(shape / x);
     let (z, y) = (root * (x / mean - 1.0), root * (x / mean + 1.0));
-    let (density, far) = (normal_density(z), normal_mills(y));
-    let above = if z > 0.0 { density * (normal_mills(z) - far) } else { normal_cdf(-z) - density * far };
-    (normal_cdf(z) + density * far, above)
+    reflected_normal(z, y)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::special::normal_mills;
 
     #[test]
     fn both_tails_are_those_of_the_density() {

@@ -3,22 +3,26 @@
 //! Everything goes through `libm`, so that debug and release builds give the same bits. The incomplete Gamma function is
 //! given by its logarithm, which is still needed where the function itself is 0 or 1 in all digits.
 
+mod gamma_ratio;
 mod incomplete;
 mod inverse_gaussian;
 mod ln_gamma;
 mod normal;
 mod polygamma;
 mod quantile;
+mod reflected_normal;
 mod root;
 mod shape_slope;
 mod student;
 
+pub use gamma_ratio::{f_above, gamma_ratio, ln_rising};
 pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q};
 pub use inverse_gaussian::inverse_gaussian;
 pub use ln_gamma::{EULER, ln_gamma, ln_gamma_1p};
-pub use normal::{normal_cdf, normal_density, normal_mills, normal_quantile};
+pub use normal::{LN_2_PI, normal_cdf, normal_density, normal_mills, normal_quantile};
 pub use polygamma::{digamma, tetragamma, trigamma};
 pub use quantile::{gamma_quantile, ln_gamma_quantile};
+pub use reflected_normal::reflected_normal;
 pub(crate) use root::{guarded, rising_root};
 pub use shape_slope::ln_gamma_p_slope;
 pub use student::student_bound;

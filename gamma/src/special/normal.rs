@@ -2,6 +2,9 @@
 
 use core::f64::consts::{FRAC_1_SQRT_2, PI};
 
+/// ln (2 pi).
+pub const LN_2_PI: f64 = 1.837_877_066_409_345_5;
+
 /// Density of the standard normal law.
 pub fn normal_density(z: f64) -> f64 {
     libm::exp(-0.5 * z * z) / libm::sqrt(2.0 * PI)

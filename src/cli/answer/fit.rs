@@ -56,6 +56,8 @@ pub struct OneFit<'a> {
     pub standard_errors_by_name: Map<String, Value>,
     /// Standard error of the exponent; null where it is not estimated.
     pub se_exponent: Option<f64>,
+    /// Standard error of the units' coefficient of variation; null where they are alike.
+    pub se_cv: Option<f64>,
     /// Akaike's criterion.
     pub aic: f64,
     /// Bayesian criterion.
@@ -80,6 +82,8 @@ pub struct OneFit<'a> {
     pub goodness: GoodnessAnswer<'a>,
     /// The process and, with `--compare`, the others; empty without.
     pub comparison: Vec<ComparedAnswer>,
+    /// With `--compare`, every process with units alike and with units that differ; empty without.
+    pub compare: Vec<CriteriaAnswer>,
     /// What is doubtful.
     pub warnings: Vec<String>,
 }
@@ -117,6 +121,59 @@ pub struct FittedProcess {
     gauge: Option<f64>,
     /// Increments that it was made from, column by column.
     increments: IncrementsAnswer,
+    #[serde(flatten)]
+    units_that_differ: Option<UnitsAnswer>,
+}
+
+/// How units differ; absent without `--random-effects`.
+#[cfg(test)]
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "the fit writes it; here are its keys")]
+pub struct UnitsAnswer {
+    /// The law of the parameter that differs.
+    random: RandomAnswer,
+    /// Whether no difference was found: the likelihood is largest where all units are alike.
+    boundary: bool,
+    /// The test of no difference.
+    lr_test: UnitsTestAnswer,
+    /// Names of the units.
+    unit_names: Vec<String>,
+    /// Wear of each unit at its last reading [unit of wear].
+    unit_wear: Vec<f64>,
+}
+
+/// The law of the parameter that differs between units.
+#[cfg(test)]
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "the fit writes it; here are its keys")]
+pub struct RandomAnswer {
+    /// The parameter: `beta`, `1 / drift`, `drift`.
+    parameter: String,
+    /// Its law: `gamma`; `normal`, that of 1 / drift cut off at 0.
+    law: String,
+    /// Shape of a Gamma law; null of another, or where no difference was found.
+    shape: Option<f64>,
+    /// Rate of a Gamma law; null of another, or where no difference was found.
+    rate: Option<f64>,
+    /// Its mean; of a normal law before it is cut off.
+    mean: f64,
+    /// Its standard deviation, likewise.
+    std: f64,
+    /// Its coefficient of variation; 0 where no difference was found.
+    cv: f64,
+}
+
+/// The test of no difference between units by the ratio of likelihoods.
+#[cfg(test)]
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "the fit writes it; here are its keys")]
+pub struct UnitsTestAnswer {
+    /// Twice the difference of the log-likelihoods; 0 on the boundary.
+    statistic: f64,
+    /// Probability of so large a statistic if units do not differ, by its law for so few units and readings.
+    p: f64,
+    /// The same by its law for many units: half at 0, half chi-square with one degree of freedom.
+    p_asymptotic: f64,
 }
 
 /// A covariate of a fit.
@@ -218,6 +275,27 @@ pub struct GoodnessAnswer<'a> {
     pub p_values_by: &'static str,
     /// Pairs of expected and seen increments [unit of wear].
     pub quantiles: &'a [(f64, f64)],
+}
+
+/// A process, with units alike or with units that differ, beside others.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct CriteriaAnswer {
+    /// The process: `gamma`, `inverse-gaussian`, `wiener`.
+    pub process: &'static str,
+    /// Whether units may differ.
+    pub random: bool,
+    /// Log-likelihood of the increments; null for one that does not fit these data.
+    pub log_likelihood: Option<f64>,
+    /// Akaike's criterion; null likewise.
+    pub aic: Option<f64>,
+    /// Bayesian criterion; null likewise.
+    pub bic: Option<f64>,
+    /// Whether no difference was found; null where units are alike.
+    pub boundary: Option<bool>,
+    /// Why it does not fit these data.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
 }
 
 /// A process beside others.

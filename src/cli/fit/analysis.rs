@@ -4,7 +4,8 @@
 use linkwear_gamma::FitFile;
 use linkwear_gamma::data::{Observations, Rounding};
 use linkwear_gamma::fit::{
-    Bootstrap, Fit, FitError, Goodness, Interval, Model, estimate, goodness, profile_interval,
+    Bootstrap, Fit, FitError, Goodness, Heterogeneity, Interval, Model, estimate, estimate_units, goodness,
+    profile_interval,
 };
 use linkwear_gamma::process::{PROCESSES, Process};
 
@@ -22,10 +23,30 @@ pub struct Analysis {
     pub intervals: Vec<Option<Interval>>,
     pub goodness: Goodness,
     pub bootstrap: Option<Bootstrap>,
+    /// Whether units differ, if that is asked for.
+    pub units: Option<Heterogeneity>,
     /// The other processes, if they are asked for.
     pub alternatives: Vec<(&'static dyn Process, Result<Fit, FitError>)>,
+    /// Every process with units alike and with units that differ, if they are asked for.
+    pub compared: Vec<Compared>,
     /// Bias of the process's parameters to first order in 1/n, where theory has it.
     pub bias: Option<[f64; 2]>,
+}
+
+/// A process, with units that differ or without, beside others.
+pub struct Compared {
+    pub process: &'static dyn Process,
+    pub random: bool,
+    pub found: Result<Criteria, FitError>,
+}
+
+/// How well it describes the data, and at what price.
+pub struct Criteria {
+    pub log_likelihood: f64,
+    pub aic: f64,
+    pub bic: f64,
+    /// Whether no difference between units was found.
+    pub boundary: bool,
 }
 
 /// How the gauge rounds, if it does.
@@ -41,6 +62,7 @@ pub fn model(arguments: &FitArguments) -> Model {
         power_law: arguments.power_law,
         covariates: arguments.covariate.len(),
         resolution: rounding(arguments),
+        units_differ: arguments.random_effects,
     }
 }
 
@@ -49,10 +71,15 @@ impl Analysis {
     pub fn new(
         arguments: &FitArguments,
         name: &str,
-        data: &Observations,
+        (data, last): (&Observations, &[f64]),
         drawn: impl FnOnce(&Fit) -> Option<Bootstrap>,
     ) -> Result<Self, FitError> {
-        let fit = estimate(data, &model(arguments))?;
+        let model = model(arguments);
+        let units = arguments.random_effects.then(|| estimate_units(data, &model)).transpose()?;
+        let fit = match &units {
+            Some(found) => found.fit.clone(),
+            None => estimate(data, &model)?,
+        };
         let clock = match (&arguments.lambda, &arguments.exposure) {
             (Some(lambda), Some(_)) => format!("Lambda of {lambda}"),
             (Some(clock), None) | (None, Some(clock)) => clock.clone(),
@@ -60,20 +87,69 @@ impl Analysis {
         };
         let over_lambda = arguments.lambda.is_some();
         let file = FitFile::new(&fit, data, &arguments.covariate, (&arguments.wear, &clock), over_lambda);
+        let file = match &units {
+            Some(found) => file.with_units(found, last, data),
+            None => file,
+        };
         let others = PROCESSES.into_iter().filter(|process| *process != fit.model.process);
-        let alternative =
-            |process| (process, estimate(data, &Model { process, resolution: None, ..fit.model }));
+        let alternative = |process| {
+            (process, estimate(data, &Model { process, resolution: None, units_differ: false, ..model }))
+        };
         let alternatives = if arguments.compare { others.map(alternative).collect() } else { Vec::new() };
-        let interval = |at| profile_interval(&fit, data, at, LEVEL).ok();
+        let compared = if arguments.compare { compared(data, &model) } else { Vec::new() };
+        let of_units = fit.cv().map(|_| fit.parameters().len() - 1);
+        let interval = |at| match &units {
+            Some(found) if Some(at) == of_units => found.cv_interval(data, LEVEL).ok(),
+            _ => profile_interval(&fit, data, at, LEVEL).ok(),
+        };
         Ok(Self {
             name: name.to_owned(),
             intervals: (0..fit.parameters().len()).map(interval).collect(),
             goodness: goodness(&fit, &data.increments, arguments.seed),
             bootstrap: drawn(&fit),
             alternatives,
+            compared,
             bias: fit.first_order_bias(data),
             file,
             fit,
+            units,
         })
     }
+
+    /// Akaike's criterion of the model asked for.
+    pub fn aic(&self) -> f64 {
+        self.units.as_ref().map_or_else(|| self.fit.aic(), Heterogeneity::aic)
+    }
+
+    /// Schwarz's criterion of the model asked for.
+    pub fn bic(&self) -> f64 {
+        self.units.as_ref().map_or_else(|| self.fit.bic(), Heterogeneity::bic)
+    }
+}
+
+/// Every process with units alike, and, of exact readings of several units, with units that differ.
+fn compared(data: &Observations, model: &Model) -> Vec<Compared> {
+    let rows = PROCESSES.into_iter().flat_map(|process| [(process, false), (process, true)]);
+    let rows = rows.filter(|(_, random)| !random || (data.units.len() > 1 && model.resolution.is_none()));
+    let row = |(process, random): (&'static dyn Process, bool)| {
+        // The process at hand alone takes readings as rounded.
+        let resolution = model.resolution.filter(|_| process == model.process);
+        let model = Model { process, resolution, units_differ: false, ..*model };
+        let found = match random {
+            true => estimate_units(data, &model).map(|found| Criteria {
+                log_likelihood: found.fit.log_likelihood,
+                aic: found.aic(),
+                bic: found.bic(),
+                boundary: found.boundary,
+            }),
+            false => estimate(data, &model).map(|fit| Criteria {
+                log_likelihood: fit.log_likelihood,
+                aic: fit.aic(),
+                bic: fit.bic(),
+                boundary: false,
+            }),
+        };
+        Compared { process, random, found }
+    };
+    rows.map(row).collect()
 }

@@ -4,17 +4,18 @@ use std::fmt::Write as _;
 
 use crate::number::number;
 use crate::provenance::Provenance;
-use linkwear_gamma::fit::{Bootstrap, Fit, Interval, LikelihoodRatio};
+use linkwear_gamma::fit::{Bootstrap, Fit, Heterogeneity, Interval, LikelihoodRatio};
 use linkwear_gamma::process::Process;
 use serde_json::{Map, Value, json};
 
 use super::super::answer::Answer;
 use super::super::answer::fit::{
-    BootstrapAnswer, ComparedAnswer, FitAnswer, GoodnessAnswer, GroupsAnswer, OneFit, RatioAnswer,
+    BootstrapAnswer, ComparedAnswer, CriteriaAnswer, FitAnswer, GoodnessAnswer, GroupsAnswer, OneFit,
+    RatioAnswer,
 };
 use super::super::arguments::FitArguments;
 use super::super::table::table;
-use super::analysis::{Analysis, LEVEL};
+use super::analysis::{Analysis, Compared, LEVEL};
 
 /// The fit of all readings, and of each group where there are groups.
 pub fn answer(
@@ -69,6 +70,9 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
         if arguments.covariate.is_empty() && arguments.groups.is_none() {
             cures.push("units that ran under different loads: --covariate COL or --groups COL");
         }
+        if own.units.is_none() && !one && arguments.resolution.is_none() {
+            cures.push("units that differ: --random-effects");
+        }
         if own.alternatives.is_empty() {
             cures.push("another process: --compare");
         }
@@ -92,8 +96,9 @@ fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
         name: &own.name,
         standard_errors_by_name: by_name.map(|(name, error)| (format!("se_{name}"), json!(error))).collect(),
         se_exponent: fit.exponent().map(|_| errors[2]),
-        aic: fit.aic(),
-        bic: fit.bic(),
+        se_cv: fit.cv().and_then(|_| errors.last().copied()),
+        aic: own.aic(),
+        bic: own.bic(),
         parameters: own.file.names(),
         standard_errors: errors,
         profile_intervals: intervals(own, |at| own.intervals[at]),
@@ -117,6 +122,7 @@ fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
             quantiles: &own.goodness.quantiles,
         },
         comparison: comparison(own),
+        compare: own.compared.iter().map(compared).collect(),
         warnings: warnings(arguments, own),
     }
 }
@@ -138,6 +144,19 @@ fn p_values(own: &Analysis) -> Option<(f64, f64)> {
 /// By bootstrap where there is one; otherwise for many increments.
 fn p_anderson_darling(own: &Analysis) -> f64 {
     p_values(own).map_or_else(|| own.goodness.asymptotic_p(), |p| p.1)
+}
+
+fn compared(row: &Compared) -> CriteriaAnswer {
+    let found = row.found.as_ref();
+    CriteriaAnswer {
+        process: row.process.name(),
+        random: row.random,
+        log_likelihood: found.ok().map(|found| found.log_likelihood),
+        aic: found.ok().map(|found| found.aic),
+        bic: found.ok().map(|found| found.bic),
+        boundary: row.random.then(|| found.is_ok_and(|found| found.boundary)),
+        why: found.err().map(ToString::to_string),
+    }
 }
 
 fn comparison(own: &Analysis) -> Vec<ComparedAnswer> {
@@ -207,28 +226,70 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         text,
         "\nlog-likelihood {:.8}, AIC {:.4}, BIC {:.4}",
         fit.log_likelihood,
-        fit.aic(),
-        fit.bic()
+        own.aic(),
+        own.bic()
     );
+    if let Some(found) = &own.units {
+        of_units(text, found);
+    }
     fit_quality(text, own);
     for warning in warnings(arguments, own) {
         let _ = writeln!(text, "warning: {warning}");
     }
-    if !own.alternatives.is_empty() {
-        let row = |process: &dyn Process, fit: &Fit| {
-            vec![
-                process.title().to_owned(),
-                format!("{:.5}", fit.log_likelihood),
-                format!("{:.3}", fit.aic()),
-            ]
+    if !own.compared.is_empty() {
+        let row = |row: &Compared| {
+            let units = match &row.found {
+                _ if !row.random => "alike",
+                Ok(found) if found.boundary => "no difference",
+                _ => "differ",
+            };
+            let mut cells = vec![row.process.title().to_owned(), units.to_owned()];
+            match &row.found {
+                Ok(found) => {
+                    cells.push(format!("{:.5}", found.log_likelihood));
+                    cells.extend([found.aic, found.bic].map(|value| format!("{value:.3}")));
+                }
+                Err(_) => cells.extend([String::new(), "not for these data".to_owned(), String::new()]),
+            }
+            cells
         };
-        let mut rows = vec![row(fit.model.process, fit)];
-        rows.extend(own.alternatives.iter().map(|(process, found)| match found {
-            Ok(fit) => row(*process, fit),
-            Err(_) => vec![process.title().to_owned(), String::new(), "not for these data".to_owned()],
-        }));
-        let _ = write!(text, "\n{}", table(&["process", "log-likelihood", "AIC"], &rows));
+        let rows: Vec<Vec<String>> = own.compared.iter().map(row).collect();
+        let _ = write!(text, "\n{}", table(&["process", "units", "log-likelihood", "AIC", "BIC"], &rows));
     }
+}
+
+/// How units differ, and whether they do.
+fn of_units(text: &mut String, found: &Heterogeneity) {
+    let fit = &found.fit;
+    if let (Some(cv), Some(effect)) = (fit.cv(), fit.model.process.random_effect()) {
+        let own = effect.numbers(fit.logs(), cv);
+        let law = match (own.shape, own.rate) {
+            (Some(shape), Some(rate)) => format!("shape {}, rate {}", number(shape), number(rate)),
+            _ => format!("mean {}, standard deviation {}", number(own.mean), number(own.std)),
+        };
+        let _ = writeln!(
+            text,
+            "units differ: {} of a unit has a {} law, {law}: coefficient of variation {}",
+            effect.parameter(),
+            effect.law(),
+            number(cv)
+        );
+    }
+    let _ = match found.boundary {
+        true => writeln!(
+            text,
+            "units: no difference found; the likelihood is largest where all {} are alike",
+            found.units
+        ),
+        false => writeln!(
+            text,
+            "units alike: log-likelihood {:.8}, likelihood ratio {:.4}, p = {} (for many units {})",
+            found.plain.log_likelihood,
+            found.test.statistic,
+            number(found.test.p_value),
+            number(found.test.asymptotic_p)
+        ),
+    };
 }
 
 /// With a capital letter.

@@ -1,0 +1,203 @@
+//! Whether units differ, and by how much. In: observations, model. Out: the fit in which they do, beside the one in which they do
+//! not, and a test. That no difference is found is an answer: the largest likelihood is then that of the plain process.
+
+use super::error::FitError;
+use super::estimate::{Fit, estimate_increments};
+use super::interval::Interval;
+use super::maximise::maximise;
+use super::model::Model;
+use crate::data::Observations;
+use crate::matrix::Factor;
+use crate::process::RandomEffect;
+use crate::special::{f_above, normal_quantile, rising_root};
+
+/// Coefficients of variation that a start is looked for among: powers of 2 times the least that is told from none.
+const LEAST_CV: f64 = 1e-5;
+const DOUBLINGS: i32 = 19;
+/// Where the search begins that has no better start.
+const START_CV: f64 = 0.3;
+/// Gain in the log-likelihood below which no difference is found: so little tells nothing, and rounding of some thousand terms lets
+/// no top be found.
+const GAIN: f64 = 1e-6;
+/// Largest coefficient of variation that an interval is looked for in.
+const LARGEST_CV: f64 = 1e3;
+
+/// A fit in which units differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heterogeneity {
+    /// The fit with the larger likelihood: that in which units differ, or the plain one where no difference is found.
+    pub fit: Fit,
+    /// The fit in which they do not.
+    pub plain: Fit,
+    /// Whether none is found.
+    pub boundary: bool,
+    /// Of no difference.
+    pub test: UnitsTest,
+    /// Units.
+    pub units: usize,
+}
+
+/// The test of no difference between units by the ratio of likelihoods.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitsTest {
+    /// Twice the difference of the log-likelihoods; 0 on the boundary.
+    pub statistic: f64,
+    /// Probability of so large a statistic if units do not differ.
+    pub p_value: f64,
+    /// The same by its law for many units, half of it at 0 and half chi-square with one degree of freedom.
+    pub asymptotic_p: f64,
+}
+
+/// Maximum likelihood, [CS (25)]: where units may differ, the fit of [`estimate_units`].
+///
+/// # Errors
+/// [`FitError`].
+pub fn estimate(observations: &Observations, model: &Model) -> Result<Fit, FitError> {
+    match model.units_differ {
+        true => estimate_units(observations, model).map(|found| found.fit),
+        false => estimate_increments(&observations.increments, model, None),
+    }
+}
+
+/// The maximum-likelihood fit with units that differ, of exact readings of two units or more. `model` says all but that.
+///
+/// # Errors
+/// [`FitError`].
+pub fn estimate_units(observations: &Observations, model: &Model) -> Result<Heterogeneity, FitError> {
+    let units = observations.units.len();
+    let effect = model.process.random_effect().ok_or(FitError::NoRandomEffect)?;
+    if model.resolution.is_some() {
+        return Err(FitError::RoundedUnits);
+    }
+    if units < 2 {
+        return Err(FitError::OneUnit);
+    }
+    let plain = estimate(observations, &Model { units_differ: false, ..*model })?;
+    let wide = Model { units_differ: true, ..*model };
+    if plain.increments <= wide.parameters() {
+        return Err(FitError::TooFew { increments: plain.increments, parameters: wide.parameters() });
+    }
+    let found = climb(observations, &wide, &plain)?;
+    let boundary = found.is_none();
+    let fit = found.unwrap_or_else(|| plain.clone());
+    let statistic = if boundary { 0.0 } else { 2.0 * (fit.log_likelihood - plain.log_likelihood) };
+    let degrees = plain.increments as f64 - units as f64 - (plain.phi.len() - 2) as f64;
+    let test = UnitsTest {
+        statistic,
+        p_value: small_sample_p(statistic, equal_units(&plain, effect, observations), degrees),
+        asymptotic_p: if boundary { 1.0 } else { 0.5 * libm::erfc(libm::sqrt(0.5 * statistic)) },
+    };
+    Ok(Heterogeneity { fit, plain, boundary, test, units })
+}
+
+/// The fit in which units differ, if it is more likely than the plain one. There the likelihood does not change with
+/// the other parameters, so the plain fit's own slope in the variation says whether one lies nearby.
+fn climb(observations: &Observations, wide: &Model, plain: &Fit) -> Result<Option<Fit>, FitError> {
+    let from = |cv: f64| {
+        let mut phi = plain.phi.clone();
+        phi.push(libm::log(cv));
+        phi
+    };
+    let starts = (0..DOUBLINGS).map(|power| LEAST_CV * libm::exp2(power.into()));
+    let rated = starts.map(|cv| (wide.of_units(&from(cv), &observations.increments), cv));
+    let best = rated.filter(|(gain, _)| *gain > GAIN).max_by(|a, b| a.0.total_cmp(&b.0));
+    let start = from(best.map_or(START_CV, |(_, cv)| cv));
+    let climbed = maximise(wide, &observations.increments, &start, None);
+    let (phi, point) = match climbed {
+        Ok(found) => found,
+        // Without a start that gains the way led nowhere, as expected.
+        Err(_) if best.is_none() => return Ok(None),
+        Err(error) => return Err(error),
+    };
+    let differ = phi.last().is_some_and(|log| *log > libm::log(LEAST_CV));
+    if point.value < plain.log_likelihood + GAIN || !differ {
+        return Ok(None);
+    }
+    let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
+    let covariance = covariance.ok_or(FitError::NotConverged)?;
+    Ok(Some(Fit { model: *wide, phi, covariance, log_likelihood: point.value, increments: plain.increments }))
+}
+
+/// How many units of equal exposures and normal totals say as much of differences as these, by the mean and the variance of the score.
+fn equal_units(plain: &Fit, effect: &dyn RandomEffect, observations: &Observations) -> f64 {
+    let excess = effect.excess(plain.logs());
+    let exposures = plain.model.exposures(&plain.phi, &observations.increments);
+    let all: f64 = exposures.iter().sum();
+    let squares: f64 = exposures.iter().map(|own| own * (own + excess)).sum();
+    let count = exposures.len() as f64;
+    1.0 + all * all / squares * (count - 1.0) / count
+}
+
+/// Probability of a larger statistic if units do not differ: exact for a Wiener process whose units have equal exposures, where the
+/// statistic rises with the ratio F of the variances between and within units,
+///
+/// ```text
+/// statistic = n ln([k R + d] / n) - k ln R for R = F (k - 1) / k > 1, else 0; n = k + d
+/// ```
+///
+/// k units, d degrees of freedom within them. For many units and readings it goes over into half chi-square; the law of that is too
+/// wide for a few (C. M. Crainiceanu, D. Ruppert, J. R. Stat. Soc. B 66 (2004) 165). Elsewhere k is that of [`equal_units`]; the bench
+/// `gamma/tests/units_differ.rs` shows how well it does.
+fn small_sample_p(statistic: f64, units: f64, degrees: f64) -> f64 {
+    if statistic <= 0.0 {
+        return 1.0;
+    }
+    let n = units + degrees.max(1.0);
+    let rises = |more: f64| n * libm::log1p(units * more / n) - units * libm::log1p(more) - statistic;
+    let ratio = 1.0 + rising_root(&rises, libm::sqrt(2.0 * statistic / units));
+    f_above(units - 1.0, n - units, ratio * units / (units - 1.0))
+}
+
+impl Heterogeneity {
+    /// Parameters of the model in which units differ, also where no difference is found.
+    pub fn parameters(&self) -> usize {
+        self.plain.phi.len() + 1
+    }
+
+    /// Akaike's criterion of that model.
+    pub fn aic(&self) -> f64 {
+        2.0 * self.parameters() as f64 - 2.0 * self.fit.log_likelihood
+    }
+
+    /// Schwarz's criterion of that model, n = number of increments.
+    pub fn bic(&self) -> f64 {
+        self.parameters() as f64 * libm::log(self.fit.increments as f64) - 2.0 * self.fit.log_likelihood
+    }
+
+    /// The coefficients of variation that a likelihood-ratio test at 1 - `level` does not reject, from 0 on if it does not reject
+    /// that.
+    ///
+    /// # Errors
+    /// [`FitError::NotConverged`] where the likelihood does not fall far enough.
+    pub fn cv_interval(&self, observations: &Observations, level: f64) -> Result<Interval, FitError> {
+        let reach = normal_quantile(0.5 + 0.5 * level);
+        let wide = Model { units_differ: true, ..self.fit.model };
+        let top = self.fit.cv().unwrap_or(0.0);
+        let mut from = self.fit.phi.clone();
+        if self.boundary {
+            from.push(0.0);
+        }
+        let last = from.len() - 1;
+        let root = |cv: f64| {
+            let mut phi = from.clone();
+            phi[last] = libm::log(cv);
+            let found = maximise(&wide, &observations.increments, &phi, Some(last));
+            found.map_or(f64::INFINITY, |(_, point)| {
+                libm::sqrt((2.0 * (self.fit.log_likelihood - point.value)).max(0.0))
+            })
+        };
+        let low = match libm::sqrt(self.test.statistic) > reach {
+            // Falls towards the top: rises in 1 / cv.
+            true => 1.0 / rising_root(&|inverse| root(1.0 / inverse) - reach, 1.0 / top),
+            false => 0.0,
+        };
+        let above =
+            |more: f64| if top + more > LARGEST_CV { f64::INFINITY } else { root(top + more) - reach };
+        let high = top + rising_root(&above, (0.5 * top).max(LEAST_CV));
+        if high.is_finite() && high < LARGEST_CV {
+            Ok(Interval { low, high })
+        } else {
+            Err(FitError::NotConverged)
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! Gamma processes whose rates differ by a Gamma law (J. Lawless, M. Crowder, Lifetime Data Anal. 10 (2004) 213): beta of a unit
+//! ~ Gamma(shape 1 / cv², mean beta), so that wear over an exposure has a closed density and beta times wear is a quotient of
+//! Gamma numbers.
+
+use rand::RngExt;
+
+use super::super::random_effect::{RandomEffect, RandomLaw};
+use crate::random::{LnGamma, Stream};
+use crate::special::{gamma_ratio, ln_gamma, ln_rising};
+
+/// The rate beta differs.
+#[derive(Clone, Copy, Debug)]
+pub struct GammaRate;
+
+impl RandomEffect for GammaRate {
+    fn parameter(&self) -> &'static str {
+        "beta"
+    }
+
+    fn law(&self) -> &'static str {
+        "gamma"
+    }
+
+    fn numbers(&self, logs: [f64; 2], cv: f64) -> RandomLaw {
+        let (mean, shape) = (libm::exp(logs[1]), 1.0 / (cv * cv));
+        RandomLaw { shape: Some(shape), rate: Some(shape / mean), mean, std: cv * mean }
+    }
+
+    fn ln_density(&self, [eta, ln_beta]: [f64; 2], cv: f64, wear: f64) -> f64 {
+        let (a, base) = (libm::exp(eta), 1.0 / (cv * cv));
+        a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) + ln_rising(base, a)
+            - (a + base) * libm::log1p(libm::exp(ln_beta) * wear / base)
+    }
+
+    fn tails(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> (f64, f64) {
+        let [alpha, beta] = logs.map(libm::exp);
+        gamma_ratio(alpha * exposure, 1.0 / (cv * cv), beta * wear)
+    }
+
+    fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)> {
+        let [alpha, beta] = logs.map(libm::exp);
+        let shape = 1.0 / (cv * cv);
+        let (shape, rate) = (shape + alpha * exposure, shape / beta + wear);
+        Some(([logs[0], libm::log(shape / rate)], 1.0 / libm::sqrt(shape)))
+    }
+
+    /// The score is [(r - a)² - a] / 2, r = beta times wear of shape a; less its part along r - a it has the variance (a² + a) / 2.
+    fn excess(&self, logs: [f64; 2]) -> f64 {
+        libm::exp(-logs[0])
+    }
+
+    fn draw(&self, logs: [f64; 2], cv: f64, stream: &mut Stream) -> [f64; 2] {
+        let shape = 1.0 / (cv * cv);
+        [logs[0], logs[1] + stream.sample(LnGamma(shape)) - libm::log(shape)]
+    }
+}

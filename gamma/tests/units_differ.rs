@@ -1,0 +1,78 @@
+//! Whether units differ: how often the test says so where they do not.
+
+#![allow(clippy::disallowed_methods, reason = "nothing here has to have the same bits on every machine")]
+
+use linkwear_gamma::data::{Increment, Observations};
+use linkwear_gamma::fit::{Model, estimate_units};
+use linkwear_gamma::process::{Gamma, InverseGaussian, Process, Wiener};
+use linkwear_gamma::random::Stream;
+
+/// Units of equal increments of a process over exposure 1 each, all units alike.
+fn alike(process: &dyn Process, logs: [f64; 2], (units, readings): (usize, usize), run: u64) -> Observations {
+    let mut stream = Stream::new(31, run, 0);
+    let one = |at: usize| Increment {
+        unit: at / readings,
+        from: (at % readings) as f64,
+        to: (at % readings + 1) as f64,
+        wear: process.draw(logs, 1.0, &mut stream).max(if process.is_increasing() {
+            f64::MIN_POSITIVE
+        } else {
+            f64::MIN
+        }),
+        ln_covariates: Vec::new(),
+        row: 0,
+    };
+    let increments = (0..units * readings).map(one).collect();
+    Observations { units: (0..units).map(|unit| unit.to_string()).collect(), increments }
+}
+
+/// Runs of a cell: parts of p-values below 1, 5 and 10 %, asymptotic ones below 5 %, and parts on the boundary and refused.
+fn sizes(
+    process: &'static dyn Process,
+    logs: [f64; 2],
+    cell: (usize, usize),
+    power_law: bool,
+    runs: u64,
+) -> [f64; 6] {
+    let model = Model { process, power_law, ..Model::default() };
+    let mut counts = [0.0; 6];
+    for run in 0..runs {
+        let Ok(found) = estimate_units(&alike(process, logs, cell, run), &model) else {
+            counts[5] += 1.0;
+            continue;
+        };
+        let (p, asymptotic) = (found.test.p_value, found.test.asymptotic_p);
+        let seen = [p < 0.01, p < 0.05, p < 0.1, asymptotic < 0.05, found.boundary, false];
+        counts.iter_mut().zip(seen).for_each(|(count, seen)| *count += f64::from(u8::from(seen)));
+    }
+    counts.map(|count| 100.0 * count / runs as f64)
+}
+
+const CELLS: [(usize, usize); 4] = [(5, 10), (10, 9), (15, 16), (50, 10)];
+
+/// Gamma processes by the shape of an increment, the others by its coefficient of variation.
+fn processes() -> Vec<(String, &'static dyn Process, [f64; 2])> {
+    let gamma = [0.3_f64, 2.0, 20.0]
+        .map(|shape| (format!("gamma, shape {shape}"), &Gamma as &dyn Process, [shape.ln(), shape.ln()]));
+    let normal =
+        [0.5_f64].map(|cv| (format!("wiener, variation {cv}"), &Wiener as &dyn Process, [0.0, cv.ln()]));
+    let inverse = [1.0_f64, 0.3].map(|cv| {
+        (format!("inverse Gaussian, variation {cv}"), &InverseGaussian as &dyn Process, [0.0, -2.0 * cv.ln()])
+    });
+    gamma.into_iter().chain(normal).chain(inverse).collect()
+}
+
+#[test]
+#[ignore = "minutes; run with --release --ignored --nocapture"]
+fn the_test_of_no_difference_is_wrong_as_often_as_it_says() {
+    println!(
+        "| process | units x readings | 1 % | 5 % | 10 % | 5 % asymptotic | boundary | refused |\n|---|---|---|---|---|---|---|---|"
+    );
+    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(4000);
+    for (name, process, logs) in processes() {
+        for cell in CELLS {
+            let found = sizes(process, logs, cell, false, runs).map(|part| format!("{part:.2}"));
+            println!("| {name} | {} x {} | {} |", cell.0, cell.1, found.join(" | "));
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Units that differ, from the command line: `fit --random-effects`, `predict --unit`, `life --fit`.
+
+mod command;
+
+use command::{Folder, linkwear};
+use serde_json::Value;
+
+const LASERS: [&str; 8] =
+    ["fit", "examples/data/gaas_lasers.csv", "--unit", "unit", "--wear", "percent", "--exposure", "khours"];
+
+#[track_caller]
+fn close(found: &Value, expected: f64, tolerance: f64) {
+    let found = found.as_f64().expect("a number");
+    assert!((found / expected - 1.0).abs() <= tolerance, "{found} for {expected}");
+}
+
+fn fit(more: &[&str]) -> Value {
+    linkwear(&[&LASERS[..], &["--random-effects", "--format", "json"], more].concat()).json()
+}
+
+#[test]
+fn lasers_have_rates_of_their_own() {
+    let found = fit(&["--compare"]);
+    // Independent optimisers, to the digits that they gave.
+    close(&found["log_likelihood"], 93.738_929, 6e-9);
+    close(&found["random"]["shape"], 28.8786, 2e-6);
+    close(&found["random"]["rate"], 1.453_31, 4e-6);
+    close(&found["random"]["mean"], 19.871, 2e-5);
+    close(&found["beta"], 19.871, 2e-5);
+    close(&found["random"]["cv"], 1.0 / 28.8786_f64.sqrt(), 2e-6);
+    assert_eq!(found["boundary"], false);
+    close(&found["lr_test"]["statistic"], 2.0 * (93.738_929 - 69.609_358_92), 1e-8);
+    assert!(found["lr_test"]["p"].as_f64().expect("a number") < 1e-10);
+    close(&found["aic"], 6.0 - 2.0 * 93.738_929, 1e-8);
+    let rows = found["compare"].as_array().expect("rows");
+    for (process, random, expected) in [
+        ("gamma", false, 69.609_358_92),
+        ("gamma", true, 93.738_929),
+        ("inverse-gaussian", true, 95.326_768),
+        ("wiener", true, 69.188_413_7),
+    ] {
+        let row = rows.iter().find(|row| row["process"] == process && row["random"] == random);
+        close(&row.expect("a row")["log_likelihood"], expected, 1e-8);
+    }
+    assert_eq!(rows.len(), 6);
+}
+
+#[test]
+fn units_alike_are_an_answer_and_one_unit_is_refused() {
+    let folder = Folder::new("units-alike");
+    let rows: String = (0..5)
+        .flat_map(|unit| {
+            // The same increments in another order.
+            let wears = [0.8, 1.3, 0.6, 1.1, 1.5, 0.7];
+            let mut level = 0.0;
+            (0..6).map(move |at| {
+                level += wears[(at + unit) % 6];
+                format!("{unit},{},{level:.1}\n", at + 1)
+            })
+        })
+        .collect();
+    let file = folder.write("alike.csv", &format!("unit,t,w\n{rows}"));
+    let columns = ["--unit", "unit", "--wear", "w", "--exposure", "t", "--from-zero", "--random-effects"];
+    let out = folder.path("fit.json");
+    let arguments = [&["fit", &file], &columns[..], &["--format", "json", "--out", &out]].concat();
+    let found = linkwear(&arguments).json();
+    assert_eq!((&found["boundary"], &found["random"]["cv"]), (&true.into(), &0.0.into()));
+    assert_eq!(found["lr_test"]["p"], 1.0);
+    // A plain process, then, of every unit.
+    let predicted =
+        linkwear(&["predict", &out, "--threshold", "20", "--unit", "3", "--format", "json"]).json();
+    assert_eq!(predicted["current"], 6.0);
+    let one = folder.write("one.csv", "unit,t,w\n1,1,1\n1,2,2.5\n1,3,3\n1,4,4.7\n1,5,5\n1,6,6.3\n");
+    let refused = linkwear(&[&["fit", &one], &columns[..], &["--format", "json"]].concat());
+    assert_eq!(refused.code, 1);
+}
+
+#[test]
+fn a_unit_is_told_by_its_own_readings() {
+    let folder = Folder::new("units-predict");
+    let out = folder.path("fit.json");
+    fit(&["--out", &out]);
+    let ask = |more: &[&str]| {
+        linkwear(&[&["predict", &out, "--threshold", "15", "--format", "json"], more].concat())
+    };
+    let (any, fast) = (ask(&[]).json(), ask(&["--unit", "10"]).json());
+    // Laser 10 was last read with 12.21 % at 4000 hours. By the law of its rate after that its mean life is closed:
+    // (beta left + 1/2) / alpha, beta the mean of Gamma(28.8786 + 4 alpha, 1.45331 + 12.21).
+    close(&fast["current"], 12.21, 0.0);
+    let alpha = 39.0309;
+    let beta = (28.8786 + 4.0 * alpha) / (1.453_31 + 12.21);
+    close(&fast["mean"], (beta * (15.0 - 12.21) + 0.5) / alpha, 1e-5);
+    close(&any["mean"], (19.871 * 15.0 + 0.5) / alpha, 1e-5);
+    // E T² from E beta² = mean² (1 + cv²), var(T | beta) of shape a rate of 1: beta left / alpha² and more of order 1 / alpha².
+    let (width, plain) = (&any["interval95"], &fast["interval95"]);
+    let length =
+        |ends: &Value| ends["upper"].as_f64().expect("a number") - ends["lower"].as_f64().expect("a number");
+    assert!(length(width) > 4.0 * length(plain));
+    assert_eq!(any["interval95"]["kind"], "predictive");
+    // The same reading by hand is the same unit.
+    let by_hand = ask(&["--current", "12.21", "--at", "4"]).json();
+    close(&by_hand["mean"], fast["mean"].as_f64().expect("a number"), 1e-12);
+    for wrong in [
+        &["--unit", "99"][..],
+        &["--unit", "10", "--current", "13"],
+        &["--unit", "10", "--current", "11", "--at", "5"],
+    ] {
+        let refused = ask(wrong);
+        assert_eq!(refused.code, 1, "{wrong:?}");
+        assert!(!refused.errors()[0]["help"].as_str().expect("a text").is_empty());
+    }
+    // Readings of a laser that is not among the data.
+    let log = folder.write("log.csv", "t,w\n0,0\n1,3.1\n2,6.2\n3,9.0\n");
+    let inspected = ask(&["--inspections", &log, "--time", "t", "--wear", "w"]).json();
+    let same = ask(&["--current", "9", "--at", "3"]).json();
+    // The readings move the parameters of the population as well, but little beside 240 increments.
+    close(&inspected["mean"], same["mean"].as_f64().expect("a number"), 0.02);
+    let gauge =
+        ask(&["--inspections", &log, "--time", "t", "--wear", "w", "--gauge", "0.2", "--particles", "40000"])
+            .json();
+    // An error of 0.2 leaves the rate open by 0.2 of 9 more, and the wear by 0.2 of 6.
+    close(&gauge["mean"], same["mean"].as_f64().expect("a number"), 0.06);
+}
+
+#[test]
+fn a_joint_keeps_its_rate_and_threads_change_no_bit() {
+    let folder = Folder::new("units-life");
+    let random = r#"{ "process": "gamma", "alpha": 13.65, "beta": 13.65, "over_lambda": true, "random": { "cv": 0.2 } }"#;
+    let file = folder.write("fit.json", random);
+    let live = |threads: &str| {
+        linkwear(&[
+            "life",
+            "mechanisms/rssr.toml",
+            "--trajectories",
+            "400",
+            "--threads",
+            threads,
+            "--fit",
+            &file,
+            "--format",
+            "json",
+        ])
+        .json()
+    };
+    let (one, two) = (live("1"), live("2"));
+    assert_eq!(
+        (&one["mean"], &one["std"], &one["quantiles"]),
+        (&two["mean"], &two["std"], &two["quantiles"])
+    );
+    // Lives of one rate vary by 3.1 %; a rate that varies by 20 % is nearly all. Three standard errors of 400.
+    close(&one["cov"], 0.2, 3.0 * 0.036);
+}
