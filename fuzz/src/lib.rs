@@ -96,7 +96,7 @@ pub fn readings(text: &str) {
                 PROCESSES.into_iter().filter(|process| process.is_increasing() != (gauge == Gauge::Noisy))
             {
                 for power_law in [false, true] {
-                    let model = Model { process, power_law, covariates: 0, resolution };
+                    let model = Model { process, power_law, resolution, ..Model::default() };
                     if let Ok(fit) = estimate(&data, &model) {
                         assert!(
                             fit.parameters().iter().all(|value| value.is_finite() && *value > 0.0),
