@@ -23,6 +23,7 @@ mod matrix;
 pub mod metrics;
 pub mod monte_carlo;
 pub mod order;
+pub mod plan;
 mod prediction;
 pub mod process;
 mod quadrature;

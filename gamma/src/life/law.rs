@@ -85,6 +85,16 @@ impl Law {
         }
     }
 
+    /// Whether wear never falls.
+    pub(crate) fn is_increasing(&self) -> bool {
+        self.process.is_increasing()
+    }
+
+    /// Wear after an exposure > 0 that is not exceeded with probability `p`.
+    pub(crate) fn quantile(&self, exposure: f64, p: f64) -> f64 {
+        self.process.quantile(self.logs, exposure, p)
+    }
+
     /// Failures per unit of exposure among the survivors.
     pub(crate) fn hazard(&self, exposure: f64, left: f64) -> f64 {
         let Some(effect) = self.effect() else { return self.process.hazard(self.logs, exposure, left) };

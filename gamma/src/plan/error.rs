@@ -1,0 +1,39 @@
+//! Why there is no plan. Never knows files.
+
+use thiserror::Error;
+
+use crate::error::LifeError;
+
+/// A plan that cannot be made.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum PlanError {
+    /// A question that the law of life has no answer to.
+    #[error(transparent)]
+    Life(#[from] LifeError),
+    /// A planned replacement that is not cheaper than a failure.
+    #[error(
+        "a planned replacement costs {preventive}, a failure {failure}: replacing in time pays only where a failure costs more; give --failure all that it costs, downtime and damage too"
+    )]
+    NothingToSave {
+        /// Cost of a planned replacement.
+        preventive: f64,
+        /// Cost of a failure.
+        failure: f64,
+    },
+    /// A failure that nobody notices and that costs nothing while it lasts.
+    #[error("a failure that only a look finds must cost something while it lasts: give --downtime a cost per unit of time")]
+    FreeDowntime,
+    /// Wear that falls now and then.
+    #[error(
+        "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"
+    )]
+    FallingWear,
+    /// Too many parts or replacements to count.
+    #[error("{parts} parts and up to {each} replacements of each are too many to count; plan for fewer parts or a shorter time")]
+    TooMany {
+        /// Parts in use.
+        parts: usize,
+        /// Replacements of one.
+        each: usize,
+    },
+}

@@ -1,0 +1,24 @@
+//! Plans: when to replace a part, when to look at it, how many spares to keep, what a look is worth.
+//! In: a law of life, or of wear; costs in any one currency. Out: the cheapest plan in the long run, and what others cost.
+//! Never knows how laws were estimated, files.
+//!
+//! In the long run a cost per unit of time is the expected cost of a cycle, from new part to new part, over its expected
+//! length (the theorem of renewal and reward).
+
+mod age;
+mod condition;
+mod costs;
+mod error;
+mod search;
+mod spares;
+mod worth;
+
+pub use age::{AgePlan, PlannedLife, age_cost_rate, best_age};
+pub use condition::{ConditionCost, ConditionPlan, Detection, Monitored, best_inspection};
+pub use costs::{Costs, Looks};
+pub use error::PlanError;
+pub use spares::{Spares, spares};
+pub use worth::{InUse, Worth, worth_of_a_look};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,124 @@
+//! What one look at a part is worth. In: the part's state, costs, the time of the look. Out: expected costs with and without
+//! it. Never knows where the state comes from.
+//!
+//! The part in use ends, at failure or in time, and another takes its place, which costs g per unit of time from then on,
+//! whatever happens before. So a unit of time that the part in use lasts saves g: without a look it is replaced at the age T of
+//! the least
+//!
+//! ```text
+//! V(T) = c_p S(T) + c_f F(T) - g int_0^T S dt
+//! ```
+//!
+//! with a look at time u one knows the wear then and plans on from there; the worth of the look is what the expectation of
+//! that is below, before the look's own cost.
+
+use super::costs::Costs;
+use super::error::PlanError;
+use super::search::least;
+use crate::error::positive;
+use crate::life::{Clock, FirstPassage, Law, Lifetime};
+use crate::quadrature::integrate;
+
+/// Accuracy of an integral over reliability, as a part of the time; costs are told to four digits.
+const ACCURACY: f64 = 1e-8;
+/// Wear at the look that is told apart: even parts of its probability, each by its middle. Costs are piecewise smooth in the
+/// wear; the parts of the middle rule leave some 1e-4 of the costs.
+const PARTS: usize = 64;
+/// Ages tried, by their probability of failure.
+const TRIED: usize = 40;
+/// The last of them.
+const LATEST: f64 = 1e-4;
+
+/// A part in use.
+#[derive(Clone, Debug)]
+pub struct InUse {
+    /// Law of its wear.
+    pub law: Law,
+    /// How exposure runs.
+    pub clock: Clock,
+    /// Wear at failure.
+    pub failure: f64,
+    /// Wear now.
+    pub current: f64,
+    /// Time now, on the clock.
+    pub now: f64,
+}
+
+/// Expected costs of the part in use, each beside what the time it lasts saves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worth {
+    /// Without the look.
+    pub without: f64,
+    /// When it is replaced then, from now \[time\]; None if at failure only.
+    pub replace_after: Option<f64>,
+    /// With the look, before its own cost.
+    pub with: f64,
+    /// Probability that it fails before the look.
+    pub fails_before: f64,
+    /// Probability that the look shows that it has to be replaced at once.
+    pub replaced_at_once: f64,
+}
+
+impl Worth {
+    /// The most that a look may cost.
+    pub fn value(&self) -> f64 {
+        self.without - self.with
+    }
+}
+
+/// What a look at time `at` from now is worth, if time costs `rate` in the long run (that of [`super::best_age`], say).
+///
+/// # Errors
+/// [`PlanError::Life`].
+pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Result<Worth, PlanError> {
+    positive("the time of the look", at)?;
+    positive("the cost per unit of time", rate)?;
+    if !part.law.is_increasing() {
+        return Err(PlanError::FallingWear);
+    }
+    let life = |current: f64, now: f64| {
+        FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now)
+    };
+    let now = life(part.current, part.now)?;
+    let (without, replace_after) = cheapest(&now, costs, rate)?;
+    let used = integrate(&|t| [now.reliability(t)], &now.limits(at, &[]), [ACCURACY * at]).0[0];
+    let (fails_before, alive) = (now.failed(at), now.reliability(at));
+    let gained = now.exposure(at);
+    let (mut after, mut at_once) = (0.0, 0.0);
+    for k in 0..PARTS {
+        let p = alive * (k as f64 + 0.5) / PARTS as f64;
+        let worn = part.current + part.law.quantile(gained, p);
+        let on = if worn < part.failure { cheapest(&life(worn, part.now + at)?, costs, rate)?.0 } else { costs.preventive };
+        if on >= costs.preventive {
+            at_once += alive / PARTS as f64;
+        }
+        after += on.min(costs.preventive) * alive / PARTS as f64;
+    }
+    let with = costs.failure * fails_before - rate * used + after;
+    // Whoever looks need not act on it, and need not wait for the look to replace the part.
+    Ok(Worth { without, replace_after, with: with.min(without), fails_before, replaced_at_once: at_once })
+}
+
+/// The least expected cost of a part from here on, and when it is replaced.
+fn cheapest(life: &dyn Lifetime, costs: &Costs, rate: f64) -> Result<(f64, Option<f64>), PlanError> {
+    let mut ages = vec![0.0];
+    for k in 0..TRIED {
+        let p = LATEST + (1.0 - 2.0 * LATEST) * k as f64 / (TRIED - 1) as f64;
+        ages.push(life.quantile(p)?);
+    }
+    let mut known = vec![(0.0, 0.0)];
+    let mut value = |age: f64| {
+        let at = known.partition_point(|(from, _): &(f64, f64)| *from <= age).max(1);
+        let (from, used) = known[at - 1];
+        let mut limits = life.limits(age, &[from]);
+        limits.retain(|t| *t >= from);
+        let more = integrate(&|t| [life.reliability(t)], &limits, [ACCURACY * age]).0[0];
+        if at == known.len() {
+            known.push((age, used + more));
+        }
+        costs.preventive * life.reliability(age) + costs.failure * life.failed(age) - rate * (used + more)
+    };
+    let (age, least_value) = least(&ages, &mut value);
+    let never = costs.failure - rate * life.moments()?.mean;
+    Ok(if never <= least_value { (never, None) } else { (least_value, Some(age)) })
+}
