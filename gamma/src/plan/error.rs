@@ -21,7 +21,9 @@ pub enum PlanError {
         failure: f64,
     },
     /// A failure that nobody notices and that costs nothing while it lasts.
-    #[error("a failure that only a look finds must cost something while it lasts: give --downtime a cost per unit of time")]
+    #[error(
+        "a failure that only a look finds must cost something while it lasts: give --downtime a cost per unit of time"
+    )]
     FreeDowntime,
     /// Wear that falls now and then.
     #[error(
@@ -29,7 +31,9 @@ pub enum PlanError {
     )]
     FallingWear,
     /// Too many parts or replacements to count.
-    #[error("{parts} parts and up to {each} replacements of each are too many to count; plan for fewer parts or a shorter time")]
+    #[error(
+        "{parts} parts and up to {each} replacements of each are too many to count; plan for fewer parts or a shorter time"
+    )]
     TooMany {
         /// Parts in use.
         parts: usize,

@@ -139,7 +139,12 @@ fn added(a: &Counts, b: &Counts) -> Counts {
     let mut first = a.first + b.first;
     let tail = |values: &mut dyn Iterator<Item = &f64>| {
         let mut weight = 0.0;
-        values.take_while(|p| { weight += **p; weight < LEFT_OUT }).count()
+        values
+            .take_while(|p| {
+                weight += **p;
+                weight < LEFT_OUT
+            })
+            .count()
     };
     let (head, end) = (tail(&mut of.iter()), tail(&mut of.iter().rev()));
     of.truncate(of.len() - end.min(of.len() - 1));

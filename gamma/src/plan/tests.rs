@@ -213,7 +213,8 @@ fn no_plan_nearby_is_cheaper() {
             assert!(other.rate >= plan.cost.rate * (1.0 - 1e-9), "{plan:?} {interval} {threshold} {other:?}");
         }
         // To look is a choice more: not dearer than an age at which a look is made as well.
-        let age = best_age(&part.life().expect("valid"), &Costs::new(11.0, 50.0).expect("valid")).expect("a plan");
+        let age =
+            best_age(&part.life().expect("valid"), &Costs::new(11.0, 50.0).expect("valid")).expect("a plan");
         if detection == Detection::AtOnce {
             assert!(plan.cost.rate <= age.cost_rate * (1.0 + 1e-9), "{plan:?} {age:?}");
         }

@@ -76,9 +76,8 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
     if !part.law.is_increasing() {
         return Err(PlanError::FallingWear);
     }
-    let life = |current: f64, now: f64| {
-        FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now)
-    };
+    let life =
+        |current: f64, now: f64| FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now);
     let now = life(part.current, part.now)?;
     let (without, replace_after) = cheapest(&now, costs, rate)?;
     let used = integrate(&|t| [now.reliability(t)], &now.limits(at, &[]), [ACCURACY * at]).0[0];
@@ -88,7 +87,11 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
     for k in 0..PARTS {
         let p = alive * (k as f64 + 0.5) / PARTS as f64;
         let worn = part.current + part.law.quantile(gained, p);
-        let on = if worn < part.failure { cheapest(&life(worn, part.now + at)?, costs, rate)?.0 } else { costs.preventive };
+        let on = if worn < part.failure {
+            cheapest(&life(worn, part.now + at)?, costs, rate)?.0
+        } else {
+            costs.preventive
+        };
         if on >= costs.preventive {
             at_once += alive / PARTS as f64;
         }
