@@ -167,7 +167,8 @@ const fit = () => {
   const k = moving ? fine : STANDING, [w, h] = [Math.round(wide * k), Math.round(high * k)];
   if (w && h && (canvas.width !== w || canvas.height !== h)) { canvas.width = w; canvas.height = h; stale = true; }
 };
-new ResizeObserver(() => { wide = canvas.clientWidth; high = canvas.clientHeight; fit(); stale = true; }).observe(canvas);
+// The next picture fits itself: a canvas that is resized here, after a picture and before it is shown, would flash empty.
+new ResizeObserver(() => { wide = canvas.clientWidth; high = canvas.clientHeight; stale = true; }).observe(canvas);
 for (const bearing of bearings) sight.observe(bearing.canvas);
 
 // What is out of sight is drawn first of all, for paper, and in other colours.
