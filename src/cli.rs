@@ -26,6 +26,7 @@ mod packaging;
 mod page;
 #[cfg(feature = "page")]
 mod picture;
+mod plan;
 mod plot;
 mod predict;
 mod shipped_schemas;
@@ -87,6 +88,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Study(arguments) => study::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),
+        Command::Plan(arguments) => plan::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),
         Command::Diff(arguments) => diff::run(arguments),

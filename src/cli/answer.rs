@@ -12,6 +12,7 @@ pub mod fit;
 pub mod life;
 #[cfg(test)]
 mod measured;
+pub mod plan;
 pub mod predict;
 #[cfg(test)]
 mod schemas;

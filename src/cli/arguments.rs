@@ -15,7 +15,7 @@ use super::options::{
 use super::shipped_schemas::SCHEMAS;
 use super::starters::Starter;
 use super::study::StudyArguments;
-use super::value::{covariate, one_of, output, positive, threads};
+use super::value::{covariate, one_of, output, positive, threads, tolerance, within_one};
 
 const NOTATIONS: [(&str, TextFormat); 3] =
     [("text", TextFormat::Text), ("markdown", TextFormat::Markdown), ("latex", TextFormat::Latex)];
@@ -106,6 +106,12 @@ pub enum Command {
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
                       linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
     Predict(PredictArguments),
+    /// Plan replacements: the age of least cost, looks and the wear to replace from, spares, what a look is worth.
+    #[command(
+        after_help = "Examples:\n  linkwear plan fit.json --threshold 10 --preventive 200 --failure 1500 --inspection 30\n  \
+                      linkwear plan life --preventive 200 --failure 1500 --parts 12 --horizon 40"
+    )]
+    Plan(PlanArguments),
     /// Fit a process of wear (Gamma, Wiener, inverse Gaussian) to measured data by maximum likelihood.
     #[command(
         after_help = "Example:\n  linkwear fit examples/data/sliding_wear_100g.csv \\\n    --unit unit \
@@ -361,6 +367,63 @@ pub struct PredictArguments {
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
+}
+
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// Result of `linkwear fit .. --format json`; or lives, a folder of `life --out` or its lives.csv.
+    pub file: PathBuf,
+    /// Wear at failure, in the unit of the fit's data.
+    #[arg(long, value_name = "W", value_parser = positive)]
+    pub threshold: Option<f64>,
+    /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
+    pub covariate: Vec<(String, f64)>,
+    /// Exposure per unit of time; times are in that time [default: 1].
+    #[arg(long, value_name = "R", value_parser = positive, requires = "threshold")]
+    pub rate: Option<f64>,
+    /// Cost of a replacement in time, in any currency.
+    #[arg(long, value_name = "COST", value_parser = positive)]
+    pub preventive: f64,
+    /// Cost of a failure with its replacement and all that it does.
+    #[arg(long, value_name = "COST", value_parser = positive)]
+    pub failure: f64,
+    /// How long a replacement in time takes.
+    #[arg(long, value_name = "TIME", value_parser = tolerance, default_value = "0")]
+    pub preventive_time: f64,
+    /// How long the standstill after a failure takes.
+    #[arg(long, value_name = "TIME", value_parser = tolerance, default_value = "0")]
+    pub failure_time: f64,
+    /// Cost of a look at the wear: plan looks too.
+    #[arg(long, value_name = "COST", value_parser = positive)]
+    pub inspection: Option<f64>,
+    /// Only a look finds a failure, and until then each unit of time costs this; without it a failure shows at once.
+    #[arg(long, value_name = "COST", value_parser = positive, requires = "inspection")]
+    pub downtime: Option<f64>,
+    /// Time from look to look [default: the best].
+    #[arg(long, value_name = "TIME", value_parser = positive, requires = "inspection")]
+    pub interval: Option<f64>,
+    /// Wear from which a look has the part replaced [default: the best].
+    #[arg(long, value_name = "W", value_parser = positive, requires = "inspection")]
+    pub replace_from: Option<f64>,
+    /// What one look at the part in use would be worth, this long from now.
+    #[arg(long, value_name = "TIME", value_parser = positive)]
+    pub look_at: Option<f64>,
+    /// Wear of the part in use now [default: 0].
+    #[arg(long, value_name = "W0", value_parser = tolerance, requires = "look_at")]
+    pub current: Option<f64>,
+    /// Exposure of the part in use until now; needed with --current for a power law.
+    #[arg(long, value_name = "EXPOSURE", value_parser = tolerance, requires = "look_at")]
+    pub at: Option<f64>,
+    /// Parts in use, all new at the start: plan spares for them.
+    #[arg(long, value_name = "N", requires = "horizon")]
+    pub parts: Option<usize>,
+    /// Time that spares are planned for.
+    #[arg(long, value_name = "TIME", value_parser = positive, requires = "parts")]
+    pub horizon: Option<f64>,
+    /// Probability that the spares are enough.
+    #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95")]
+    pub confidence: f64,
 }
 
 #[derive(Debug, Args)]

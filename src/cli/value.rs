@@ -81,6 +81,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A probability, neither 0 nor 1.
+pub fn within_one(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
+        _ => Err("a number between 0 and 1 is needed, e.g. 0.95".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -238,6 +238,11 @@ fn fits_and_predictions_are_as_told() {
     asked(&[&["predict", &file, "--threshold", "25"], &gauge[..]].concat());
     let bare = folder.write("bare.json", r#"{ "alpha": 0.2, "beta": 1.5 }"#);
     asked(&["predict", &bare, "--threshold", "25"]);
+    let plan = ["plan", &bare, "--threshold", "25", "--preventive", "10", "--failure", "80"];
+    asked(&plan);
+    let looks =
+        ["--inspection", "1", "--downtime", "2", "--look-at", "20", "--parts", "3", "--horizon", "500"];
+    asked(&[&plan[..], &looks[..]].concat());
 }
 
 #[test]

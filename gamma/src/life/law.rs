@@ -90,7 +90,12 @@ impl Law {
         self.process.is_increasing()
     }
 
-    /// Wear after an exposure > 0 that is not exceeded with probability `p`.
+    /// Whether a unit has a parameter of its own, of which wear tells.
+    pub(crate) fn units_differ(&self) -> bool {
+        self.cv > 0.0
+    }
+
+    /// Wear of units that are alike after an exposure > 0, which is not exceeded with probability `p`.
     pub(crate) fn quantile(&self, exposure: f64, p: f64) -> f64 {
         self.process.quantile(self.logs, exposure, p)
     }

@@ -14,6 +14,7 @@ mod first_passage;
 mod law;
 mod lifetime;
 mod mixture;
+mod observed;
 mod ordered;
 mod state;
 mod statistics;
@@ -29,6 +30,7 @@ pub use law::Law;
 pub(crate) use lifetime::mixed_hazard;
 pub use lifetime::{Lifetime, Moments};
 pub use mixture::LifeMixture;
+pub use observed::ObservedLives;
 pub use state::OperatingState;
 pub use statistics::{LifeStatistics, WithError};
 

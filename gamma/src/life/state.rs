@@ -71,6 +71,20 @@ impl OperatingState {
         self.life_by(estimate, estimate.logs())
     }
 
+    /// Law of wear and clock of a part if the parameters are those estimated.
+    ///
+    /// # Errors
+    /// [`LifeError`], if a parameter leaves the range of numbers.
+    pub fn wear(&self, estimate: &Estimate) -> Result<(Law, Clock), LifeError> {
+        let exponent = exponent_of(estimate.logs(), estimate.units_differ());
+        Ok((estimate.law_at(estimate.logs())?, Clock::power(self.rate, exponent.unwrap_or(1.0))?))
+    }
+
+    /// Exposure until now.
+    pub fn exposure(&self) -> f64 {
+        self.exposure
+    }
+
     /// The same at other logarithms of what was estimated.
     pub(crate) fn life_by(&self, estimate: &Estimate, logs: &[f64]) -> Result<FirstPassage, LifeError> {
         self.life_of(estimate.law_at(logs)?, exponent_of(logs, estimate.units_differ()))

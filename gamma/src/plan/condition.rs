@@ -81,16 +81,23 @@ pub struct ConditionCost {
     pub unnoticed: f64,
 }
 
+/// Refuses a law by which the wear at a look does not say all that there is to know of a part.
+pub(super) fn known_by_its_wear(law: &Law) -> Result<(), PlanError> {
+    match (law.is_increasing(), law.units_differ()) {
+        (false, _) => Err(PlanError::FallingWear),
+        (_, true) => Err(PlanError::UnitsDiffer),
+        _ => Ok(()),
+    }
+}
+
 impl Monitored {
     /// A new part that fails at wear `failure`.
     ///
     /// # Errors
-    /// [`PlanError::FallingWear`], [`PlanError::Life`] for a threshold that is not positive.
+    /// [`PlanError::FallingWear`], [`PlanError::UnitsDiffer`], [`PlanError::Life`] for a threshold that is not positive.
     pub fn new(law: Law, clock: Clock, failure: f64) -> Result<Self, PlanError> {
         positive("the threshold", failure)?;
-        if !law.is_increasing() {
-            return Err(PlanError::FallingWear);
-        }
+        known_by_its_wear(&law)?;
         Ok(Self { law, clock, failure })
     }
 

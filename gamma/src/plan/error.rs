@@ -30,6 +30,11 @@ pub enum PlanError {
         "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"
     )]
     FallingWear,
+    /// Units with rates of their own, which a look tells of.
+    #[error(
+        "units differ in this fit, and a look at one tells of its own rate too: that is not planned with; plan by age, or fit without --random-effects and plan as if units were alike"
+    )]
+    UnitsDiffer,
     /// Too many parts or replacements to count.
     #[error(
         "{parts} parts and up to {each} replacements of each are too many to count; plan for fewer parts or a shorter time"

@@ -12,6 +12,7 @@
 //! with a look at time u one knows the wear then and plans on from there; the worth of the look is what the expectation of
 //! that is below, before the look's own cost.
 
+use super::condition::known_by_its_wear;
 use super::costs::Costs;
 use super::error::PlanError;
 use super::search::least;
@@ -73,9 +74,7 @@ impl Worth {
 pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Result<Worth, PlanError> {
     positive("the time of the look", at)?;
     positive("the cost per unit of time", rate)?;
-    if !part.law.is_increasing() {
-        return Err(PlanError::FallingWear);
-    }
+    known_by_its_wear(&part.law)?;
     let life =
         |current: f64, now: f64| FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now);
     let now = life(part.current, part.now)?;

@@ -1,0 +1,113 @@
+//! `plan`: replacement, looks, spares, by the command line, from a fit and from lives.
+
+mod command;
+
+use command::{Folder, linkwear};
+use serde_json::Value;
+
+/// Wear of a Gamma process: mean 2 per unit of exposure, threshold 20 in the tests.
+const FIT: &str = r#"{ "alpha": 2.0, "beta": 1.0, "exponent": null }"#;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn plan(file: &str, more: &[&str]) -> Value {
+    let costs = ["plan", file, "--preventive", "100", "--failure", "900", "--format", "json"];
+    linkwear(&[&costs[..], more].concat()).json()
+}
+
+#[test]
+fn a_fit_gives_ages_looks_and_spares_that_agree_with_each_other() {
+    let folder = Folder::new("plan-fit");
+    let fit = folder.write("fit.json", FIT);
+    let base = ["--threshold", "20"];
+    let told = plan(&fit, &[&base[..], &["--inspection", "2", "--parts", "5", "--horizon", "30"]].concat());
+    // The mean life of `predict` gives the cost of waiting.
+    let life = linkwear(&["predict", &fit, "--threshold", "20", "--format", "json"]).json();
+    let waiting = number(&told["at_failure"]["cost_rate"]);
+    assert!((waiting - 900.0 / number(&life["mean"])).abs() < 1e-9 * waiting);
+    let (age, looks) = (&told["by_age"], &told["by_looks"]);
+    assert!(number(&age["cost_rate"]) < waiting && number(&age["age"]) < number(&life["mean"]), "{told}");
+    // Cheap looks save more than an age.
+    assert!(number(&looks["cost_rate"]) < number(&age["cost_rate"]), "{told}");
+    assert_eq!(looks["failures"], "at once");
+    let spares = &told["spares"];
+    assert!(number(&spares["by_age"]["mean"]) > number(&spares["at_failure"]["mean"]));
+    for policy in ["at_failure", "by_age"] {
+        assert!(number(&spares[policy]["enough"]) >= 0.95, "{spares}");
+        assert!(number(&spares[policy]["needed"]) >= number(&spares[policy]["mean"]).floor(), "{spares}");
+    }
+    // Twice the exposure in a unit of time: half the times, twice the rates.
+    let fast = plan(&fit, &[&base[..], &["--rate", "2", "--inspection", "2"]].concat());
+    assert!((number(&fast["by_age"]["age"]) / number(&age["age"]) - 0.5).abs() < 1e-5);
+    assert!((number(&fast["at_failure"]["cost_rate"]) / waiting - 2.0).abs() < 1e-9);
+    // What only a look finds costs more than what shows at once.
+    let hidden = plan(&fit, &[&base[..], &["--inspection", "2", "--downtime", "50"]].concat());
+    assert_eq!(hidden["by_looks"]["failures"], "at a look");
+    assert!(number(&hidden["by_looks"]["cost_rate"]) > number(&looks["cost_rate"]), "{hidden}");
+    assert!(number(&hidden["by_looks"]["unnoticed"]) > 0.0);
+    // A plan of one's own costs no less than the best.
+    let own = [&base[..], &["--inspection", "2", "--interval", "4", "--replace-from", "10"]].concat();
+    let own = plan(&fit, &own);
+    assert_eq!((number(&own["by_looks"]["interval"]), number(&own["by_looks"]["threshold"])), (4.0, 10.0));
+    assert!(number(&own["by_looks"]["cost_rate"]) >= number(&looks["cost_rate"]));
+    // A look long before any failure is worth little, one at the right time something.
+    let look = |at: &str| {
+        let told = plan(&fit, &[&base[..], &["--look-at", at, "--current", "8"]].concat());
+        number(&told["look"]["value"])
+    };
+    assert!(look("0.01") >= 0.0 && look("2") > look("0.01"), "{} {}", look("0.01"), look("2"));
+}
+
+#[test]
+fn lives_give_the_plan_of_their_law() {
+    let folder = Folder::new("plan-lives");
+    // 999 quantiles of a Weibull law of shape 2.5 and scale 1000, whose best age is published: 493.05 (Python package
+    // `reliability`, version 0.5) for costs of 1 and 5.
+    let mut table = "trajectory,life [cycles],whole cycles,failed joint\n".to_owned();
+    for k in 0..999 {
+        let life = 1000.0 * (-(-(f64::from(k) + 0.5) / 999.0).ln_1p()).powf(0.4);
+        table.push_str(&format!("{k},{life},{},R1\n", life.ceil()));
+    }
+    let file = folder.write("lives.csv", &table);
+    let ask = |path: &str| {
+        linkwear(&["plan", path, "--preventive", "1", "--failure", "5", "--format", "json"]).json()
+    };
+    let told = ask(&file);
+    // Steps of 1 % in the lives; the minimum is flat.
+    assert!((number(&told["by_age"]["age"]) / 493.05 - 1.0).abs() < 0.05, "{told}");
+    assert!((number(&told["by_age"]["cost_rate"]) / 0.003_462 - 1.0).abs() < 0.005, "{told}");
+    let folder_told = ask(file.trim_end_matches("/lives.csv"));
+    assert_eq!(told["by_age"], folder_told["by_age"]);
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused_with_the_reason() {
+    let folder = Folder::new("plan-wrong");
+    let fit = folder.write("fit.json", FIT);
+    let refused = |arguments: &[&str]| {
+        let answer = linkwear(&[&["plan"], arguments].concat());
+        assert_ne!(answer.code, 0, "{}", answer.out);
+        (answer.code, answer.err.clone())
+    };
+    let costs = ["--preventive", "100", "--failure", "900"];
+    let (code, text) = refused(&[&[fit.as_str()], &costs[..]].concat());
+    assert!(code == 2 && text.contains("--threshold"), "{text}");
+    let (code, text) = refused(&[&fit, "--threshold", "20", "--preventive", "100", "--failure", "90"]);
+    assert!(code == 1 && text.contains("pays only where a failure costs more"), "{text}");
+    let wiener = r#"{ "process": "wiener", "drift": 2.0, "spread": 1.0, "exponent": null }"#;
+    let wiener = folder.write("wiener.json", wiener);
+    let looks = [&[wiener.as_str(), "--threshold", "20", "--inspection", "5"], &costs[..]].concat();
+    let (code, text) = refused(&looks);
+    assert!(code == 1 && text.contains("never falls"), "{text}");
+    let lives = folder.write("lives.csv", "life [cycles]\n3\n4\n");
+    let (code, text) = refused(&[&[lives.as_str(), "--inspection", "5"], &costs[..]].concat());
+    assert!(code == 2 && text.contains("lives tell nothing of the wear"), "{text}");
+    let bad = folder.write("bad.csv", "life [cycles]\n3\n-4\n");
+    let (code, text) = refused(&[&[bad.as_str()], &costs[..]].concat());
+    assert!(code == 1 && text.contains("bad.csv:3"), "{text}");
+    let above = ["--threshold", "20", "--inspection", "5", "--replace-from", "21"];
+    let (code, _) = refused(&[&[fit.as_str()], &above[..], &costs[..]].concat());
+    assert_eq!(code, 1);
+}
