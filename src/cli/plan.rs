@@ -31,7 +31,7 @@ const FEW: usize = 200;
 
 /// What is planned for.
 enum Source {
-    Fit(Estimate, OperatingState, FitFile),
+    Fit(Box<(Estimate, OperatingState, FitFile)>),
     Lives(ObservedLives, usize, String),
 }
 
@@ -45,7 +45,8 @@ pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
         .map_err(wrong)?;
     let plans = plans(arguments, &source, &costs).map_err(wrong)?;
     let (from, sha256, warnings) = match &source {
-        Source::Fit(_, _, fit) => {
+        Source::Fit(fit) => {
+            let (.., fit) = &**fit;
             let warnings: Vec<String> = fit.warning().into_iter().map(str::to_owned).collect();
             ("fit", sha256_of(fit.text().as_bytes()), warnings)
         }
@@ -92,7 +93,7 @@ fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
     if let Some(rate) = arguments.rate {
         state = state.at_rate(rate).map_err(asked)?;
     }
-    Ok(Source::Fit(estimate, state, fit))
+    Ok(Source::Fit(Box::new((estimate, state, fit))))
 }
 
 fn lives(file: &Path) -> Result<Source, Failure> {
@@ -119,7 +120,8 @@ struct Plans {
 fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Plans, PlanError> {
     let fresh;
     let life: &dyn Lifetime = match source {
-        Source::Fit(estimate, state, _) => {
+        Source::Fit(fit) => {
+            let (estimate, state, _) = &**fit;
             fresh = state.life(estimate)?;
             &fresh
         }
@@ -127,7 +129,8 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
     };
     let age = best_age(life, costs)?;
     let mut plans = Plans { age, looks: None, look: None, spares: None };
-    if let Source::Fit(estimate, state, _) = source {
+    if let Source::Fit(fit) = source {
+        let (estimate, state, _) = &**fit;
         if let Some(inspection) = arguments.inspection {
             let looks = Looks::new(inspection, arguments.downtime.unwrap_or(0.0))?;
             let detection = if arguments.downtime.is_some() { Detection::AtALook } else { Detection::AtOnce };
