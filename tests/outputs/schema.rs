@@ -75,6 +75,8 @@ fn check(root: &Value, schema: &Value, value: &Value, at: &str, found: &mut Vec<
         let of_each: Vec<Vec<String>> = of_each.collect();
         if of_each.iter().all(|own| !own.is_empty()) {
             found.push(format!("{at}: none of the variants: {}", of_each.concat().join("; ")));
+        } else if keyword == "oneOf" && of_each.iter().filter(|own| own.is_empty()).count() > 1 {
+            found.push(format!("{at}: several of the variants"));
         }
     }
     if let Value::Object(object) = value {
