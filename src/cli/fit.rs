@@ -68,14 +68,13 @@ pub fn fitted(
             .map_err(|error| no_fit(arguments, name, error))
     };
     let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
-    let data = &pooled.data;
-    let pooled = analysis(&pooled)?;
-    let test = ratio(&pooled, &parts);
+    let all = analysis(&pooled)?;
+    let test = ratio(&all, &parts);
     #[cfg(feature = "page")]
-    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&pooled.fit, &pooled.goodness, data))?;
+    picture::write_plot(arguments.plot.as_deref(), || fit_picture(&all.fit, &all.goodness, &pooled.data))?;
     let provenance = provenance(arguments, table);
-    let file = format!("{:#}\n", sealed(pooled.file.to_json(), Some(&provenance)));
-    Ok(Fitted { answer: report::answer(arguments, &pooled, &parts, test, &provenance), file })
+    let file = format!("{:#}\n", sealed(all.file.to_json(), Some(&provenance)));
+    Ok(Fitted { answer: report::answer(arguments, &all, &parts, test, &provenance), file })
 }
 
 /// Some of the replicates, by their numbers.

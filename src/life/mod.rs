@@ -30,7 +30,9 @@ pub use error::{Cause, LifeError};
 pub use facts::LifeFacts;
 pub use fit::{JointFit, UnfitForLife};
 pub use journal::LifeJournal;
+#[cfg(feature = "page")]
 pub(crate) use journal::NAME as JOURNAL;
+#[cfg(feature = "page")]
 pub(crate) use part::NAME as SHARD;
 pub use part::{LifePart, merge};
 pub use paths::{LifePaths, Spread};
