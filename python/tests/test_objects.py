@@ -80,8 +80,11 @@ def test_other_threads_run_beside_a_life() -> None:
 
 
 def test_an_interrupt_ends_a_life(tmp_path: Path) -> None:
+    # A shell that starts tests in the background has them ignore interrupts, and Python takes that over.
     code = f"""
+import signal
 import linkwear as lw
+signal.signal(signal.SIGINT, signal.default_int_handler)
 mechanism = lw.compile({str(file("rssr"))!r})
 print("begin", flush=True)
 try:
