@@ -97,7 +97,11 @@ except KeyboardInterrupt:
     assert process.stdout.readline() == "begin\n"
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
-    rest, _ = process.communicate(timeout=60)
+    try:
+        rest, _ = process.communicate(timeout=60)
+    finally:
+        # One that did not hear would go on for hours.
+        process.kill()
     assert rest == "interrupted\n"
 
 
