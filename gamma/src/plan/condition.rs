@@ -112,7 +112,7 @@ impl Monitored {
     /// Cost of a plan.
     ///
     /// # Errors
-    /// [`PlanError::Life`] for an interval or threshold out of range, [`PlanError::FreeDowntime`].
+    /// [`PlanError::Life`] for an interval or threshold out of range, [`PlanError::TooOften`], [`PlanError::FreeDowntime`].
     pub fn cost(
         &self,
         costs: &Costs,
@@ -125,6 +125,9 @@ impl Monitored {
         positive("the threshold of replacement", threshold)?;
         if threshold > self.failure {
             return Err(LifeError::Failed { threshold: self.failure, current: threshold }.into());
+        }
+        if self.law.survival(self.clock.exposure(interval * MOST as f64), threshold) >= GONE {
+            return Err(PlanError::TooOften { interval, looks: MOST });
         }
         if detection == Detection::AtALook && looks.downtime <= 0.0 {
             return Err(PlanError::FreeDowntime);
@@ -224,8 +227,8 @@ pub fn best_inspection(
         || even((THRESHOLDS.0 * part.failure, THRESHOLDS.1 * part.failure), TRIED.1),
         |threshold| vec![threshold],
     );
-    // Both ends are valid, and with them all between.
-    part.cost(costs, looks, detection, libm::exp(logs[0]), levels[0])?;
+    // The most looks that a life can have: if they can be counted, all can.
+    part.cost(costs, looks, detection, libm::exp(logs[0]), levels[levels.len() - 1])?;
     let rate = |log: f64, level: f64| part.cycle(costs, looks, detection, libm::exp(log), level).rate;
     let mut best = (f64::INFINITY, logs[0], levels[0]);
     for log in &logs {

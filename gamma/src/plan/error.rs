@@ -30,6 +30,14 @@ pub enum PlanError {
         "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"
     )]
     FallingWear,
+    /// Looks that follow each other so fast that a life has too many to count.
+    #[error("with a look every {interval}, parts are still in use after {looks} looks: look less often")]
+    TooOften {
+        /// Time from look to look.
+        interval: f64,
+        /// Looks that are counted.
+        looks: usize,
+    },
     /// Units with rates of their own, which a look tells of.
     #[error(
         "units differ in this fit, and a look at one tells of its own rate too: that is not planned with; plan by age, or fit without --random-effects and plan as if units were alike"

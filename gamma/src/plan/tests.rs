@@ -232,6 +232,9 @@ fn questions_without_an_answer_say_so() {
     assert_eq!(part.cost(&costs, &free, Detection::AtALook, 1.0, 5.0), Err(PlanError::FreeDowntime));
     let above = part.cost(&costs, &free, Detection::AtOnce, 1.0, 11.0);
     assert!(matches!(above, Err(PlanError::Life(LifeError::Failed { .. }))));
+    // After 20,000 looks all parts are still there: what is summed up by then is no cycle.
+    let often = part.cost(&costs, &free, Detection::AtOnce, 1e-5, 5.0);
+    assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
     let free = Looks::new(0.0, 0.0).expect("valid");
     assert!(best_inspection(&part, &costs, &free, Detection::AtOnce, None, None).is_err());
 }
