@@ -3,6 +3,7 @@
 mod command;
 
 use command::{Folder, linkwear};
+use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr_rigid.toml";
 
@@ -12,6 +13,12 @@ fn simulated(folder: &Folder, name: &str, tolerance: &str) -> [String; 2] {
     let answer = linkwear(&["simulate", RSSR, "--tol", tolerance, "--out", &rows, "--format", "json"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
     [rows, folder.write(&format!("{name}.json"), &answer.out)]
+}
+
+/// What differs.
+fn keys(told: &Value) -> Vec<&str> {
+    let differences = told["differences"].as_array().expect("a list");
+    differences.iter().filter_map(|one| one["key"].as_str()).collect()
 }
 
 #[test]
@@ -48,12 +55,7 @@ fn what_runs_are_of_comes_first_then_columns_with_the_place_of_their_largest_dif
     assert_eq!(first["place"]["column"], "t [s]");
     // The same in JSON; the time it took here is not compared.
     let told = linkwear(&["diff", &rough_json, &fine_json, "--format", "json"]).json();
-    let keys: Vec<&str> = told["differences"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .filter_map(|one| one["key"].as_str())
-        .collect();
+    let keys = keys(&told);
     assert!(keys.contains(&"steps") && !keys.contains(&"wall_seconds"), "{keys:?}");
 }
 
@@ -104,12 +106,7 @@ fn lives_are_compared_by_their_folders_and_tables_with_names() {
     let (one, other) = (lived("1"), lived("2"));
     let told = linkwear(&["diff", &one, &other, "--format", "json"]).json();
     assert_eq!((&told["kind"], &told["made"][0]["key"]), (&"a result of life".into(), &"seed".into()));
-    let keys: Vec<&str> = told["differences"]
-        .as_array()
-        .expect("a list")
-        .iter()
-        .filter_map(|one| one["key"].as_str())
-        .collect();
+    let keys = keys(&told);
     assert!(keys.contains(&"mean") && !keys.contains(&"mean_path.cycles"), "{keys:?}");
     let rows = |life: &str| format!("{life}/lives.csv");
     let told = linkwear(&["diff", &rows(&one), &rows(&other), "--format", "json"]).json();

@@ -8,7 +8,7 @@ use crate::table::is_stdout;
 use linkwear_codegen::input::{Reach, read_text};
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_gamma::FitFile;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::colour;
 use super::failure::{Failure, entries};
@@ -89,4 +89,9 @@ pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure
 pub fn read_fit(file: &Path) -> Result<FitFile, Failure> {
     FitFile::parse(&read_text(file, limits::DATA_BYTES).map_err(Failure::read(file))?)
         .map_err(Failure::fit(file))
+}
+
+/// Values of covariates, as provenance tells them.
+pub fn covariates(values: &[(String, f64)]) -> Value {
+    values.iter().map(|(name, value)| (name.clone(), json!(value))).collect()
 }

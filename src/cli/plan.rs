@@ -6,8 +6,8 @@ use std::path::Path;
 use linkwear_gamma::FitFile;
 use linkwear_gamma::life::{Estimate, LifeError, Lifetime, ObservedLives, OperatingState};
 use linkwear_gamma::plan::{
-    AgePlan, ConditionPlan, Costs, Detection, InUse, Looks, Monitored, PlanError, PlannedLife, Spares, Worth,
-    best_age, best_inspection, spares, worth_of_a_look,
+    AgePlan, ConditionPlan, Costs, InUse, Looks, Monitored, PlanError, PlannedLife, Spares, Worth, best_age,
+    best_inspection, spares, worth_of_a_look,
 };
 use serde_json::{Value, json};
 
@@ -17,15 +17,14 @@ use super::answer::plan::{
 };
 use super::arguments::PlanArguments;
 use super::failure::Failure;
-use super::input::read_fit;
+use super::input::{covariates, read_fit};
+use super::life::folder::{LIFE_OF_LIVES, LIVES};
 use super::table::table;
 use crate::checksum::sha256_of;
 use crate::csv_table::CsvTable;
 use crate::number::number;
 use crate::provenance::Provenance;
 
-/// The table of lives in a folder of `life --out`, and its column.
-const LIVES: (&str, &str) = ("lives.csv", "life [cycles]");
 /// Lives below which the best age is told with a warning: the cost of so few lies some percent too low.
 const FEW: usize = 200;
 
@@ -64,7 +63,7 @@ pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
 
 fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
     let file = &arguments.file;
-    let folder = file.is_dir().then(|| file.join(LIVES.0));
+    let folder = file.is_dir().then(|| file.join(LIVES));
     let is_table = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("csv"));
     if let Some(table) = folder.as_deref().or(is_table.then_some(file.as_path())) {
         let needs_wear = [
@@ -89,16 +88,13 @@ fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
     let asked = |error: LifeError| {
         Failure::data(file, None, error, "see `linkwear plan --help` for what the options mean")
     };
-    let mut state = OperatingState::new(threshold).map_err(asked)?;
-    if let Some(rate) = arguments.rate {
-        state = state.at_rate(rate).map_err(asked)?;
-    }
+    let state = OperatingState::of(&estimate, threshold, arguments.rate, (None, None)).map_err(asked)?;
     Ok(Source::Fit(Box::new((estimate, state, fit))))
 }
 
 fn lives(file: &Path) -> Result<Source, Failure> {
     let table = CsvTable::read(file)?;
-    let lives = table.numbers(LIVES.1)?;
+    let lives = table.numbers(LIFE_OF_LIVES)?;
     let law = ObservedLives::of(&lives).map_err(|error| {
         let line = match error {
             LifeError::Life { row, .. } => table.lines().nth(row - 1),
@@ -112,7 +108,7 @@ fn lives(file: &Path) -> Result<Source, Failure> {
 /// All that was asked for.
 struct Plans {
     age: AgePlan,
-    looks: Option<(ConditionPlan, Detection)>,
+    looks: Option<ConditionPlan>,
     look: Option<Worth>,
     spares: Option<(Spares, Option<Spares>)>,
 }
@@ -132,22 +128,16 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
     if let Source::Fit(fit) = source {
         let (estimate, state, _) = &**fit;
         if let Some(inspection) = arguments.inspection {
-            let looks = Looks::new(inspection, arguments.downtime.unwrap_or(0.0))?;
-            let detection = if arguments.downtime.is_some() { Detection::AtALook } else { Detection::AtOnce };
+            let looks = Looks::new(inspection, arguments.downtime)?;
             let (law, clock) = state.wear(estimate)?;
             let part = Monitored::new(law, clock, state.threshold())?;
             let (interval, threshold) = (arguments.interval, arguments.replace_from);
-            let plan = best_inspection(&part, costs, &looks, detection, interval, threshold)?;
-            plans.looks = Some((plan, detection));
+            plans.looks = Some(best_inspection(&part, costs, &looks, interval, threshold)?);
         }
         if let Some(at) = arguments.look_at {
-            let (law, clock) = state.wear(estimate)?;
-            let current = arguments.current.unwrap_or(0.0);
-            if current > 0.0 && arguments.at.is_none() && estimate.exponent().is_some() {
-                return Err(LifeError::ExposureMissing.into());
-            }
-            let now = arguments.at.unwrap_or(0.0) / state.rate();
-            let part = InUse { law, clock, failure: state.threshold(), current, now };
+            let now = (arguments.current, arguments.at);
+            let used = OperatingState::of(estimate, state.threshold(), arguments.rate, now)?;
+            let part = InUse::of(estimate, &used)?;
             plans.look = Some(worth_of_a_look(&part, costs, age.cost_rate, at)?);
         }
     }
@@ -162,7 +152,7 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
 impl Plans {
     fn told(&self, arguments: &PlanArguments, from: &'static str, mut warnings: Vec<String>) -> PlanAnswer {
         let Self { age, .. } = self;
-        if self.looks.is_some_and(|(plan, _)| plan.at_an_end) {
+        if self.looks.is_some_and(|plan| plan.at_an_end) {
             warnings.push(
                 "the interval is at an end of what was tried, 1/64 to 3 mean lives: looking still more often, or never, may cost less"
                     .to_owned(),
@@ -179,8 +169,8 @@ impl Plans {
                 fail: age.fail,
                 mean_use: age.mean_use,
             },
-            by_looks: self.looks.map(|(plan, detection)| ByLooksAnswer {
-                failures: if detection == Detection::AtOnce { "at once" } else { "at a look" },
+            by_looks: self.looks.map(|plan| ByLooksAnswer {
+                failures: if arguments.downtime.is_none() { "at once" } else { "at a look" },
                 interval: plan.interval,
                 threshold: plan.threshold,
                 cost_rate: plan.cost.rate,
@@ -216,7 +206,7 @@ impl Plans {
 fn options(arguments: &PlanArguments) -> Value {
     json!({
         "threshold": arguments.threshold, "rate": arguments.rate,
-        "covariates": arguments.covariate.iter().map(|(name, value)| (name.clone(), json!(value))).collect::<Value>(),
+        "covariates": covariates(&arguments.covariate),
         "preventive": arguments.preventive, "failure": arguments.failure,
         "preventive_time": arguments.preventive_time, "failure_time": arguments.failure_time,
         "inspection": arguments.inspection, "downtime": arguments.downtime,

@@ -10,13 +10,13 @@ use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Readin
 use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState, SeenUnit};
 use linkwear_gamma::{FitFile, Prediction};
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::answer::Answer;
 use super::answer::predict::PredictAnswer;
 use super::arguments::PredictArguments;
 use super::failure::Failure;
-use super::input::read_fit;
+use super::input::{covariates, read_fit};
 use super::table::table;
 
 /// Every how many-th time is shown to people.
@@ -46,7 +46,7 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
     answer.warnings.splice(0..0, fit.warning().into_iter().chain(warning).map(str::to_owned));
     let mut options = json!({
         "threshold": arguments.threshold, "current": arguments.current, "at": arguments.at,
-        "covariates": arguments.covariate.iter().map(|(name, value)| (name.clone(), json!(value))).collect::<Value>(),
+        "covariates": covariates(&arguments.covariate),
         "rate": arguments.rate, "gauge": arguments.gauge, "flat_prior": arguments.flat_prior,
         "particles": arguments.gauge.map(|_| arguments.particles), "draws": arguments.draws,
         "inspections_sha256": inspections.map(CsvTable::sha256),
@@ -124,16 +124,8 @@ fn state(
     current: Option<f64>,
     at: Option<f64>,
 ) -> Result<OperatingState, Failure> {
-    let wrong = |error: LifeError| asked(arguments, &error);
-    let mut state = OperatingState::new(arguments.threshold).map_err(wrong)?;
-    if let Some(rate) = arguments.rate {
-        state = state.at_rate(rate).map_err(wrong)?;
-    }
-    let current = current.unwrap_or(0.0);
-    if current > 0.0 && at.is_none() && estimate.exponent().is_some() {
-        return Err(asked(arguments, &LifeError::ExposureMissing));
-    }
-    state.worn(current, at.unwrap_or(0.0)).map_err(wrong)
+    OperatingState::of(estimate, arguments.threshold, arguments.rate, (current, at))
+        .map_err(|error| asked(arguments, &error))
 }
 
 fn predict(

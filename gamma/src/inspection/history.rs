@@ -72,6 +72,15 @@ impl History {
         &self.readings
     }
 
+    /// From each reading to the next: exposure before and after at `rate` units of it per unit of time, wear between.
+    pub(super) fn increments(&self, rate: f64) -> Vec<[f64; 3]> {
+        let between = |pair: &[Reading]| {
+            let [from, to] = [pair[0].time, pair[1].time].map(|time| rate * time);
+            [from, to, pair[1].wear - pair[0].wear]
+        };
+        self.readings.windows(2).map(between).collect()
+    }
+
     /// The last reading.
     pub fn last(&self) -> Reading {
         self.readings[self.readings.len() - 1]

@@ -6,7 +6,7 @@
 
 use super::credible::Mixture;
 use super::error::InspectionError;
-use super::history::{History, Reading};
+use super::history::History;
 use crate::error::LifeError;
 use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState, Sample, SeenUnit, mixed_hazard};
 use crate::random::Stream;
@@ -37,11 +37,7 @@ impl UnitPosterior {
     ) -> Result<Self, InspectionError> {
         let last = history.last();
         let now = state.clone().worn(last.wear, state.rate() * last.time)?;
-        let between = |pair: &[Reading]| {
-            let [from, to] = [pair[0].time, pair[1].time].map(|time| state.rate() * time);
-            [from, to, pair[1].wear - pair[0].wear]
-        };
-        let increments: Vec<[f64; 3]> = history.readings().windows(2).map(between).collect();
+        let increments = history.increments(state.rate());
         let wear = increments.iter().map(|one| one[2]).sum();
         let seen = SeenUnit { spans: increments.iter().map(|one| [one[0], one[1]]).collect(), wear };
         let unit = prior.clone().of_unit(seen);

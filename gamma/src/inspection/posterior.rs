@@ -8,7 +8,7 @@
 
 use super::credible::Mixture;
 use super::error::InspectionError;
-use super::history::{History, Reading};
+use super::history::History;
 use super::likelihood::Likelihood;
 use super::prior::Prior;
 use crate::error::LifeError;
@@ -59,11 +59,7 @@ impl Posterior {
     pub fn update(history: &History, prior: &Prior, state: &OperatingState) -> Result<Self, InspectionError> {
         let last = history.last();
         let now = state.clone().worn(last.wear, state.rate() * last.time)?;
-        let between = |pair: &[Reading]| {
-            let [from, to] = [pair[0].time, pair[1].time].map(|time| state.rate() * time);
-            [from, to, pair[1].wear - pair[0].wear]
-        };
-        let increments: Vec<[f64; 3]> = history.readings().windows(2).map(between).collect();
+        let increments = history.increments(state.rate());
         Self::of_increments(&increments, prior, &now)
     }
 

@@ -239,22 +239,8 @@ fn end(reliability: &dyn Fn(f64) -> f64, scale: f64, gone: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Weibull;
     use super::*;
-
-    /// Weibull law: closed forms for everything.
-    struct Weibull {
-        scale: f64,
-        shape: f64,
-    }
-
-    impl Lifetime for Weibull {
-        fn reliability(&self, t: f64) -> f64 {
-            (-(t.max(0.0) / self.scale).powf(self.shape)).exp()
-        }
-        fn typical(&self) -> f64 {
-            self.scale
-        }
-    }
 
     #[test]
     fn moments_and_quantiles_of_a_known_law() {

@@ -18,6 +18,8 @@ mod observed;
 mod ordered;
 mod state;
 mod statistics;
+#[cfg(test)]
+mod weibull;
 
 pub use crate::error::LifeError;
 pub use band::{Band, Bands, Method};
@@ -33,6 +35,8 @@ pub use mixture::LifeMixture;
 pub use observed::ObservedLives;
 pub use state::OperatingState;
 pub use statistics::{LifeStatistics, WithError};
+#[cfg(test)]
+pub(crate) use weibull::Weibull;
 
 #[cfg(test)]
 mod tests;

@@ -26,6 +26,28 @@ impl OperatingState {
         Ok(Self { threshold: positive("the threshold", threshold)?, current: 0.0, exposure: 0.0, rate: 1.0 })
     }
 
+    /// Of a joint of an estimate that fails at `threshold`, as far as is said: units of exposure per unit of time (else 1), wear and
+    /// exposure until now (else 0). Where exposure counts by a power, wear needs its exposure.
+    ///
+    /// # Errors
+    /// Those of the parts, [`LifeError::ExposureMissing`].
+    pub fn of(
+        estimate: &Estimate,
+        threshold: f64,
+        rate: Option<f64>,
+        (current, exposure): (Option<f64>, Option<f64>),
+    ) -> Result<Self, LifeError> {
+        let mut state = Self::new(threshold)?;
+        if let Some(rate) = rate {
+            state = state.at_rate(rate)?;
+        }
+        let current = current.unwrap_or(0.0);
+        if current > 0.0 && exposure.is_none() && estimate.exponent().is_some() {
+            return Err(LifeError::ExposureMissing);
+        }
+        state.worn(current, exposure.unwrap_or(0.0))
+    }
+
     /// Worn to `current` [unit of wear] after `exposure` (before any exponent) [unit of exposure].
     ///
     /// # Errors
@@ -77,7 +99,11 @@ impl OperatingState {
     /// [`LifeError`], if a parameter leaves the range of numbers.
     pub fn wear(&self, estimate: &Estimate) -> Result<(Law, Clock), LifeError> {
         let exponent = exponent_of(estimate.logs(), estimate.units_differ());
-        Ok((estimate.law_at(estimate.logs())?, Clock::power(self.rate, exponent.unwrap_or(1.0))?))
+        Ok((estimate.law_at(estimate.logs())?, self.clock(exponent)?))
+    }
+
+    fn clock(&self, exponent: Option<f64>) -> Result<Clock, LifeError> {
+        Clock::power(self.rate, exponent.unwrap_or(1.0))
     }
 
     /// Exposure until now.
@@ -100,8 +126,12 @@ impl OperatingState {
     }
 
     fn life_of(&self, law: Law, exponent: Option<f64>) -> Result<FirstPassage, LifeError> {
-        let clock = Clock::power(self.rate, exponent.unwrap_or(1.0))?;
-        Ok(FirstPassage::with_left(law, clock, self.threshold - self.current, self.exposure / self.rate))
+        Ok(FirstPassage::with_left(
+            law,
+            self.clock(exponent)?,
+            self.threshold - self.current,
+            self.exposure / self.rate,
+        ))
     }
 
     /// Worn to `current`, which a particle has, below the threshold but perhaps below 0.

@@ -12,10 +12,10 @@
 
 use super::costs::Costs;
 use super::error::PlanError;
+use super::mean_use::{MeanUse, ages};
 use super::search::least;
 use crate::error::positive;
 use crate::life::Lifetime;
-use crate::quadrature::integrate;
 
 /// Probabilities of failure at which ages are tried; between the best and its neighbours the minimum is searched. Where a
 /// hazard rises, C(T) has one minimum at most; others are found if they are wider than these steps.
@@ -40,19 +40,13 @@ pub struct AgePlan {
     pub mean_use: f64,
 }
 
-/// Mean time in use until `age` or failure, relative accuracy ten times that of the law.
-fn mean_use(life: &dyn Lifetime, age: f64) -> f64 {
-    let limits = life.limits(age, &[]);
-    integrate(&|t| [life.reliability(t)], &limits, [life.accuracy() * age]).0[0]
-}
-
 /// Cost per unit of time where parts are replaced at `age`.
 ///
 /// # Errors
 /// [`PlanError::Life`] for an age that is not positive.
 pub fn age_cost_rate(life: &dyn Lifetime, costs: &Costs, age: f64) -> Result<f64, PlanError> {
     positive("the age of replacement", age)?;
-    Ok(rate(life, costs, age, mean_use(life, age)))
+    Ok(rate(life, costs, age, MeanUse::new(life, life.accuracy()).until(age)))
 }
 
 fn rate(life: &dyn Lifetime, costs: &Costs, age: f64, mean_use: f64) -> f64 {
@@ -68,33 +62,12 @@ fn rate(life: &dyn Lifetime, costs: &Costs, age: f64, mean_use: f64) -> f64 {
 pub fn best_age(life: &dyn Lifetime, costs: &Costs) -> Result<AgePlan, PlanError> {
     let mean = life.moments()?.mean;
     let failure_only = costs.failure / (mean + costs.failure_time);
-    let first = life.quantile(TAIL)?;
-    let mut grid = vec![first];
-    for k in 1..TRIED {
-        grid.push(life.quantile(TAIL + (1.0 - 2.0 * TAIL) * k as f64 / (TRIED - 1) as f64)?);
-    }
-    grid.dedup_by(|b, a| b <= a);
-    // Each age goes on from the mean use until the grid's point before it.
-    let mut known: Vec<(f64, f64)> = vec![(first, mean_use(life, first))];
-    let mut cost = |age: f64| {
-        let at = known.partition_point(|(from, _)| *from <= age).max(1);
-        let (from, used) = known[at - 1];
-        let more = if age > from {
-            let mut limits = life.limits(age, &[from]);
-            limits.retain(|t| *t >= from);
-            integrate(&|t| [life.reliability(t)], &limits, [life.accuracy() * age]).0[0]
-        } else {
-            0.0
-        };
-        if at == known.len() && age > from {
-            known.push((age, used + more));
-        }
-        rate(life, costs, age, used + more)
-    };
-    let (age, cost_rate) = least(&grid, &mut cost);
+    let mut mean_use = MeanUse::new(life, life.accuracy());
+    let (age, cost_rate) =
+        least(&ages(life, TAIL, TRIED)?, &mut |age| rate(life, costs, age, mean_use.until(age)));
     if cost_rate < failure_only * (1.0 - SAVED) {
-        let fail = life.failed(age);
-        return Ok(AgePlan { age: Some(age), cost_rate, failure_only, fail, mean_use: mean_use(life, age) });
+        let (fail, mean_use) = (life.failed(age), mean_use.until(age));
+        return Ok(AgePlan { age: Some(age), cost_rate, failure_only, fail, mean_use });
     }
     Ok(AgePlan { age: None, cost_rate: failure_only, failure_only, fail: 1.0, mean_use: mean })
 }

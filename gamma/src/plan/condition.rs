@@ -36,15 +36,6 @@ const TURNS: usize = 4;
 /// Wear below the threshold of failure at which replacements are tried, as parts of it.
 const THRESHOLDS: (f64, f64) = (0.02, 1.0);
 
-/// How a failure is noticed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Detection {
-    /// At once, and the part is replaced.
-    AtOnce,
-    /// At the next look; until then the time costs [`Looks::downtime`].
-    AtALook,
-}
-
 /// Wear of a part from new to failure.
 #[derive(Clone, Debug)]
 pub struct Monitored {
@@ -112,12 +103,11 @@ impl Monitored {
     /// Cost of a plan.
     ///
     /// # Errors
-    /// [`PlanError::Life`] for an interval or threshold out of range, [`PlanError::TooOften`], [`PlanError::FreeDowntime`].
+    /// [`PlanError::Life`] for an interval or threshold out of range, [`PlanError::TooOften`].
     pub fn cost(
         &self,
         costs: &Costs,
         looks: &Looks,
-        detection: Detection,
         interval: f64,
         threshold: f64,
     ) -> Result<ConditionCost, PlanError> {
@@ -129,20 +119,10 @@ impl Monitored {
         if self.law.survival(self.clock.exposure(interval * MOST as f64), threshold) >= GONE {
             return Err(PlanError::TooOften { interval, looks: MOST });
         }
-        if detection == Detection::AtALook && looks.downtime <= 0.0 {
-            return Err(PlanError::FreeDowntime);
-        }
-        Ok(self.cycle(costs, looks, detection, interval, threshold))
+        Ok(self.cycle(costs, looks, interval, threshold))
     }
 
-    fn cycle(
-        &self,
-        costs: &Costs,
-        looks: &Looks,
-        detection: Detection,
-        interval: f64,
-        threshold: f64,
-    ) -> ConditionCost {
+    fn cycle(&self, costs: &Costs, looks: &Looks, interval: f64, threshold: f64) -> ConditionCost {
         let (mut use_time, mut unnoticed, mut looked, mut fail) = (0.0, 0.0, 0.0, 0.0);
         let mut alive = 1.0;
         for k in 0..MOST {
@@ -151,10 +131,8 @@ impl Monitored {
             use_time += interval * alive - late;
             unnoticed += late;
             fail += failed;
-            looked += match detection {
-                Detection::AtOnce => alive - failed,
-                Detection::AtALook => alive,
-            };
+            // What has failed at once is not looked at any more.
+            looked += if looks.downtime.is_none() { alive - failed } else { alive };
             alive = self.law.survival(self.clock.exposure(start + interval), threshold);
             if alive < GONE {
                 break;
@@ -163,11 +141,12 @@ impl Monitored {
         let preventive = 1.0 - fail;
         let mut cost = looks.inspection * looked + costs.preventive * preventive + costs.failure * fail;
         let mut cycle = use_time + costs.preventive_time * preventive + costs.failure_time * fail;
-        if detection == Detection::AtALook {
-            cost += looks.downtime * unnoticed;
-            cycle += unnoticed;
-        } else {
-            unnoticed = 0.0;
+        match looks.downtime {
+            Some(downtime) => {
+                cost += downtime * unnoticed;
+                cycle += unnoticed;
+            }
+            None => unnoticed = 0.0,
         }
         ConditionCost { rate: cost / cycle, cycle, looks: looked, fail, unnoticed }
     }
@@ -208,7 +187,6 @@ pub fn best_inspection(
     part: &Monitored,
     costs: &Costs,
     looks: &Looks,
-    detection: Detection,
     interval: Option<f64>,
     threshold: Option<f64>,
 ) -> Result<ConditionPlan, PlanError> {
@@ -228,8 +206,8 @@ pub fn best_inspection(
         |threshold| vec![threshold],
     );
     // The most looks that a life can have: if they can be counted, all can.
-    part.cost(costs, looks, detection, libm::exp(logs[0]), levels[levels.len() - 1])?;
-    let rate = |log: f64, level: f64| part.cycle(costs, looks, detection, libm::exp(log), level).rate;
+    part.cost(costs, looks, libm::exp(logs[0]), levels[levels.len() - 1])?;
+    let rate = |log: f64, level: f64| part.cycle(costs, looks, libm::exp(log), level).rate;
     let mut best = (f64::INFINITY, logs[0], levels[0]);
     for log in &logs {
         for level in &levels {
@@ -263,7 +241,7 @@ pub fn best_inspection(
     Ok(ConditionPlan {
         interval: chosen,
         threshold,
-        cost: part.cycle(costs, looks, detection, chosen, threshold),
+        cost: part.cycle(costs, looks, chosen, threshold),
         at_an_end: interval.is_none() && (near(ends.0) || near(ends.1)),
     })
 }

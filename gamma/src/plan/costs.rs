@@ -41,24 +41,26 @@ impl Costs {
     }
 }
 
-/// Costs of looking at a part.
+/// Costs of looking at a part, and how a failure is noticed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Looks {
     /// One look \[cost\].
     pub inspection: f64,
-    /// A unit of time with a failed part that nobody has noticed \[cost per time\].
-    pub downtime: f64,
+    /// A unit of time with a failed part, where only the next look finds it \[cost per time\]; None: a failure shows at once, and the
+    /// part is replaced.
+    pub downtime: Option<f64>,
 }
 
 impl Looks {
-    /// Both may be 0.
+    /// A look may cost nothing.
     ///
     /// # Errors
-    /// [`PlanError::Life`] for a negative cost.
-    pub fn new(inspection: f64, downtime: f64) -> Result<Self, PlanError> {
-        Ok(Self {
-            inspection: non_negative("the cost of an inspection", inspection)?,
-            downtime: non_negative("the cost of downtime", downtime)?,
-        })
+    /// [`PlanError::Life`] for a negative cost, [`PlanError::FreeDowntime`].
+    pub fn new(inspection: f64, downtime: Option<f64>) -> Result<Self, PlanError> {
+        let inspection = non_negative("the cost of an inspection", inspection)?;
+        match downtime.map(|cost| non_negative("the cost of downtime", cost)).transpose()? {
+            Some(0.0) => Err(PlanError::FreeDowntime),
+            downtime => Ok(Self { inspection, downtime }),
+        }
     }
 }

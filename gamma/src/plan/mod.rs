@@ -9,12 +9,13 @@ mod age;
 mod condition;
 mod costs;
 mod error;
+mod mean_use;
 mod search;
 mod spares;
 mod worth;
 
 pub use age::{AgePlan, PlannedLife, age_cost_rate, best_age};
-pub use condition::{ConditionCost, ConditionPlan, Detection, Monitored, best_inspection};
+pub use condition::{ConditionCost, ConditionPlan, Monitored, best_inspection};
 pub use costs::{Costs, Looks};
 pub use error::PlanError;
 pub use spares::{Spares, spares};

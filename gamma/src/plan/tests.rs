@@ -1,26 +1,9 @@
 //! Plans against published examples, closed forms and simulation.
 
 use super::*;
-use crate::life::{Clock, Law, LifeError, Lifetime};
+use crate::life::{Clock, Law, LifeError, Lifetime, Weibull};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 use crate::random::Stream;
-
-struct Weibull {
-    scale: f64,
-    shape: f64,
-}
-
-impl Lifetime for Weibull {
-    fn reliability(&self, t: f64) -> f64 {
-        (-(t.max(0.0) / self.scale).powf(self.shape)).exp()
-    }
-    fn failed(&self, t: f64) -> f64 {
-        -(-(t.max(0.0) / self.scale).powf(self.shape)).exp_m1()
-    }
-    fn typical(&self) -> f64 {
-        self.scale
-    }
-}
 
 /// Even between 0 and `end`.
 struct Even {
@@ -109,7 +92,7 @@ fn part(process: &'static dyn Process, parameters: [f64; 2], exponent: f64) -> M
 /// Cost and length of cycles by drawing the wear at even small steps of the clock.
 fn simulated(
     (process, parameters, exponent): (&'static dyn Process, [f64; 2], f64),
-    (costs, looks, detection): (&Costs, &Looks, Detection),
+    (costs, looks): (&Costs, &Looks),
     (interval, threshold): (f64, f64),
     cycles: u32,
 ) -> (f64, f64) {
@@ -133,13 +116,13 @@ fn simulated(
             }
             k += 1;
             let now = interval * k as f64;
-            match (failed_at, detection) {
-                (Some(at), Detection::AtOnce) => {
+            match (failed_at, looks.downtime) {
+                (Some(at), None) => {
                     spent += costs.failure;
                     break at + costs.failure_time;
                 }
-                (Some(at), Detection::AtALook) => {
-                    spent += looks.inspection + costs.failure + looks.downtime * (now - at);
+                (Some(at), Some(downtime)) => {
+                    spent += looks.inspection + costs.failure + downtime * (now - at);
                     break now + costs.failure_time;
                 }
                 (None, _) => spent += looks.inspection,
@@ -164,21 +147,19 @@ fn simulated(
 #[test]
 fn looking_at_even_intervals_costs_what_simulated_cycles_cost() {
     let costs = Costs::new(10.0, 50.0).expect("valid").taking(0.1, 0.4).expect("valid");
-    let looks = Looks::new(1.0, 20.0).expect("valid");
     let models: [(&'static dyn Process, [f64; 2], f64); 3] =
         [(&Gamma, [2.0, 1.0], 1.0), (&InverseGaussian, [1.5, 3.0], 1.0), (&Gamma, [3.0, 2.0], 1.4)];
     for model in models {
-        for detection in [Detection::AtOnce, Detection::AtALook] {
+        for downtime in [None, Some(20.0)] {
+            let looks = Looks::new(1.0, downtime).expect("valid");
             for (interval, threshold) in [(1.0, 6.0), (2.5, 8.5)] {
-                let found = part(model.0, model.1, model.2)
-                    .cost(&costs, &looks, detection, interval, threshold)
-                    .expect("valid");
-                let (rate, error) =
-                    simulated(model, (&costs, &looks, detection), (interval, threshold), 8000);
+                let found =
+                    part(model.0, model.1, model.2).cost(&costs, &looks, interval, threshold).expect("valid");
+                let (rate, error) = simulated(model, (&costs, &looks), (interval, threshold), 8000);
                 // Four standard errors, 1 % of a fine step.
                 assert!(
                     (found.rate - rate).abs() < 4.0 * error + 1e-3 * rate,
-                    "{model:?} {detection:?} {interval}: {found:?} {rate} +- {error}"
+                    "{model:?} {downtime:?} {interval}: {found:?} {rate} +- {error}"
                 );
             }
         }
@@ -190,8 +171,8 @@ fn looking_at_even_intervals_costs_what_simulated_cycles_cost() {
 fn a_threshold_near_zero_is_an_age() {
     let part = part(&Gamma, [4.0, 2.0], 1.0);
     let costs = Costs::new(10.0, 60.0).expect("valid");
-    let looks = Looks::new(2.0, 0.0).expect("valid");
-    let found = part.cost(&costs, &looks, Detection::AtOnce, 3.0, 1e-9).expect("valid");
+    let looks = Looks::new(2.0, None).expect("valid");
+    let found = part.cost(&costs, &looks, 3.0, 1e-9).expect("valid");
     let dearer = Costs::new(12.0, 60.0).expect("valid");
     let life = part.life().expect("valid");
     let rate = age_cost_rate(&life, &dearer, 3.0).expect("valid");
@@ -203,19 +184,19 @@ fn a_threshold_near_zero_is_an_age() {
 fn no_plan_nearby_is_cheaper() {
     let part = part(&Gamma, [2.0, 1.0], 1.0);
     let costs = Costs::new(10.0, 50.0).expect("valid");
-    let looks = Looks::new(1.0, 30.0).expect("valid");
-    for detection in [Detection::AtOnce, Detection::AtALook] {
-        let plan = best_inspection(&part, &costs, &looks, detection, None, None).expect("a plan");
+    for downtime in [None, Some(30.0)] {
+        let looks = Looks::new(1.0, downtime).expect("valid");
+        let plan = best_inspection(&part, &costs, &looks, None, None).expect("a plan");
         assert!(!plan.at_an_end && plan.threshold < 10.0, "{plan:?}");
         for (a, b) in [(0.9, 1.0), (1.1, 1.0), (1.0, 0.93), (1.0, 1.07), (1.08, 1.05), (0.92, 0.95)] {
             let (interval, threshold) = (a * plan.interval, (b * plan.threshold).min(10.0));
-            let other = part.cost(&costs, &looks, detection, interval, threshold).expect("valid");
+            let other = part.cost(&costs, &looks, interval, threshold).expect("valid");
             assert!(other.rate >= plan.cost.rate * (1.0 - 1e-9), "{plan:?} {interval} {threshold} {other:?}");
         }
         // To look is a choice more: not dearer than an age at which a look is made as well.
         let age =
             best_age(&part.life().expect("valid"), &Costs::new(11.0, 50.0).expect("valid")).expect("a plan");
-        if detection == Detection::AtOnce {
+        if downtime.is_none() {
             assert!(plan.cost.rate <= age.cost_rate * (1.0 + 1e-9), "{plan:?} {age:?}");
         }
     }
@@ -228,15 +209,15 @@ fn questions_without_an_answer_say_so() {
     assert!(matches!(Monitored::new(wiener, clock(), 10.0), Err(PlanError::FallingWear)));
     let part = part(&Gamma, [2.0, 1.0], 1.0);
     let costs = Costs::new(10.0, 50.0).expect("valid");
-    let free = Looks::new(1.0, 0.0).expect("valid");
-    assert_eq!(part.cost(&costs, &free, Detection::AtALook, 1.0, 5.0), Err(PlanError::FreeDowntime));
-    let above = part.cost(&costs, &free, Detection::AtOnce, 1.0, 11.0);
+    assert_eq!(Looks::new(1.0, Some(0.0)), Err(PlanError::FreeDowntime));
+    let free = Looks::new(1.0, None).expect("valid");
+    let above = part.cost(&costs, &free, 1.0, 11.0);
     assert!(matches!(above, Err(PlanError::Life(LifeError::Failed { .. }))));
     // After 20,000 looks all parts are still there: what is summed up by then is no cycle.
-    let often = part.cost(&costs, &free, Detection::AtOnce, 1e-5, 5.0);
+    let often = part.cost(&costs, &free, 1e-5, 5.0);
     assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
-    let free = Looks::new(0.0, 0.0).expect("valid");
-    assert!(best_inspection(&part, &costs, &free, Detection::AtOnce, None, None).is_err());
+    let free = Looks::new(0.0, None).expect("valid");
+    assert!(best_inspection(&part, &costs, &free, None, None).is_err());
 }
 
 #[test]

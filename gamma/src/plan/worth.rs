@@ -15,10 +15,10 @@
 use super::condition::known_by_its_wear;
 use super::costs::Costs;
 use super::error::PlanError;
+use super::mean_use::{MeanUse, ages};
 use super::search::least;
 use crate::error::positive;
-use crate::life::{Clock, FirstPassage, Law, Lifetime};
-use crate::quadrature::integrate;
+use crate::life::{Clock, Estimate, FirstPassage, Law, LifeError, Lifetime, OperatingState};
 
 /// Accuracy of an integral over reliability, as a part of the time; costs are told to four digits.
 const ACCURACY: f64 = 1e-8;
@@ -43,6 +43,18 @@ pub struct InUse {
     pub current: f64,
     /// Time now, on the clock.
     pub now: f64,
+}
+
+impl InUse {
+    /// Of an estimate, in a state.
+    ///
+    /// # Errors
+    /// [`LifeError`], if a parameter leaves the range of numbers.
+    pub fn of(estimate: &Estimate, state: &OperatingState) -> Result<Self, LifeError> {
+        let (law, clock) = state.wear(estimate)?;
+        let now = state.exposure() / state.rate();
+        Ok(Self { law, clock, failure: state.threshold(), current: state.current(), now })
+    }
 }
 
 /// Expected costs of the part in use, each beside what the time it lasts saves.
@@ -79,7 +91,7 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
         |current: f64, now: f64| FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now);
     let now = life(part.current, part.now)?;
     let (without, replace_after) = cheapest(&now, costs, rate)?;
-    let used = integrate(&|t| [now.reliability(t)], &now.limits(at, &[]), [ACCURACY * at]).0[0];
+    let used = MeanUse::new(&now, ACCURACY).until(at);
     let (fails_before, alive) = (now.failed(at), now.reliability(at));
     let gained = now.exposure(at);
     let (mut after, mut at_once) = (0.0, 0.0);
@@ -103,24 +115,13 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
 
 /// The least expected cost of a part from here on, and when it is replaced.
 fn cheapest(life: &dyn Lifetime, costs: &Costs, rate: f64) -> Result<(f64, Option<f64>), PlanError> {
-    let mut ages = vec![0.0];
-    for k in 0..TRIED {
-        let p = LATEST + (1.0 - 2.0 * LATEST) * k as f64 / (TRIED - 1) as f64;
-        ages.push(life.quantile(p)?);
-    }
-    let mut known = vec![(0.0, 0.0)];
+    let mut tried = vec![0.0];
+    tried.extend(ages(life, LATEST, TRIED)?);
+    let mut used = MeanUse::new(life, ACCURACY);
     let mut value = |age: f64| {
-        let at = known.partition_point(|(from, _): &(f64, f64)| *from <= age).max(1);
-        let (from, used) = known[at - 1];
-        let mut limits = life.limits(age, &[from]);
-        limits.retain(|t| *t >= from);
-        let more = integrate(&|t| [life.reliability(t)], &limits, [ACCURACY * age]).0[0];
-        if at == known.len() {
-            known.push((age, used + more));
-        }
-        costs.preventive * life.reliability(age) + costs.failure * life.failed(age) - rate * (used + more)
+        costs.preventive * life.reliability(age) + costs.failure * life.failed(age) - rate * used.until(age)
     };
-    let (age, least_value) = least(&ages, &mut value);
+    let (age, least_value) = least(&tried, &mut value);
     let never = costs.failure - rate * life.moments()?.mean;
     Ok(if never <= least_value { (never, None) } else { (least_value, Some(age)) })
 }

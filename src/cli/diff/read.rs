@@ -1,13 +1,15 @@
 //! A result as columns of cells: those of a table, or the keys of a JSON or TOML file, lists being columns. In: a file. Out:
 //! [`Known`]. Never knows another file.
 
-use std::fs;
 use std::path::Path;
 
+use linkwear_codegen::input::read_text;
+use linkwear_codegen::limits;
 use linkwear_codegen::spec::{as_written, parse_expression};
 use serde_json::{Map, Value};
 
 use super::super::failure::Failure;
+use super::super::life::folder::LIFE;
 use super::super::shipped_schemas::SCHEMAS;
 use crate::table::{CellsRead, is_table, read_table};
 
@@ -57,12 +59,12 @@ pub struct Known {
 
 /// Reads a file, by its extension.
 pub fn read(path: &Path) -> Result<Known, Failure> {
-    let inside = path.join("life.json");
+    let inside = path.join(LIFE);
     let file = if path.is_dir() { inside.as_path() } else { path };
     if is_table(file) {
         return table(file);
     }
-    let text = fs::read_to_string(file).map_err(Failure::read(file))?;
+    let text = read_text(file, limits::DATA_BYTES).map_err(Failure::read(file))?;
     let broken = |message: String, line: Option<usize>| {
         Failure::data(file, line, message, "give JSON of --format json, a table, or a mechanism file (.toml)")
     };

@@ -16,6 +16,10 @@ use serde_json::Value;
 
 /// What is told.
 pub const LIFE: &str = "life.json";
+/// The random lives.
+pub const LIVES: &str = "lives.csv";
+/// The column of their lengths, as it is titled.
+pub const LIFE_OF_LIVES: &str = "life [cycles]";
 /// The folder of the mechanism's file and of those that it names.
 pub const SOURCES: &str = "mechanism";
 
@@ -47,7 +51,7 @@ pub fn write_parts(
             .column("life", "cycles", Cells::numbers(|row| lives[row].1.cycles))
             .column("whole cycles", "", Cells::counts(|row| lives[row].1.whole_cycles))
             .column("failed joint", "", Cells::names(|row| &names[lives[row].1.joint]));
-        write_table(&folder.join("lives.csv"), &table, Some(provenance))?;
+        write_table(&folder.join(LIVES), &table, Some(provenance))?;
     }
     Ok(path)
 }
