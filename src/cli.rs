@@ -16,6 +16,7 @@ mod fit;
 #[cfg(feature = "fmu")]
 mod fmu;
 mod generate;
+mod identify;
 mod input;
 mod life;
 mod merge;
@@ -86,6 +87,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         #[cfg(feature = "page")]
         Command::Draw(arguments) => page::draw(arguments),
         Command::Study(arguments) => study::run(arguments),
+        Command::Identify(arguments) => identify::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),

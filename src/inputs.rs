@@ -73,7 +73,7 @@ fn matches_name(input: &ParameterInfo, name: &str) -> bool {
 }
 
 /// Name and unit of `torque [N m]`.
-fn parts(title: &str) -> (&str, Option<&str>) {
+pub(crate) fn parts(title: &str) -> (&str, Option<&str>) {
     match title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (title.trim(), None),
@@ -81,7 +81,7 @@ fn parts(title: &str) -> (&str, Option<&str>) {
 }
 
 /// Size of a unit in SI and its dimension.
-fn size_of(unit: &str) -> Option<(f64, Dimension)> {
+pub(crate) fn size_of(unit: &str) -> Option<(f64, Dimension)> {
     let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
     match parse_expression(&text, &|_| false).ok()?.form {
         Form::Number { value, dimension, .. } => Some((value, dimension)),

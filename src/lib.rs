@@ -26,6 +26,7 @@ pub mod csv_table;
 pub mod files;
 #[cfg(feature = "fmu")]
 pub mod fmu;
+pub mod identify;
 #[cfg(feature = "cli")]
 pub mod inputs;
 pub mod journal;

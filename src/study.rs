@@ -12,11 +12,13 @@ mod quantity;
 mod result;
 mod run;
 
-pub use axis::{Axis, AxisError};
+pub use axis::{Axis, AxisError, written};
 pub use cases::Cases;
+pub(crate) use cases::Last;
 pub use journal::StudyJournal;
 pub use part::{StudyPart, merge};
 pub use points::{Points, PointsError};
 pub use quantity::{Needs, Quantity, STATISTICS, listed, named, quantities, turn_key};
 pub use result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
+pub(crate) use run::Fault;
 pub use run::{LIFE_FAILED, RUN_FAILED, Study, StudyError};

@@ -16,6 +16,7 @@ fn help_of_every_subcommand_has_an_example() {
         "life",
         "merge",
         "study",
+        "identify",
         "fit",
         "plan",
         "predict",

@@ -9,6 +9,7 @@ pub mod equations;
 mod errors;
 pub mod explain;
 pub mod fit;
+pub mod identify;
 pub mod life;
 #[cfg(test)]
 mod measured;

@@ -10,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear_codegen::render::TextFormat;
 
 use super::diff::DiffArguments;
+use super::identify::IdentifyArguments;
 use super::options::{
     EquationsChoice, Input, LivesArguments, MotionArguments, RevolutionArguments, rows_help,
 };
@@ -98,6 +99,13 @@ pub enum Command {
                       --sample sobol:16 --of life.mean,life.p10 --out lives.csv"
     )]
     Study(StudyArguments),
+    /// Find parameters from what was measured of the machine: a curve, inspections; with their errors, and with what they cannot tell.
+    #[command(
+        after_help = "Examples:\n  linkwear identify press.toml --free damping=\"0.01..1 N m s/rad\" --measured torque.csv\n  \
+                      linkwear identify mechanisms/rssr.toml --free k_wear=1e-9..1e-7 --inspections R1=log.csv \\\n    \
+                      --revolutions revolutions --wear wear --gauge 1um"
+    )]
+    Identify(IdentifyArguments),
     /// The paper's case study is a program of its own; this says how to run it.
     #[command(hide = true, disable_help_flag = true)]
     CaseStudy {

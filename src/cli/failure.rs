@@ -130,6 +130,11 @@ impl Failure {
         Self::new("C0015", file, message, help)
     }
 
+    /// A parameter that is sought changes nothing of what was measured.
+    pub fn no_influence(file: &Path, message: impl Display, help: impl Display) -> Self {
+        Self::new("C0016", Some(file), message, help)
+    }
+
     /// A run that was interrupted cannot be gone on with.
     pub fn journal(error: JournalError) -> Self {
         let (file, help) = match &error {

@@ -8,7 +8,7 @@ macro_rules! schemas {
 }
 
 /// The schemas of all outputs.
-pub const SCHEMAS: [(&str, &str); 23] = schemas![
+pub const SCHEMAS: [(&str, &str); 24] = schemas![
     "check",
     "equations",
     "cost",
@@ -22,6 +22,7 @@ pub const SCHEMAS: [(&str, &str); 23] = schemas![
     "study",
     "fit",
     "fit-file",
+    "identify",
     "plan",
     "predict",
     "diff",

@@ -147,10 +147,17 @@ fn refuse_too_many(samples: usize, description: &Description) -> Result<(), Fail
 
 /// The method that is asked for; nothing: the adaptive one that suits the mechanism.
 pub fn integrator(arguments: &MotionArguments) -> Result<Option<Integrator>, Failure> {
+    method(arguments.integrator, (arguments.step, arguments.tol))
+}
+
+/// The same of its words.
+pub fn method(
+    name: Option<IntegratorName>,
+    (given, tolerance): (Option<f64>, Option<f64>),
+) -> Result<Option<Integrator>, Failure> {
     use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4, Rk43};
-    let (given, tolerance) = (arguments.step, arguments.tol);
     let step = given.unwrap_or(DEFAULT_STEP);
-    let Some(name) = arguments.integrator.or(given.map(|_| Rk4)) else { return Ok(None) };
+    let Some(name) = name.or(given.map(|_| Rk4)) else { return Ok(None) };
     let or = |default: f64| tolerance.unwrap_or(default);
     match name {
         Dopri5 | Rk43 if given.is_some() => {

@@ -7,6 +7,7 @@ pub mod document;
 pub mod drawing;
 mod escape;
 mod fits;
+mod identified;
 mod lives;
 mod motion;
 #[cfg(feature = "png")]
@@ -28,6 +29,11 @@ pub fn run_picture(run: &Run) -> String {
 /// Charts of a life, of which `life --format json` says `json`, as one picture (SVG).
 pub fn life_picture(json: &Value) -> String {
     Chart::file(&lives::charts(json))
+}
+
+/// Charts of identified parameters as one picture (SVG).
+pub fn identified_picture(found: &crate::identify::Identified) -> String {
+    Chart::file(&identified::charts(found))
 }
 
 /// Charts of a fit as one picture (SVG).

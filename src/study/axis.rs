@@ -108,6 +108,14 @@ impl Axis {
         }
     }
 
+    /// Both ends of a range without a number of values, and their unit.
+    pub(crate) fn bounds(&self) -> Option<([f64; 2], &str)> {
+        match &self.values {
+            Values::Range(range) if range.count.is_none() => Some((range.ends, &range.unit)),
+            _ => None,
+        }
+    }
+
     /// The values that are written: all of a list, both ends of a range.
     pub fn ends(&self) -> Vec<String> {
         match &self.values {
@@ -160,13 +168,17 @@ impl Range {
         self.text(a + (b - a) * coordinate)
     }
 
-    /// As one would write it; shortest digits that read back to the same bits.
     fn text(&self, value: f64) -> String {
-        let size = value.abs();
-        let plain = value == 0.0 || (1e-5..1e16).contains(&size);
-        let number = if plain { value.to_string() } else { format!("{value:e}") };
-        format!("{number} {}", self.unit).trim_end().to_owned()
+        written(value, &self.unit)
     }
+}
+
+/// A value with its unit as one would write it; shortest digits that read back to the same bits.
+pub fn written(value: f64, unit: &str) -> String {
+    let size = value.abs();
+    let plain = value == 0.0 || (1e-5..1e16).contains(&size);
+    let number = if plain { value.to_string() } else { format!("{value:e}") };
+    format!("{number} {unit}").trim_end().to_owned()
 }
 
 /// Without the last digit that a double has beside numbers of this size: 0.1 between 0 and 0.3, and not 0.09999999999999999.

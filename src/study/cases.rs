@@ -32,7 +32,7 @@ pub struct Cases {
 }
 
 /// What was compiled last, and for which values.
-pub(super) type Last = Option<(Given, Mechanism)>;
+pub(crate) type Last = Option<(Given, Mechanism)>;
 
 impl Cases {
     /// Of a file with options, at the values of these points.
@@ -97,7 +97,7 @@ impl Cases {
     }
 
     /// The mechanism at a point; `last` is what the same thread compiled before.
-    pub(super) fn at(&self, given: &[(String, String)], last: &mut Last) -> Result<Mechanism, LoadError> {
+    pub(crate) fn at(&self, given: &[(String, String)], last: &mut Last) -> Result<Mechanism, LoadError> {
         let values = resolved(&self.spec, &self.options, given).map_err(LoadError::Mechanism)?;
         let folded = given.iter().filter(|(name, _)| self.folded.contains(name));
         let mut mechanism = self.compiled(folded.cloned().collect(), last).or_else(|_| self.alone(given))?;
@@ -132,7 +132,7 @@ impl Cases {
     }
 
     /// Values of the varying parameters in SI; nothing for a value that is out of the question.
-    pub(super) fn in_si(&self, given: &[(String, String)]) -> Vec<Option<f64>> {
+    pub(crate) fn in_si(&self, given: &[(String, String)]) -> Vec<Option<f64>> {
         let values = resolved(&self.spec, &self.options, given).ok();
         let value = |(name, text): &(String, String)| match &values {
             Some(values) => values.iter().find(|known| known.name == *name).map(|known| known.value),

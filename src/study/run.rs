@@ -69,7 +69,7 @@ pub enum StudyError {
 struct Stopped;
 
 /// Why nothing became of a point.
-enum Fault {
+pub(crate) enum Fault {
     Load(LoadError),
     Run(RunError),
     Life(LifeError),
@@ -310,7 +310,7 @@ fn present(options: &Value) -> Value {
 }
 
 impl Fault {
-    fn told(self) -> PointError {
+    pub(crate) fn told(self) -> PointError {
         let plain =
             |code: &str, message: String| PointError { code: code.to_owned(), message, help: String::new() };
         match self {

@@ -8,7 +8,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::super::shipped_schemas::SCHEMAS;
-use super::{check, diff, equations, errors, explain, fit, life, plan, predict, simulate, study};
+use super::{check, diff, equations, errors, explain, fit, identify, life, plan, predict, simulate, study};
 use crate::provenance::{FORMAT, Provenance};
 use crate::table::{about, tables};
 
@@ -39,6 +39,7 @@ fn outputs() -> Vec<(&'static str, Value)> {
         ("study", schema::<study::StudyAnswer<'_>>("study", true)),
         ("fit", schema::<fit::FitAnswer<'_>>("fit", true)),
         ("fit-file", schema::<fit::FittedProcess>("fit-file", true)),
+        ("identify", schema::<identify::IdentifyAnswer<'_>>("identify", true)),
         ("plan", schema::<plan::PlanAnswer>("plan", true)),
         ("predict", schema::<predict::PredictAnswer<'_>>("predict", true)),
         ("diff", schema::<diff::DiffAnswer>("diff", false)),

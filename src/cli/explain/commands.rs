@@ -122,6 +122,15 @@ pub const COMMANDS: &[Command] = &[
         right: "linkwear study mechanisms/four_bar.toml --vary a=90mm,100mm --of steps",
     },
     Command {
+        code: "C0016",
+        title: "A parameter that changes nothing of what was measured.",
+        text: "`identify` varies every free parameter and looks at the predictions: where they stay the same to the last bit, no \
+               measurement of this kind tells the parameter. The restitution of a joint, for instance, is not in a curve of a \
+               mechanism whose joints have no clearance, and the speed of its drive is not in the angle of a body at rest.",
+        wrong: "linkwear simulate mechanisms/four_bar.toml --out curve.csv && linkwear identify mechanisms/four_bar.toml --free b=290mm..310mm --measured curve.csv --of R1.q",
+        right: "linkwear simulate mechanisms/four_bar.toml --out curve.csv && linkwear identify mechanisms/four_bar.toml --free b=290mm..310mm --measured curve.csv --of R4.q",
+    },
+    Command {
         code: "run",
         title: "A remark on a run.",
         text: "The numbers are there, and something about them is doubtful: a step too coarse for its contacts, a penetration that \

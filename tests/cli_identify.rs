@@ -1,0 +1,108 @@
+//! `identify`: what a simulated curve with noise was made with is found again, what cannot be told is not, and wrong questions are
+//! answered with what to write.
+
+mod command;
+
+use command::{Answer, Folder, linkwear};
+use serde_json::Value;
+
+const DRIVE: &str = "examples/data/rocker_drive.toml";
+const TORQUE: &str = "examples/data/rocker_torque.csv";
+const DAMPER: &str = "c_rocker=0.005..0.5 N m s/rad";
+const LOAD: &str = "m_load=0.1 kg..2 kg";
+
+fn identify(words: &[&str]) -> Answer {
+    linkwear(&[&["identify", DRIVE], words, &["--format", "json"]].concat())
+}
+
+fn parameter<'v>(answer: &'v Value, name: &str) -> &'v Value {
+    let all = answer["parameters"].as_array().expect("a list");
+    all.iter().find(|one| one["name"] == name).expect(name)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+#[test]
+fn damper_and_load_are_found_in_a_noisy_torque() {
+    let words = ["--free", DAMPER, "--free", LOAD, "--measured", TORQUE];
+    let answer = identify(&words).json();
+    // What the file says that the curve was made with.
+    for (name, truth) in [("c_rocker", 0.05), ("m_load", 0.5)] {
+        let one = parameter(&answer, name);
+        assert_eq!(one["state"], "estimated");
+        let [lower, upper] = ["lower", "upper"].map(|end| number(&one["interval95"][end]));
+        assert!(lower < truth && truth < upper, "{one}");
+        assert!(upper - lower < 0.2 * truth, "{one}");
+    }
+    // Of 161 readings the noise is known to 6 %: four times that.
+    let noise = number(&answer["groups"][0]["noise"]);
+    assert!((noise / 0.05 - 1.0).abs() < 0.24, "{noise}");
+    assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0), "{}", answer["warnings"]);
+    // The words go on to the next command, and the answer is the same the next time.
+    let set: Vec<&str> = answer["set"].as_array().expect("words").iter().filter_map(Value::as_str).collect();
+    let next = [&["simulate", DRIVE], &["--set", set[0], "--set", set[1]][..]].concat();
+    assert_eq!(linkwear(&next).code, 0);
+    assert_eq!(identify(&words).json(), answer);
+}
+
+#[test]
+fn of_two_loads_only_what_both_do_is_told() {
+    let clamp = "m_clamp=10 g..1 kg";
+    let answer = identify(&["--free", DAMPER, "--free", LOAD, "--free", clamp, "--measured", TORQUE]).json();
+    for name in ["m_load", "m_clamp"] {
+        let one = parameter(&answer, name);
+        assert_eq!((&one["state"], &one["estimate"]), (&"not_identified".into(), &Value::Null));
+    }
+    assert_eq!(parameter(&answer, "c_rocker")["state"], "estimated");
+    assert_eq!(answer["combinations"].as_array().map(Vec::len), Some(1));
+    assert_eq!(answer["minima"].as_array().map(Vec::len), Some(1), "{}", answer["minima"]);
+}
+
+#[test]
+fn wrong_questions_are_answered_with_what_to_write() {
+    let folder = Folder::new("identify-wrong");
+    let curve = |name: &str, text: &str| folder.write(name, text);
+    let good = "t [s],R1.drive [N m]\n0,1\n0.1,2\n0.2,1.5\n0.3,1\n";
+    let with = |head: &str| good.replace("R1.drive [N m]", head);
+    let cases = [
+        (curve("column.csv", &with("R1.driv [N m]")), DAMPER, "C0011", "did you mean `R1.drive`?"),
+        (curve("unit.csv", &with("R1.drive [N]")), DAMPER, "C0011", "same kind as N m"),
+        (curve("bare.csv", &with("R1.drive")), DAMPER, "C0011", "`R1.drive [N m]`"),
+        (curve("nan.csv", &good.replace("1.5", "nan")), DAMPER, "C0011", "write a number"),
+        (curve("falls.csv", &good.replace("0.2,", "0.05,")), DAMPER, "C0011", "one row per instant"),
+        (curve("early.csv", &good.replace("\n0,", "\n-0.1,")), DAMPER, "C0011", "--settle"),
+        (curve("same.csv", "t [s],R1.drive [N m]\n0,1\n0.1,1\n0.2,1\n"), DAMPER, "C0011", "--noise"),
+        (curve("few.csv", "t [s],R1.drive [N m]\n0,1\n"), DAMPER, "C0011", "measure more"),
+        (curve("good.csv", good), "c_rocker=0.5..0.005 N m s/rad", "C0001", "NAME=LO..HI"),
+        (curve("good.csv", good), "c_rocker=0.005,0.5", "C0001", "NAME=LO..HI"),
+        (curve("good.csv", good), "b=290 mm..310 kg", "C0001", "NAME=A..B"),
+        (
+            curve("angle.csv", "t [s],R1.q [rad]\n0,0\n0.1,1.3\n0.2,2.5\n"),
+            DAMPER,
+            "C0016",
+            "leave --free c_rocker out",
+        ),
+        (curve("good.csv", good), "b=2 m..3 m", "C0015", ""),
+    ];
+    for (file, free, code, help) in cases {
+        let answer = identify(&["--free", free, "--measured", &file]);
+        let error = &answer.errors()[0];
+        assert_eq!(error["code"], code, "{file} {free}: {error}");
+        assert!(error["help"].as_str().is_some_and(|text| text.contains(help)), "{file} {free}: {error}");
+    }
+    let file = folder.path("good.csv");
+    for (words, code) in [
+        (&["--free", DAMPER, "--free", DAMPER, "--measured", &file][..], "C0001"),
+        (&["--free", DAMPER, "--set", "c_rocker=0.1 N m s/rad", "--measured", &file], "C0001"),
+        (&["--free", DAMPER, "--measured", &file, "--noise", "R1.drive=0.1 N"], "C0001"),
+        (&["--free", DAMPER, "--measured", &file, "--noise", "R4.q=0.1"], "C0001"),
+        (&["--free", DAMPER, "--measured", &file, "--of", "R4.q"], "C0011"),
+        (&["--measured", &file], "C0001"),
+        (&["--free", DAMPER], "C0001"),
+        (&["--free", DAMPER, "--inspections", &format!("R4={file}"), "--time", "t", "--wear", "w"], "C0006"),
+    ] {
+        assert_eq!(identify(words).errors()[0]["code"], code, "{words:?}");
+    }
+}
