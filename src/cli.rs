@@ -5,6 +5,7 @@
 mod answer;
 mod arguments;
 pub mod ask;
+mod calendar;
 mod check;
 mod colour;
 mod cost;

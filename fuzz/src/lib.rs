@@ -14,7 +14,7 @@ use linkwear_gamma::data::{Gauge, Observations, Reading, Rounding};
 use linkwear_gamma::fit::{Model, estimate};
 use linkwear_gamma::life::{Method, OperatingState};
 use linkwear_gamma::process::PROCESSES;
-use linkwear_gamma::{FitFile, Prediction};
+use linkwear_gamma::{FitFile, Prediction, Questions};
 
 /// Longest text of an answer: a hundred faults of ten lines.
 const MOST_SAID: usize = 1 << 20;
@@ -131,7 +131,7 @@ pub fn fit_file(text: &str) {
     let Ok(estimate) = fit.estimate(&values) else { return };
     for threshold in [1e-3, 10.0, 1e6] {
         let state = OperatingState::new(threshold).expect("it is positive");
-        if let Ok(prediction) = Prediction::by_fit(&estimate, &state, Method::Delta) {
+        if let Ok(prediction) = Prediction::by_fit(&estimate, &state, Method::Delta, &Questions::default()) {
             let lives = prediction.quantiles.each_ref().map(|band| band.value);
             assert!(lives[0] >= 0.0 && lives.is_sorted(), "{lives:?}");
             let (first, last) = prediction.interval;

@@ -151,6 +151,34 @@ pub enum LifeError {
         /// The value.
         value: f64,
     },
+    /// A range of a catalogue that is none.
+    #[error(
+        "{from} to {to} is no range of wear per unit of exposure: give two positive numbers, the smaller one first"
+    )]
+    CatalogueRange {
+        /// Its begin.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// No part gets as old as one is said to be.
+    #[error(
+        "by the fit fewer than one part in 1e12 goes on for {age} without failing: check the time, its unit and the rate, or fit again"
+    )]
+    NoneSurvives {
+        /// The time without failure.
+        age: f64,
+    },
+    /// A time span that ends before it begins.
+    #[error(
+        "a mission from {from} to {to} does not end after it begins: give times from now on, the later one second"
+    )]
+    Span {
+        /// Its begin.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
     /// A system without members.
     #[error("a system needs at least one wearing joint")]
     NoMember,

@@ -32,4 +32,4 @@ pub mod series;
 pub mod special;
 
 pub use fit_file::{Covariate, FitFile, FitFileError};
-pub use prediction::{IntervalKind, Prediction};
+pub use prediction::{Answers, AtTime, IntervalKind, Machine, Member, Prediction, Questions};

@@ -13,7 +13,7 @@
 use rand::RngExt;
 
 use crate::error::{LifeError, positive};
-use crate::life::{FirstPassage, Lifetime, mixed_hazard};
+use crate::life::{FirstPassage, Lifetime, Survived, mixed_hazard};
 use crate::quadrature::integrate;
 use crate::random::{LnGamma, StandardNormal, Stream};
 
@@ -137,15 +137,26 @@ impl SeriesSystem {
     /// # Errors
     /// Those of [`Lifetime::quantile`], by which the range of integration is found.
     pub fn first_to_fail(&self) -> Result<Vec<f64>, LifeError> {
-        let end = self.quantile(1.0 - 1e-12)?;
-        let limits = self.limits(end, &[self.quantile(0.5)?]);
+        self.first_to_fail_after(0.0)
+    }
+
+    /// The same of a system that has gone on for a time `from` without a failure.
+    ///
+    /// # Errors
+    /// Those of [`Survived::new`] and of [`Lifetime::quantile`].
+    pub fn first_to_fail_after(&self, from: f64) -> Result<Vec<f64>, LifeError> {
+        let rest = Survived::new(self, from)?;
+        let end = from + rest.quantile(1.0 - 1e-12)?;
+        let mut limits = self.limits(end, &[from, from + rest.quantile(0.5)?]);
+        limits.retain(|limit| *limit >= from);
+        let alive = self.reliability(from);
         let part = |j: usize| {
             let density = |t: f64| {
                 let at =
                     |(z, weight): &(f64, f64)| weight * self.members[j].hazard_at(t, *z) * self.alive(t, *z);
                 [self.factors.iter().map(at).sum::<f64>()]
             };
-            integrate(&density, &limits, [1e-10]).0[0]
+            integrate(&density, &limits, [1e-10 * alive]).0[0] / alive
         };
         Ok((0..self.members.len()).map(part).collect())
     }

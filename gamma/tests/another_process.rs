@@ -1,13 +1,13 @@
 //! What a process that the crate does not know has to bring to be fitted and predicted from: this file.
 
 use linkwear_gamma::FitFile;
-use linkwear_gamma::Prediction;
 use linkwear_gamma::data::{Gauge, Observations, Reading};
 use linkwear_gamma::fit::{Model, estimate};
 use linkwear_gamma::inspection::{self, Effort, History, Prior};
 use linkwear_gamma::life::{Method, OperatingState};
 use linkwear_gamma::process::{Process, Slice, Term, Wiener};
 use linkwear_gamma::random::Stream;
+use linkwear_gamma::{Prediction, Questions};
 
 /// The Wiener process by drift and precision, 1 / spread²: another process to the crate, the same numbers to the world.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +45,10 @@ impl Process for ByPrecision {
     fn density(&self, logs: [f64; 2], wear: f64) -> Term {
         let Term { value, gradient: [a, b], hessian: [aa, ab, bb] } = Wiener.density(by_spread(logs), wear);
         Term { value, gradient: [a, -0.5 * b], hessian: [aa, -0.5 * ab, 0.25 * bb] }
+    }
+
+    fn ln_mean(&self, logs: [f64; 2]) -> f64 {
+        logs[0]
     }
 
     fn variance(&self, logs: [f64; 2]) -> f64 {
@@ -125,12 +129,12 @@ fn predictions(process: &'static dyn Process) -> Vec<Prediction> {
     let history = History::exact(process, readings.clone()).expect("rising");
     let flat = Prior::Flat { process, power_law: false };
     let noisy = History::noisy(readings[1..].to_vec()).expect("numbers");
-    let effort = Effort { count: 5000, seed: 1 };
+    let (effort, asked) = (Effort { count: 5000, seed: 1 }, Questions::default());
     vec![
-        Prediction::by_fit(&estimate, &state, Method::Delta).expect("a life"),
-        Prediction::after(&history, &Prior::Fit(estimate.clone()), &state).expect("a life"),
-        Prediction::after(&history, &flat, &state).expect("a life"),
-        Prediction::after_gauge(&noisy, &estimate, &state, 0.3, effort).expect("a life"),
+        Prediction::by_fit(&estimate, &state, Method::Delta, &asked).expect("a life"),
+        Prediction::after(&history, &Prior::Fit(estimate.clone()), &state, &asked).expect("a life"),
+        Prediction::after(&history, &flat, &state, &asked).expect("a life"),
+        Prediction::after_gauge(&noisy, &estimate, &state, 0.3, effort, &asked).expect("a life"),
     ]
 }
 

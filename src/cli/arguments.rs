@@ -114,7 +114,8 @@ pub enum Command {
     },
     /// Predict the remaining life from a fit, and from inspections of the joint.
     #[command(after_help = "Examples:\n  linkwear predict fit.json --threshold 10 --current 5\n  \
-                      linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um")]
+                      linkwear predict fit.json --threshold 10 --inspections log.csv --time hours --wear um\n  \
+                      linkwear predict fit.json --threshold 10 --quantile 1% --mission 0..2 --from 2026-11-23 --per-day 0.016")]
     Predict(PredictArguments),
     /// Plan replacements: the age of least cost, looks and the wear to replace from, spares, what a look is worth.
     #[command(

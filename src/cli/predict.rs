@@ -1,43 +1,57 @@
 //! `predict`: remaining life from a fit, and from inspections of the one joint.
 
+mod machine;
+mod refused;
+mod text;
+
 use std::fmt::Write as _;
 
 use crate::checksum::sha256_of;
 use crate::csv_table::CsvTable;
-use crate::number::number;
+#[cfg(feature = "page")]
+use crate::page::prediction_picture;
 use crate::provenance::Provenance;
 use linkwear_gamma::inspection::{Effort, History, InspectionError, Prior, Reading};
-use linkwear_gamma::life::{Band, Estimate, LifeError, Method, OperatingState, SeenUnit};
-use linkwear_gamma::{FitFile, Prediction};
+use linkwear_gamma::life::{Estimate, Method, OperatingState, SeenUnit};
+use linkwear_gamma::{FitFile, Member, Prediction, Questions};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::answer::Answer;
 use super::answer::predict::PredictAnswer;
 use super::arguments::PredictArguments;
 use super::failure::Failure;
 use super::input::{covariates, read_fit};
-use super::table::table;
-
-/// Every how many-th time is shown to people.
-const STRIDE: usize = 5;
+#[cfg(feature = "page")]
+use super::picture;
+use refused::asked;
+use text::to_text;
 
 pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
+    #[cfg(feature = "page")]
+    picture::check_plot(&arguments.fit, arguments.plot.as_deref())?;
     answer(arguments, &read_fit(&arguments.fit)?)
 }
 
 /// The prediction by a fit.
 pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Failure> {
+    let others = machine::others(arguments)?;
+    let values = machine::known(arguments, fit, &others);
     // Inspections update the fit's own law; without them, and where units differ, the answer asks for more.
     let estimate = match arguments.inspections {
-        Some(_) if !fit.units_differ() => fit.estimate(&arguments.covariate),
-        _ => fit.informed(&arguments.covariate),
+        Some(_) if !fit.units_differ() => fit.estimate(&values),
+        _ => fit.informed(&values),
     };
     let estimate = estimate.map_err(Failure::fit(&arguments.fit))?;
     let Asked { estimate, state, about, warning } = asked_for(arguments, fit, estimate)?;
     let inspections = arguments.inspections.as_deref().map(CsvTable::read).transpose()?;
     let inspections = inspections.as_ref();
-    let mut answer = predict(arguments, estimate, &state, inspections)?;
+    let questions = questions(arguments);
+    let joint = Member { estimate: estimate.clone(), state: state.clone() };
+    let mut answer = predict(arguments, estimate, &state, (inspections, &questions))?;
+    let machine = machine::machine(arguments, (joint, fit), &others, &questions)?;
+    #[cfg(feature = "page")]
+    picture::write_plot(arguments.plot.as_deref(), || prediction_picture(&answer))?;
     answer.from.push_str(&about);
     for (at, (name, value)) in arguments.covariate.iter().enumerate() {
         let join = if at == 0 { " at" } else { "," };
@@ -54,8 +68,40 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
     if let Some(unit) = &arguments.unit {
         options["unit"] = unit.as_str().into();
     }
+    asked_options(arguments, machine.as_ref(), &mut options);
     let provenance = Provenance::new(sha256_of(fit.text().as_bytes()), Some(arguments.seed), options);
-    Ok(Answer::new(to_text(&answer), PredictAnswer::from(&answer), Some(&provenance)))
+    let text = to_text(&answer, arguments.survived, machine.as_ref(), &arguments.calendar);
+    let of_machine = machine.as_ref().map(|joints| (&joints.names[..], &joints.life));
+    let told = PredictAnswer::new(&answer, of_machine, &arguments.calendar);
+    Ok(Answer::new(text, told, Some(&provenance)))
+}
+
+/// What is asked beyond the usual.
+fn questions(arguments: &PredictArguments) -> Questions {
+    Questions {
+        survived: arguments.survived,
+        quantiles: arguments.quantile.clone(),
+        times: arguments.reliability_at.clone(),
+        missions: arguments.mission.clone(),
+    }
+}
+
+/// Adds to what provenance tells what is asked beyond the usual, if it is.
+fn asked_options(arguments: &PredictArguments, machine: Option<&machine::Joints>, options: &mut Value) {
+    let mut add = |name: &str, is_asked: bool, value: Value| {
+        if is_asked {
+            options[name] = value;
+        }
+    };
+    add("survived", arguments.survived > 0.0, json!(arguments.survived));
+    add("quantiles", !arguments.quantile.is_empty(), json!(arguments.quantile));
+    add("reliability_at", !arguments.reliability_at.is_empty(), json!(arguments.reliability_at));
+    add("missions", !arguments.mission.is_empty(), json!(arguments.mission));
+    add("catalogue", arguments.catalogue.is_some(), json!(arguments.catalogue));
+    add("calendar", arguments.calendar.is_given(), arguments.calendar.options());
+    if let Some(machine) = machine {
+        add("also", true, machine.options());
+    }
 }
 
 /// Which unit is asked for, and where it stands.
@@ -132,12 +178,13 @@ fn predict(
     arguments: &PredictArguments,
     estimate: Estimate,
     state: &OperatingState,
-    inspections: Option<&CsvTable<'_>>,
+    (inspections, questions): (Option<&CsvTable<'_>>, &Questions),
 ) -> Result<Prediction, Failure> {
     let (Some(file), Some(table)) = (&arguments.inspections, inspections) else {
         let draws = |count| Method::Draws { count: count as usize, seed: arguments.seed };
         let method = arguments.draws.map_or(Method::Delta, draws);
-        return Prediction::by_fit(&estimate, state, method).map_err(|error| asked(arguments, &error));
+        return Prediction::by_fit(&estimate, state, method, questions)
+            .map_err(|error| asked(arguments, &error));
     };
     // clap asks for both with --inspections.
     let (time, wear) = (arguments.time.as_deref(), arguments.wear.as_deref());
@@ -151,67 +198,19 @@ fn predict(
     if let Some(gauge) = arguments.gauge {
         let history = History::noisy(readings).map_err(refused)?;
         let effort = Effort { count: arguments.particles as usize, seed: arguments.seed };
-        return Prediction::after_gauge(&history, &estimate, state, gauge, effort).map_err(refused);
+        return Prediction::after_gauge(&history, &estimate, state, gauge, effort, questions)
+            .map_err(refused);
     }
     let history = History::exact(estimate.process(), readings).map_err(refused)?;
-    let prior = if arguments.flat_prior {
-        Prior::Flat { process: estimate.process(), power_law: estimate.exponent().is_some() }
-    } else {
-        Prior::Fit(estimate)
+    let (process, power_law) = (estimate.process(), estimate.exponent().is_some());
+    let prior = match arguments.catalogue {
+        Some(_) if power_law => {
+            let help = "give a fit without --power-law; a catalogue's wear per unit of exposure is for wear that grows with it";
+            return Err(Failure::usage("--catalogue: exposure counts by a power in this fit", help));
+        }
+        Some(range) => Prior::catalogue(process, range).map_err(|error| asked(arguments, &error))?,
+        None if arguments.flat_prior => Prior::Flat { process, power_law },
+        None => Prior::Fit(estimate),
     };
-    Prediction::after(&history, &prior, state).map_err(refused)
-}
-
-/// A question that has no answer: the numbers on the command line are to blame.
-fn asked(arguments: &PredictArguments, error: &LifeError) -> Failure {
-    Failure::data(&arguments.fit, None, error, "see `linkwear predict --help` for what the options mean")
-}
-
-fn to_text(answer: &Prediction) -> String {
-    let mut text = format!(
-        "remaining life from wear {} to {}, by {}\n\n",
-        number(answer.current),
-        number(answer.threshold),
-        answer.from
-    );
-    let mut rows = Vec::new();
-    let bands = answer.quantiles.iter().chain(answer.moments.iter().map(|(_, band)| band));
-    for (name, Band { value, lower, upper }) in ["B10", "B50", "B90", "mean"].into_iter().zip(bands) {
-        let numbers = [value, lower, upper].map(|number| format!("{number:.6}"));
-        rows.push([name.to_owned()].into_iter().chain(numbers).collect());
-    }
-    text.push_str(&table(&["", "time", "lower 95 %", "upper 95 %"], &rows));
-    let (lower, upper) = answer.interval;
-    let _ = writeln!(
-        text,
-        "\n95 % of lives end between {lower:.6} and {upper:.6} ({})",
-        answer.interval_kind.words()
-    );
-    if let (Some((moments, _)), Some(whole)) = (&answer.moments, &answer.whole) {
-        let _ = writeln!(
-            text,
-            "standard deviation {:.6}, coefficient of variation {:.5}; in whole units of time: mean {:.4}",
-            moments.std,
-            moments.cov(),
-            whole.mean
-        );
-    }
-    let course: Vec<Vec<String>> = answer
-        .course
-        .iter()
-        .step_by(STRIDE)
-        .map(|(t, band, hazard)| {
-            let share = |value: f64| format!("{value:.5}");
-            vec![number(*t), share(band.value), share(band.lower), share(band.upper), number(*hazard)]
-        })
-        .collect();
-    text.push('\n');
-    text.push_str(&table(&["time", "reliability", "lower 95 %", "upper 95 %", "hazard"], &course));
-    if let Some(budget) = &answer.budget {
-        let _ = writeln!(text, "\nerror budget of the mean, half-widths at 95 %\n{budget}");
-    }
-    for warning in &answer.warnings {
-        let _ = writeln!(text, "\nwarning: {warning}");
-    }
-    text
+    Prediction::after(&history, &prior, state, questions).map_err(refused)
 }

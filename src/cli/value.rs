@@ -65,8 +65,8 @@ pub fn covariate(text: &str) -> Result<(String, f64), String> {
     Ok((name, positive(&value)?))
 }
 
-/// A part, from 0 on.
-pub fn tolerance(text: &str) -> Result<f64, String> {
+/// A number from 0 on.
+pub fn from_zero(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
         _ => Err("a number from 0 on is needed, as 1e-6".to_owned()),
@@ -79,6 +79,54 @@ pub fn positive(text: &str) -> Result<f64, String> {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
     }
+}
+
+/// Another joint of a machine: its fit, and how far it is worn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherJoint {
+    /// Result of `fit`.
+    pub fit: PathBuf,
+    /// Wear at failure.
+    pub threshold: f64,
+    /// Wear now.
+    pub current: Option<f64>,
+    /// Exposure until now.
+    pub at: Option<f64>,
+}
+
+/// `FIT.json:W[:W0[:EXPOSURE]]`; a file's name may have colons, numbers have none.
+pub fn other_joint(text: &str) -> Result<OtherJoint, String> {
+    let wrong =
+        || "write FIT.json:W, FIT.json:W:W0 or FIT.json:W:W0:EXPOSURE, as left.json:0.5:0.12:300".to_owned();
+    let mut numbers = Vec::new();
+    let mut file = text;
+    while let Some((before, last)) = file.rsplit_once(':').filter(|_| numbers.len() < 3) {
+        let Ok(number) = from_zero(last) else { break };
+        numbers.push(number);
+        file = before;
+    }
+    numbers.reverse();
+    let threshold = numbers.first().copied().filter(|wear| *wear > 0.0 && !file.is_empty());
+    let (current, at) = (numbers.get(1).copied(), numbers.get(2).copied());
+    Ok(OtherJoint { fit: PathBuf::from(file), threshold: threshold.ok_or_else(wrong)?, current, at })
+}
+
+/// Two numbers, `A..B`, from 0 on and rising.
+pub fn range(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || "write A..B, two numbers from 0 on, the smaller one first, as 100..250".to_owned();
+    let (from, to) = text.split_once("..").ok_or_else(wrong)?;
+    let range = [from_zero(from).map_err(|_| wrong())?, from_zero(to).map_err(|_| wrong())?];
+    if range[0] < range[1] { Ok(range) } else { Err(wrong()) }
+}
+
+/// A part of one, as 0.01 or 1%, neither none nor all.
+pub fn part(text: &str) -> Result<f64, String> {
+    let wrong = || "a part between 0 and 1 is needed, as 0.01 or 1%".to_owned();
+    match text.trim().strip_suffix('%') {
+        Some(percent) => within_one(&(positive(percent).map_err(|_| wrong())? / 100.0).to_string()),
+        None => within_one(text),
+    }
+    .map_err(|_| wrong())
 }
 
 /// A probability, neither 0 nor 1.
@@ -108,6 +156,30 @@ mod tests {
         assert_eq!(covariate("load = 2.5"), Ok(("load".to_owned(), 2.5)));
         for bad in ["load", "load=", "=3", "load=-1", "load=heavy"] {
             assert!(covariate(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn another_joint_is_a_file_and_up_to_three_numbers() {
+        let joint =
+            |threshold, current, at| OtherJoint { fit: PathBuf::from("a:b.json"), threshold, current, at };
+        assert_eq!(other_joint("a:b.json:0.5"), Ok(joint(0.5, None, None)));
+        assert_eq!(other_joint("a:b.json:0.5:0"), Ok(joint(0.5, Some(0.0), None)));
+        assert_eq!(other_joint("a:b.json:0.5:0.1:30"), Ok(joint(0.5, Some(0.1), Some(30.0))));
+        for bad in ["a.json", "a.json:", "a.json:0", "a.json:-1", ":0.5", "a.json:0.5:x"] {
+            assert!(other_joint(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_rise_and_parts_are_parts() {
+        assert_eq!(range("1.5..2"), Ok([1.5, 2.0]));
+        for bad in ["1", "2..1", "1..1", "-1..2", "..", "1..nan", "1..inf"] {
+            assert!(range(bad).is_err(), "{bad}");
+        }
+        assert_eq!(part("1%"), part("0.01"));
+        for bad in ["0", "1", "100%", "0%", "B1", "-1%"] {
+            assert!(part(bad).is_err(), "{bad}");
         }
     }
 

@@ -12,8 +12,10 @@ mod lives;
 mod motion;
 #[cfg(feature = "png")]
 pub mod png;
+mod predictions;
 mod scene;
 
+use linkwear_gamma::Prediction;
 use linkwear_gamma::data::Observations;
 use linkwear_gamma::fit::{Fit, Goodness};
 use linkwear_runtime::Run;
@@ -39,4 +41,9 @@ pub fn identified_picture(found: &crate::identify::Identified) -> String {
 /// Charts of a fit as one picture (SVG).
 pub fn fit_picture(fit: &Fit, goodness: &Goodness, data: &Observations) -> String {
     Chart::file(&fits::charts(fit, goodness, data))
+}
+
+/// Charts of a prediction as one picture (SVG).
+pub fn prediction_picture(told: &Prediction) -> String {
+    Chart::file(&predictions::charts(told))
 }

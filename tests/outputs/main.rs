@@ -221,6 +221,20 @@ fn fits_and_predictions_are_as_told() {
         }
         let predict = ["predict", &file, "--threshold", "25"];
         asked(&predict);
+        let questions = [
+            "--quantile",
+            "1%",
+            "--reliability-at",
+            "3",
+            "--mission",
+            "1..2",
+            "--from",
+            "2026-11-23",
+            "--per-day",
+            "1",
+        ];
+        let also = format!("{file}:20");
+        asked(&[&predict[..], &questions[..], &["--also", &also]].concat());
         asked(&[&predict[..], &["--current", "5", "--rate", "2"]].concat());
         let inspected = ["--inspections", &log, "--time", "hours", "--wear", "um"];
         asked(&[&predict[..], &inspected[..]].concat());

@@ -4,13 +4,16 @@
 use crate::error::probability;
 use crate::life::{Band, FirstPassage, LifeError, Lifetime};
 
+/// What a law answers, and the probability by it of what has been seen since.
+pub type Seen = (f64, f64);
+
 /// A law of life mixed from those of possible parameters.
 pub trait Mixture: Lifetime {
     /// Each possible law with its weight; weights sum to 1.
     fn parts(&self) -> Vec<(f64, &FirstPassage)>;
 
     /// Equal-tailed interval of probability `level` of what `of` gives for the possible parameters, around `value`, the
-    /// answer of the mixture.
+    /// answer of the mixture. Beside it `of` gives the probability of what has been seen since, by which the law is weighed.
     ///
     /// # Errors
     /// [`LifeError::Probability`] for the level; those of `of`.
@@ -18,24 +21,32 @@ pub trait Mixture: Lifetime {
         &self,
         value: f64,
         level: f64,
-        of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
+        of: &dyn Fn(&FirstPassage) -> Result<Seen, LifeError>,
     ) -> Result<Band, LifeError> {
-        let mut values = Vec::new();
+        let (mut values, mut lost) = (Vec::new(), 0.0);
         for (weight, life) in self.parts() {
-            values.push((of(life)?, weight));
+            let (value, seen) = of(life)?;
+            values.push((value, weight * seen));
+            lost += weight * (1.0 - seen);
         }
+        // Exactly 1 where nothing has been seen: ties stay as they are.
+        let total = 1.0 - lost;
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let tail = 0.5 - 0.5 * probability(level)?;
-        Ok(Band { value, lower: weighted(&values, tail), upper: weighted(&values, 1.0 - tail) })
+        Ok(Band {
+            value,
+            lower: weighted(&values, tail * total),
+            upper: weighted(&values, (1.0 - tail) * total),
+        })
     }
 }
 
-/// First value at which the weights reach `p`.
-fn weighted(sorted: &[(f64, f64)], p: f64) -> f64 {
+/// First value at which the weights reach `part` of them.
+fn weighted(sorted: &[(f64, f64)], part: f64) -> f64 {
     let mut sum = 0.0;
     for (value, weight) in sorted {
         sum += weight;
-        if sum >= p {
+        if sum >= part {
             return *value;
         }
     }

@@ -86,8 +86,9 @@ impl Posterior {
                 }
                 (fit.logs().to_vec(), size, None)
             }
-            Prior::Flat { power_law, .. } | Prior::Matching { power_law, .. } => {
-                let needed = if *power_law { 4 } else { 3 };
+            Prior::Flat { .. } | Prior::Matching { .. } | Prior::Catalogue { .. } => {
+                let power_law = prior.has_power_law();
+                let needed = if power_law { 4 } else { 3 };
                 if count + 1 < needed {
                     let why = "with a flat prior, one more than parameters";
                     return Err(InspectionError::TooFew { readings: count + 1, needed, why });
@@ -97,13 +98,15 @@ impl Posterior {
                 let Some([first, second]) = process.maximum(&exposures, &wear) else {
                     return Err(InspectionError::Proportional { readings: count + 1 });
                 };
-                (vec![first, second, 0.0], if *power_law { 3 } else { 2 }, Some(count))
+                (vec![first, second, 0.0], if power_law { 3 } else { 2 }, Some(count))
             }
         };
         let lines = Lines { likelihood: Likelihood::new(increments, prior), start };
         let Some(points) = lines.points(size) else {
             return Err(InspectionError::Proportional { readings: count + 1 });
         };
+        // A catalogue keeps drifts away from 0, which are all that a Wiener process has to fear.
+        let flat = flat.filter(|_| !(prior.is_catalogue() && process.increments_for_variance().is_none()));
         Ok(Self { process, nodes: weighed(points, process, now)?, flat })
     }
 

@@ -1,7 +1,11 @@
 //! What was known before the readings. Never knows readings.
 
-use crate::life::Estimate;
+use crate::life::{Estimate, LifeError};
 use crate::process::Process;
+use crate::special::normal_quantile;
+
+/// Probability that a range of a catalogue holds the value.
+const RANGE: f64 = 0.95;
 
 /// What was known before the readings.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,18 +26,52 @@ pub enum Prior {
         /// Whether exposure counts by an unknown power; else as it is.
         power_law: bool,
     },
+    /// Nothing but the mean wear per unit of exposure, as a catalogue gives it: its logarithm is normal. Exposure counts as it is.
+    Catalogue {
+        /// The process.
+        process: &'static dyn Process,
+        /// Mean of the logarithm.
+        mean: f64,
+        /// Standard deviation of the logarithm.
+        std: f64,
+    },
     /// An estimate from other units of the same population: normal in the logarithms of its parameters. Without
     /// covariance the parameters are known, and readings say only where wear is.
     Fit(Estimate),
 }
 
 impl Prior {
+    /// [`Prior::Catalogue`] from a range [unit of wear / unit of exposure] that holds the mean wear with 95 %.
+    ///
+    /// # Errors
+    /// [`LifeError::CatalogueRange`] where it does not go up, from above 0.
+    pub fn catalogue(process: &'static dyn Process, [from, to]: [f64; 2]) -> Result<Self, LifeError> {
+        // Not a number does not go up either.
+        if !(from > 0.0 && to > from && to.is_finite()) {
+            return Err(LifeError::CatalogueRange { from, to });
+        }
+        let (low, high) = (libm::log(from), libm::log(to));
+        let std = 0.5 * (high - low) / normal_quantile(0.5 + 0.5 * RANGE);
+        Ok(Self::Catalogue { process, mean: 0.5 * (low + high), std })
+    }
+
     /// The process of the joint.
     pub fn process(&self) -> &'static dyn Process {
         match self {
-            Self::Flat { process, .. } | Self::Matching { process, .. } => *process,
+            Self::Flat { process, .. } | Self::Matching { process, .. } | Self::Catalogue { process, .. } => {
+                *process
+            }
             Self::Fit(fit) => fit.process(),
         }
+    }
+
+    /// Whether exposure counts by an unknown power, if nothing is known of it.
+    pub(super) fn has_power_law(&self) -> bool {
+        matches!(self, Self::Flat { power_law: true, .. } | Self::Matching { power_law: true, .. })
+    }
+
+    pub(super) fn is_catalogue(&self) -> bool {
+        matches!(self, Self::Catalogue { .. })
     }
 
     /// ln of the density in the logarithms of parameters and exponent, not normalised.
@@ -41,6 +79,10 @@ impl Prior {
         match self {
             Self::Flat { process, .. } | Self::Matching { process, .. } => {
                 process.flat_prior_power() * logs[0]
+            }
+            Self::Catalogue { process, mean, std } => {
+                let off = (process.ln_mean([logs[0], logs[1]]) - mean) / std;
+                -0.5 * off * off
             }
             Self::Fit(fit) => {
                 let off: Vec<f64> = fit.logs().iter().zip(logs).map(|(mean, log)| log - mean).collect();

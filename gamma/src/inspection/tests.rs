@@ -5,7 +5,7 @@ use rand::distr::Open01;
 
 use super::*;
 use crate::life::{Clock, Estimate, FirstPassage, Law, LifeError, Lifetime, OperatingState};
-use crate::process::Gamma;
+use crate::process::{Gamma, PROCESSES, Wiener};
 use crate::quadrature::integrate;
 use crate::random::{LnGamma, Stream};
 use crate::special::ln_gamma;
@@ -263,4 +263,42 @@ fn what_cannot_be_learned_from_is_refused() {
     let few = Posterior::update(&history(&READINGS[..4]), &flat, &situation()).expect("proper");
     assert!(matches!(few.moments(), Err(LifeError::HeavyTail { increments: 3, needed: 4 })));
     assert!(few.quantile(0.5).is_ok());
+}
+
+#[test]
+fn a_catalogue_counts_as_much_as_it_is_sure_of() {
+    let rows: Vec<Reading> = READINGS.map(|(time, wear)| Reading { time, wear }).to_vec();
+    for process in PROCESSES {
+        let history = History::exact(process, rows.clone()).expect("rising");
+        let ln_mean = |prior: &Prior| {
+            let posterior = Posterior::update(&history, prior, &situation()).expect("proper");
+            let [first, second] = [0, 1].map(|at| posterior.parameters()[at].mean);
+            (process.ln_mean([first, second]), posterior.quantile(0.5).expect("a law"))
+        };
+        let catalogue = |range| ln_mean(&Prior::catalogue(process, range).expect("a range"));
+        // Twice as fast as it wears, sure to a thousandth: no reading changes that.
+        let (mean, sure) = catalogue([1.719, 1.721]);
+        assert!((mean - 1.72_f64.ln()).abs() < 1e-3, "{process:?} {mean}");
+        let (mean, unsure) = catalogue([0.5, 6.0]);
+        let seen = (4.3_f64 / 5.0).ln();
+        assert!(mean > seen && mean < 1.72_f64.ln(), "{process:?} {mean}");
+        // The rest of the wear at that rate, nearly: readings so far off it say that wear scatters, so lives are skew.
+        assert!(sure < unsure && (sure / (5.7 / 1.72) - 1.0).abs() < 0.15, "{process:?} {sure} {unsure}");
+        // So wide that it says nothing: a flat prior, whose powers of the drift the catalogue's law does not have.
+        let flat = ln_mean(&Prior::Flat { process, power_law: false }).1;
+        let nothing = catalogue([1e-9, 1e9]).1;
+        if process.flat_prior_power() == 0.0 {
+            // The curvature of so wide a law: ln mean is known to 0.1 of its 10.6.
+            assert!((nothing / flat - 1.0).abs() < 1e-3, "{process:?} {nothing} {flat}");
+        }
+    }
+    for range in [[0.0, 1.0], [2.0, 1.0], [1.0, 1.0], [f64::NAN, 1.0], [1.0, f64::INFINITY]] {
+        let error = Prior::catalogue(&Gamma, range).expect_err("no range");
+        assert!(matches!(error, LifeError::CatalogueRange { .. }));
+    }
+    let wiener = Prior::catalogue(&Wiener, [0.5, 2.0]).expect("a range");
+    let rows = READINGS.map(|(time, wear)| Reading { time, wear }).to_vec();
+    let history = History::exact(&Wiener, rows).expect("numbers");
+    let posterior = Posterior::update(&history, &wiener, &situation()).expect("proper");
+    assert!(posterior.moments().is_ok(), "drifts near 0 are out of the question");
 }

@@ -29,6 +29,17 @@ pub struct Band {
 }
 
 impl Band {
+    /// A value with half of its interval's width on a scale; none where that is not finite.
+    pub(crate) fn around(value: f64, scale: Scale, half: f64) -> Self {
+        let centre = scale.out(value);
+        if !(centre.is_finite() && half.is_finite()) {
+            return Self { value, lower: value, upper: value };
+        }
+        // There and back costs a digit: the value stays inside its band.
+        let (lower, upper) = (scale.back(centre - half), scale.back(centre + half));
+        Self { value, lower: lower.min(value), upper: upper.max(value) }
+    }
+
     /// Half of the interval's width.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.upper - self.lower)
@@ -76,9 +87,11 @@ fn drawn_lives(
 }
 
 /// The scale on which a value is unbounded.
-#[derive(Clone, Copy)]
-enum Scale {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Of probabilities.
     Logit,
+    /// Of times.
     Log,
 }
 
@@ -142,7 +155,11 @@ impl<'a> Bands<'a> {
         self.band(Scale::Log, &|life| Ok(life.moments()?.mean))
     }
 
-    fn band(
+    /// Whatever can be asked of a life.
+    ///
+    /// # Errors
+    /// Those of the question.
+    pub fn band(
         &self,
         scale: Scale,
         of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
@@ -158,28 +175,31 @@ impl<'a> Bands<'a> {
             let tail = 0.5 - 0.5 * self.level;
             return Ok(Band { value, lower: at(tail), upper: at(1.0 - tail) });
         }
-        let centre = scale.out(value);
-        if !centre.is_finite() {
+        if !scale.out(value).is_finite() {
             // A probability of 0 or 1 in all digits: the parameters do not move it.
             return Ok(Band { value, lower: value, upper: value });
         }
-        let mut gradient = Vec::new();
-        for at in 0..self.estimate.logs().len() {
-            let shifted = |step: f64| -> Result<f64, LifeError> {
-                let mut logs = self.estimate.logs().to_vec();
-                logs[at] += step;
-                Ok(scale.out(of(&self.state.life_by(self.estimate, &logs)?)?))
-            };
-            gradient.push((shifted(STEP)? - shifted(-STEP)?) / (2.0 * STEP));
-        }
-        let half = self.z * self.estimate.factor().variance(&gradient).sqrt();
-        if !half.is_finite() {
-            return Ok(Band { value, lower: value, upper: value });
-        }
-        // There and back costs a digit: the value stays inside its band.
-        let (lower, upper) = (scale.back(centre - half), scale.back(centre + half));
-        Ok(Band { value, lower: lower.min(value), upper: upper.max(value) })
+        Ok(Band::around(value, scale, self.z * variance(self.estimate, self.state, scale, of)?.sqrt()))
     }
+}
+
+/// Variance that an estimate's covariance gives to what `of` tells of a life, on a scale.
+pub(crate) fn variance(
+    estimate: &Estimate,
+    state: &OperatingState,
+    scale: Scale,
+    of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
+) -> Result<f64, LifeError> {
+    let mut gradient = Vec::new();
+    for at in 0..estimate.logs().len() {
+        let shifted = |step: f64| -> Result<f64, LifeError> {
+            let mut logs = estimate.logs().to_vec();
+            logs[at] += step;
+            Ok(scale.out(of(&state.life_by(estimate, &logs)?)?))
+        };
+        gradient.push((shifted(STEP)? - shifted(-STEP)?) / (2.0 * STEP));
+    }
+    Ok(estimate.factor().variance(&gradient))
 }
 
 #[cfg(test)]

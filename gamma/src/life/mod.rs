@@ -18,11 +18,13 @@ mod observed;
 mod ordered;
 mod state;
 mod statistics;
+mod survived;
 #[cfg(test)]
 mod weibull;
 
 pub use crate::error::LifeError;
-pub use band::{Band, Bands, Method};
+pub(crate) use band::variance;
+pub use band::{Band, Bands, Method, Scale};
 pub use budget::{Contribution, ErrorBudget};
 pub use clock::Clock;
 pub use counted::CountedLives;
@@ -35,6 +37,7 @@ pub use mixture::LifeMixture;
 pub use observed::ObservedLives;
 pub use state::OperatingState;
 pub use statistics::{LifeStatistics, WithError};
+pub use survived::Survived;
 #[cfg(test)]
 pub(crate) use weibull::Weibull;
 

@@ -39,6 +39,9 @@ pub trait Process: Debug + Sync {
         self.density(logs, wear).value
     }
 
+    /// ln of the mean wear over exposure 1.
+    fn ln_mean(&self, logs: [f64; 2]) -> f64;
+
     /// Variance of an increment over exposure 1.
     fn variance(&self, logs: [f64; 2]) -> f64;
 

@@ -50,6 +50,10 @@ impl Process for Gamma {
         Some([ln_alpha, ln_alpha + libm::log(ratio)])
     }
 
+    fn ln_mean(&self, logs: [f64; 2]) -> f64 {
+        logs[0] - logs[1]
+    }
+
     fn variance(&self, logs: [f64; 2]) -> f64 {
         libm::exp(logs[0] - 2.0 * logs[1])
     }

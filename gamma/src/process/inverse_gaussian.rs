@@ -54,6 +54,10 @@ impl Process for InverseGaussian {
         (wears.iter().all(|wear| *wear > 0.0) && scatters(scatter, exposure / drift)).then_some(logs)
     }
 
+    fn ln_mean(&self, logs: [f64; 2]) -> f64 {
+        logs[0]
+    }
+
     fn variance(&self, logs: [f64; 2]) -> f64 {
         libm::exp(3.0 * logs[0] - logs[1])
     }

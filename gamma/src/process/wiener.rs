@@ -48,6 +48,10 @@ impl Process for Wiener {
         (drift > 0.0 && scatters(scatter, drift * wear)).then_some(logs)
     }
 
+    fn ln_mean(&self, logs: [f64; 2]) -> f64 {
+        logs[0]
+    }
+
     fn variance(&self, logs: [f64; 2]) -> f64 {
         libm::exp(2.0 * logs[1])
     }

@@ -1,11 +1,17 @@
 //! `predict --format json`.
 
-use linkwear_gamma::Prediction;
+mod asked;
+mod parts;
+
 use linkwear_gamma::life::{Band, Contribution, ErrorBudget};
+use linkwear_gamma::{Machine, Prediction};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use self::asked::{AskedAnswer, DatesAnswer, MachineAnswer};
+use self::parts::{BandsAnswer, PredictiveInterval};
+use super::super::calendar::Calendar;
 use super::common::{Ends, Quantiles};
 use super::life::Sources;
 
@@ -40,33 +46,19 @@ pub struct PredictAnswer<'a> {
     pub reliability: Vec<ReliabilityAnswer>,
     /// Rate of failures of those that live.
     pub hazard: Vec<HazardAnswer>,
+    /// Answers to what else was asked.
+    #[serde(flatten)]
+    pub asked: AskedAnswer,
+    /// The same as dates, with `--from`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dates: Option<DatesAnswer>,
+    /// The machine, with `--also`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub machine: Option<MachineAnswer>,
     /// How far off the mean may be; null where it is not finite.
     pub budget: Option<BudgetAnswer>,
     /// What is doubtful.
-    pub warnings: &'a [String],
-}
-
-/// Where 95 % of such lives end.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-pub struct PredictiveInterval {
-    /// Lower end [time].
-    pub lower: f64,
-    /// Upper end [time].
-    pub upper: f64,
-    /// What it takes into account of the parameters: `predictive`, all that the data leave open; `normal`, what the covariance leaves
-    /// open; `plug-in`, nothing.
-    pub kind: &'static str,
-}
-
-/// How far the parameters leave numbers open, at 95 %.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(JsonSchema))]
-pub struct BandsAnswer {
-    /// The mean [time]; null where it is not finite.
-    pub mean: Option<Ends>,
-    /// The quantiles [time].
-    pub quantiles: Quantiles<Ends>,
+    pub warnings: Vec<&'a String>,
 }
 
 /// Probability to live longer.
@@ -116,10 +108,10 @@ pub struct ContributionAnswer {
     pub reason: Option<&'static str>,
 }
 
-impl<'a> From<&'a Prediction> for PredictAnswer<'a> {
-    fn from(told: &'a Prediction) -> Self {
+impl<'a> PredictAnswer<'a> {
+    /// Of a joint, perhaps of its machine, perhaps with dates.
+    pub fn new(told: &'a Prediction, machine: Option<(&[String], &'a Machine)>, calendar: &Calendar) -> Self {
         let moments = told.moments.as_ref();
-        let ends = |band: &Band| Ends { lower: Some(band.lower), upper: Some(band.upper) };
         let course = told.course.iter();
         Self {
             from: &told.from,
@@ -137,8 +129,8 @@ impl<'a> From<&'a Prediction> for PredictAnswer<'a> {
                 kind: told.interval_kind.name(),
             },
             bands: BandsAnswer {
-                mean: moments.map(|(_, band)| ends(band)),
-                quantiles: told.quantiles.each_ref().map(ends).into(),
+                mean: moments.map(|(_, band)| Ends::from(band)),
+                quantiles: told.quantiles.each_ref().map(Ends::from).into(),
             },
             reliability: course
                 .clone()
@@ -152,8 +144,15 @@ impl<'a> From<&'a Prediction> for PredictAnswer<'a> {
             hazard: course
                 .map(|(time, _, hazard)| HazardAnswer { time: *time, hazard: Some(*hazard) })
                 .collect(),
+            asked: AskedAnswer::from(&told.answers),
+            dates: DatesAnswer::new(told, calendar),
+            machine: machine.map(|(names, life)| MachineAnswer::new(names, life, calendar)),
             budget: told.budget.as_ref().map(BudgetAnswer::from),
-            warnings: &told.warnings,
+            warnings: told
+                .warnings
+                .iter()
+                .chain(machine.iter().flat_map(|(_, life)| &life.warnings))
+                .collect(),
         }
     }
 }

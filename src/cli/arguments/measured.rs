@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use linkwear_gamma::process::{PROCESSES, Process};
 
-use super::super::value::{covariate, one_of, output, positive, tolerance, within_one};
+use super::super::calendar::Calendar;
+use super::super::value::{
+    OtherJoint, covariate, from_zero, one_of, other_joint, output, part, positive, range, within_one,
+};
 
 #[derive(Debug, Args)]
 pub struct PredictArguments {
@@ -48,12 +51,38 @@ pub struct PredictArguments {
     /// Particles that follow readings with gauge error.
     #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
     pub particles: u32,
+    /// Beside the readings nothing is known but the mean wear per unit of exposure, which a catalogue gives as A to B; it lies
+    /// within with 95 %. The fit gives the form.
+    #[arg(long, value_name = "A..B", value_parser = range, requires = "inspections", conflicts_with_all = ["gauge", "flat_prior"])]
+    pub catalogue: Option<[f64; 2]>,
+    /// For how long it has gone on since then without failing, its wear unseen: everything is told from the end of that time.
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", hide_default_value = true)]
+    pub survived: f64,
+    /// Part that has failed, by when is asked: 1% gives B1. Repeatable.
+    #[arg(long, value_name = "P", value_parser = part)]
+    pub quantile: Vec<f64>,
+    /// Time at which reliability, hazard and the mean residual life of the survivors are asked. Repeatable.
+    #[arg(long, value_name = "TIME", value_parser = from_zero)]
+    pub reliability_at: Vec<f64>,
+    /// A mission from A to B: how probable a part that begins it gets through. Repeatable.
+    #[arg(long, value_name = "A..B", value_parser = range)]
+    pub mission: Vec<[f64; 2]>,
+    /// Another joint of the machine, with its own fit: file, wear at failure, wear now, exposure until now. The machine fails with
+    /// the first of its joints. Repeatable.
+    #[arg(long, value_name = "FIT.json:W[:W0[:EXPOSURE]]", value_parser = other_joint, conflicts_with = "inspections")]
+    pub also: Vec<OtherJoint>,
+    #[command(flatten)]
+    pub calendar: Calendar,
     /// Bands by this many drawn parameters [default: by the delta method].
     #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
     pub draws: Option<u32>,
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub seed: u64,
+    /// Draw reliability and hazard as charts (SVG; PNG by the feature `png`).
+    #[cfg(feature = "page")]
+    #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
+    pub plot: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -76,10 +105,10 @@ pub struct PlanArguments {
     #[arg(long, value_name = "COST", value_parser = positive)]
     pub failure: f64,
     /// How long a replacement in time takes.
-    #[arg(long, value_name = "TIME", value_parser = tolerance, default_value = "0")]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0")]
     pub preventive_time: f64,
     /// How long the standstill after a failure takes.
-    #[arg(long, value_name = "TIME", value_parser = tolerance, default_value = "0")]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0")]
     pub failure_time: f64,
     /// Cost of a look at the wear: plan looks too.
     #[arg(long, value_name = "COST", value_parser = positive)]
@@ -97,10 +126,10 @@ pub struct PlanArguments {
     #[arg(long, value_name = "TIME", value_parser = positive)]
     pub look_at: Option<f64>,
     /// Wear of the part in use now [default: 0].
-    #[arg(long, value_name = "W0", value_parser = tolerance, requires = "look_at")]
+    #[arg(long, value_name = "W0", value_parser = from_zero, requires = "look_at")]
     pub current: Option<f64>,
     /// Exposure of the part in use until now; needed with --current for a power law.
-    #[arg(long, value_name = "EXPOSURE", value_parser = tolerance, requires = "look_at")]
+    #[arg(long, value_name = "EXPOSURE", value_parser = from_zero, requires = "look_at")]
     pub at: Option<f64>,
     /// Parts in use, all new at the start: plan spares for them.
     #[arg(long, value_name = "N", requires = "horizon")]

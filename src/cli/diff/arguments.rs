@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::super::value::tolerance;
+use super::super::value::from_zero;
 
 #[derive(Debug, Args)]
 pub struct DiffArguments {
@@ -13,6 +13,6 @@ pub struct DiffArguments {
     /// The other, of the same kind.
     pub b: PathBuf,
     /// Exit with 1 unless all agree within this part of a column's range; what they are of may differ.
-    #[arg(long, value_name = "R", value_parser = tolerance)]
+    #[arg(long, value_name = "R", value_parser = from_zero)]
     pub tolerance: Option<f64>,
 }

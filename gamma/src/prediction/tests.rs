@@ -1,0 +1,164 @@
+use super::*;
+use crate::inspection::Reading;
+use crate::process::{Gamma, Wiener};
+
+/// GaAs lasers (Meeker & Escobar, 1998, table C.17), with a covariance of some percent.
+fn lasers() -> Estimate {
+    let estimate = Estimate::new(&Gamma, [28.753_506_06, 14.114_459_33], None).expect("valid");
+    estimate.with_log_covariance(&[vec![7e-3, 6e-3], vec![6e-3, 7e-3]]).expect("positive definite")
+}
+
+fn state() -> OperatingState {
+    OperatingState::new(10.0).expect("positive")
+}
+
+fn asked() -> Questions {
+    Questions {
+        survived: 0.0,
+        quantiles: vec![0.01, 0.5],
+        times: vec![0.0, 4.5],
+        missions: vec![[0.0, 4.5], [4.5, 5.0]],
+    }
+}
+
+#[test]
+fn answers_are_those_of_the_law() {
+    let (estimate, state) = (lasers(), state());
+    let life = state.life(&estimate).expect("valid");
+    let told = Prediction::by_fit(&estimate, &state, Method::Delta, &asked()).expect("valid");
+    let [(p, b1), (_, median)] = told.answers.quantiles[..] else { panic!("two were asked") };
+    assert_eq!((p, b1.value), (0.01, life.quantile(0.01).expect("valid")));
+    assert_eq!(median, told.quantiles[1]);
+    assert!(b1.lower < b1.value && b1.value < b1.upper);
+    let [new, later] = &told.answers.times[..] else { panic!("two were asked") };
+    let (moments, band) = told.moments.expect("finite");
+    let rest = new.rest.expect("finite");
+    // The same integral, and the same band.
+    assert_eq!((rest.value, rest), (moments.mean, band));
+    let alive = life.reliability(4.5);
+    assert_eq!(later.reliability.value, alive);
+    let [first, second] = told.answers.missions[..] else { panic!("two were asked") };
+    assert_eq!(first.1, later.reliability);
+    assert!((second.1.value - life.reliability(5.0) / alive).abs() < 1e-15);
+    // Mean rest from the mean: E T = E min(T, t) + S(t) rest, the first term by Simpson's rule on a smooth function.
+    let n = 2000;
+    let step = 4.5 / f64::from(n);
+    let simpson: f64 = (0..n)
+        .map(|at| {
+            let [a, b, c] = [0.0, 0.5, 1.0].map(|part| life.reliability((f64::from(at) + part) * step));
+            step * (a + 4.0 * b + c) / 6.0
+        })
+        .sum();
+    let expected = (moments.mean - simpson) / alive;
+    assert!((later.rest.expect("finite").value / expected - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn time_without_failure_counts_in_every_answer() {
+    let (estimate, state) = (lasers(), state());
+    let life = state.life(&estimate).expect("valid");
+    let questions = Questions { survived: 4.5, missions: vec![[0.2, 0.5]], ..asked() };
+    let told = Prediction::by_fit(&estimate, &state, Method::Delta, &questions).expect("valid");
+    let rest = |t: f64| life.reliability(4.5 + t) / life.reliability(4.5);
+    assert!((rest(told.quantiles[1].value) - 0.5).abs() < 1e-12);
+    assert!((told.answers.missions[0].1.value - rest(0.5) / rest(0.2)).abs() < 1e-12);
+    assert_eq!(told.course[0].1.value, 1.0);
+    assert!(told.interval.0 < told.quantiles[1].value && told.quantiles[1].value < told.interval.1);
+    let new = Prediction::by_fit(&estimate, &state, Method::Delta, &asked()).expect("valid");
+    // Wear that is not seen: the rest is shorter than a new life, and longer than a new life less the time.
+    let (here, whole) = (told.moments.expect("finite").0.mean, new.moments.expect("finite").0.mean);
+    assert!(here < whole && here > whole - 4.5);
+}
+
+#[test]
+fn a_reading_and_time_since_it_without_failure() {
+    let reading = |time, wear| Reading { time, wear };
+    let readings = vec![reading(0.0, 0.0), reading(1.0, 2.1), reading(2.0, 3.9), reading(3.0, 6.2)];
+    let history = History::exact(&Gamma, readings).expect("rising");
+    let flat = Prior::Flat { process: &Gamma, power_law: false };
+    let now = state().worn(6.2, 3.0).expect("below");
+    let posterior = Posterior::update(&history, &flat, &state()).expect("valid");
+    let questions = Questions { survived: 2.4, times: vec![0.5], ..Questions::default() };
+    let told = Prediction::after(&history, &flat, &now, &questions).expect("valid");
+    let expected = posterior.reliability(2.9) / posterior.reliability(2.4);
+    assert!((told.answers.times[0].reliability.value - expected).abs() < 1e-12);
+    // The band is of parameters by which it got that far: it lies around the value.
+    let Band { value, lower, upper } = told.answers.times[0].reliability;
+    assert!(lower < value && value < upper);
+    // Without weighing, parameters by which it should have failed would pull the band down.
+    let unweighed = posterior
+        .credible(value, Prediction::LEVEL, &|life| {
+            Ok((Survived::new(life, 2.4).map_or(0.0, |rest| rest.reliability(0.5)), 1.0))
+        })
+        .expect("valid");
+    assert!(unweighed.lower < lower, "{unweighed:?} {lower}");
+}
+
+#[test]
+fn a_machine_of_one_joint_is_its_joint_and_of_two_sooner_at_its_end() {
+    let member = Member { estimate: lasers(), state: state() };
+    let questions = Questions { survived: 0.5, ..asked() };
+    let one = Machine::new(std::slice::from_ref(&member), &questions).expect("valid");
+    let joint =
+        Prediction::by_fit(&member.estimate, &member.state, Method::Delta, &questions).expect("valid");
+    // The same formulas but for products of one factor.
+    let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    near(one.moments.expect("finite").0.mean, joint.moments.expect("finite").0.mean);
+    for (a, b) in one.quantiles.iter().zip(&joint.quantiles) {
+        near(a.value, b.value);
+        near(a.lower, b.lower);
+        near(a.upper, b.upper);
+    }
+    near(one.interval.0, joint.interval.0);
+    // Accuracy of the integral.
+    assert!((one.first[0] - 1.0).abs() < 1e-8);
+    let worn = Member { state: state().worn(3.0, 1.0).expect("below"), ..member.clone() };
+    let two = Machine::new(&[member, worn], &questions).expect("valid");
+    let lives = [0.0, 3.0].map(|wear| {
+        let state = state().worn(wear, wear / 3.0).expect("below");
+        state.life(&lasers()).expect("valid")
+    });
+    let alive = |t: f64| lives.iter().map(|life| life.reliability(0.5 + t)).product::<f64>();
+    near(two.answers.times[1].reliability.value, alive(4.5) / alive(0.0));
+    near(1.0, two.first.iter().sum());
+    assert!(two.first[1] > 0.9 && two.quantiles[1].value < one.quantiles[1].value);
+    // Two fits leave open more than one of them.
+    let width = |band: Band| (band.upper / band.lower).ln();
+    assert!(width(two.quantiles[1]) > 0.5 * width(one.quantiles[1]));
+    assert!(matches!(Machine::new(&[], &questions), Err(LifeError::NoMember)));
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let refused = |questions: Questions| {
+        Prediction::by_fit(&lasers(), &state(), Method::Delta, &questions).expect_err("impossible")
+    };
+    let none = Questions::default;
+    assert!(matches!(refused(Questions { quantiles: vec![1.0], ..none() }), LifeError::Probability { .. }));
+    assert!(matches!(refused(Questions { times: vec![-1.0], ..none() }), LifeError::Negative { .. }));
+    assert!(matches!(refused(Questions { survived: f64::NAN, ..none() }), LifeError::Negative { .. }));
+    assert!(matches!(refused(Questions { survived: 50.0, ..none() }), LifeError::NoneSurvives { .. }));
+    for mission in [[2.0, 1.0], [1.0, 1.0], [0.0, f64::NAN], [0.0, f64::INFINITY]] {
+        let error = refused(Questions { missions: vec![mission], ..none() });
+        assert!(matches!(error, LifeError::Span { .. }), "{mission:?} {error}");
+    }
+    // A mission that nobody is alive for.
+    let error = refused(Questions { missions: vec![[50.0, 51.0]], ..none() });
+    assert!(matches!(error, LifeError::NoneSurvives { .. }), "{error}");
+    // No rest where there is none left, but the other answers.
+    let late = Questions { times: vec![50.0], ..none() };
+    let told = Prediction::by_fit(&lasers(), &state(), Method::Delta, &late).expect("an answer");
+    assert_eq!(told.answers.times[0].rest, None);
+    assert!(told.answers.times[0].reliability.value < 1e-12);
+}
+
+#[test]
+fn a_drift_that_may_be_zero_has_no_mean_rest() {
+    let reading = |time, wear| Reading { time, wear };
+    let history =
+        History::noisy(vec![reading(0.0, 0.0), reading(1.0, 1.1), reading(2.0, 1.9), reading(3.0, 3.2)]);
+    let flat = Prior::Flat { process: &Wiener, power_law: false };
+    let questions = Questions { times: vec![1.0], ..Questions::default() };
+    let told = Prediction::after(&history.expect("valid"), &flat, &state(), &questions).expect("quantiles");
+    assert!(told.moments.is_none() && told.answers.times[0].rest.is_none());
+}
