@@ -17,7 +17,7 @@ use super::options::{
 use super::shipped_schemas::SCHEMAS;
 use super::starters::Starter;
 use super::study::StudyArguments;
-use super::value::{one_of, output, positive, threads};
+use super::value::{one_of, output, threads};
 pub use measured::{FitArguments, PlanArguments, PredictArguments};
 
 const NOTATIONS: [(&str, TextFormat); 3] =

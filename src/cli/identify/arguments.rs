@@ -7,7 +7,7 @@ use clap::Args;
 use super::super::options::{EquationsChoice, Input, IntegratorName};
 #[cfg(feature = "page")]
 use super::super::value::output;
-use super::super::value::{assignment, axis, positive, tolerance};
+use super::super::value::{assignment, axis, from_zero, positive};
 use crate::study::Axis;
 
 #[derive(Debug, Args)]
@@ -30,7 +30,7 @@ pub struct IdentifyArguments {
     #[arg(long, value_name = "COL=S", value_parser = assignment, requires = "measured")]
     pub noise: Vec<(String, String)>,
     /// Turns that the machine had made before the time 0 of the curve.
-    #[arg(long, value_name = "N", value_parser = tolerance, requires = "measured")]
+    #[arg(long, value_name = "N", value_parser = from_zero, requires = "measured")]
     pub settle: Option<f64>,
     /// Inspections of a joint that began unworn: JOINT=FILE.csv. Repeatable.
     #[arg(long, value_name = "JOINT=CSV", value_parser = assignment, requires = "clock", requires = "wear")]
