@@ -17,6 +17,8 @@ use super::options::{
 use super::shipped_schemas::SCHEMAS;
 use super::starters::Starter;
 use super::study::StudyArguments;
+#[cfg(feature = "page")]
+use super::value::positive;
 use super::value::{one_of, output, threads};
 pub use measured::{FitArguments, PlanArguments, PredictArguments};
 
