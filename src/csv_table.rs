@@ -164,6 +164,38 @@ impl<'a> CsvTable<'a> {
         self.rows.iter().map(number).collect()
     }
 
+    /// The same where a number may stand after one of some marks: which, and the number.
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn numbers_after(&self, name: &str, marks: &[&str]) -> Result<Vec<(Option<usize>, f64)>, CsvError> {
+        let column = self.place(name)?;
+        let read = |(line, record): &(usize, StringRecord)| {
+            let cell = record.get(column).unwrap_or_default();
+            let mark = marks.iter().position(|mark| cell.starts_with(mark));
+            let rest = mark.map_or(cell, |at| cell[marks[at].len()..].trim_start());
+            let value = rest.parse::<f64>().ok().filter(|value| value.is_finite());
+            value.map(|value| (mark, value)).ok_or_else(|| self.no_number(*line, column, cell))
+        };
+        self.rows.iter().map(read).collect()
+    }
+
+    /// The same where cells may be empty.
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn numbers_or_none(&self, name: &str) -> Result<Vec<Option<f64>>, CsvError> {
+        let column = self.place(name)?;
+        let read = |(line, record): &(usize, StringRecord)| match record.get(column).unwrap_or_default() {
+            "" => Ok(None),
+            cell => match cell.parse::<f64>().ok().filter(|value| value.is_finite()) {
+                Some(value) => Ok(Some(value)),
+                None => Err(self.no_number(*line, column, cell)),
+            },
+        };
+        self.rows.iter().map(read).collect()
+    }
+
     fn no_number(&self, line: usize, column: usize, cell: &str) -> CsvError {
         let name = self.header.get(column).map_or("", String::as_str);
         let (name, cell) = (cut(name, SHOWN[0]), &*cut(cell, SHOWN[0]));

@@ -155,7 +155,15 @@ fn fit(model: &Curve, histories: &[History], cycles: usize) -> Result<GammaRates
         for (wear, increment) in history.iter().take(cycles) {
             let to = from + model.at(*wear) / MICRO;
             let wear = increment / MICRO;
-            increments.push(Increment { unit, from, to, wear, ln_covariates: Vec::new(), row: 0 });
+            increments.push(Increment {
+                unit,
+                from,
+                to,
+                wear,
+                ln_covariates: Vec::new(),
+                row: 0,
+                ..Increment::default()
+            });
             from = to;
         }
     }

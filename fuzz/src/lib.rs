@@ -83,7 +83,14 @@ pub fn readings(text: &str) {
     let (Ok(units), Ok(wears), Ok(exposures)) = columns else { return };
     let rows = units.into_iter().zip(wears).zip(exposures).zip(table.lines());
     let readings: Vec<Reading> = rows
-        .map(|(((unit, wear), exposure), row)| Reading { unit, exposure, wear, covariates: Vec::new(), row })
+        .map(|(((unit, wear), exposure), row)| Reading {
+            unit,
+            exposure,
+            wear,
+            covariates: Vec::new(),
+            row,
+            ..Reading::default()
+        })
         .collect();
     if readings.len() > MOST_READINGS {
         return;

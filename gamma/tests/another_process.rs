@@ -110,6 +110,7 @@ fn lasers() -> Observations {
             wear: number(2),
             covariates: Vec::new(),
             row: at + 1,
+            ..Reading::default()
         }
     };
     let readings: Vec<Reading> = lines.map(reading).collect();

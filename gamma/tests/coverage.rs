@@ -52,7 +52,14 @@ impl Case {
                 let wear = self.step.map_or(wear, |step| (wear / step).round() * step);
                 let covariates = self.load.map(|_| load).into_iter().collect();
                 let (unit, row) = (unit.to_string(), readings.len() + 1);
-                readings.push(Reading { unit, exposure: step as f64, wear, covariates, row });
+                readings.push(Reading {
+                    unit,
+                    exposure: step as f64,
+                    wear,
+                    covariates,
+                    row,
+                    ..Reading::default()
+                });
             }
         }
         let gauge = self.step.map_or(Gauge::Exact, |step| Gauge::Resolution(Rounding::to(step)));

@@ -21,6 +21,7 @@ fn alike(process: &dyn Process, logs: [f64; 2], (units, readings): (usize, usize
         }),
         ln_covariates: Vec::new(),
         row: 0,
+        ..Increment::default()
     };
     let increments = (0..units * readings).map(one).collect();
     Observations { units: (0..units).map(|unit| unit.to_string()).collect(), increments }

@@ -63,6 +63,7 @@ fn observed(set: &Set) -> Observations {
             wear: number(set.columns[2]),
             covariates: set.covariate.map(number).into_iter().collect(),
             row: at + 1,
+            ..Reading::default()
         }
     };
     let readings: Vec<Reading> =

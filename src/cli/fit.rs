@@ -1,6 +1,7 @@
 //! `fit`: a process of wear from a table of readings.
 
 mod analysis;
+mod field;
 mod lambda;
 mod read;
 mod report;
@@ -95,15 +96,13 @@ pub fn replicates(
 struct Observed {
     name: String,
     data: Observations,
-    /// Wear of each unit at its last reading.
+    /// Wear of each unit now; NaN where it is not known.
     last: Vec<f64>,
 }
 
 impl Observed {
     fn new(arguments: &FitArguments, name: &str, readings: &[Reading]) -> Result<Self, Failure> {
-        let data = observe(arguments, readings)?;
-        let of = |unit: &String| readings.iter().rev().find(|reading| reading.unit == *unit);
-        let last = data.units.iter().map(|unit| of(unit).map_or(f64::NAN, |reading| reading.wear)).collect();
+        let (data, last) = observe(arguments, readings)?;
         Ok(Self { name: name.to_owned(), data, last })
     }
 }
@@ -134,8 +133,20 @@ fn provenance(arguments: &FitArguments, table: &CsvTable<'_>) -> Provenance {
         "from_zero": arguments.from_zero, "resolution": arguments.resolution, "gauge": arguments.gauge,
         "covariates": arguments.covariate, "one_unit": arguments.one_unit, "bootstrap": arguments.bootstrap,
     });
-    if arguments.random_effects {
-        options["random_effects"] = true.into();
+    // Keys of options that are not given are left out: files of fits without them stay as they are.
+    let given = [
+        ("random_effects", arguments.random_effects.then(|| true.into())),
+        (
+            "covariates_of_size",
+            (!arguments.covariate_of_size.is_empty()).then(|| json!(arguments.covariate_of_size)),
+        ),
+        ("reset", arguments.reset.as_ref().map(|column| json!(column))),
+        ("entered_below", arguments.entered_below.as_ref().map(|limit| json!(limit))),
+    ];
+    for (key, value) in given {
+        if let Some(value) = value {
+            options[key] = value;
+        }
     }
     Provenance::new(table.sha256().to_owned(), Some(arguments.seed), options)
 }
@@ -148,20 +159,26 @@ fn ratio(pooled: &Analysis, parts: &[Analysis]) -> Option<LikelihoodRatio> {
 }
 
 /// Increments, enough of them.
-fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<Observations, Failure> {
+fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<(Observations, Vec<f64>), Failure> {
     let gauge = match rounding(arguments) {
         Some(rounding) => Gauge::Resolution(rounding),
         None if arguments.process.is_increasing() => Gauge::Exact,
         None => Gauge::Noisy,
     };
-    let data = Observations::new(readings, arguments.from_zero, gauge);
-    let data = data.map_err(|error| refused(arguments, &error))?;
-    let (increments, parameters) = (data.increments.len(), model(arguments).parameters());
+    let data = Observations::with_wear(readings, arguments.from_zero, gauge);
+    let (data, last) = data.map_err(|error| refused(arguments, &error))?;
+    let increments = data.increments.iter().filter(|one| one.is_growth()).count();
+    let parameters = model(arguments).parameters();
     if increments <= parameters {
         let row = readings.last().map_or(0, |reading| reading.row);
         return Err(refused(arguments, &DataError::TooFew { row, increments, parameters }));
     }
-    Ok(data)
+    if arguments.bootstrap > 0 && data.has_bounds() {
+        let message =
+            "readings with bounds of wear cannot be drawn again: which of them would be bounds is not known";
+        return Err(Failure::data(&arguments.file, None, message, "leave --bootstrap out"));
+    }
+    Ok((data, last))
 }
 
 /// One unit shows how its own wear scatters; the process is asked about others.
@@ -194,6 +211,11 @@ fn cure(error: FitError) -> &'static str {
         FitError::BadResolution => "correct --resolution and --gauge",
         FitError::LargeError => "give a --resolution of a tenth of --gauge: a finer one is lost in the error",
         FitError::TooManyWindows { .. } => "fit fewer units, or every tenth reading of each",
+        FitError::RoundedBounds => "leave --resolution out, or the bounds and --entered-below",
+        FitError::NoBridge => "fit the Gamma or the Wiener process, or leave those readings out",
+        FitError::ManyBounds => "leave --random-effects out, or fit another process",
+        FitError::SizesWithinUnit => "leave --random-effects out, or fit the Gamma process",
+        FitError::TooFewExact { .. } => "add readings that are no bounds",
         FitError::OneUnit => "add readings of other units, or leave --random-effects out",
         FitError::NoRandomEffect | FitError::RoundedUnits => "leave --random-effects out",
         FitError::NoResolution => "leave --process or --resolution out",
@@ -205,7 +227,10 @@ fn cure(error: FitError) -> &'static str {
 fn refused(arguments: &FitArguments, error: &DataError) -> Failure {
     let mut message = error.to_string();
     if let DataError::ConstantCovariate { index, value } = error {
-        message = format!("covariate `{}` is the same in all rows ({value})", arguments.covariate[index - 1]);
+        message = format!(
+            "covariate `{}` is the same in all rows ({value})",
+            arguments.covariates().nth(index - 1).map_or("", String::as_str)
+        );
     }
     Failure::data(&arguments.file, error.row(), message, error.cure())
 }

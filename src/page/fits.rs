@@ -16,7 +16,7 @@ pub fn charts(fit: &Fit, goodness: &Goodness, data: &Observations) -> Vec<Chart>
     let quantiles = goodness.quantiles.iter().map(|(expected, seen)| [*expected, *seen]).collect();
     let residual = |(one, u): (&Increment, &f64)| [0.5 * (one.from + one.to), score(*u)];
     let residuals: Vec<[f64; 2]> = if fit.model.resolution.is_none() {
-        data.increments.iter().zip(&goodness.in_order).map(residual).collect()
+        data.increments.iter().filter(|one| one.is_plain()).zip(&goodness.in_order).map(residual).collect()
     } else {
         Vec::new()
     };

@@ -15,7 +15,7 @@ use super::estimate::{Fit, estimate_increments};
 use super::goodness::goodness;
 use super::heterogeneity::estimate_units;
 use super::interval::Interval;
-use crate::data::{Increment, Observations, Rounding};
+use crate::data::{Increment, Known, Observations, Rounding};
 use crate::order::sorted_quantile;
 use crate::random::{StandardNormal, Stream};
 
@@ -32,11 +32,19 @@ pub struct Bootstrap {
     pub failed: usize,
 }
 
+/// Units drawn for one that enters.
+const MOST_UNITS: u32 = 100_000;
+
 /// Draws data from the fit, with the spans, covariates and gauge of the observations, and estimates again.
 /// Replicate r draws from [`Stream::new`]`(seed, r, 0)`, increment i at cycle i, what differs between units from
-/// `(seed, r, 1 + unit)`: replicates may be drawn in parts, by their numbers.
+/// `(seed, r, 1 + unit)`: replicates may be drawn in parts, by their numbers. Of data with bounds of wear every replicate fails: which
+/// readings would have been bounds in drawn data nobody knows.
 pub fn bootstrap(fit: &Fit, observations: &Observations, replicates: Range<u64>, seed: u64) -> Bootstrap {
     let mut drawn = Bootstrap::default();
+    if observations.has_bounds() {
+        drawn.failed = replicates.count();
+        return drawn;
+    }
     for replicate in replicates {
         let increments = draw(fit, &observations.increments, seed, replicate);
         match again(fit, observations, &increments) {
@@ -72,23 +80,34 @@ pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> 
     let (mut level, mut last): (f64, f64) = (0.0, 0.0);
     let mut before: Option<&Increment> = None;
     let mut logs = fit.logs();
+    // Wear at entry of a unit that was drawn until it might enter.
+    let mut entered: Option<f64> = None;
     let drawn = like.iter().enumerate().map(|(at, increment)| {
-        if let (Some(cv), Some(effect)) = (fit.cv(), process.random_effect())
-            && before.is_none_or(|last| last.unit != increment.unit)
-        {
-            logs = effect.draw(fit.logs(), cv, &mut Stream::new(seed, replicate, 1 + increment.unit as u64));
+        if before.is_none_or(|last| last.unit != increment.unit) {
+            (logs, entered) = unit(fit, increment, seed, replicate);
         }
-        let drawn = process.draw(logs, fit.lambda(increment), stream.at(at as u64));
+        if !increment.is_growth() {
+            before = Some(increment);
+            return increment.clone();
+        }
+        let own = fit.model.sized(&logs, fit.model.ln_size(&fit.phi, increment));
+        let drawn = match entered.take() {
+            Some(wear) => wear,
+            None => process.draw(own, fit.lambda(increment), stream.at(at as u64)),
+        };
         let wear = match fit.model.resolution {
             Some(Rounding { step, error }) => {
                 let read = |level: f64, stream: &mut Stream| {
                     let off = if error > 0.0 { error * stream.sample(StandardNormal) } else { 0.0 };
                     libm::round((level + off) / step)
                 };
-                if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
+                let is_other =
+                    before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from);
+                if is_other || increment.known != Known::Exact {
                     let free = step * (stream.sample::<f64, _>(Open01) - 0.5);
-                    level = if increment.from > 0.0 { free } else { 0.0 };
-                    last = if increment.from > 0.0 { read(level, &mut stream) } else { 0.0 };
+                    let is_read = increment.from > 0.0 && increment.known != Known::FromLevel;
+                    level = if is_read { free } else { 0.0 };
+                    last = if is_read { read(level, &mut stream) } else { 0.0 };
                 }
                 level += drawn;
                 let from = core::mem::replace(&mut last, read(level, &mut stream));
@@ -102,6 +121,29 @@ pub(super) fn draw(fit: &Fit, like: &[Increment], seed: u64, replicate: u64) -> 
         Increment { wear, ..increment.clone() }
     });
     drawn.collect()
+}
+
+/// Logarithms of the parameters of a unit whose first increment or entry this is, and what it wore when it entered, if it was new
+/// before: units that would not have entered are drawn again.
+fn unit(fit: &Fit, first: &Increment, seed: u64, replicate: u64) -> ([f64; 2], Option<f64>) {
+    let process = fit.model.process;
+    let mut stream = Stream::new(seed, replicate, 1 + first.unit as u64);
+    let mut own = || match (fit.cv(), process.random_effect()) {
+        (Some(cv), Some(effect)) => effect.draw(fit.logs(), cv, &mut stream),
+        _ => fit.logs(),
+    };
+    let Known::Entered { from_new } = first.known else { return (own(), None) };
+    let mut draws = Stream::new(seed, replicate, u64::MAX - first.unit as u64);
+    let ln_size = fit.model.ln_size(&fit.phi, first);
+    for _ in 0..MOST_UNITS {
+        let logs = own();
+        let wear = process.draw(fit.model.sized(&logs, ln_size), fit.lambda(first), &mut draws);
+        if wear < first.wear {
+            return (logs, from_new.then_some(wear));
+        }
+    }
+    // Hardly any unit enters: a replicate without an estimate.
+    (fit.logs(), Some(f64::NAN))
 }
 
 impl Bootstrap {

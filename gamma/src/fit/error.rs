@@ -25,6 +25,14 @@ pub enum FitError {
         /// How many parameters are sought.
         parameters: usize,
     },
+    /// Hardly any increment that is more than a bound.
+    #[error(
+        "{increments} increment(s) of known wear beside bounds: two at least are needed to see it scatter"
+    )]
+    TooFewExact {
+        /// How many there are.
+        increments: usize,
+    },
     /// A gauge's step that is not a positive number.
     #[error("the gauge's resolution must be a positive number, and its error a number of 0 or more")]
     BadResolution,
@@ -54,6 +62,22 @@ pub enum FitError {
         "differences between units are estimated from exact readings, not from readings with a resolution"
     )]
     RoundedUnits,
+    /// Bounds or entries, and readings that are rounded.
+    #[error("bounds of wear, and limits that units entered below, are taken of exact readings only")]
+    RoundedBounds,
+    /// A bound on the way to a reading.
+    #[error(
+        "a reading below the gauge's range, with a reading after it, has no likelihood in closed form for this process"
+    )]
+    NoBridge,
+    /// Several bounds of a unit whose parameter may have either sign.
+    #[error("several bounds of one unit have no likelihood for this process where units differ")]
+    ManyBounds,
+    /// Sizes that change within a unit whose drift is its own.
+    #[error(
+        "covariates of size change within a unit: with units that differ only the Gamma process takes that"
+    )]
+    SizesWithinUnit,
     /// One unit.
     #[error("readings of one unit cannot say how units differ")]
     OneUnit,

@@ -3,15 +3,18 @@
 
 use super::error::FitError;
 use super::maximise::{maximise, start, unbounded};
-use super::model::Model;
+use super::model::{Model, units};
 use super::rounded::{Laws, windows};
-use crate::data::{Increment, Observations, Rounding};
+use crate::data::{Increment, Known, Observations, Rounding};
 use crate::matrix::Factor;
 use crate::special::gamma_q;
 
 /// Largest error of a gauge, in its steps, whose readings are followed through a grid of wear: a step then hides in the error,
 /// and a larger one loses nothing.
 const MOST_ERROR: f64 = 100.0;
+
+/// Increments whose wear must be known beside those that are bounded: scatter is seen between them.
+const FEWEST_EXACT: usize = 2;
 
 /// A fitted process.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +38,15 @@ pub(super) fn estimate_increments(
     model: &Model,
     near: Option<&[f64]>,
 ) -> Result<Fit, FitError> {
-    if increments.len() <= model.parameters() {
-        return Err(FitError::TooFew { increments: increments.len(), parameters: model.parameters() });
+    let count = increments.iter().filter(|one| one.is_growth()).count();
+    if count <= model.parameters() {
+        return Err(FitError::TooFew { increments: count, parameters: model.parameters() });
     }
+    let exact = increments.iter().filter(|one| one.is_exact()).count();
+    if exact < FEWEST_EXACT {
+        return Err(FitError::TooFewExact { increments: exact });
+    }
+    takes(model, increments)?;
     if let Some(Rounding { step, error }) = model.resolution {
         let is_positive = step > 0.0 && step.is_finite() && error >= 0.0 && error.is_finite();
         if !is_positive {
@@ -48,7 +57,8 @@ pub(super) fn estimate_increments(
         }
         model.process.mean_shortfall([0.0; 2], step).ok_or(FitError::NoResolution)?;
     }
-    let (phi, point) = if model.parameters() == 2 && model.resolution.is_none() {
+    let is_plain = increments.iter().all(Increment::is_plain);
+    let (phi, point) = if model.parameters() == 2 && model.resolution.is_none() && is_plain {
         let lambdas: Vec<f64> = increments.iter().map(|increment| increment.to - increment.from).collect();
         let wears: Vec<f64> = increments.iter().map(|increment| increment.wear).collect();
         let phi = model.process.maximum(&lambdas, &wears).ok_or(FitError::NoScatter)?.to_vec();
@@ -61,7 +71,35 @@ pub(super) fn estimate_increments(
     };
     let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
     let covariance = covariance.ok_or_else(|| unbounded(model, increments, &phi))?;
-    Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: increments.len() })
+    Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: count })
+}
+
+/// Refuses increments whose likelihood the model does not have.
+fn takes(model: &Model, increments: &[Increment]) -> Result<(), FitError> {
+    let has_bridge = |one: &Increment| match one.known {
+        Known::Through { .. } => model.process.ln_bridge([0.0; 2], [1.0; 2], 1.0, 0.5).is_some(),
+        _ => true,
+    };
+    if model.resolution.is_some() && !increments.iter().all(Increment::is_plain) {
+        return Err(FitError::RoundedBounds);
+    }
+    if !increments.iter().all(has_bridge) {
+        return Err(FitError::NoBridge);
+    }
+    let Some(effect) = model.process.random_effect().filter(|_| model.units_differ) else { return Ok(()) };
+    for unit in units(increments) {
+        let is_open = |one: &&Increment| !one.is_exact() && one.known != Known::Entered { from_new: true };
+        if unit.iter().filter(is_open).count() > 1 && effect.place([0.0; 2], 1.0, 0.0).is_none() {
+            return Err(FitError::ManyBounds);
+        }
+        let sizes = |one: &Increment| one.ln_covariates[model.covariates..].to_vec();
+        // Wear of another size can be brought to a common one where size is the rate's reciprocal alone.
+        let is_scaled = model.process.size_powers()[0] == 0.0;
+        if model.sizes > 0 && !is_scaled && unit.iter().any(|one| sizes(one) != sizes(&unit[0])) {
+            return Err(FitError::SizesWithinUnit);
+        }
+    }
+    Ok(())
 }
 
 /// Refuses more rounded readings than can be followed.
@@ -97,6 +135,11 @@ impl Fit {
         self.model.powers(&self.phi)
     }
 
+    /// Powers s of the covariates of size.
+    pub fn size_powers(&self) -> &[f64] {
+        self.model.size_powers(&self.phi)
+    }
+
     /// Coefficient of variation of what differs between units; None if they do not.
     pub fn cv(&self) -> Option<f64> {
         self.model.units_differ.then(|| self.phi.last().map_or(0.0, |log| libm::exp(*log)))
@@ -129,10 +172,10 @@ impl Fit {
         self.model.lambda(&self.phi, increment)
     }
 
-    /// Bias of the estimates of the process's parameters to first order in 1/n; None with an exponent, covariates or a
+    /// Bias of the estimates of the process's parameters to first order in 1/n; None with an exponent, covariates, bounds or a
     /// resolution, and where theory has none.
     pub fn first_order_bias(&self, observations: &Observations) -> Option<[f64; 2]> {
-        if self.phi.len() > 2 || self.model.resolution.is_some() {
+        if self.phi.len() > 2 || self.model.resolution.is_some() || !observations.is_plain() {
             return None;
         }
         let lambdas = observations.increments.iter().map(|increment| increment.to - increment.from);

@@ -2,8 +2,9 @@
 //! pairs for a quantile plot, an asymptotic p-value. Exact p-values need the bootstrap.
 
 use super::estimate::Fit;
+use super::model::units;
 use super::rounded::{Laws, transforms};
-use crate::data::Increment;
+use crate::data::{Increment, Known};
 use crate::process::{Process, RandomEffect};
 use crate::random::Stream;
 use crate::special::rising_root;
@@ -52,27 +53,23 @@ impl Goodness {
     }
 }
 
-/// Transforms each increment by its own law; where units differ by its law given those of the unit before; of rounded readings each by its law given those before, spread evenly over its
-/// step with the seed's numbers.
+/// Transforms each increment whose wear is known by its own law; where units differ by its law given those of the unit before; the
+/// first of a unit that entered below a limit by its law given that; of rounded readings each by its law given those before, spread
+/// evenly over its step with the seed's numbers. Increments with bounds are passed over, and what they tell of those after them.
 pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     let process = fit.model.process;
     let mut stream = Stream::new(seed, u64::MAX, 0);
+    let seen = of_units(fit, increments);
     let transforms = match fit.model.resolution {
         Some(rounding) => {
             let logs = |one: &Increment| fit.model.logs(&fit.phi, one);
             transforms(Laws { process, logs: &logs }, increments, rounding, &mut stream)
         }
-        None => of_units(fit, increments, |law, lambda, wear| law.below(lambda, wear)),
+        None => seen.iter().map(SeenIncrement::transform).collect(),
     };
     // Positions in the sorted transforms say which quantile each increment is held against.
     let in_order = transforms.clone();
-    let laws = of_units(fit, increments, |law, _, _| law);
-    let mut seen: Vec<(f64, UnitLaw, f64, f64)> = transforms
-        .into_iter()
-        .zip(laws)
-        .zip(increments)
-        .map(|((u, law), one)| (u, law, fit.lambda(one), one.wear))
-        .collect();
+    let mut seen: Vec<(f64, SeenIncrement)> = transforms.into_iter().zip(seen).collect();
     seen.sort_by(|a, b| a.0.total_cmp(&b.0));
     let transforms: Vec<f64> = seen.iter().map(|(u, ..)| *u).collect();
     let n = transforms.len() as f64;
@@ -81,11 +78,34 @@ pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     Goodness {
         kolmogorov_smirnov: kolmogorov_smirnov(&transforms),
         anderson_darling: anderson_darling(&transforms),
-        quantiles: quantiles
-            .map(|(at, (_, law, lambda, wear))| (law.quantile(*lambda, position(at)), *wear))
-            .collect(),
+        quantiles: quantiles.map(|(at, (_, one))| (one.quantile(position(at)), one.wear)).collect(),
         transforms,
         in_order,
+    }
+}
+
+/// An increment and its law given what has been read of its unit.
+struct SeenIncrement {
+    law: UnitLaw,
+    lambda: f64,
+    wear: f64,
+    /// What the law's wear is to be multiplied by.
+    size: f64,
+    /// Wear that its unit entered below at its end.
+    limit: Option<f64>,
+}
+
+impl SeenIncrement {
+    fn entering(&self) -> f64 {
+        self.limit.map_or(1.0, |limit| self.law.below(self.lambda, limit / self.size))
+    }
+
+    fn transform(&self) -> f64 {
+        self.law.below(self.lambda, self.wear / self.size) / self.entering()
+    }
+
+    fn quantile(&self, p: f64) -> f64 {
+        self.law.quantile(self.lambda, p * self.entering()) * self.size
     }
 }
 
@@ -125,21 +145,34 @@ impl UnitLaw {
     }
 }
 
-/// Something of each increment and its law given those of its unit before.
-fn of_units<T>(fit: &Fit, increments: &[Increment], of: impl Fn(UnitLaw, f64, f64) -> T) -> Vec<T> {
-    let start = UnitLaw { process: fit.model.process, logs: fit.logs(), cv: fit.cv().unwrap_or(0.0) };
-    let (mut law, mut unit) = (start, usize::MAX);
+/// Each increment and its law given those of its unit before.
+fn of_units(fit: &Fit, increments: &[Increment]) -> Vec<SeenIncrement> {
     let mut found = Vec::with_capacity(increments.len());
-    for one in increments {
-        if one.unit != unit {
-            (law, unit) = (start, one.unit);
-        }
-        let lambda = fit.lambda(one);
-        found.push(of(law, lambda, one.wear));
-        if let Some((logs, cv)) =
-            law.effect().and_then(|effect| effect.after(law.logs, law.cv, lambda, one.wear))
-        {
-            law = UnitLaw { logs, cv, ..law };
+    for unit in units(increments) {
+        let ln_size = |one: &Increment| fit.model.ln_size(&fit.phi, one);
+        // Sizes are those beside the unit's first where units differ, else each has its own law.
+        let cv = fit.cv().unwrap_or(0.0);
+        let first = fit.model.seen(&fit.phi, &unit[..1]);
+        let logs = |one: &Increment| if cv > 0.0 { first.ln_size } else { ln_size(one) };
+        let mut law = UnitLaw { process: fit.model.process, logs: fit.logs(), cv };
+        let entry = unit.iter().find(|one| one.known == Known::Entered { from_new: true });
+        let mut is_sized = false;
+        for one in unit.iter().filter(|one| one.is_exact()) {
+            if cv == 0.0 || !is_sized {
+                law.logs = fit.model.sized(&fit.phi, logs(one));
+                is_sized = true;
+            }
+            let (lambda, size) =
+                (fit.lambda(one), if cv > 0.0 { 1.0 / first.wear_of(1.0, ln_size(one)) } else { 1.0 });
+            let limit = entry.filter(|entry| one.from == 0.0 && one.to == entry.to).map(|entry| entry.wear);
+            if one.is_plain() {
+                found.push(SeenIncrement { law, lambda, wear: one.wear, size, limit });
+            }
+            if let Some((logs, cv)) =
+                law.effect().and_then(|effect| effect.after(law.logs, law.cv, lambda, one.wear / size))
+            {
+                law = UnitLaw { logs, cv, ..law };
+            }
         }
     }
     found

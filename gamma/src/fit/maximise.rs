@@ -2,8 +2,9 @@
 //! with them.
 
 use super::error::FitError;
-use super::model::{Model, Point};
-use crate::data::Increment;
+use super::model::Model;
+use super::point::Point;
+use crate::data::{Increment, Known};
 use crate::matrix::Factor;
 
 /// Steps of Newton's method; 5 to 15 are usual.
@@ -15,9 +16,11 @@ const HALF_THE_SCATTER: f64 = 1.4;
 
 /// A start for [`maximise`]: the process's parameters given Lambda, c by a coarse search, no effect of covariates.
 pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitError> {
-    // Increments below half the gauge's step enter the start alone as that.
+    // Increments below half the gauge's step enter the start alone as that, bounds from above by their halves.
     let least = model.resolution.map_or(f64::NEG_INFINITY, |rounding| 0.5 * rounding.step);
-    let wears: Vec<f64> = increments.iter().map(|increment| increment.wear.max(least)).collect();
+    let growth: Vec<&Increment> = increments.iter().filter(|increment| increment.is_growth()).collect();
+    let part = |one: &Increment| if one.known == Known::Below { 0.5 } else { 1.0 };
+    let wears: Vec<f64> = growth.iter().map(|one| (part(one) * one.wear).max(least)).collect();
     let mut best: Option<(f64, Vec<f64>)> = None;
     let exponents: Vec<f64> =
         if model.power_law { (-7..=5).map(|at| libm::exp(f64::from(at) * 0.4)).collect() } else { vec![1.0] };
@@ -26,7 +29,7 @@ pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitErr
         if model.power_law {
             phi[2] = exponent;
         }
-        let lambdas: Vec<f64> = increments.iter().map(|increment| model.lambda(&phi, increment)).collect();
+        let lambdas: Vec<f64> = growth.iter().map(|increment| model.lambda(&phi, increment)).collect();
         let Some(logs) = model.process.maximum(&lambdas, &wears) else { continue };
         phi[..2].copy_from_slice(&logs);
         let value = model.value(&phi, increments);
@@ -156,6 +159,7 @@ mod tests {
                 wear: *wear,
                 ln_covariates: vec![],
                 row: 0,
+                ..Increment::default()
             })
             .collect();
         for process in PROCESSES {
@@ -180,6 +184,7 @@ mod tests {
                 wear: (*wear).into(),
                 ln_covariates: vec![],
                 row: 0,
+                ..Increment::default()
             }
         };
         wears.iter().flatten().enumerate().map(one).collect()

@@ -5,6 +5,7 @@
 //! rate beta). Lambda is the exposure as given, or exposure^c with c estimated, times covariates to powers b.
 
 mod bootstrap;
+mod bounds;
 mod error;
 mod estimate;
 mod goodness;
@@ -13,6 +14,7 @@ mod interval;
 mod maximise;
 mod model;
 mod parameter_sets;
+mod point;
 mod rounded;
 mod units;
 

@@ -1,10 +1,12 @@
 //! The log-likelihood of increments and its derivatives. In: increments, parameters. Out: value, gradient, Hessian. Never
 //! knows how it is maximised.
 //!
-//! Parameters are phi = (logarithms of the process's two, [c], [b..], [logarithm of the units' coefficient of variation]). An increment's law is that over exposure 1 at
-//! u_k = phi_k + power_k ln dLambda, with ln dLambda = ln(to^c - from^c) + sum b ln(covariate): the derivatives in phi follow
-//! from those in u.
+//! Parameters are phi = (logarithms of the process's two, [c], [b..], [s..], [logarithm of the units' coefficient of variation]). An
+//! increment's law is that over exposure 1 at u_k = phi_k + power_k ln dLambda + size_power_k ln size, with ln dLambda =
+//! ln(to^c - from^c) + sum b ln(covariate), ln size = sum s ln(covariate): the derivatives in phi follow from those in u.
 
+use super::bounds::of_bounds;
+use super::point::{Point, WIDTH};
 use super::rounded::{Laws, least_variance, ln_likelihood};
 use super::units::{Added, Total, added, value};
 use crate::data::{Increment, Rounding};
@@ -19,6 +21,8 @@ pub struct Model {
     pub power_law: bool,
     /// How many covariates of the data multiply Lambda, each as value^b.
     pub covariates: usize,
+    /// How many more, after those, multiply the size of increments, each as value^s: [`Process::size_powers`].
+    pub sizes: usize,
     /// How the gauge rounds, if it does.
     pub resolution: Option<Rounding>,
     /// Whether units differ, as [`Process::random_effect`] has it; not with a resolution.
@@ -28,25 +32,39 @@ pub struct Model {
 impl Default for Model {
     /// The Gamma process over the exposure as it is.
     fn default() -> Self {
-        Self { process: &Gamma, power_law: false, covariates: 0, resolution: None, units_differ: false }
+        Self {
+            process: &Gamma,
+            power_law: false,
+            covariates: 0,
+            sizes: 0,
+            resolution: None,
+            units_differ: false,
+        }
     }
-}
-
-/// Value and derivatives at one point.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// Log-likelihood.
-    pub value: f64,
-    /// Its gradient in phi.
-    pub gradient: Vec<f64>,
-    /// Its Hessian in phi, negated: the observed information.
-    pub information: Vec<Vec<f64>>,
 }
 
 impl Model {
     /// Number of parameters: 2, and 1 for the exponent, and the covariates, and 1 if units differ.
     pub fn parameters(&self) -> usize {
-        2 + usize::from(self.power_law) + self.covariates + usize::from(self.units_differ)
+        2 + usize::from(self.power_law) + self.covariates + self.sizes + usize::from(self.units_differ)
+    }
+
+    /// Powers s of the covariates of size among the parameters.
+    pub fn size_powers<'a>(&self, phi: &'a [f64]) -> &'a [f64] {
+        let first = 2 + usize::from(self.power_law) + self.covariates;
+        &phi[first..first + self.sizes]
+    }
+
+    /// ln of the factor that covariates put on the size of an increment.
+    pub fn ln_size(&self, phi: &[f64], increment: &Increment) -> f64 {
+        let values = increment.ln_covariates.iter().skip(self.covariates);
+        values.zip(self.size_powers(phi)).map(|(value, s)| s * value).sum()
+    }
+
+    /// Logarithms of the process's parameters at an increment's size.
+    pub fn sized(&self, phi: &[f64], ln_size: f64) -> [f64; 2] {
+        let powers = self.process.size_powers();
+        [phi[0] + powers[0] * ln_size, phi[1] + powers[1] * ln_size]
     }
 
     /// Powers b of the covariates among the parameters.
@@ -106,7 +124,8 @@ impl Model {
         }
         let one =
             |increment: &Increment| self.process.density(self.logs(phi, increment), increment.wear).value;
-        increments.iter().map(one).sum::<f64>() + self.of_units(phi, increments)
+        let exact = increments.iter().filter(|increment| increment.is_exact());
+        exact.map(one).sum::<f64>() + self.of_units(phi, increments) + of_bounds(self, phi, increments)
     }
 
     /// What differences between units add to it.
@@ -114,21 +133,37 @@ impl Model {
         if !self.units_differ {
             return 0.0;
         }
-        let of_unit = |(unit, lambda): (&[Increment], f64)| {
-            let wear = unit.iter().map(|one| one.wear).sum();
-            value(self.process, phi, libm::log(lambda), wear)
+        let of_unit = |unit: &[Increment]| {
+            let Seen { exposure, wear, ln_size } = self.seen(phi, unit);
+            if exposure == 0.0 {
+                return 0.0;
+            }
+            let [first, second] = self.sized(phi, ln_size);
+            value(self.process, &[first, second, phi[phi.len() - 1]], libm::log(exposure), wear)
         };
-        units(increments).zip(self.exposures(phi, increments)).map(of_unit).sum()
+        units(increments).map(of_unit).sum()
     }
 
-    /// Exposures of the units.
+    /// Exposures of the units, as far as their wear is known.
     pub fn exposures(&self, phi: &[f64], increments: &[Increment]) -> Vec<f64> {
-        units(increments).map(|unit| unit.iter().map(|one| self.lambda(phi, one)).sum()).collect()
+        units(increments).map(|unit| self.seen(phi, unit).exposure).filter(|own| *own > 0.0).collect()
+    }
+
+    /// What is known exactly of a unit.
+    pub fn seen(&self, phi: &[f64], unit: &[Increment]) -> Seen {
+        let ln_size = unit.first().map_or(0.0, |one| self.ln_size(phi, one));
+        let mut seen = Seen { exposure: 0.0, wear: 0.0, ln_size };
+        for one in unit.iter().filter(|one| one.is_exact()) {
+            seen.exposure += self.lambda(phi, one);
+            seen.wear += seen.wear_of(one.wear, self.ln_size(phi, one));
+        }
+        seen
     }
 
     /// Exposure and wear of a unit; `phi` has the units' variation.
     fn total(&self, phi: &[f64], unit: &[Increment]) -> Total {
         let size = phi.len() - 3;
+        let unit = unit.iter().filter(|one| one.is_exact());
         let (mut lambda, mut wear) = (0.0, 0.0);
         let (mut slopes, mut bends) = (vec![0.0; size], vec![vec![0.0; size]; size]);
         for one in unit {
@@ -157,44 +192,20 @@ impl Model {
 
     /// Logarithms of the parameters of an increment's law, that over exposure 1.
     pub fn logs(&self, phi: &[f64], increment: &Increment) -> [f64; 2] {
-        self.scaled(phi, self.ln_lambda(phi, increment).0)
+        self.scaled(phi, self.ln_lambda(phi, increment).0, increment)
     }
 
-    fn scaled(&self, phi: &[f64], ln_lambda: f64) -> [f64; 2] {
+    fn scaled(&self, phi: &[f64], ln_lambda: f64, increment: &Increment) -> [f64; 2] {
         let powers = self.process.exposure_powers();
-        [phi[0] + powers[0] * ln_lambda, phi[1] + powers[1] * ln_lambda]
+        let [first, second] = self.sized(phi, self.ln_size(phi, increment));
+        [first + powers[0] * ln_lambda, second + powers[1] * ln_lambda]
     }
 
-    /// Value and derivatives of a likelihood of rounded readings, by central differences of order 4, mixed ones of order 2: ample
-    /// for Newton's method and for standard errors.
-    fn point_of_rounded(&self, phi: &[f64], increments: &[Increment], held: Option<usize>) -> Point {
-        const H: f64 = 2e-3;
-        let size = phi.len();
+    /// Value and derivatives of a part of the likelihood that has none in closed form.
+    fn differences(&self, of: &dyn Fn(&[f64]) -> f64, phi: &[f64], held: Option<usize>) -> Point {
         // An exponent stays positive.
-        let width = |i: usize| if self.power_law && i == 2 { H * phi[2].min(1.0) } else { H };
-        let at = |moves: &[(usize, f64)]| {
-            let mut moved = phi.to_vec();
-            for (i, by) in moves {
-                moved[*i] += by * width(*i);
-            }
-            self.value(&moved, increments)
-        };
-        let value = at(&[]);
-        let mut point = Point { value, gradient: vec![0.0; size], information: vec![vec![0.0; size]; size] };
-        let is_free = |i: &usize| held != Some(*i);
-        for i in (0..size).filter(is_free) {
-            let [far_down, down, up, far_up] = [-2.0, -1.0, 1.0, 2.0].map(|by| at(&[(i, by)]));
-            point.gradient[i] = (8.0 * (up - down) - (far_up - far_down)) / (12.0 * width(i));
-            point.information[i][i] =
-                -(16.0 * (up + down) - 30.0 * value - (far_up + far_down)) / (12.0 * width(i) * width(i));
-            for j in (0..i).filter(is_free) {
-                let corner = |a: f64, b: f64| at(&[(i, a), (j, b)]);
-                let mixed = corner(1.0, 1.0) - corner(1.0, -1.0) - corner(-1.0, 1.0) + corner(-1.0, -1.0);
-                point.information[i][j] = -mixed / (4.0 * width(i) * width(j));
-                point.information[j][i] = point.information[i][j];
-            }
-        }
-        point
+        let width = |i: usize| if self.power_law && i == 2 { WIDTH * phi[2].min(1.0) } else { WIDTH };
+        Point::by_differences(of, phi, &width, held)
     }
 
     /// ln of the largest variance of an increment over the least that a gauge's readings tell from none: where it is below 0 the
@@ -209,20 +220,26 @@ impl Model {
     /// Value, gradient and information, but for a parameter that is held: its entries may be 0.
     pub fn point(&self, phi: &[f64], increments: &[Increment], held: Option<usize>) -> Point {
         if self.resolution.is_some() {
-            return self.point_of_rounded(phi, increments, held);
+            return self.differences(&|phi| self.value(phi, increments), phi, held);
         }
         let size = phi.len();
         let mut point =
             Point { value: 0.0, gradient: vec![0.0; size], information: vec![vec![0.0; size]; size] };
         let powers = self.process.exposure_powers();
-        for increment in increments {
+        let (size_powers, first_size) =
+            (self.process.size_powers(), size - usize::from(self.units_differ) - self.sizes);
+        for increment in increments.iter().filter(|increment| increment.is_exact()) {
             let (ln_lambda, slopes, bend) = self.ln_lambda(phi, increment);
             let Term { value, gradient, hessian: [first, mixed, second] } =
-                self.process.density(self.scaled(phi, ln_lambda), increment.wear);
-            // d u / d phi_i: its own parameter, or all through ln dLambda.
+                self.process.density(self.scaled(phi, ln_lambda, increment), increment.wear);
+            // d u / d phi_i: its own parameter, or all through ln dLambda or ln size.
             let slope = |i: usize| match i {
                 0 => [1.0, 0.0],
                 1 => [0.0, 1.0],
+                _ if (first_size..first_size + self.sizes).contains(&i) => {
+                    let value = increment.ln_covariates.get(self.covariates + i - first_size);
+                    size_powers.map(|power| power * value.copied().unwrap_or(0.0))
+                }
                 _ => powers.map(|power| power * slopes.get(i - 2).copied().unwrap_or(0.0)),
             };
             point.value += value;
@@ -239,70 +256,39 @@ impl Model {
                 point.information[2][2] -= (gradient[0] * powers[0] + gradient[1] * powers[1]) * bend;
             }
         }
-        if self.units_differ {
-            let totals: Vec<Total> = units(increments).map(|unit| self.total(phi, unit)).collect();
+        if self.units_differ && self.sizes == 0 {
+            let seen = units(increments).filter(|unit| unit.iter().any(Increment::is_exact));
+            let totals: Vec<Total> = seen.map(|unit| self.total(phi, unit)).collect();
             let Added { value, gradient, information } = added(self.process, phi, &totals);
-            point.value += value;
-            point.gradient.iter_mut().zip(gradient).for_each(|(entry, more)| *entry += more);
-            let entries = point.information.iter_mut().flatten();
-            entries.zip(information.into_iter().flatten()).for_each(|(entry, more)| *entry += more);
+            point.add(Point { value, gradient, information });
+        } else if self.units_differ {
+            point.add(self.differences(&|phi| self.of_units(phi, increments), phi, held));
+        }
+        if !increments.iter().all(Increment::is_plain) {
+            point.add(self.differences(&|phi| of_bounds(self, phi, increments), phi, held));
         }
         point
     }
 }
 
-/// Units one by one.
-fn units(increments: &[Increment]) -> impl Iterator<Item = &[Increment]> {
-    increments.chunk_by(|one, next| one.unit == next.unit)
+/// What is known exactly of a unit: its exposure, and its wear at the size that its first increment has.
+pub struct Seen {
+    /// Exposure, with exponent and covariates.
+    pub exposure: f64,
+    /// Wear.
+    pub wear: f64,
+    /// ln of that size.
+    pub ln_size: f64,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::process::PROCESSES;
-
-    fn sample(wear: f64, from: f64, to: f64, ln_load: f64) -> Increment {
-        Increment { unit: 0, from, to, wear, ln_covariates: vec![ln_load], row: 0 }
+impl Seen {
+    /// Wear of an increment of another size.
+    pub fn wear_of(&self, wear: f64, ln_size: f64) -> f64 {
+        if ln_size == self.ln_size { wear } else { wear * libm::exp(self.ln_size - ln_size) }
     }
+}
 
-    #[test]
-    fn derivatives_are_those_of_the_value() {
-        for process in PROCESSES {
-            derivatives_of(process);
-        }
-    }
-
-    fn derivatives_of(process: &'static dyn Process) {
-        for units_differ in [false, true] {
-            let model = Model { process, power_law: true, covariates: 1, units_differ, ..Model::default() };
-            derivatives_of_model(&model, &[0.7, 0.9, 0.8, 0.5, -0.9][..model.parameters()]);
-        }
-    }
-
-    fn derivatives_of_model(model: &Model, phi: &[f64]) {
-        let process = model.process;
-        let data = [sample(0.8, 0.0, 2.0, 0.3), sample(1.7, 2.0, 5.0, -0.4)];
-        let here = model.point(phi, &data, None);
-        assert!((here.value - model.value(phi, &data)).abs() < 1e-14);
-        let step = 1e-5;
-        for i in 0..phi.len() {
-            let moved = |by: f64| {
-                let mut phi = phi.to_vec();
-                phi[i] += by;
-                model.point(&phi, &data, None)
-            };
-            let (up, down) = (moved(step), moved(-step));
-            // Central differences: error step^2 and eps / step, both about 1e-10; the censored term's curvature 1e-6.
-            let slope = (up.value - down.value) / (2.0 * step);
-            assert!((slope - here.gradient[i]).abs() < 1e-8, "{process:?} {i}: {slope} {}", here.gradient[i]);
-            for j in 0..phi.len() {
-                let bend = -(up.gradient[j] - down.gradient[j]) / (2.0 * step);
-                assert!(
-                    (bend - here.information[i][j]).abs() < 2e-6,
-                    "{i} {j}: {bend} {}",
-                    here.information[i][j]
-                );
-            }
-        }
-    }
+/// Units one by one.
+pub fn units(increments: &[Increment]) -> impl Iterator<Item = &[Increment]> {
+    increments.chunk_by(|one, next| one.unit == next.unit)
 }

@@ -104,7 +104,8 @@ fn weighed(ln_density: &dyn Fn(&[f64]) -> f64, middle: &[f64], factor: &Factor, 
 /// ln of the prior, in the logarithms of the process's parameters and of the exponent.
 fn ln_prior(model: &Model, phi: &[f64], increments: &[Increment]) -> f64 {
     let process = model.process;
-    let spans: Vec<(f64, f64)> = increments.iter().map(|one| (model.lambda(phi, one), one.wear)).collect();
+    let growth = increments.iter().filter(|one| one.is_growth());
+    let spans: Vec<(f64, f64)> = growth.map(|one| (model.lambda(phi, one), one.wear)).collect();
     // Flat in the units' coefficient of variation itself: flat in its logarithm, all weight would lie on no difference.
     let of_units = if model.units_differ { phi[phi.len() - 1] } else { 0.0 };
     let known = process.flat_prior_power() * phi[0] + process.ln_matching_weight(phi[0], &spans) + of_units;
@@ -164,6 +165,7 @@ mod tests {
             wear: process.draw(logs, 1.0, &mut stream),
             ln_covariates: vec![0.3 * (at % 3) as f64],
             row: 0,
+            ..Increment::default()
         });
         let increments = increments.collect();
         Observations { units: (0..count.div_ceil(4)).map(|unit| unit.to_string()).collect(), increments }

@@ -7,6 +7,8 @@ use super::*;
 use crate::data::{Gauge, Increment, Observations, Reading, Rounding};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
+mod bounds;
+mod derivatives;
 mod units;
 
 const GAAS: &str = include_str!("../../tests/data/gaas_lasers.csv");
@@ -24,6 +26,7 @@ fn readings(table: &str, columns: [usize; 3], covariate: Option<usize>, scale: f
             wear: number(columns[2]),
             covariates: covariate.map(number).into_iter().collect(),
             row: at + 1,
+            ..Reading::default()
         }
     });
     readings.collect()
@@ -42,8 +45,14 @@ fn load_100(from_zero: bool) -> Observations {
     Observations::new(&heavy, from_zero, Gauge::Exact).unwrap()
 }
 
-const POWER: Model =
-    Model { process: &Gamma, power_law: true, covariates: 0, resolution: None, units_differ: false };
+const POWER: Model = Model {
+    process: &Gamma,
+    power_law: true,
+    covariates: 0,
+    sizes: 0,
+    resolution: None,
+    units_differ: false,
+};
 
 #[track_caller]
 fn close(found: f64, expected: f64, tolerance: f64) {
@@ -169,6 +178,7 @@ fn known() -> (Fit, Observations) {
         wear: 1.0,
         ln_covariates: vec![],
         row: 0,
+        ..Increment::default()
     });
     let units = (0..10).map(|unit| unit.to_string()).collect();
     let truth = Fit {
@@ -237,7 +247,15 @@ fn data_of_the_fitted_process_pass_the_test_of_fit() {
 fn units_of_four(from: f64, alpha: f64, rounding: Rounding) -> (Fit, Observations) {
     let increments = (0..32).map(|at| {
         let before = from + (at % 4) as f64;
-        Increment { unit: at / 4, from: before, to: before + 1.0, wear: 1.0, ln_covariates: vec![], row: 0 }
+        Increment {
+            unit: at / 4,
+            from: before,
+            to: before + 1.0,
+            wear: 1.0,
+            ln_covariates: vec![],
+            row: 0,
+            ..Increment::default()
+        }
     });
     let model = Model { resolution: Some(rounding), ..Model::default() };
     let phi = vec![libm::log(alpha), libm::log(alpha)];
@@ -300,7 +318,15 @@ fn a_line_read_by_a_coarse_gauge_is_refused_at_once() {
     let one = |at: usize| {
         let wear = |at: usize| libm::round(0.9 * at as f64 / 0.5) * 0.5;
         let wear = wear(at + 1) - wear(at);
-        Increment { unit: 0, from: at as f64, to: at as f64 + 1.0, wear, ln_covariates: vec![], row: 0 }
+        Increment {
+            unit: 0,
+            from: at as f64,
+            to: at as f64 + 1.0,
+            wear,
+            ln_covariates: vec![],
+            row: 0,
+            ..Increment::default()
+        }
     };
     let increments: Vec<Increment> = (0..300).map(one).collect();
     for power_law in [false, true] {

@@ -1,9 +1,9 @@
 //! The estimate at given covariates. In: a fit's file, values. Out: an [`Estimate`], with what the data leave open, or what is wrong.
 //! Never knows lives.
 
-use super::definition::FitFile;
+use super::definition::{Covariate, FitFile};
 use super::error::{FitFileError, WRITE_ONE};
-use crate::data::{Increment, Rounding};
+use crate::data::{Increment, Known, Rounding};
 use crate::fit::{Model, parameter_sets};
 use crate::life::{Estimate, LifeError, ParameterSet, Sample, SeenUnit};
 use crate::matrix::Factor;
@@ -41,10 +41,8 @@ impl FitFile {
             return Err(self.fault("covariance", &message, WRITE_ONE));
         }
         let ln_values: Vec<f64> = self.in_order(values)?.into_iter().map(libm::log).collect();
-        let powers = self.covariates.iter().map(|covariate| covariate.coefficient);
-        let ln_factor: f64 = powers.zip(&ln_values).map(|(power, ln)| power * ln).sum();
-        let scales = self.process.exposure_powers();
-        let factors = scales.map(|scale| libm::exp(scale * ln_factor));
+        let powers: Vec<f64> = self.covariates.iter().map(|covariate| covariate.coefficient).collect();
+        let factors = self.ln_factors(&powers, &ln_values).map(libm::exp);
         let parameters = [self.parameters[0] * factors[0], self.parameters[1] * factors[1]];
         let estimate = Estimate::new(self.process, parameters, self.exponent).map_err(wrong)?;
         let estimate = match self.cv.filter(|cv| *cv > 0.0) {
@@ -59,8 +57,9 @@ impl FitFile {
         let mut slopes = vec![vec![0.0; all]; kept];
         for (at, row) in slopes.iter_mut().enumerate() {
             row[places[at]] = factors.get(at).copied().unwrap_or(1.0);
-            let through = if at < 2 { scales[at] * parameters[at] } else { 0.0 };
-            for (slope, ln) in row[first..after].iter_mut().zip(&ln_values) {
+            for ((slope, ln), covariate) in row[first..after].iter_mut().zip(&ln_values).zip(&self.covariates)
+            {
+                let through = if at < 2 { self.scales(covariate)[at] * parameters[at] } else { 0.0 };
                 *slope = through * ln;
             }
         }
@@ -72,11 +71,28 @@ impl FitFile {
         estimate.with_covariance(&covariance).map_err(wrong)
     }
 
+    /// Powers of a covariate's factor that the process's parameters are proportional to.
+    fn scales(&self, covariate: &Covariate) -> [f64; 2] {
+        if covariate.of_size { self.process.size_powers() } else { self.process.exposure_powers() }
+    }
+
+    /// Logarithms of what covariates of these powers multiply the process's parameters by.
+    fn ln_factors(&self, powers: &[f64], ln_values: &[f64]) -> [f64; 2] {
+        let sum = |of_size: bool| -> f64 {
+            let own = self.covariates.iter().zip(powers).zip(ln_values);
+            own.filter(|((one, _), _)| one.of_size == of_size).map(|((_, power), ln)| power * ln).sum()
+        };
+        let (rate, size) = (sum(false), sum(true));
+        let (rates, sizes) = (self.process.exposure_powers(), self.process.size_powers());
+        [0, 1].map(|at: usize| rates[at] * rate + sizes[at] * size)
+    }
+
     fn sample(&self) -> Result<Sample, FitFileError> {
         if self.increments.is_empty() {
             return Ok(Sample::Unknown);
         }
-        if self.resolution.is_some() || !self.covariates.is_empty() || self.units_differ() {
+        let is_plain = self.increments.iter().all(Increment::is_plain);
+        if self.resolution.is_some() || !self.covariates.is_empty() || self.units_differ() || !is_plain {
             return Ok(Sample::Indirect { increments: self.increments.len() });
         }
         if self.exponent.is_none() {
@@ -113,9 +129,10 @@ impl FitFile {
             return Ok(estimate);
         }
         let resolution = self.resolution.map(|step| Rounding { step, error: self.gauge.unwrap_or(0.0) });
-        let (power_law, covariates) = (self.exponent.is_some(), self.covariates.len());
+        let sizes = self.covariates.iter().filter(|covariate| covariate.of_size).count();
+        let (power_law, covariates) = (self.exponent.is_some(), self.covariates.len() - sizes);
         let units_differ = self.units_differ();
-        let model = Model { process: self.process, power_law, covariates, resolution, units_differ };
+        let model = Model { process: self.process, power_law, covariates, sizes, resolution, units_differ };
         let mut phi: Vec<f64> = self.parameters.map(libm::log).to_vec();
         phi.extend(self.exponent);
         phi.extend(self.covariates.iter().map(|covariate| covariate.coefficient));
@@ -129,11 +146,11 @@ impl FitFile {
         let sets = inverse.and_then(|covariance| parameter_sets(&model, &self.increments, &phi, &covariance));
         let Some(sets) = sets else { return Ok(estimate) };
         let ln_values: Vec<f64> = self.in_order(values)?.into_iter().map(libm::log).collect();
-        let (scales, first) = (self.process.exposure_powers(), 2 + usize::from(power_law));
+        let first = 2 + usize::from(power_law);
         let at_values = |(mut logs, weight): (Vec<f64>, f64)| {
-            let powers = logs.drain(first..first + covariates);
-            let ln_factor: f64 = powers.zip(&ln_values).map(|(power, ln)| power * ln).sum();
-            logs.iter_mut().zip(scales).for_each(|(log, scale)| *log += scale * ln_factor);
+            let powers: Vec<f64> = logs.drain(first..first + self.covariates.len()).collect();
+            let factors = self.ln_factors(&powers, &ln_values);
+            logs.iter_mut().zip(factors).for_each(|(log, factor)| *log += factor);
             ParameterSet { logs, weight }
         };
         Ok(estimate.with_sample(Sample::Sets(sets.into_iter().map(at_values).collect())))
@@ -158,7 +175,18 @@ impl FitFile {
             let cure = format!("its units are: `{}`", names.join("`, `"));
             return Err(self.fault("unit_names", &format!("the fit has no unit `{name}`"), &cure));
         };
-        let own: Vec<&Increment> = self.increments.iter().filter(|one| one.unit == at).collect();
+        let is_known = |one: &Increment| one.is_exact() || one.known == Known::Entered { from_new: true };
+        let of_unit = || self.increments.iter().filter(|one| one.unit == at);
+        if !of_unit().all(is_known) || self.seen[at].1.is_nan() {
+            let message =
+                format!("of unit `{name}` bounds are known, or a level that nobody read: not what it wears");
+            return Err(self.fault(
+                "unit_names",
+                &message,
+                "leave --unit out, and say what it wears: --current W --at EXPOSURE",
+            ));
+        }
+        let own: Vec<&Increment> = of_unit().filter(|one| one.is_growth()).collect();
         let Some(last) = own.last() else {
             return Err(self.fault("increments", &format!("`increments` have none of unit `{name}`"), again));
         };

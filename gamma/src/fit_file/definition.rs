@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
+use super::columns::Columns;
 use super::error::{FitFileError, fault};
 use crate::data::{Increment, Observations};
 use crate::fit::{Fit, Heterogeneity, UnitsTest};
@@ -17,7 +18,7 @@ pub struct FitFile {
     pub parameters: [f64; 2],
     /// Exponent c of Lambda = exposure^c, when it was estimated; none: Lambda is the exposure as given.
     pub exponent: Option<f64>,
-    /// Covariates that multiply Lambda, each as value^b.
+    /// Covariates that multiply Lambda, each as value^b; then those that multiply the size of increments.
     pub covariates: Vec<Covariate>,
     /// Coefficient of variation of what differs between units, 0 if no difference was found; none: it was not looked for.
     pub cv: Option<f64>,
@@ -49,27 +50,16 @@ pub struct FitFile {
     pub(super) text: String,
 }
 
-/// Increments as the file has them.
-#[derive(Serialize, Deserialize)]
-pub(super) struct Columns {
-    pub(super) from: Vec<f64>,
-    pub(super) to: Vec<f64>,
-    pub(super) wear: Vec<f64>,
-    /// Which unit each is of; files of older programs do not have it.
-    #[serde(default)]
-    pub(super) unit: Vec<usize>,
-    /// Of each covariate its values; files of older programs do not have them.
-    #[serde(default)]
-    pub(super) covariates: Vec<Vec<f64>>,
-}
-
 /// A covariate of a fit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Covariate {
     /// Its name in the data.
     pub name: String,
-    /// Its power b.
+    /// Its power.
     pub coefficient: f64,
+    /// Whether it multiplies the size of increments, and not Lambda.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub of_size: bool,
 }
 
 impl FitFile {
@@ -78,7 +68,7 @@ impl FitFile {
         &self.text
     }
 
-    /// Of a fit: names of its covariates, what wear and exposure are counted in, whether exposure is Lambda already.
+    /// Of a fit: names of its covariates, those of size last, what wear and exposure are counted in, whether exposure is Lambda already.
     pub fn new(
         fit: &Fit,
         observations: &Observations,
@@ -87,12 +77,16 @@ impl FitFile {
         over_lambda: bool,
     ) -> Self {
         let found = fit.parameters();
-        let covariate = |(name, b): (&String, &f64)| Covariate { name: name.clone(), coefficient: *b };
+        let covariate = |(at, (name, b)): (usize, (&String, &f64))| {
+            let of_size = at >= fit.powers().len();
+            Covariate { name: name.clone(), coefficient: *b, of_size }
+        };
+        let powers = fit.powers().iter().chain(fit.size_powers());
         Self {
             process: fit.model.process,
             parameters: [found[0], found[1]],
             exponent: fit.exponent(),
-            covariates: covariates.iter().zip(fit.powers()).map(covariate).collect(),
+            covariates: covariates.iter().zip(powers).enumerate().map(covariate).collect(),
             cv: fit.cv(),
             units_test: None,
             seen: Vec::new(),
@@ -125,12 +119,15 @@ impl FitFile {
         self.cv.is_some_and(|cv| cv > 0.0)
     }
 
-    /// Names of the process's parameters, `exponent`, `power of` each covariate, `cv`: those that were estimated, in the order of
+    /// Names of the process's parameters, `exponent`, `power of` each covariate, `size power of` each of size, `cv`: those that were estimated, in the order of
     /// the covariance.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> = self.process.parameters().map(str::to_owned).to_vec();
         names.extend(self.exponent.map(|_| "exponent".to_owned()));
-        names.extend(self.covariates.iter().map(|covariate| format!("power of {}", covariate.name)));
+        names.extend(self.covariates.iter().map(|Covariate { name, of_size, .. }| match of_size {
+            false => format!("power of {name}"),
+            true => format!("size power of {name}"),
+        }));
         names.extend(self.cv.filter(|cv| *cv > 0.0).map(|_| "cv".to_owned()));
         names
     }
@@ -142,16 +139,8 @@ impl FitFile {
         for (name, value) in self.process.parameters().into_iter().zip(self.parameters) {
             file.insert(name.into(), json!(value));
         }
-        let column = |of: &dyn Fn(&Increment) -> f64| self.increments.iter().map(of).collect::<Vec<_>>();
-        let is_whole = self.has_covariates_of_increments();
-        let covariate = |at: usize| column(&|one| libm::exp(one.ln_covariates[at]));
-        let columns = Columns {
-            from: column(&|one| one.from),
-            to: column(&|one| one.to),
-            wear: column(&|one| one.wear),
-            unit: self.increments.iter().map(|one| one.unit).collect(),
-            covariates: (0..self.covariates.len()).filter(|_| is_whole).map(covariate).collect(),
-        };
+        let columns =
+            Columns::new(&self.increments, self.covariates.len(), self.has_covariates_of_increments());
         let more = json!({
             "exponent": self.exponent,
             "covariates": self.covariates,

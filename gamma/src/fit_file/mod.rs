@@ -2,6 +2,7 @@
 //! covariates, or what is wrong with the file, where, and what to do. Never knows how parameters are estimated, nor paths.
 
 mod at_covariates;
+mod columns;
 mod definition;
 mod error;
 mod once;

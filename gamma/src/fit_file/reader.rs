@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::definition::{Columns, Covariate, FitFile};
+use super::columns::Columns;
+use super::definition::{Covariate, FitFile};
 use super::error::{FitFileError, WRITE_ONE, fault};
 use super::once::Once;
 use crate::data::Increment;
@@ -111,10 +112,10 @@ impl Reader<'_> {
     fn seen(&self) -> Result<Vec<(String, f64)>, FitFileError> {
         let list = |key: &str| self.given(key).cloned().unwrap_or_else(|| Value::Array(Vec::new()));
         let names: Option<Vec<String>> = serde_json::from_value(list("unit_names")).ok();
-        let wears: Option<Vec<f64>> = serde_json::from_value(list("unit_wear")).ok();
+        let wears: Option<Vec<Option<f64>>> = serde_json::from_value(list("unit_wear")).ok();
         match (names, wears) {
             (Some(names), Some(wears)) if names.len() == wears.len() => {
-                Ok(names.into_iter().zip(wears).collect())
+                Ok(names.into_iter().zip(wears.into_iter().map(|wear| wear.unwrap_or(f64::NAN))).collect())
             }
             _ => Err(self.wrong("unit_names", "`unit_names` and `unit_wear` do not belong together")),
         }
@@ -125,32 +126,7 @@ impl Reader<'_> {
         let wrong = |what: &str| self.wrong("increments", &format!("`increments` {what}"));
         let columns: Columns = serde_json::from_value(given.clone())
             .map_err(|error| wrong(&format!("are no columns `from`, `to`, `wear`: {error}")))?;
-        let Columns { from, to, wear, unit, covariates } = columns;
-        let lengths = [to.len(), wear.len()].into_iter().chain(covariates.iter().map(Vec::len));
-        if !lengths.chain((!unit.is_empty()).then_some(unit.len())).all(|length| length == from.len()) {
-            return Err(wrong("have columns of different lengths"));
-        }
-        if covariates.iter().flatten().any(|value| !(value.is_finite() && *value > 0.0)) {
-            return Err(wrong("have a covariate that is no positive, finite number"));
-        }
-        let row = |at: usize| Increment {
-            unit: unit.get(at).copied().unwrap_or(0),
-            from: from[at],
-            to: to[at],
-            wear: wear[at],
-            ln_covariates: covariates.iter().map(|column| libm::log(column[at])).collect(),
-            row: 0,
-        };
-        let rows: Vec<Increment> = (0..from.len()).map(row).collect();
-        let rises = |one: &Increment| {
-            one.from >= 0.0 && one.from < one.to && one.to.is_finite() && one.wear.is_finite()
-        };
-        match rows.iter().position(|row| !rises(row)) {
-            Some(at) => {
-                Err(wrong(&format!("have no rising, finite exposure or no finite wear in row {}", at + 1)))
-            }
-            None => Ok(rows),
-        }
+        columns.increments().map_err(|what| wrong(&what))
     }
 
     /// A matrix of logarithms, or of other parameters, would be taken for this one: standard errors tell.

@@ -20,6 +20,7 @@ fn readings(unit_of_load: f64) -> Vec<Reading> {
                 wear,
                 covariates: vec![load / unit_of_load],
                 row: readings.len() + 2,
+                ..Reading::default()
             });
             wear += pace * scatter(unit, step);
         }

@@ -23,6 +23,11 @@ pub trait Process: Debug + Sync {
     /// Powers of the exposure that the two parameters of an increment are proportional to.
     fn exposure_powers(&self) -> [f64; 2];
 
+    /// Powers of a factor on the size of increments that the two parameters are proportional to.
+    fn size_powers(&self) -> [f64; 2] {
+        [1.0, 0.0]
+    }
+
     /// Whether wear never falls.
     fn is_increasing(&self) -> bool {
         true
@@ -93,6 +98,12 @@ pub trait Process: Debug + Sync {
 
     /// Increment over an exposure that is not exceeded with probability `p`.
     fn quantile(&self, logs: [f64; 2], exposure: f64, p: f64) -> f64;
+
+    /// ln of the probability that wear over the first of two exposures in a row was below `below`, given what it came to over both;
+    /// None where there is no closed form of it.
+    fn ln_bridge(&self, _logs: [f64; 2], _exposures: [f64; 2], _wear: f64, _below: f64) -> Option<f64> {
+        None
+    }
 
     /// Probability that wear stays below `left` > 0 throughout an exposure > 0. Wear that does not fall does so exactly if
     /// it is below in the end.

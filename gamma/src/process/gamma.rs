@@ -10,7 +10,8 @@ use super::definition::{Process, Slice, Term, scatters};
 use super::random_effect::RandomEffect;
 use crate::random::{LnGamma, Stream};
 use crate::special::{
-    digamma, gamma_p, gamma_q, gamma_quantile, guarded, ln_gamma, ln_gamma_p_slope, tetragamma, trigamma,
+    digamma, gamma_p, gamma_q, gamma_quantile, gamma_ratio, guarded, ln_gamma, ln_gamma_p_slope, tetragamma,
+    trigamma,
 };
 
 /// Steps of Newton's method; 5 to 15 are usual.
@@ -42,6 +43,10 @@ impl Process for Gamma {
 
     fn exposure_powers(&self) -> [f64; 2] {
         [1.0, 0.0]
+    }
+
+    fn size_powers(&self) -> [f64; 2] {
+        [0.0, -1.0]
     }
 
     fn maximum(&self, exposures: &[f64], wears: &[f64]) -> Option<[f64; 2]> {
@@ -163,6 +168,15 @@ impl Process for Gamma {
     fn cumulative(&self, logs: [f64; 2], exposure: f64, wear: f64) -> f64 {
         let [alpha, beta] = logs.map(libm::exp);
         gamma_p(alpha * exposure, beta * wear)
+    }
+
+    /// The part of the whole has a beta law, whatever the rate.
+    fn ln_bridge(&self, logs: [f64; 2], [first, second]: [f64; 2], wear: f64, below: f64) -> Option<f64> {
+        if below >= wear {
+            return Some(0.0);
+        }
+        let (shape, rest) = (libm::exp(logs[0]) * first, libm::exp(logs[0]) * second);
+        Some(libm::log(gamma_ratio(shape, rest, rest * below / (wear - below)).0))
     }
 
     fn quantile(&self, logs: [f64; 2], exposure: f64, p: f64) -> f64 {

@@ -37,6 +37,12 @@ pub trait RandomEffect: Debug + Sync {
     /// The law of a unit that wore so much over an exposure; None where it is none of this kind.
     fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)>;
 
+    /// Logarithms of the parameters of a unit at a place of the law of its own, and ln of that law's density over the places, which
+    /// are about one standard deviation apart from each other; None where a unit's parameter may have no logarithm.
+    fn place(&self, _logs: [f64; 2], _cv: f64, _place: f64) -> Option<([f64; 2], f64)> {
+        None
+    }
+
     /// Parameters of one unit, drawn.
     fn draw(&self, logs: [f64; 2], cv: f64, stream: &mut Stream) -> [f64; 2];
 

@@ -101,6 +101,13 @@ impl Process for Wiener {
         normal_cdf((wear - drift * exposure) / (spread * libm::sqrt(exposure)))
     }
 
+    /// Normal around the straight line, whatever the drift.
+    fn ln_bridge(&self, logs: [f64; 2], [first, second]: [f64; 2], wear: f64, below: f64) -> Option<f64> {
+        let all = first + second;
+        let deviation = libm::exp(logs[1]) * libm::sqrt(first * second / all);
+        Some(libm::log(normal_cdf((below - wear * first / all) / deviation)))
+    }
+
     fn quantile(&self, logs: [f64; 2], exposure: f64, p: f64) -> f64 {
         let [drift, spread] = logs.map(libm::exp);
         drift * exposure + spread * libm::sqrt(exposure) * normal_quantile(p)

@@ -99,7 +99,7 @@ pub struct FittedProcess {
     parameters: Parameters,
     /// Exponent c of Lambda = exposure^c; null where it is not estimated.
     exponent: Option<f64>,
-    /// Covariates, each of which multiplies Lambda as a power.
+    /// Covariates, each of which multiplies Lambda as a power; then those that multiply the size of increments.
     covariates: Vec<CovariateAnswer>,
     /// Covariance of what was estimated, row by row.
     covariance: Vec<Vec<f64>>,
@@ -138,8 +138,8 @@ pub struct UnitsAnswer {
     lr_test: UnitsTestAnswer,
     /// Names of the units.
     unit_names: Vec<String>,
-    /// Wear of each unit at its last reading [unit of wear].
-    unit_wear: Vec<f64>,
+    /// Wear of each unit at its last reading, or the level that it was set to after that [unit of wear]; null where it is not known.
+    unit_wear: Vec<Option<f64>>,
 }
 
 /// The law of the parameter that differs between units.
@@ -185,6 +185,8 @@ pub struct CovariateAnswer {
     name: String,
     /// Its power.
     coefficient: f64,
+    /// Whether it multiplies the size of increments, and not Lambda; absent if not.
+    of_size: Option<bool>,
 }
 
 /// Increments, column by column.
@@ -202,6 +204,14 @@ pub struct IncrementsAnswer {
     unit: Vec<usize>,
     /// Of each covariate its values.
     covariates: Vec<Vec<f64>>,
+    /// What is known of each: `exact`, `from-level` (from the level of a reset), `anew` (from a reading after one), `through` (with a
+    /// bound on the way), `at-least`, `below`; `entered` and `entered-from-new` are no increments, but limits that wear was below when
+    /// the unit entered. Absent where all are exact.
+    known: Option<Vec<String>>,
+    /// Exposure of the bound on the way [unit of exposure]; null where there is none; absent where there is none at all.
+    at: Option<Vec<Option<f64>>>,
+    /// That bound [unit of wear].
+    below: Option<Vec<Option<f64>>>,
 }
 
 /// Parameters of the process that was fitted.

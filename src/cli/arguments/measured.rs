@@ -150,7 +150,7 @@ pub struct FitArguments {
     /// Column that names the unit (specimen) of a reading.
     #[arg(long, value_name = "COL")]
     pub unit: String,
-    /// Column of wear.
+    /// Column of wear; `>=0.8` for a part that had failed or left the gauge's range by then, `<0.05` for one below it.
     #[arg(long, value_name = "COL")]
     pub wear: String,
     /// Column of exposure: time, cycles, distance.
@@ -181,6 +181,18 @@ pub struct FitArguments {
     /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
     #[arg(long, value_name = "COL")]
     pub covariate: Vec<String>,
+    /// Column of a covariate such as hardness, which multiplies the size of increments as a power: beta of the Gamma process by its
+    /// reciprocal, the drift of the others. May be one of --covariate, too. Repeatable.
+    #[arg(long, value_name = "COL")]
+    pub covariate_of_size: Vec<String>,
+    /// Column of what was done to the part after a reading: `replaced` (age and wear begin anew at 0), `replaced=LEVEL`,
+    /// `reground=LEVEL` (age goes on), `?` (to an unknown level); empty for nothing.
+    #[arg(long, value_name = "COL")]
+    pub reset: Option<String>,
+    /// Units are among the data only because their wear was below this at their first reading: a number, or a column. What that
+    /// selects is taken out, of units seen from new (--from-zero) and of rates that differ (--random-effects).
+    #[arg(long, value_name = "D|COL")]
+    pub entered_below: Option<String>,
     /// Accept data of one unit, which cannot tell how units differ.
     #[arg(long)]
     pub one_unit: bool,
@@ -203,4 +215,11 @@ pub struct FitArguments {
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE", value_parser = output())]
     pub out: Option<PathBuf>,
+}
+
+impl FitArguments {
+    /// Columns of all covariates, those of size last.
+    pub fn covariates(&self) -> impl Iterator<Item = &String> {
+        self.covariate.iter().chain(&self.covariate_of_size)
+    }
 }

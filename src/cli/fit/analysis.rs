@@ -2,7 +2,7 @@
 //! knows how it is printed.
 
 use linkwear_gamma::FitFile;
-use linkwear_gamma::data::{Observations, Rounding};
+use linkwear_gamma::data::{Known, Observations, Rounding};
 use linkwear_gamma::fit::{
     Bootstrap, Fit, FitError, Goodness, Heterogeneity, Interval, Model, estimate, estimate_units, goodness,
     profile_interval,
@@ -18,6 +18,10 @@ pub const LEVEL: f64 = 0.95;
 pub struct Analysis {
     pub name: String,
     pub fit: Fit,
+    /// How many increments are bounds of wear.
+    pub bounds: usize,
+    /// Whether units entered below a limit and are followed from their entry on only.
+    pub enter_unseen: bool,
     pub file: FitFile,
     /// None where the likelihood does not fall far enough.
     pub intervals: Vec<Option<Interval>>,
@@ -61,6 +65,7 @@ pub fn model(arguments: &FitArguments) -> Model {
         process: arguments.process,
         power_law: arguments.power_law,
         covariates: arguments.covariate.len(),
+        sizes: arguments.covariate_of_size.len(),
         resolution: rounding(arguments),
         units_differ: arguments.random_effects,
     }
@@ -86,7 +91,8 @@ impl Analysis {
             (None, None) => String::new(),
         };
         let over_lambda = arguments.lambda.is_some();
-        let file = FitFile::new(&fit, data, &arguments.covariate, (&arguments.wear, &clock), over_lambda);
+        let covariates: Vec<String> = arguments.covariates().cloned().collect();
+        let file = FitFile::new(&fit, data, &covariates, (&arguments.wear, &clock), over_lambda);
         let file = match &units {
             Some(found) => file.with_units(found, last, data),
             None => file,
@@ -104,6 +110,8 @@ impl Analysis {
         };
         Ok(Self {
             name: name.to_owned(),
+            bounds: data.increments.iter().filter(|one| one.is_growth() && !one.is_plain()).count(),
+            enter_unseen: data.increments.iter().any(|one| one.known == Known::Entered { from_new: false }),
             intervals: (0..fit.parameters().len()).map(interval).collect(),
             goodness: goodness(&fit, &data.increments, arguments.seed),
             bootstrap: drawn(&fit),

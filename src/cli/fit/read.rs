@@ -8,6 +8,7 @@ use linkwear_gamma::data::Reading;
 
 use super::super::arguments::FitArguments;
 use super::super::failure::Failure;
+use super::field::{limits, resets, wears};
 use super::lambda::lambda_table;
 
 /// Readings of one group; of all data when there are no groups.
@@ -21,9 +22,10 @@ pub struct Group {
 /// All readings, by group in order of first appearance.
 pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Group>, Failure> {
     let units = table.texts(&arguments.unit)?;
-    let wears = table.numbers(&arguments.wear)?;
+    let wears = wears(arguments, table)?;
+    let (resets, limits) = (resets(arguments, table)?, limits(arguments, table)?);
     let exposures = clock(arguments, table)?;
-    let covariates = arguments.covariate.iter().map(|name| table.numbers(name));
+    let covariates = arguments.covariates().map(|name| table.numbers(name));
     let covariates = covariates.collect::<Result<Vec<_>, _>>()?;
     let names = match &arguments.groups {
         Some(name) => table.texts(name)?,
@@ -31,12 +33,16 @@ pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Grou
     };
     let mut groups: Vec<Group> = Vec::new();
     for (at, line) in table.lines().enumerate() {
+        let (seen, wear) = wears[at];
         let reading = Reading {
             unit: units[at].clone(),
             exposure: exposures[at],
-            wear: wears[at],
+            wear,
             covariates: covariates.iter().map(|values| values[at]).collect(),
             row: line,
+            seen,
+            reset: resets[at],
+            entered_below: limits[at],
         };
         match groups.iter_mut().find(|group| group.name == names[at]) {
             Some(group) => group.readings.push(reading),

@@ -61,13 +61,23 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
     let one = own.file.units == 1;
     let mut warnings: Vec<String> =
         one.then(|| "one unit only; how units differ cannot be seen".to_owned()).into_iter().collect();
+    if own.enter_unseen {
+        warnings.push(match own.units {
+            None => "units that entered below a limit are followed from their entry on only: where units are alike their increments \
+                     say the same of all; --random-effects counts what was selected, --from-zero what they wore before".to_owned(),
+            Some(_) => "the goodness of fit does not count that units entered below a limit; with --bootstrap its p does".to_owned(),
+        });
+    }
+    if own.bounds > 0 {
+        warnings.push(format!("the goodness of fit passes over {} increment(s) with bounds", own.bounds));
+    }
     let p = p_anderson_darling(own);
     if p < REJECTED {
         let mut cures = Vec::new();
         if !arguments.power_law && arguments.lambda.is_none() {
             cures.push("wear that slows down or speeds up with exposure: --power-law");
         }
-        if arguments.covariate.is_empty() && arguments.groups.is_none() {
+        if arguments.covariates().next().is_none() && arguments.groups.is_none() {
             cures.push("units that ran under different loads: --covariate COL or --groups COL");
         }
         if own.units.is_none() && !one && arguments.resolution.is_none() {

@@ -19,7 +19,7 @@ use std::collections::{HashMap, HashSet};
 use rand::RngExt;
 use rand::distr::Open01;
 
-use crate::data::{Increment, Rounding};
+use crate::data::{self, Increment, Rounding};
 use crate::random::Stream;
 
 pub use self::kernel::Laws;
@@ -97,6 +97,11 @@ fn follow(
     for increment in increments {
         if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
             place = if increment.from > 0.0 { Place::Tilted(0.0) } else { Place::Exact };
+        }
+        match increment.known {
+            data::Known::FromLevel => place = Place::Exact,
+            data::Known::Anew => place = Place::Tilted(0.0),
+            _ => {}
         }
         before = Some(increment);
         let kernel = Kernel::new(laws, increment, rounding, &window);

@@ -18,6 +18,7 @@ fn chain(wears: &[f64], from: f64) -> Vec<Increment> {
         wear: *wear,
         ln_covariates: vec![],
         row: 0,
+        ..Increment::default()
     };
     wears.iter().enumerate().map(one).collect()
 }
@@ -156,6 +157,7 @@ fn a_few_equal_readings_are_followed_however_many_and_different_ones_are_limited
             wear: 0.5 * (at % 9) as f64,
             ln_covariates: vec![],
             row: 0,
+            ..Increment::default()
         };
         (0..60_000).map(one).collect()
     };

@@ -56,6 +56,7 @@ fn no_difference_is_an_answer() {
         wear: wears[(at + at / 6) % 6],
         ln_covariates: vec![],
         row: 0,
+        ..Increment::default()
     };
     let units = (0..5).map(|unit| unit.to_string()).collect();
     let data = Observations { units, increments: (0..30).map(one).collect() };
@@ -91,6 +92,7 @@ fn the_law_of_the_test_is_that_of_the_ratio_of_variances() {
         wear: wears[at / 4][at % 4],
         ln_covariates: vec![],
         row: 0,
+        ..Increment::default()
     };
     let units = (0..5).map(|unit| unit.to_string()).collect();
     let data = Observations { units, increments: (0..20).map(one).collect() };

@@ -6,7 +6,10 @@ use rand::RngExt;
 
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{LnGamma, Stream};
-use crate::special::{gamma_ratio, ln_gamma, ln_rising};
+use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_rising};
+
+/// Shape from which on two terms of Stirling's series for the density are good to 1e-12.
+const LARGE: f64 = 1e4;
 
 /// The rate beta differs.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +45,18 @@ impl RandomEffect for GammaRate {
         let shape = 1.0 / (cv * cv);
         let (shape, rate) = (shape + alpha * exposure, shape / beta + wear);
         Some(([logs[0], libm::log(shape / rate)], 1.0 / libm::sqrt(shape)))
+    }
+
+    /// Places are the logarithm of beta over its mean, in units of cv.
+    fn place(&self, logs: [f64; 2], cv: f64, place: f64) -> Option<([f64; 2], f64)> {
+        let (shape, ln) = (1.0 / (cv * cv), cv * place);
+        let constant = if shape < LARGE {
+            shape * libm::log(shape) - shape - ln_gamma(shape) + libm::log(cv)
+        } else {
+            // Stirling's series: the difference of large numbers has no digits left.
+            -0.5 * LN_2_PI - 1.0 / (12.0 * shape)
+        };
+        Some(([logs[0], logs[1] + ln], constant + shape * (ln - libm::expm1(ln))))
     }
 
     /// The score is [(r - a)² - a] / 2, r = beta times wear of shape a; less its part along r - a it has the variance (a² + a) / 2.

@@ -110,6 +110,17 @@ impl RandomEffect for NormalSlowness {
         Some(([-libm::log(mean), logs[1]], s / (mean * libm::sqrt(grown))))
     }
 
+    /// Places are 1 / drift beside its mean, in standard deviations.
+    fn place(&self, logs: [f64; 2], cv: f64, place: f64) -> Option<([f64; 2], f64)> {
+        let factor = 1.0 + cv * place;
+        let ln = -0.5 * (place * place + LN_2_PI) - ln_above_zero(1.0 / cv);
+        Some(if factor > 0.0 {
+            ([logs[0] - libm::log(factor), logs[1]], ln)
+        } else {
+            (logs, f64::NEG_INFINITY)
+        })
+    }
+
     /// The score is [(a y)² - a (1 + y)] / 2, wear 1 + y of its mean, a = spread / drift; less its part along y it has the variance
     /// (a² + 3 a) / 2.
     fn excess(&self, logs: [f64; 2]) -> f64 {
