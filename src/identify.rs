@@ -23,6 +23,7 @@ mod search;
 mod starts;
 #[cfg(test)]
 mod tests;
+mod told;
 mod wear;
 
 pub use clocks::{Clock, Clocks};

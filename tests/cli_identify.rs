@@ -106,3 +106,72 @@ fn wrong_questions_are_answered_with_what_to_write() {
         assert_eq!(identify(words).errors()[0]["code"], code, "{words:?}");
     }
 }
+
+const BUSH: &str = "examples/data/worn_bush.toml";
+const INSPECTIONS: &str = "R2=examples/data/worn_bush.csv";
+
+fn inspected(words: &[&str]) -> Answer {
+    let columns = ["--inspections", INSPECTIONS, "--wear", "wear"];
+    linkwear(&[&["identify", BUSH], &columns[..], words, &["--format", "json"]].concat())
+}
+
+#[test]
+fn a_coefficient_of_wear_is_found_in_inspections_and_one_path_serves_all_its_values() {
+    let by = ["--revolutions", "revolutions", "--free", "k_wear=1e-8..1e-6"];
+    let answer = inspected(&by).json();
+    let one = parameter(&answer, "k_wear");
+    let [lower, upper] = ["lower", "upper"].map(|end| number(&one["interval95"][end]));
+    assert!(lower < 2e-7 && 2e-7 < upper && upper - lower < 1e-8, "{one}");
+    let clocks = &answer["clocks"][0];
+    assert_eq!(clocks["joint"], "R2");
+    // The physics' clock is faster than linear: wear opens the clearance, which narrows the contact.
+    assert!(number(&clocks["interval95"]["lower"]) > 1.0, "{clocks}");
+    assert!(number(&clocks["aic_difference"]) > 2.0, "{clocks}");
+    // Hardness divides what the coefficient multiplies.
+    let both =
+        [&by[..], &["--free", "hardness=100 MPa..500 MPa", "--gauge", "2 um", "--starts", "1"]].concat();
+    let answer = inspected(&both).json();
+    for name in ["k_wear", "hardness"] {
+        assert_eq!(parameter(&answer, name)["state"], "not_identified");
+    }
+    let product = &answer["combinations"][0];
+    let ratio = number(&product["parts"]["hardness"]) / number(&product["parts"]["k_wear"]);
+    assert!((ratio + 1.0).abs() < 1e-3, "{product}");
+}
+
+#[test]
+fn wrong_inspections_are_answered_with_what_to_write() {
+    let free = ["--free", "k_wear=1e-8..1e-6"];
+    for (words, code) in [
+        (&["--revolutions", "turns"][..], "C0011"),
+        (&["--time", "revolutions"], "C0011"),
+        (&[], "C0001"),
+        (&["--revolutions", "revolutions", "--gauge", "2 s"], "C0001"),
+        (&["--revolutions", "revolutions", "--gauge", "-2 um"], "C0001"),
+        (&["--revolutions", "revolutions", "--noise", "R1.drive=1 N m"], "C0001"),
+    ] {
+        assert_eq!(inspected(&[&free[..], words].concat()).errors()[0]["code"], code, "{words:?}");
+    }
+    let folder = Folder::new("identify-inspections");
+    for text in [
+        "n,wear [um]\n100,0\n200,0\n300,-1\n",
+        "n,wear [um]\n-100,1\n200,2\n300,3\n",
+        "n,wear [um]\n1,1\n1,2\n2,3\n",
+    ] {
+        let file = format!("R2={}", folder.write("log.csv", text));
+        let words = [
+            "identify",
+            BUSH,
+            free[0],
+            free[1],
+            "--inspections",
+            &file,
+            "--revolutions",
+            "n",
+            "--wear",
+            "wear",
+        ];
+        let answer = linkwear(&[&words[..], &["--format", "json"]].concat());
+        assert_eq!(answer.errors()[0]["code"], "C0011", "{text}");
+    }
+}

@@ -143,9 +143,18 @@ impl Identified {
         self.parameters.iter().map(|one| one.value).collect()
     }
 
-    /// Words of `--set` for the parameters that are estimated.
+    /// Words of `--set` for the parameters that are estimated, each rounded by less than a thousandth of its error.
     pub fn set_words(&self) -> Vec<String> {
         let estimated = self.parameters.iter().filter(|one| one.state == State::Estimated);
-        estimated.map(|one| format!("{}={}", one.free.name, one.free.written(one.value))).collect()
+        estimated.map(|one| format!("{}={}", one.free.name, one.free.written(one.rounded()))).collect()
+    }
+}
+
+impl Estimated {
+    fn rounded(&self) -> f64 {
+        let digits = libm::log10(self.value.abs() / self.error.unwrap_or(0.0)) + 4.0;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 4 and 16")]
+        let digits = if digits.is_finite() { digits.ceil().clamp(4.0, 16.0) as usize } else { 16 };
+        format!("{:.*e}", digits - 1, self.value).parse().unwrap_or(self.value)
     }
 }

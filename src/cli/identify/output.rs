@@ -77,7 +77,7 @@ fn text(told: &Told<'_>) -> String {
     let head = ["parameter", "estimate", "std. error", "95 % interval", "unit"];
     text.push_str(&table(&head, &rows));
     for combination in &found.combinations {
-        let _ = writeln!(text, "  known is only {}", combined(combination));
+        let _ = writeln!(text, "  known together: {}", combined(combination));
     }
     let _ = writeln!(
         text,
