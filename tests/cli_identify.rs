@@ -175,3 +175,50 @@ fn wrong_inspections_are_answered_with_what_to_write() {
         assert_eq!(answer.errors()[0]["code"], "C0011", "{text}");
     }
 }
+
+#[test]
+fn a_curve_without_noise_gives_its_parameters_back_also_from_a_later_turn_on() {
+    let folder = Folder::new("identify-exact");
+    let out = folder.path("run.csv");
+    let truth = ["--set", "c_rocker=0.05 N m s/rad"];
+    let run = [&["simulate", DRIVE, "--turns", "2", "--samples", "81", "--out", &out][..], &truth].concat();
+    assert_eq!(linkwear(&run).code, 0);
+    let whole = identify(&["--free", DAMPER, "--measured", &out, "--of", "R1.drive,R3.Fx"]).json();
+    // The second turn alone, its times from 0 on and not even: every row but every third.
+    let text = folder.read("run.csv");
+    let mut lines = text.lines();
+    let head: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let at = head.iter().position(|title| *title == "R1.drive [N m]").expect("the drive");
+    let mut later = "t [ms],R1.drive [N m]\n".to_owned();
+    for (row, line) in lines.enumerate().filter(|(row, _)| *row >= 40 && row % 3 != 0) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let t: f64 = cells[0].parse().expect("a time");
+        later.push_str(&format!("{},{}\n", 1e3 * (t - 0.5) + 1e-12 * row as f64, cells[at]));
+    }
+    let later = folder.write("later.csv", &later);
+    let late = identify(&["--free", DAMPER, "--measured", &later, "--settle", "1"]).json();
+    for answer in [whole, late] {
+        let found = number(&parameter(&answer, "c_rocker")["estimate"]);
+        // Runs are right to 1e-9 of each value; the damper does a tenth of the torque.
+        assert!((found / 0.05 - 1.0).abs() < 1e-6, "{found}");
+    }
+}
+
+#[test]
+fn time_tells_revolutions_where_all_last_alike() {
+    let folder = Folder::new("identify-time");
+    let read = std::fs::read_to_string("examples/data/worn_bush.csv").expect("inspections");
+    let mut hours = "t [h],wear [um]\n".to_owned();
+    for line in read.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())) {
+        let (n, wear) = line.split_once(',').expect("two cells");
+        // A revolution takes 0.2 s.
+        hours.push_str(&format!("{},{wear}\n", n.parse::<f64>().expect("a number") * 0.2 / 3600.0));
+    }
+    let file = format!("R2={}", folder.write("hours.csv", &hours));
+    let words = ["identify", BUSH, "--free", "k_wear=1e-8..1e-6", "--wear", "wear", "--format", "json"];
+    let by_time = linkwear(&[&words[..], &["--inspections", &file, "--time", "t"]].concat()).json();
+    let by_count = inspected(&["--free", "k_wear=1e-8..1e-6", "--revolutions", "revolutions"]).json();
+    let found = [by_time, by_count].map(|answer| number(&parameter(&answer, "k_wear")["estimate"]));
+    // A search rests within a thousandth of an error, which is 4e-3 of the value.
+    assert!((found[0] / found[1] - 1.0).abs() < 1e-5, "{found:?}");
+}
