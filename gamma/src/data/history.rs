@@ -4,7 +4,8 @@
 use std::collections::HashSet;
 
 use super::error::DataError;
-use super::{Gauge, Increment, Known, Observations, Reading, Reset, Seen};
+use super::increment::{Gauge, Increment, Known, Observations};
+use super::reading::{Reading, Reset, Seen};
 
 /// Increments of all units, and what each wears now.
 pub fn histories(

@@ -11,6 +11,7 @@ mod estimate;
 mod goodness;
 mod heterogeneity;
 mod interval;
+mod likelihood;
 mod maximise;
 mod model;
 mod parameter_sets;

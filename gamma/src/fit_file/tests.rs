@@ -4,7 +4,7 @@ use super::*;
 use crate::data::{Gauge, Observations, Reading};
 use crate::fit::{Model, estimate};
 use crate::life::Estimate;
-use crate::process::{PROCESSES, Process};
+use crate::process::{Gamma, PROCESSES, Process};
 
 /// Two loads, ten units each, wear 1.5 times as fast at the second load, and some scatter.
 fn readings(unit_of_load: f64) -> Vec<Reading> {
@@ -54,6 +54,54 @@ fn a_fit_at_a_load_does_not_depend_on_the_unit_of_the_load() {
             let (a, b) = (plain.variance(&gradient), one.variance(&gradient));
             // Both maxima are found to 1e-10; the change of variables is linear in the logarithms, so exact.
             assert!((a / b - 1.0).abs() < 1e-7, "{process:?}: {a} {b}");
+        }
+    }
+}
+
+/// A fit whose load acts on the rate, on the size of increments, or on both.
+fn sized(process: &'static dyn Process, data: &Observations, sizes: usize, covariates: usize) -> FitFile {
+    let model = Model { process, covariates, sizes, ..Model::default() };
+    let fit = estimate(data, &model).expect("a maximum");
+    FitFile::new(&fit, data, &vec!["load".to_owned(); sizes + covariates], ("um", "h"), false)
+}
+
+#[test]
+fn a_load_that_acts_on_sizes_takes_all_of_a_factor_on_wear() {
+    // Load 2 or 5, as a logarithm beside each increment; wear times load to the power 0.7.
+    let with_values = |copies: usize, power: f64| {
+        let mut data = Observations::new(&readings(1.0), false, Gauge::Exact).expect("growing wear");
+        for one in &mut data.increments {
+            let ln = one.ln_covariates[0];
+            one.ln_covariates = vec![ln; copies];
+            one.wear *= libm::exp(power * ln);
+        }
+        data
+    };
+    for covariates in [0, 1] {
+        let at_power = |power: f64| sized(&Gamma, &with_values(1 + covariates, power), 1, covariates);
+        let (plain, more) = (at_power(0.0), at_power(0.7));
+        let size = |file: &FitFile| file.covariates[covariates].coefficient;
+        // The likelihood is the same but for a constant: both maxima are found to 1e-7.
+        assert!((size(&more) - size(&plain) - 0.7).abs() < 1e-6, "{} {}", size(&more), size(&plain));
+        assert!((more.parameters[0] / plain.parameters[0] - 1.0).abs() < 1e-6);
+        // Once for both, however often the load counts.
+        let [alpha, beta] = at(&more, 5.0).parameters();
+        let rate = if covariates == 1 { more.covariates[0].coefficient } else { 0.0 };
+        assert!((alpha / (more.parameters[0] * libm::pow(5.0, rate)) - 1.0).abs() < 1e-13);
+        assert!((beta / (more.parameters[1] * libm::pow(5.0, -size(&more))) - 1.0).abs() < 1e-13);
+        let read = FitFile::parse(&more.to_json().to_string()).expect("what was written");
+        assert_eq!(FitFile { text: String::new(), ..read }, more);
+        assert!(
+            matches!(more.informed(&[("load".to_owned(), 5.0)]), Ok(estimate) if estimate.is_uncertain())
+        );
+    }
+    for process in PROCESSES {
+        // A drift, not the spread beside it.
+        let file = sized(process, &with_values(1, 0.0), 1, 0);
+        let (own, scales) = (at(&file, 5.0).parameters(), process.size_powers());
+        for k in 0..2 {
+            let factor = libm::pow(5.0, scales[k] * file.covariates[0].coefficient);
+            assert!((own[k] / (file.parameters[k] * factor) - 1.0).abs() < 1e-13, "{process:?}");
         }
     }
 }

@@ -72,7 +72,9 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
         warnings.push(format!("the goodness of fit passes over {} increment(s) with bounds", own.bounds));
     }
     let p = p_anderson_darling(own);
-    if p < REJECTED {
+    // Transforms that leave the selection out say nothing of the fit, but for the bootstrap, which leaves it out alike.
+    let is_comparable = !own.enter_unseen || own.units.is_none() || own.bootstrap.is_some();
+    if p < REJECTED && is_comparable {
         let mut cures = Vec::new();
         if !arguments.power_law && arguments.lambda.is_none() {
             cures.push("wear that slows down or speeds up with exposure: --power-law");

@@ -5,7 +5,7 @@ use crate::fit::Model;
 use crate::process::{PROCESSES, Process};
 
 fn sample(wear: f64, from: f64, to: f64, ln_load: f64) -> Increment {
-    Increment { unit: 0, from, to, wear, ln_covariates: vec![ln_load], row: 0, ..Increment::default() }
+    Increment { unit: 0, from, to, wear, ln_covariates: vec![ln_load; 2], row: 0, ..Increment::default() }
 }
 
 #[test]
@@ -16,8 +16,9 @@ fn derivatives_are_those_of_the_value() {
 }
 
 fn derivatives_of(process: &'static dyn Process) {
-    for units_differ in [false, true] {
-        let model = Model { process, power_law: true, covariates: 1, units_differ, ..Model::default() };
+    for (units_differ, sizes) in [(false, 0), (true, 0), (false, 1)] {
+        let model =
+            Model { process, power_law: true, covariates: 1, sizes, units_differ, ..Model::default() };
         derivatives_of_model(&model, &[0.7, 0.9, 0.8, 0.5, -0.9][..model.parameters()]);
     }
 }
