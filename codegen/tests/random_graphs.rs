@@ -73,6 +73,7 @@ fn nobody() -> Description {
         channels: vec![].into(),
         turn_driver: None,
         contacts: Vec::new().into(),
+        missions: Vec::new().into(),
     }
 }
 

@@ -5,6 +5,7 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
+use crate::mission::{MissionInfo, SegmentInfo};
 use crate::tables::{ContactInfo, InputRole, Motion, Tables};
 use crate::text::Text;
 
@@ -93,6 +94,8 @@ pub struct Description {
     pub turn_driver: Option<usize>,
     /// Joints with clearance, in the order of [`crate::Entry::Contacts`].
     pub contacts: List<ContactInfo>,
+    /// Duty cycles, in the order of the file.
+    pub missions: List<MissionInfo>,
 }
 
 impl Description {
@@ -109,6 +112,15 @@ impl Description {
     /// Of every kept row, its row among all; fewer than `count` where the description misses one.
     pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
+    }
+
+    /// That of the mechanism in a segment of a mission: its laws of friction and wear.
+    pub fn in_segment(&self, segment: &SegmentInfo) -> Self {
+        let mut own = self.clone();
+        for (contact, (friction, wear)) in own.contacts.to_mut().iter_mut().zip(&segment.factors) {
+            *contact = contact.clone().scaled(*friction, *wear);
+        }
+        own
     }
 
     /// The description that the tables of generated code stand for.
@@ -145,6 +157,7 @@ impl Description {
             channels: tables.channels.iter().map(channel).collect(),
             turn_driver: tables.turn_driver,
             contacts: tables.contacts.into(),
+            missions: tables.missions.iter().map(MissionInfo::from_row).collect(),
         }
     }
 }

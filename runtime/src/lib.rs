@@ -63,6 +63,8 @@ pub mod life;
 #[cfg(feature = "std")]
 pub mod linear;
 #[cfg(feature = "std")]
+mod mission;
+#[cfg(feature = "std")]
 mod passage;
 #[cfg(feature = "std")]
 mod projection;
@@ -82,7 +84,7 @@ pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
 pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System};
-pub use tables::{ContactInfo, GammaRates, InputRole, Motion, Tables, WearInfo};
+pub use tables::{ContactInfo, GammaRates, InputRole, MissionRow, Motion, SegmentRow, Tables, WearInfo};
 pub use text::Text;
 
 #[cfg(feature = "std")]
@@ -105,6 +107,7 @@ pub use {
         Accelerations, CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates,
     },
     layout::{Group, Layout},
+    mission::{MissionInfo, SegmentInfo},
     projection::{Correction, NotClosed, POSITION_TOLERANCE, Projector, SPEED_TOLERANCE},
     record::{Cells, Table, TableColumn, write_csv},
     signals::{SampledSignals, Signals},

@@ -60,6 +60,26 @@ pub struct ContactInfo {
     pub wear: Option<WearInfo>,
 }
 
+impl ContactInfo {
+    /// The same with so many times the friction and the wear coefficient.
+    pub fn scaled(mut self, friction: f64, wear: f64) -> Self {
+        if let Some((strength, _, slope)) = &mut self.friction {
+            *slope *= friction;
+            match strength {
+                Strength::Coulomb { coefficient } => *coefficient *= friction,
+                Strength::Stribeck { static_coefficient, kinetic_coefficient, .. } => {
+                    *static_coefficient *= friction;
+                    *kinetic_coefficient *= friction;
+                }
+            }
+        }
+        if let Some(law) = &mut self.wear {
+            law.coefficient *= wear;
+        }
+        self
+    }
+}
+
 /// How a joint wears, and when it has failed. SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WearInfo {
@@ -108,6 +128,13 @@ pub struct GammaRates {
     pub beta: f64,
 }
 
+/// A segment of a duty cycle: name, share of the operating time or duration [s], parameters that differ by index and value,
+/// factors on friction and wear of every joint with clearance.
+pub type SegmentRow = (&'static str, f64, &'static [(usize, f64)], &'static [(f64, f64)]);
+
+/// A duty cycle: name, whether its amounts are durations in order, its segments, those in half as many bins.
+pub type MissionRow = (&'static str, bool, &'static [SegmentRow], &'static [SegmentRow]);
+
 /// What generated code says about itself, as plain tables: names, units and flags a row for each. With the
 /// feature `std`, `description()` of generated code makes a `Description` of them.
 #[derive(Clone, Copy, Debug)]
@@ -136,4 +163,6 @@ pub struct Tables {
     pub turn_driver: Option<usize>,
     /// Joints with clearance, in the order of [`crate::Entry::Contacts`].
     pub contacts: &'static [ContactInfo],
+    /// Duty cycles.
+    pub missions: &'static [MissionRow],
 }

@@ -1,6 +1,7 @@
 //! `check`: what a mechanism is, before anything moves.
 
 mod contacts;
+mod missions;
 mod start;
 
 use std::fmt::Write as _;
@@ -90,6 +91,7 @@ fn told_of<'a>(found: &'a Found<'_>, warnings: &'a [Value]) -> CheckAnswer<'a> {
         parameters: parameters(compiled, false).map(parameter_entry).collect(),
         inputs: parameters(compiled, true).map(parameter_entry).collect(),
         wear_measures: wear_measures(compiled.description()),
+        missions: missions::answers(compiled.description()),
         warnings,
     }
 }
@@ -181,6 +183,7 @@ fn text(Found { compiled, assemblies, start, contacts }: &Found<'_>) -> String {
     }
     text.push_str(&contacts::text(contacts));
     text.push_str(&paragraph(&wear_measures(compiled.description())));
+    text.push_str(&missions::text(compiled.description()));
     for (title, column, inputs) in [("Parameters", "value", false), ("Inputs", "default", true)] {
         let rows: Vec<_> = parameters(compiled, inputs).map(parameter_row).collect();
         if !rows.is_empty() {

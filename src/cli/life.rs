@@ -3,13 +3,16 @@
 
 mod fits;
 pub mod folder;
+mod mission;
 pub mod output;
 mod told;
 
 use std::path::Path;
 
 use crate::files::claim_folder;
-use crate::life::{Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, Trajectories, merge};
+use crate::life::{
+    Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Trajectories, merge,
+};
 use crate::mechanism::Mechanism;
 #[cfg(feature = "page")]
 use crate::page::life_picture;
@@ -102,6 +105,11 @@ pub fn lives<'m>(
         },
         seed: arguments.seed,
         fits,
+        mission: match (&arguments.mission, arguments.no_mission) {
+            (_, true) => MissionChoice::None,
+            (Some(name), false) => MissionChoice::Named(name.clone()),
+            (None, false) => MissionChoice::Only,
+        },
         shared_factor: arguments.shared_factor,
         ..LifeStudy::new(mechanism)
     };
@@ -185,6 +193,22 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
             return Failure::usage("--shard parts random lives, and none are asked for", help);
         }
         Cause::SharedFactor(_) => return Failure::usage(&cause, "give a smaller --shared-factor"),
+        Cause::UnknownMission { mission, known } if !known.is_empty() => {
+            return Failure::unknown_name("mission", mission, known, known);
+        }
+        Cause::UnknownMission { .. } => {
+            return Failure::usage(&cause, "this mechanism has none: leave --mission out, or add a table [missions]");
+        }
+        Cause::SeveralMissions { known } => {
+            let help = format!("choose one, as by --mission {}, or live without by --no-mission", known[0]);
+            return Failure::usage(&cause, help);
+        }
+        Cause::UnevenTurns { .. } => {
+            "drive it at one speed in each segment, as in drive = \"2*pi*speed*t\"; --no-mission lives without missions".to_owned()
+        }
+        Cause::MissionOutlastsLife { .. } => {
+            "give shares of the operating time if it is used so for good, or break the mission into shorter ones".to_owned()
+        }
         Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),
         Cause::NoWear => "add [clearance.R1] and [wear.R1], R1 being the joint that wears".to_owned(),
         Cause::NoTurns => "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }".to_owned(),

@@ -105,6 +105,12 @@ pub struct LivesArguments {
     /// Seed of the random numbers; the same seed gives the same bits on any number of threads.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub seed: u64,
+    /// Duty cycle of the mechanism's [missions] by which it is used [default: the only one, if there is one].
+    #[arg(long, value_name = "NAME", conflicts_with = "no_mission")]
+    pub mission: Option<String>,
+    /// Live as if the mechanism had no [missions].
+    #[arg(long)]
+    pub no_mission: bool,
     /// Only the mean path: every increment of wear is its mean.
     #[arg(long)]
     pub mean: bool,

@@ -7,7 +7,8 @@ use linkwear_runtime::life::{DEFAULT_POINTS, Feedback, LifeSettings, WearSource}
 use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
 
 use super::error::{Cause, LifeError};
-use super::run::Plan;
+use super::mission::Duty;
+use super::run::{Plan, joints};
 use super::study::{Coupling, LifeStudy};
 
 /// Measurements per cycle of a mean path: fewest where steps grow to their longest, most where wear is noisy or steps stay within
@@ -57,17 +58,17 @@ impl LifeStudy<'_> {
         self.wears()?;
         let system = self.mechanism.system();
         let once = RevolutionSettings { settle: Some(0), average: 1, ..self.revolutions };
-        let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
-        let source = DynamicsSource::new(&*system, description, parameters, once).map_err(Cause::from)?;
-        let mut source = source.watched_by(watch);
-        let plan = Plan::new(self, &source, None, (watch, watch))?;
+        let duty = Duty::new(self, &*system)?;
+        let sources = duty.sources(&*system, once, watch)?;
+        let unworn = sources.first().map_or_else(Vec::new, DynamicsSource::unworn);
+        let plan = Plan::new(self, &duty, joints(&sources)?, None, (watch, watch))?;
+        let mut source = duty.compose(sources);
         if plan.coupling == Coupling::Table {
             return Ok(None);
         }
         let LifeSettings { joints, .. } = &plan.settings;
-        let unworn = source.unworn();
         let start = Instant::now();
-        let measured = source.measure(&unworn, &mut None).map_err(Cause::from)?;
+        let measured = source.measure(&unworn, &mut Vec::new()).map_err(Cause::from)?;
         let seconds_per_revolution = start.elapsed().as_secs_f64();
         let life = joints.iter().zip(&measured).map(|(joint, measured)| {
             joint.threshold / (joint.revolutions_per_cycle * joint.wear.of(measured))

@@ -4,7 +4,7 @@ use std::error::Error as StdError;
 
 use linkwear_gamma::life::LifeError as LawError;
 use linkwear_runtime::RunError;
-use linkwear_runtime::life::{CycleRecord, FailureEvent, SettingsError};
+use linkwear_runtime::life::{CycleRecord, FailureEvent, MissionError, SettingsError};
 use thiserror::Error;
 
 use crate::journal::JournalError;
@@ -68,6 +68,37 @@ pub enum Cause {
     /// Its journal cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
+    /// The mechanism has no mission of this name.
+    #[error("there is no mission `{mission}`")]
+    UnknownMission {
+        /// What was given.
+        mission: String,
+        /// Those of the mechanism.
+        known: Vec<String>,
+    },
+    /// The mechanism has several missions, and none was chosen.
+    #[error("there are {} missions: {}", .known.len(), .known.join(", "))]
+    SeveralMissions {
+        /// Their names.
+        known: Vec<String>,
+    },
+    /// The revolutions of a segment last differently, so that time cannot be counted in them.
+    #[error("the revolutions of segment `{segment}` last differently, so its time cannot be counted in them")]
+    UnevenTurns {
+        /// The segment.
+        segment: String,
+    },
+    /// A segment cannot be run.
+    #[error(transparent)]
+    Segment(Box<MissionError<RunError>>),
+    /// The machine fails within its first mission, so that the order of segments decides when.
+    #[error(
+        "the machine fails after {missions:.3} of one mission: which segments come before that decides its life, not their shares"
+    )]
+    MissionOutlastsLife {
+        /// Missions of the mean path's life.
+        missions: f64,
+    },
     /// The mechanism cannot be run.
     #[error(transparent)]
     Run(RunError),
@@ -119,6 +150,25 @@ impl From<Cause> for LifeError {
     /// Before the first cycle.
     fn from(cause: Cause) -> Self {
         Self { cause: Box::new(cause), joints: Vec::new(), cycles: Vec::new(), lives: Vec::new() }
+    }
+}
+
+impl From<MissionError<RunError>> for LifeError {
+    fn from(error: MissionError<RunError>) -> Self {
+        Cause::from(error).into()
+    }
+}
+
+impl From<MissionError<RunError>> for Cause {
+    fn from(error: MissionError<RunError>) -> Self {
+        match error {
+            MissionError::Alone(error) => error.into(),
+            MissionError::Segment { segment, error } => match Self::from(error) {
+                Self::Run(error) => Self::Segment(Box::new(MissionError::Segment { segment, error })),
+                cause => cause,
+            },
+            lost @ MissionError::ContactLost { .. } => Self::Segment(Box::new(lost)),
+        }
     }
 }
 

@@ -8,10 +8,12 @@
 mod cost;
 mod counted;
 mod draw;
+mod duty_result;
 mod error;
 mod facts;
 mod fit;
 mod journal;
+mod mission;
 mod part;
 mod paths;
 mod process;
@@ -26,17 +28,19 @@ pub use crate::parts::MergeError;
 pub use crate::shard::{Shard, ShardError};
 pub use cost::Cost;
 pub use counted::{CountedEnds, LISTED_LIVES};
+pub use duty_result::{AloneResult, MissionResult, SegmentResult};
 pub use error::{Cause, LifeError};
 pub use facts::LifeFacts;
 pub use fit::{JointFit, UnfitForLife};
 pub use journal::LifeJournal;
 #[cfg(feature = "page")]
 pub(crate) use journal::NAME as JOURNAL;
+pub use mission::MissionChoice;
 #[cfg(feature = "page")]
 pub(crate) use part::NAME as SHARD;
 pub use part::{LifePart, merge};
 pub use paths::{LifePaths, Spread};
 pub use process::JointProcess;
-pub use result::{HOUR, LifeNumbers, LifeResult};
+pub use result::{HOUR, LifeNumbers, LifeResult, YEAR};
 pub use steady::TurnErrors;
 pub use study::{Coupling, LifeStudy, Trajectories};

@@ -6,6 +6,7 @@ use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
 use serde::{Deserialize, Serialize};
 
 use super::counted::CountedEnds;
+use super::duty_result::MissionResult;
 use super::paths::LifePaths;
 use super::process::JointProcess;
 use super::steady::TurnErrors;
@@ -46,8 +47,11 @@ pub struct LifeResult {
     pub parameter_error: Option<f64>,
     /// What turns that are not steady do to the life of the joint that ends the mean path.
     pub turn_errors: TurnErrors,
-    /// How long a revolution lasts [s], if all last equally long.
+    /// How long a revolution lasts [s], if all last equally long; in a mission their mean.
     pub seconds_per_revolution: Option<f64>,
+    /// How it was used, if by a mission.
+    #[serde(default)]
+    pub mission: Option<MissionResult>,
 }
 
 /// The numbers that a life is told by: those of the random lives, or of the mean path where there are none [cycles].
@@ -77,6 +81,8 @@ pub struct LifeNumbers {
 
 /// Seconds of an hour.
 pub const HOUR: f64 = 3600.0;
+/// Seconds of a year of 365.25 days.
+pub const YEAR: f64 = 8766.0 * HOUR;
 
 impl LifeResult {
     /// The numbers it is told by; `statistics` are [`Self::statistics`].
@@ -107,6 +113,7 @@ impl LifeResult {
             ("the mean path", self.end == other.end && self.cycles == other.cycles),
             ("the processes of wear", self.process == other.process),
             ("the table of wear", self.table == other.table && self.measurements == other.measurements),
+            ("the mission", self.mission == other.mission),
             ("how lives are told", self.counted.is_some() == other.counted.is_some()),
         ];
         same.iter().find(|(_, is_same)| !is_same).map(|(what, _)| *what)
@@ -189,6 +196,17 @@ impl LifeResult {
         let revolutions = self.failed_joint().revolutions_per_cycle;
         let is_one = self.joints.iter().all(|joint| joint.revolutions_per_cycle == revolutions);
         self.seconds_per_revolution.filter(|_| is_one).map(|seconds| revolutions * seconds)
+    }
+
+    /// How many missions the mean path lasts, where segments have durations.
+    pub fn missions(&self) -> Option<f64> {
+        self.missions_of(self.end.cycles)
+    }
+
+    /// How many missions so many cycles last, where segments have durations.
+    pub fn missions_of(&self, cycles: f64) -> Option<f64> {
+        let revolutions = cycles * self.failed_joint().revolutions_per_cycle;
+        Some(revolutions * self.seconds_per_revolution? / self.mission.as_ref()?.seconds?)
     }
 
     /// How far off the mean life may be: that of the random lives, or of the mean path where there are none [cycles].

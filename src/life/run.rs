@@ -10,22 +10,24 @@ use std::thread::available_parallelism;
 
 use linkwear_codegen::limits;
 use linkwear_runtime::life::{
-    CycleRecord, DEFAULT_POINTS, IncrementModel, LifeError as Stop, LifeOutcome, LifeSettings, LifeState,
-    MeanIncrement, WearSource, WearStep, WearTable, run_life,
+    CycleRecord, DEFAULT_POINTS, IncrementModel, JointLife, LifeError as Stop, LifeOutcome, LifeSettings,
+    LifeState, MeanIncrement, MissionError, MissionSource, WearSource, WearStep, WearTable, run_life,
 };
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
+use super::duty_result::MissionResult;
 use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
+use super::mission::Duty;
 use super::process::Process;
 use super::result::LifeResult;
-use super::source::KeptSource;
+use super::source::{KeptSource, Log};
 use super::steady::TurnErrors;
 use super::study::{Coupling, LifeStudy};
 use crate::backend::Lanes;
 
 /// Runs with a source of wear that was made for it.
-pub(super) type Body<'b, E = RunError, S = Option<TurnState>> =
+pub(super) type Body<'b, E = MissionError<RunError>, S = Vec<Option<TurnState>>> =
     &'b mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>);
 
 impl LifeStudy<'_> {
@@ -80,20 +82,28 @@ impl LifeStudy<'_> {
         let (told, between) = (Watch::new(&tell).with_stages(&begin), Watch::new(&ask));
         self.wears()?;
         let system = self.mechanism.system();
-        let mut source = self.source(&*system, between).map_err(Cause::from)?;
-        let seconds = source.seconds_per_revolution();
-        let mut plan = Plan::new(self, &source, journal, (told, between))?;
+        let duty = Duty::new(self, &*system)?;
+        let sources = duty.sources(&*system, self.revolutions, between)?;
+        let mut plan = Plan::new(self, &duty, joints(&sources)?, journal, (told, between))?;
         if let Some(journal) = journal {
             journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
         }
-        let mut source = KeptSource::new(source, journal);
+        let log = Log::new(journal);
+        let mut source = KeptSource::new(&duty, sources, &log);
         let mut result = match plan.coupling {
             Coupling::Table => plan.by_table(&mut source),
             Coupling::Full => plan.by_dynamics(&mut source),
         }?;
+        if let (Some(coarser), Some(mission)) = (Duty::coarser(self, &*system)?, &mut result.mission) {
+            told.begin("half as many bins");
+            let life = |duty: &Duty, cycles: f64| cycles * duty.seconds_per_revolution().unwrap_or(1.0);
+            let sources = coarser.sources(&*system, self.revolutions, between)?;
+            let plan = Plan::new(self, &coarser, joints(&sources)?, journal, (told, between))?;
+            let other = plan.mean_end(&mut KeptSource::new(&coarser, sources, &log))?;
+            mission.binning = Some((life(&coarser, other) / life(&duty, result.end.cycles) - 1.0).abs());
+        }
         result.turn_errors = source.turn_errors(result.end.joint);
-        result.seconds_per_revolution = seconds;
-        result.warnings.splice(0..0, source.warnings().iter().map(ToString::to_string));
+        result.warnings.splice(0..0, source.warnings());
         Ok(result)
     }
 
@@ -102,24 +112,23 @@ impl LifeStudy<'_> {
         let mut contacts = self.mechanism.description.contacts.iter();
         if contacts.any(|contact| contact.wear.is_some()) { Ok(()) } else { Err(Cause::NoWear) }
     }
+}
 
-    /// Revolutions of a system.
-    pub(super) fn source<'s>(
-        &'s self,
-        system: &'s dyn System<f64>,
-        between: Watch<'s>,
-    ) -> Result<DynamicsSource<'s>, RunError> {
-        let (description, parameters) = (&self.mechanism.description, &self.mechanism.parameters);
-        Ok(DynamicsSource::new(system, description, parameters, self.revolutions)?.watched_by(between))
-    }
+/// The wearing joints, as they are in the first of these sources.
+pub(super) fn joints(sources: &[DynamicsSource<'_>]) -> Result<Vec<JointLife>, Cause> {
+    Ok(sources.first().map_or(Ok(Vec::new()), DynamicsSource::joints)?)
 }
 
 /// What the first report is taken to tell: that of a table. A life by the dynamics is asked after more work than that.
 const FIRST: f64 = 1.0 / DEFAULT_POINTS as f64;
 
+/// Missions of a life below which the order of segments within one is told to matter: it changes less than one of them.
+const FEW_MISSIONS: f64 = 20.0;
+
 /// What to live, and how.
 pub(super) struct Plan<'s> {
     pub(super) study: &'s LifeStudy<'s>,
+    duty: &'s Duty,
     pub settings: LifeSettings,
     pub coupling: Coupling,
     pub(super) process: Option<Process>,
@@ -137,11 +146,12 @@ pub(super) struct Plan<'s> {
 impl<'s> Plan<'s> {
     pub fn new(
         study: &'s LifeStudy<'s>,
-        source: &DynamicsSource<'_>,
+        duty: &'s Duty,
+        joints: Vec<JointLife>,
         journal: Option<&'s LifeJournal>,
         (watch, between): (Watch<'s>, Watch<'s>),
     ) -> Result<Self, Cause> {
-        let mut settings = LifeSettings::new(source.joints()?);
+        let mut settings = LifeSettings::new(joints);
         if !study.feedback {
             settings = settings.without_feedback();
         }
@@ -162,6 +172,7 @@ impl<'s> Plan<'s> {
         let threads = threads.min(NonZero::new(limits::THREADS.most).unwrap_or(threads));
         Ok(Self {
             study,
+            duty,
             settings,
             coupling,
             process,
@@ -176,37 +187,80 @@ impl<'s> Plan<'s> {
 
     fn by_table(&mut self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         self.watch.begin("table");
-        let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
-        let mut table = measured.map_err(|error| self.error(self.cause(error, None), &[]))?;
+        let mut table = self.table(source)?;
         let mut result = self.mean_path(&mut table, self.between)?;
+        result.measurements = table.report().measurements as u64;
+        result.table = Some(table.report().clone());
         self.know_process(&mut result);
+        self.know_mission(&mut result, source)?;
         let scale = |body: Body<'_, Infallible, ()>| {
             body(&mut table.clone());
             Ok(())
         };
         self.draw(&mut result, &scale, self.threads)?;
-        result.measurements = table.report().measurements as u64;
-        result.table = Some(table.report().clone());
         Ok(result)
+    }
+
+    fn table(&self, source: &mut KeptSource<'_>) -> Result<WearTable, LifeError> {
+        let measured = WearTable::measure(&self.settings, source, DEFAULT_POINTS, self.watch);
+        measured.map_err(|error| self.error(self.cause(error, None), &[]))
     }
 
     fn by_dynamics(&mut self, source: &mut KeptSource<'_>) -> Result<LifeResult, LifeError> {
         self.watch.begin("mean path");
         let mut result = self.mean_path(source, self.watch)?;
         self.know_process(&mut result);
+        self.know_mission(&mut result, source)?;
         match self.lanes() {
             Some(Lanes::Eight(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
             Some(Lanes::Four(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
             None => {
                 let scale = |body: Body<'_>| {
                     let system = self.study.mechanism.system();
-                    body(&mut self.study.source(&*system, self.between)?);
+                    body(&mut self.source(&*system, &|source| source)?);
                     Ok(())
                 };
                 self.draw(&mut result, &scale, self.threads)?;
             }
         }
         Ok(result)
+    }
+
+    /// Revolutions of all segments by a system, for a random life.
+    pub(super) fn source<'r>(
+        &'r self,
+        system: &'r dyn System<f64>,
+        by: &dyn Fn(DynamicsSource<'r>) -> DynamicsSource<'r>,
+    ) -> Result<MissionSource<DynamicsSource<'r>>, MissionError<RunError>> {
+        let sources = self.duty.sources(system, self.study.revolutions, self.between)?;
+        Ok(self.duty.compose(sources.into_iter().map(by).collect()))
+    }
+
+    /// What the mission has made of the mean path.
+    fn know_mission(&self, result: &mut LifeResult, source: &KeptSource<'_>) -> Result<(), LifeError> {
+        result.seconds_per_revolution = self.duty.seconds_per_revolution();
+        result.mission = MissionResult::new(self.duty, &self.settings, result, source.measured());
+        let Some(missions) = result.missions() else { return Ok(()) };
+        if missions < 1.0 {
+            return Err(self.error(Cause::MissionOutlastsLife { missions }, &result.cycles));
+        }
+        if missions < FEW_MISSIONS && self.duty.setups.len() > 1 {
+            result.warnings.push(format!(
+                "the mean path has {missions:.1} missions: their segments count by their shares, and the order within a mission can \
+                 change the life by up to one mission, {:.1} % of it",
+                100.0 / missions
+            ));
+        }
+        Ok(())
+    }
+
+    /// Length of the mean path alone [cycles].
+    fn mean_end(&self, source: &mut KeptSource<'_>) -> Result<f64, LifeError> {
+        let path = match self.coupling {
+            Coupling::Table => self.mean_path(&mut self.table(source)?, self.between),
+            Coupling::Full => self.mean_path(source, self.watch),
+        };
+        path.map(|path| path.end.cycles)
     }
 
     /// Once the mean path has told what the first cycle wears.
@@ -259,6 +313,7 @@ impl<'s> Plan<'s> {
             parameter_error: self.process.as_ref().and_then(by_fit),
             turn_errors: TurnErrors { settling: None, averaging: None },
             seconds_per_revolution: None,
+            mission: None,
         })
     }
 

@@ -19,7 +19,9 @@ impl Plan<'_> {
     /// Machine code for the random lives side by side; none where there are no lives, or their method has no lanes.
     pub(super) fn lanes(&self) -> Option<Lanes> {
         let wanted = self.process.as_ref().and(self.trajectories);
-        let has_lanes = matches!(self.study.revolutions.integrator, Integrator::Rk43 { .. });
+        // A bundle runs one description and one set of parameters.
+        let is_whole = !matches!(self.study.chosen_mission(), Ok(Some(_)));
+        let has_lanes = is_whole && matches!(self.study.revolutions.integrator, Integrator::Rk43 { .. });
         wanted.filter(|_| has_lanes).and_then(|_| self.study.mechanism.lanes())
     }
 
@@ -42,7 +44,7 @@ impl Plan<'_> {
             let scale = |body: Body<'_>| {
                 let system = self.study.mechanism.system();
                 let queue = queues[next.fetch_add(1, Ordering::Relaxed) % queues.len()].clone();
-                body(&mut self.study.source(&*system, self.between)?.through(queue));
+                body(&mut self.source(&*system, &|source| source.through(queue.clone()))?);
                 Ok(())
             };
             let lanes = self.threads.saturating_mul(NonZero::new(N).unwrap_or(NonZero::<usize>::MIN));

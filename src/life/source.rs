@@ -1,29 +1,66 @@
 //! The one source of wear that makes the table or the mean path: what its journal knows is not measured again.
-//! In: the equations, a journal. Out: measurements, the same bits either way. Never knows what they are for.
+//! In: the equations of every segment, a journal. Out: measurements, the same bits either way. Never knows what they are for.
 
-use linkwear_runtime::life::{JointWear, WearSource};
+use std::cell::Cell;
+use std::rc::Rc;
+
+use linkwear_runtime::life::{JointWear, MissionError, MissionSource, SegmentsMeasured, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, RunError, RunWarning, Steadiness, TurnState};
+use linkwear_runtime::{DynamicsSource, RunError, Steadiness, TurnState};
 
 use super::journal::{LifeJournal, Measurement};
+use super::mission::Duty;
 use super::steady::{Steady, TurnErrors};
+
+/// Where the measurements of all segments are kept, in the order that they are made.
+pub(super) struct Log<'a> {
+    journal: Option<&'a LifeJournal>,
+    made: Cell<usize>,
+}
+
+impl<'a> Log<'a> {
+    pub fn new(journal: Option<&'a LifeJournal>) -> Rc<Self> {
+        Rc::new(Self { journal, made: Cell::new(0) })
+    }
+}
 
 /// Revolutions of a system, kept.
 pub(super) struct KeptSource<'a> {
-    source: DynamicsSource<'a>,
-    journal: Option<&'a LifeJournal>,
+    source: MissionSource<KeptSegment<'a>>,
     /// Wear [m] and steadiness of the joints at each measurement until now.
     seen: Vec<(Vec<f64>, Vec<Steadiness>)>,
 }
 
+/// Those of a segment.
+struct KeptSegment<'a> {
+    source: DynamicsSource<'a>,
+    log: Rc<Log<'a>>,
+    /// That of the last measurement.
+    steadiness: Vec<Steadiness>,
+}
+
 impl<'a> KeptSource<'a> {
-    pub fn new(source: DynamicsSource<'a>, journal: Option<&'a LifeJournal>) -> Self {
-        Self { source, journal, seen: Vec::new() }
+    pub fn new(duty: &Duty, sources: Vec<DynamicsSource<'a>>, log: &Rc<Log<'a>>) -> Self {
+        let kept = |source| KeptSegment { source, log: Rc::clone(log), steadiness: Vec::new() };
+        Self { source: duty.compose(sources.into_iter().map(kept).collect()), seen: Vec::new() }
     }
 
     /// What was doubtful until now.
-    pub fn warnings(&self) -> &[RunWarning] {
-        self.source.warnings()
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for segment in self.source.segments() {
+            for warning in segment.source.source.warnings() {
+                let is_one = self.source.segments().len() == 1;
+                let place = if is_one { String::new() } else { format!("segment `{}`: ", segment.name) };
+                warnings.push(format!("{place}{warning}"));
+            }
+        }
+        warnings
+    }
+
+    /// What the segments have worn until now; nothing of a single one.
+    pub fn measured(&self) -> &[SegmentsMeasured] {
+        self.source.measured()
     }
 
     /// How far off the life of a joint may be because turns were not steady.
@@ -34,9 +71,41 @@ impl<'a> KeptSource<'a> {
         };
         TurnErrors::of(self.seen.iter().map(one).collect())
     }
+
+    /// How steady the turns of all segments were, of a joint: drifts add, scatter is independent.
+    fn steadiness(&self, joint: usize) -> Option<Steadiness> {
+        let segments = self.source.segments();
+        let each =
+            || segments.iter().filter_map(|one| Some((one.revolutions, one.source.steadiness.get(joint)?)));
+        if let [_] = segments {
+            return each().next().map(|(_, alone)| *alone);
+        }
+        let wear: f64 = each().map(|(share, one)| share * one.wear).sum();
+        let part = |of: f64| if of == 0.0 { 0.0 } else { of / wear };
+        let drift = each().map(|(share, one)| Some(share * one.wear * one.drift?)).sum::<Option<f64>>();
+        let square = |(share, one): (f64, &Steadiness)| Some((share * one.wear * one.scatter?).powi(2));
+        let scatter = each().map(square).sum::<Option<f64>>();
+        Some(Steadiness { wear, drift: drift.map(part), scatter: scatter.map(|square| part(square.sqrt())) })
+    }
 }
 
 impl WearSource for KeptSource<'_> {
+    type State = Vec<Option<TurnState>>;
+    type Error = MissionError<RunError>;
+
+    fn measure(
+        &mut self,
+        joints: &[JointWear],
+        state: &mut Self::State,
+    ) -> Result<Vec<ContactMeasure>, Self::Error> {
+        let measured = self.source.measure(joints, state)?;
+        let wear = joints.iter().map(|joint| joint.wear).collect();
+        self.seen.push((wear, (0..joints.len()).filter_map(|joint| self.steadiness(joint)).collect()));
+        Ok(measured)
+    }
+}
+
+impl WearSource for KeptSegment<'_> {
     type State = Option<TurnState>;
     type Error = RunError;
 
@@ -46,20 +115,22 @@ impl WearSource for KeptSource<'_> {
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, RunError> {
         let wear: Vec<f64> = joints.iter().map(|joint| joint.wear).collect();
-        if let Some(known) = self.journal.and_then(|journal| journal.measurement(self.seen.len(), &wear)) {
+        let made = self.log.made.get();
+        if let Some(known) = self.log.journal.and_then(|journal| journal.measurement(made, &wear)) {
             self.source.known(&known.warnings);
             state.clone_from(&known.state);
-            self.seen.push((wear, known.steadiness.clone()));
+            self.log.made.set(made + 1);
+            self.steadiness.clone_from(&known.steadiness);
             return Ok(known.measured.clone());
         }
         let measured = self.source.measure(joints, state)?;
-        let steadiness = self.source.steadiness().to_vec();
-        self.seen.push((wear.clone(), steadiness.clone()));
-        if let Some(journal) = self.journal {
+        self.log.made.set(made + 1);
+        self.steadiness = self.source.steadiness().to_vec();
+        if let Some(journal) = self.log.journal {
             journal.keep_measurement(Measurement {
                 wear,
                 measured: measured.clone(),
-                steadiness,
+                steadiness: self.steadiness.clone(),
                 state: state.clone(),
                 warnings: self.source.warnings().to_vec(),
             });

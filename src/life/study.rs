@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
+use super::mission::MissionChoice;
 use crate::checksum::sha256;
 use crate::journal::Identity;
 use crate::mechanism::Mechanism;
@@ -74,6 +75,8 @@ pub struct LifeStudy<'m> {
     /// Fits that take the place of alpha and beta in the mechanism's file, at most one for each wearing joint. Their
     /// covariance enters the error budget.
     pub fits: Vec<JointFit>,
+    /// How the machine is used.
+    pub mission: MissionChoice,
     /// Coefficient of variation of a random wear-rate factor (Gamma law, mean 1) common to all joints of a life.
     pub shared_factor: Option<f64>,
 }
@@ -93,6 +96,7 @@ impl<'m> LifeStudy<'m> {
             seed: 1,
             threads: None,
             fits: Vec::new(),
+            mission: MissionChoice::Only,
             shared_factor: None,
         }
     }
@@ -120,7 +124,7 @@ impl<'m> LifeStudy<'m> {
         };
         let fit = |fit: &JointFit| (fit.joint.clone(), json!(sha256(&fit.estimate)));
         let fits = self.fits.iter().map(fit).collect::<Map<_, _>>();
-        json!({
+        let mut options = json!({
             "coupling": coupling,
             "trajectories": self.trajectories.count(coupling),
             "step_s": step,
@@ -130,7 +134,11 @@ impl<'m> LifeStudy<'m> {
             "feedback": self.feedback,
             "shared_factor": self.shared_factor,
             "fits_sha256": (!fits.is_empty()).then_some(fits),
-        })
+        });
+        if let Ok(Some(mission)) = self.chosen_mission() {
+            options["mission"] = json!(&*mission.name);
+        }
+        options
     }
 
     /// All that decides the numbers of a life but the number of random lives, in words that a difference is told by.
@@ -150,6 +158,9 @@ impl<'m> LifeStudy<'m> {
             ("the shared factor", json!(self.shared_factor)),
         ];
         entries.extend(own.map(|(name, value)| (name.to_owned(), value)));
+        if let Ok(Some(mission)) = self.chosen_mission() {
+            entries.insert("the mission".to_owned(), json!(&*mission.name));
+        }
         if let Some(shard) = self.shard {
             entries.insert("the shard".to_owned(), json!(shard.to_string()));
         }

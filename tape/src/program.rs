@@ -1,6 +1,6 @@
 //! All of a mechanism that a run needs. In: description, tapes. Out: [`Program`], whose parts fit each other.
 
-use linkwear_runtime::{Description, Entry, InputRole, Layout, Sizes};
+use linkwear_runtime::{Description, Entry, InputRole, Layout, SegmentInfo, Sizes};
 
 use crate::interpreter::Interpreted;
 use crate::stored::{Damage, Stored, sealed, unsealed};
@@ -92,6 +92,13 @@ fn sizes(description: &Description, tapes: &[Tape]) -> Result<Sizes, Damage> {
     driven.sort_unstable();
     fits(driven.iter().copied().eq(0..drivers), "a driver drives nothing or twice")?;
     fits(description.turn_driver.is_none_or(|driver| driver < drivers), "no driver turns")?;
+    let missions = description.missions.iter();
+    let mut segments = missions.flat_map(|mission| mission.segments.iter().chain(mission.coarser.iter()));
+    let known = |segment: &SegmentInfo| {
+        segment.factors.len() == description.contacts.len()
+            && segment.values.iter().all(|(place, _)| *place < description.parameters.len())
+    };
+    fits(segments.all(known), "a mission sets what is not there")?;
     let coordinates = description.coordinates.len();
     let within = |first: &usize| first.checked_add(4).is_some_and(|end| end <= coordinates);
     fits(description.quaternions.iter().all(within), "a quaternion is outside the coordinates")?;

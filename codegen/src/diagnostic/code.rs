@@ -133,6 +133,8 @@ codes! {
     NoNodeHere = "E0414",
     /// Clearance or wear that a joint cannot have.
     BadClearance = "E0415",
+    /// A mission that a machine cannot have.
+    BadMission = "E0416",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",

@@ -16,6 +16,7 @@ mod coordinate;
 mod force;
 mod formula;
 mod joint_kind;
+mod mission;
 mod resolve;
 pub mod topology;
 pub use crate::spec::Closure;
@@ -24,6 +25,7 @@ pub use coordinate::Coordinate;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
 pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, Primitive};
+pub use mission::{Mission, Segment};
 pub use resolve::{OverrideError, Overrides, resolve};
 
 /// A body or the ground.
@@ -52,6 +54,8 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// Force elements in file order.
     pub forces: Vec<Force>,
+    /// Duty cycles in file order.
+    pub missions: Vec<Mission>,
     /// How loops are closed.
     pub closure: Closure,
     /// Warnings that the file does not want.

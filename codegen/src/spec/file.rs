@@ -11,6 +11,7 @@ use super::body::BodySpec;
 use super::doc::Doc;
 use super::force::ForceSpec;
 use super::joint::JointSpec;
+use super::mission::MissionSpec;
 use super::point::PointSpec;
 use super::start::StartSpec;
 use super::texts::{tables, texts_of, without_texts};
@@ -67,6 +68,9 @@ pub struct File {
     /// Wear of joints with clearance, by joint.
     /// [table]
     pub wear: Table<WearSpec>,
+    /// Duty cycles: how the machine is used while it wears.
+    /// [table]
+    pub missions: Table<MissionSpec>,
     /// Groups of points, bodies and joints made several times.
     /// [table]
     pub repeat: Table<RepeatSpec>,

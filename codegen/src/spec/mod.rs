@@ -8,6 +8,7 @@ mod failure;
 mod file;
 mod force;
 mod joint;
+mod mission;
 mod parse;
 mod point;
 mod read;
@@ -32,6 +33,7 @@ pub use file::{
 };
 pub use force::{Bodies, ByAxis, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, Written};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
+pub use mission::{MissionSpec, SegmentJointSpec, SegmentSpec};
 pub use parse::{Spec, parse};
 pub use point::PointSpec;
 pub use repeat::{expand, group_spans};

@@ -85,9 +85,7 @@ impl WearTable {
             let (name, need) = ("the number of points of a table", "3 or more");
             return Err(SettingsError::Run(OutOfRange { name, value: points as f64, need }).into());
         }
-        if let Some(joint) = settings.joints.iter().find(|joint| joint.feedback == Feedback::Profile) {
-            return Err(SettingsError::TableOfProfile { joint: joint.joint.clone() }.into());
-        }
+        no_profile(settings)?;
         let mut survey = Survey { settings, fine, state: F::State::default(), measurements: 0 };
         let path = survey.path(points, watch)?;
         let joints: Vec<JointTable> =
@@ -95,6 +93,36 @@ impl WearTable {
         let others = if joints.len() > 1 { Some(survey.others(&path, &joints)?) } else { None };
         let left_out = (0..joints.len()).map(|joint| left_out(settings, &path, joint)).collect();
         let report = TableReport { points: path.len(), measurements: survey.measurements, left_out, others };
+        Ok(Self { joints, report })
+    }
+
+    /// From what was measured already: wears of the joints [m], rising, and what a revolution does there. Nothing is known of its
+    /// error.
+    ///
+    /// # Errors
+    /// If the settings make no sense or feed a profile back, or there is no point, or one is of other joints.
+    pub fn of_points(
+        settings: &LifeSettings,
+        points: Vec<(Vec<f64>, Vec<ContactMeasure>)>,
+    ) -> Result<Self, SettingsError> {
+        settings.check()?;
+        no_profile(settings)?;
+        let expected = settings.joints.len();
+        let other = points.iter().find(|(wear, measured)| [wear.len(), measured.len()] != [expected; 2]);
+        if let Some((wear, _)) = other {
+            return Err(SettingsError::State {
+                what: "the number of measured joints",
+                expected,
+                found: wear.len(),
+            });
+        }
+        if points.is_empty() {
+            let (name, need) = ("the number of points of a table", "1 or more");
+            return Err(OutOfRange { name, value: 0.0, need }.into());
+        }
+        let path: Vec<Point> = points.into_iter().map(|(wear, measured)| Point { wear, measured }).collect();
+        let joints = (0..expected).map(|joint| JointTable::of(settings, &path, joint)).collect();
+        let report = TableReport { points: path.len(), measurements: 0, left_out: Vec::new(), others: None };
         Ok(Self { joints, report })
     }
 
@@ -125,6 +153,12 @@ impl WearSource for WearTable {
         let each = self.joints.iter().zip(&settings.joints);
         WearFlow::new(each.map(|(table, joint)| table.flow(joint, settings)).collect::<Option<_>>()?)
     }
+}
+
+/// A table knows wear as one number.
+fn no_profile(settings: &LifeSettings) -> Result<(), SettingsError> {
+    let profile = settings.joints.iter().find(|joint| joint.feedback == Feedback::Profile);
+    profile.map_or(Ok(()), |joint| Err(SettingsError::TableOfProfile { joint: joint.joint.clone() }))
 }
 
 /// Wear that doubles the clearance [m]; without feedback only the others' wear counts, and any scale does.

@@ -93,6 +93,31 @@ impl ContactMeasure {
         }
     }
 
+    /// The mean of several ways to run, each with its share of the revolutions and of the time; extremes are those of all.
+    pub fn mean_by_shares(parts: &[(&Self, f64, f64)]) -> Self {
+        let by_revolution =
+            |of: fn(&Self) -> f64| parts.iter().map(|(part, share, _)| share * of(part)).sum::<f64>();
+        let by_time =
+            |of: fn(&Self) -> f64| parts.iter().map(|(part, _, share)| share * of(part)).sum::<f64>();
+        let deposits = parts.iter().map(|(part, share, _)| Some((part.deposit.as_ref()?.depths(), *share)));
+        let deposit = deposits.collect::<Option<Vec<_>>>().and_then(|all| {
+            let bins = all.first()?.0.len();
+            let depth = |bin: usize| all.iter().map(|(depths, share)| share * depths[bin]).sum::<f64>();
+            Profile::try_from((0..bins).map(depth).collect::<Vec<_>>()).ok()
+        });
+        Self {
+            wear_integral: by_revolution(|part| part.wear_integral),
+            depth: by_revolution(|part| part.depth),
+            mean_force: by_time(|part| part.mean_force),
+            peak_force: parts.iter().map(|(part, ..)| part.peak_force).fold(0.0, f64::max),
+            losses: by_revolution(|part| part.losses),
+            touching: by_time(|part| part.touching).min(1.0),
+            loss: by_revolution(|part| part.loss),
+            deposit,
+            observed: parts.iter().filter_map(|(part, ..)| part.observed).reduce(Observed::larger),
+        }
+    }
+
     /// The first of its numbers that is not finite, by name; what is below zero counts too.
     pub(crate) fn flaw(&self) -> Option<(&'static str, f64)> {
         let seen = self.observed.iter().flat_map(|seen| {

@@ -95,6 +95,7 @@ impl Journal {
             channels: vec![channel("R.x")].into(),
             turn_driver: None,
             contacts: vec![contact].into(),
+            missions: Vec::new().into(),
         };
         Self {
             mass: 1.0,

@@ -134,6 +134,7 @@ impl<M: Model> Dense<M> {
             channels: channels.into(),
             turn_driver: (!prescribed.is_empty()).then_some(0),
             contacts: model.contacts().into(),
+            missions: Vec::new().into(),
         };
         Self { model, description, layout, sizes }
     }

@@ -61,9 +61,43 @@ pub struct CheckAnswer<'a> {
     pub inputs: Vec<ParameterAnswer<'a>>,
     /// Measure of wear of each joint that wears.
     pub wear_measures: Vec<WearMeasure>,
+    /// Duty cycles of the file; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub missions: Vec<MissionAnswer<'a>>,
     /// Remarks on the file.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
     pub warnings: &'a [Value],
+}
+
+/// A duty cycle, as it was read.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct MissionAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its segments, in the order of the file; of a measured series its bins.
+    pub segments: Vec<SegmentAnswer<'a>>,
+}
+
+/// A segment of a duty cycle.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct SegmentAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Share of the operating time; null where segments have durations.
+    pub share: Option<f64>,
+    /// Its duration [s]; null where segments have shares.
+    pub duration: Option<f64>,
+    /// Parameters and inputs that it sets, in SI.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub set: Map<String, Value>,
+    /// Factor on the friction of each joint with clearance.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub friction: Map<String, Value>,
+    /// Factor on the wear coefficient of each joint with clearance.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub wear: Map<String, Value>,
 }
 
 /// A constraint row that says nothing new.

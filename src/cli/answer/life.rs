@@ -12,6 +12,7 @@ use {
 };
 
 use super::common::{Ends, Quantiles};
+use crate::life::{HOUR, YEAR};
 use crate::wear_measure::WearMeasure;
 
 /// A life of joints that wear, to the failure threshold.
@@ -69,6 +70,9 @@ pub struct LifeAnswer<'a> {
     /// The same in time, where a revolution has one length.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeAnswer>,
+    /// The duty cycle by which the machine was used; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mission: Option<MissionAnswer<'a>>,
     #[serde(flatten)]
     pub scatter: Option<ScatterAnswer>,
     /// How far off the mean may be.
@@ -149,6 +153,62 @@ pub struct Duration {
     pub hours: f64,
     /// In years of 365.25 days.
     pub years: f64,
+}
+
+/// A duty cycle and what it makes of a life.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct MissionAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Length of a mission [s]; null where segments have shares.
+    pub seconds: Option<f64>,
+    /// Mean life in missions; null where segments have shares.
+    pub missions: Option<f64>,
+    /// Length of a revolution on average [s]; null where they last differently.
+    pub seconds_per_revolution: Option<f64>,
+    /// By how much of itself the mean path's life is another in half as many bins; null unless segments are bins of a series.
+    pub binning_error: Option<f64>,
+    /// Its segments, in the order of the file.
+    pub segments: Vec<SegmentAnswer<'a>>,
+}
+
+/// A segment of a duty cycle.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct SegmentAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Share of the operating time.
+    pub time_share: f64,
+    /// Share of the revolutions.
+    pub revolution_share: f64,
+    /// Parameters and inputs that it sets, in SI.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub set: Map<String, Value>,
+    /// Its duration [s]; null where segments have shares.
+    pub duration: Option<f64>,
+    /// Length of a revolution [s]; null where they last differently.
+    pub seconds_per_revolution: Option<f64>,
+    /// Share of the wear of each joint, along the mean path.
+    #[cfg_attr(test, schemars(with = "Numbers"))]
+    pub wear_shares: Map<String, Value>,
+    /// The mean path's life if the machine ran in this segment only; null where the mission's life does not tell it.
+    pub alone: Option<AloneAnswer<'a>>,
+}
+
+/// A life in one segment of a duty cycle only.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct AloneAnswer<'a> {
+    /// Joint that fails first.
+    pub failed_joint: &'a str,
+    /// Its length [cycles].
+    pub cycles: f64,
+    /// Its length in revolutions.
+    pub revolutions: f64,
+    /// Its length in time; null where revolutions last differently.
+    pub time: Option<Duration>,
 }
 
 /// What random lives tell; absent without them.
@@ -308,6 +368,13 @@ impl<T> Sources<T> {
             averaging: averaging.map(|part| Some(of(part))),
             parameters: Some(of(parameters)),
         }
+    }
+}
+
+impl Duration {
+    /// Of so many seconds.
+    pub fn of(seconds: f64) -> Self {
+        Self { hours: seconds / HOUR, years: seconds / YEAR }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::life::{Cost, HOUR, JointProcess, LifeFacts, LifeResult, Shard};
+use crate::life::{Cost, HOUR, JointProcess, LifeFacts, LifeResult, Shard, YEAR};
 use crate::number::number;
 use crate::wear_measure::paragraph;
 use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
@@ -13,7 +13,8 @@ use serde_json::json;
 use super::super::answer::Answer;
 use super::super::answer::life::{CycleAnswer, ShardAnswer};
 use super::super::table::{count, table};
-use super::told::{YEAR, told_of};
+use super::mission::mission_text;
+use super::told::told_of;
 
 /// Cycles that are printed before long lives are thinned out.
 const SHOWN: usize = 40;
@@ -102,10 +103,12 @@ fn to_text(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
         let (hours, years) = (hours(path), number(path / YEAR));
         let _ = writeln!(
             text,
-            "at {} s a revolution that is {hours} hours, {years} years without a pause",
-            number(turn)
+            "at {} s a revolution{} that is {hours} hours, {years} years without a pause",
+            number(turn),
+            if life.mission.is_some() { " on average" } else { "" },
         );
     }
+    text.push_str(&mission_text(life));
     text.push_str(&paragraph(&facts.wear_measures));
     let joints = life.process.as_deref().unwrap_or_default();
     if joints.iter().any(|joint| joint.from.is_some() || joint.cycle_variation.is_some()) {
@@ -190,7 +193,7 @@ fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> Stri
 }
 
 /// Whole hours, or four digits of fewer than a hundred.
-fn hours(seconds: f64) -> String {
+pub fn hours(seconds: f64) -> String {
     let hours = seconds / HOUR;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between a hundred and 1e15")]
     if (100.0..1e15).contains(&hours) { count(hours.round() as u64) } else { number(hours) }

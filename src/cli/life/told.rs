@@ -6,15 +6,16 @@ use serde_json::Value;
 
 use super::super::answer::common::Ends;
 use super::super::answer::life::{
-    CycleAnswer, Duration, EndedAnswer, HalfWidths, Intervals, JointSpreadAnswer, LifeAnswer, LongerAnswer,
-    MeanPathAnswer, ProcessAnswer, ScatterAnswer, Sources, SpreadAnswer, StandardErrors, TimeAnswer,
-    WearSpreadAnswer,
+    AloneAnswer, CycleAnswer, Duration, EndedAnswer, HalfWidths, Intervals, JointSpreadAnswer, LifeAnswer,
+    LongerAnswer, MeanPathAnswer, MissionAnswer, ProcessAnswer, ScatterAnswer, SegmentAnswer, Sources,
+    SpreadAnswer, StandardErrors, TimeAnswer, WearSpreadAnswer,
 };
 use super::super::failure::remarks;
-use crate::life::{Coupling, HOUR, JointProcess, LifeFacts, LifeNumbers, LifePaths, LifeResult, Spread};
+use crate::life::{
+    Coupling, JointProcess, LifeFacts, LifeNumbers, LifePaths, LifeResult, MissionResult, SegmentResult,
+    Spread,
+};
 
-/// Seconds of a year of 365.25 days.
-pub const YEAR: f64 = 8766.0 * HOUR;
 /// Points of the reliability function.
 const POINTS: usize = 40;
 /// Groups of cycles of a histogram, at most.
@@ -64,8 +65,7 @@ pub fn told_of<'a>(
         wear_measures: &facts.wear_measures,
         warnings: remarks(facts.warnings.clone(), "life", &life.warnings),
         time: life.seconds_per_cycle().map(|seconds| {
-            let time =
-                |cycles: f64| Duration { hours: cycles * seconds / HOUR, years: cycles * seconds / YEAR };
+            let time = |cycles: f64| Duration::of(cycles * seconds);
             TimeAnswer {
                 seconds_per_cycle: seconds,
                 mean: time(mean),
@@ -73,11 +73,39 @@ pub fn told_of<'a>(
                 quantiles: quantiles.map(time).into(),
             }
         }),
+        mission: life.mission.as_ref().map(|mission| mission_of(life, mission, mean)),
         scatter: statistics.map(|lives| scatter_of(life, lives)),
         error_budget: HalfWidths {
             half_widths_95: Sources::of(&budget, Contribution::half_width),
             total: budget.known_total(),
         },
+    }
+}
+
+/// How the machine was used.
+fn mission_of<'a>(life: &'a LifeResult, mission: &'a MissionResult, mean: f64) -> MissionAnswer<'a> {
+    let segment = |segment: &'a SegmentResult| SegmentAnswer {
+        name: &segment.name,
+        time_share: segment.time,
+        revolution_share: segment.revolutions,
+        set: segment.set.iter().map(|(name, value)| (name.clone(), (*value).into())).collect(),
+        duration: segment.duration,
+        seconds_per_revolution: segment.seconds_per_revolution,
+        wear_shares: life.names().into_iter().zip(segment.wear.iter().map(|share| (*share).into())).collect(),
+        alone: segment.alone.map(|alone| {
+            let joint = &life.joints[alone.joint];
+            let revolutions = alone.cycles * joint.revolutions_per_cycle;
+            let time = segment.seconds_per_revolution.map(|seconds| Duration::of(revolutions * seconds));
+            AloneAnswer { failed_joint: &joint.joint, cycles: alone.cycles, revolutions, time }
+        }),
+    };
+    MissionAnswer {
+        name: &mission.name,
+        seconds: mission.seconds,
+        missions: life.missions_of(mean),
+        seconds_per_revolution: life.seconds_per_revolution,
+        binning_error: mission.binning,
+        segments: mission.segments.iter().map(segment).collect(),
     }
 }
 

@@ -3,8 +3,8 @@
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
 use linkwear_runtime::wear::{Area, Measure};
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, Motion, ParameterInfo, RowInfo,
-    VariableInfo, WearInfo,
+    Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, MissionInfo, Motion, ParameterInfo,
+    RowInfo, SegmentInfo, VariableInfo, WearInfo,
 };
 
 use super::{Damage, Stored};
@@ -52,6 +52,9 @@ stored!(struct ContactInfo {
     joint, ball, journal_radius, length, modulus, stiffness, law, restitution, exponent, impact_speed_floor,
     friction, wear,
 });
+stored!(struct SegmentInfo { name, amount, values, factors });
+stored!(struct MissionInfo { name, ordered, segments, coarser });
 stored!(struct Description {
     name, parameters, inputs, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
+    missions,
 });

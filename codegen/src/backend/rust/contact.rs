@@ -7,7 +7,8 @@ use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 
-fn number(value: f64) -> Literal {
+/// A number as it is written everywhere.
+pub fn number(value: f64) -> Literal {
     Literal::f64_unsuffixed(value)
 }
 

@@ -1,11 +1,11 @@
 //! The mechanism's description as tables, and the function that makes a `Description` of them.
 //! In: [`Description`]. Out: tokens. User text becomes string literals, which quote escapes.
 
-use linkwear_runtime::{Description, InputRole, Motion};
+use linkwear_runtime::{Description, InputRole, MissionInfo, Motion, SegmentInfo};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::contact::{contact, option};
+use super::contact::{contact, number, option};
 
 /// `TABLES` and `description()`. Lists are tables of plain tuples, which read and format well.
 pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
@@ -44,6 +44,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         quote!((#name, #unit, #wraps))
     });
     let contacts = own.contacts.iter().map(|info| contact(info, runtime));
+    let missions = own.missions.iter().map(mission);
     let turn_driver = index(own.turn_driver);
     let tables = [
         table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
@@ -55,6 +56,7 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         table("ROWS", quote!((&str, &str, bool, Option<usize>)), rows.collect()),
         table("DRIVERS", quote!((&str, bool)), drivers.collect()),
         table("CONTACTS", quote!(#runtime::ContactInfo), contacts.collect()),
+        table("MISSIONS", quote!(#runtime::MissionRow), missions.collect()),
         table("CHANNELS", quote!((&str, &str, bool)), channels.collect()),
     ];
     quote! {
@@ -73,9 +75,30 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
             channels: &CHANNELS,
             turn_driver: #turn_driver,
             contacts: &CONTACTS,
+            missions: &MISSIONS,
         };
         #runtime::describe_mechanism!(TABLES);
     }
+}
+
+/// A duty cycle as a row.
+fn mission(mission: &MissionInfo) -> TokenStream {
+    let (name, ordered) = (&*mission.name, mission.ordered);
+    let [segments, coarser] = [&mission.segments, &mission.coarser].map(|list| list.iter().map(segment));
+    quote!((#name, #ordered, &[#(#segments),*], &[#(#coarser),*]))
+}
+
+fn segment(segment: &SegmentInfo) -> TokenStream {
+    let (name, amount) = (&*segment.name, number(segment.amount));
+    let values = segment.values.iter().map(|(place, value)| {
+        let (place, value) = (Literal::usize_unsuffixed(*place), number(*value));
+        quote!((#place, #value))
+    });
+    let factors = segment.factors.iter().map(|(friction, wear)| {
+        let [friction, wear] = [*friction, *wear].map(number);
+        quote!((#friction, #wear))
+    });
+    quote!((#name, #amount, &[#(#values),*], &[#(#factors),*]))
 }
 
 /// A private constant array.

@@ -161,6 +161,7 @@ mod tests {
             channels: Vec::new().into(),
             turn_driver: None,
             contacts: Vec::new().into(),
+            missions: Vec::new().into(),
         }
     }
 

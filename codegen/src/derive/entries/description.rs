@@ -2,8 +2,8 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, InputRole, Motion as MotionInfo, ParameterInfo, RowInfo,
-    Sizes, VariableInfo,
+    Channel, ContactInfo, Description, DriverInfo, InputRole, MissionInfo, Motion as MotionInfo,
+    ParameterInfo, RowInfo, SegmentInfo, Sizes, VariableInfo,
 };
 
 use super::deriver::Deriver;
@@ -13,7 +13,7 @@ use crate::derive::geometry::Geometry;
 use crate::derive::linkage::Freedom;
 use crate::derive::start::StartValues;
 use crate::id::ParameterId;
-use crate::model::{Coordinate, Parameter};
+use crate::model::{Coordinate, Mission, Parameter, Segment};
 use crate::spec::Dimension;
 
 impl Deriver<'_> {
@@ -65,6 +65,7 @@ impl Deriver<'_> {
             .collect();
         let turn_driver =
             self.drivers.iter().position(|driver| mechanism.joint(driver.joint).model.is_hinge());
+        let missions = self.mission_infos(&parameters);
         Description {
             name: mechanism.name.clone().into(),
             parameters: parameters.into(),
@@ -78,6 +79,7 @@ impl Deriver<'_> {
             channels: channels.into(),
             turn_driver,
             contacts: self.contact_infos().into(),
+            missions: missions.into(),
         }
     }
 
@@ -121,6 +123,32 @@ impl Deriver<'_> {
     fn contact_infos(&self) -> Vec<ContactInfo> {
         let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
         joints.filter_map(|joint| joint.clearance.as_ref()).map(|clearance| clearance.laws.clone()).collect()
+    }
+
+    /// Duty cycles, by the places of parameters and contacts here.
+    fn mission_infos(&self, parameters: &[ParameterInfo]) -> Vec<MissionInfo> {
+        let mechanism = self.geometry.mechanism;
+        let joints: Vec<&str> =
+            self.contacts.iter().map(|contact| &*mechanism.joint(contact.joint).name).collect();
+        let segment = |segment: &Segment| {
+            let place = |(id, value): &(ParameterId, f64)| {
+                let name = &mechanism.parameter(*id).name;
+                Some((parameters.iter().position(|known| known.name == *name)?, *value))
+            };
+            SegmentInfo {
+                name: segment.name.clone().into(),
+                amount: segment.amount,
+                values: segment.values.iter().filter_map(place).collect(),
+                factors: joints.iter().map(|joint| segment.factors_of(joint)).collect(),
+            }
+        };
+        let mission = |mission: &Mission| MissionInfo {
+            name: mission.name.clone().into(),
+            ordered: mission.ordered,
+            segments: mission.segments.iter().map(segment).collect(),
+            coarser: mission.coarser.iter().map(segment).collect(),
+        };
+        mechanism.missions.iter().map(mission).collect()
     }
 
     fn motions(&self) -> Vec<MotionInfo> {

@@ -154,4 +154,17 @@ radial = "12.025 mm""#,
         right: r#"[clearance.pin]
 radial = "25 um""#,
     },
+    Explanation {
+        code: Code::BadMission,
+        file: File::Press,
+        text: "A mission that a machine cannot have: no segments, shares of the operating time that do not come to 1, a \
+               parameter that is fixed at generation, factors on friction or wear that are not there, a series that \
+               cannot be read, or a mission where nothing wears. `docs/missions.md` has an example.",
+        wrong: r#"[missions.day.segments]
+press = { share = 0.5 }
+idle = { share = 0.3 }"#,
+        right: r#"[missions.day.segments]
+press = { share = 0.5 }
+idle = { share = "rest" }"#,
+    },
 ];

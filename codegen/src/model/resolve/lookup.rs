@@ -3,7 +3,7 @@
 use super::names::Thing;
 use super::resolver::Resolver;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::id::{JointId, PointId};
+use crate::id::{JointId, ParameterId, PointId};
 use crate::model::Carrier;
 use crate::spec::Name;
 
@@ -71,6 +71,14 @@ impl Resolver<'_> {
     /// The point with this name.
     pub(super) fn point_named(&mut self, name: &Name, used_by: &str) -> Option<PointId> {
         self.named(name, "point", used_by, |thing| if let Thing::Point(id) = thing { Some(id) } else { None })
+    }
+
+    /// The parameter or input with this name.
+    pub(super) fn parameter_named(&mut self, name: &Name, used_by: &str) -> Option<ParameterId> {
+        self.named(name, "parameter", used_by, |thing| match thing {
+            Thing::Parameter(id) | Thing::Input(id) => Some(id),
+            _ => None,
+        })
     }
 
     /// The joint with this name.

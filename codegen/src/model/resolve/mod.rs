@@ -16,6 +16,7 @@ mod inputs;
 mod joint_model;
 mod joints;
 mod lookup;
+mod missions;
 mod modal_start;
 mod names;
 mod overrides;
@@ -24,6 +25,7 @@ mod points;
 mod quantity;
 mod resolver;
 mod section;
+mod series;
 mod starts;
 mod term;
 mod turns;
@@ -95,6 +97,7 @@ impl Resolver<'_> {
         let mut bodies = self.resolve_bodies(&file.bodies);
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);
+        let missions = self.resolve_missions(&file, &joints);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
         self.find_carriers(&file, &bodies, &joints, &forces);
@@ -109,6 +112,7 @@ impl Resolver<'_> {
             points: std::mem::take(&mut self.points),
             joints,
             forces,
+            missions,
             closure: file.closure.unwrap_or_default(),
             allowed: self.allowed(&file.check),
             starts,

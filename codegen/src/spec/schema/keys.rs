@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 18] = [
+const TABLES: [(&str, &str); 21] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -36,6 +36,9 @@ const TABLES: [(&str, &str); 18] = [
     ("StartTable", "Start values in `[assembly]` and `[initial]`, where they are a table"),
     ("ClearanceSpec", "`[clearance.<joint>]`"),
     ("WearSpec", "`[wear.<joint>]`"),
+    ("MissionSpec", "`[missions.<name>]`"),
+    ("SegmentSpec", "A segment of a mission"),
+    ("SegmentJointSpec", "A joint in a segment of a mission"),
 ];
 
 /// These two have no other types behind them.
