@@ -49,6 +49,7 @@ impl Sketch {
             closure: Closure::Joint,
             allowed: Vec::new(),
             starts: Vec::new(),
+            missions: Vec::new(),
             attached: Vec::new(),
         })
     }
