@@ -64,14 +64,7 @@ impl ContactInfo {
     /// The same with so many times the friction and the wear coefficient.
     pub fn scaled(mut self, friction: f64, wear: f64) -> Self {
         if let Some((strength, _, slope)) = &mut self.friction {
-            *slope *= friction;
-            match strength {
-                Strength::Coulomb { coefficient } => *coefficient *= friction,
-                Strength::Stribeck { static_coefficient, kinetic_coefficient, .. } => {
-                    *static_coefficient *= friction;
-                    *kinetic_coefficient *= friction;
-                }
-            }
+            (*strength, *slope) = (strength.scaled(friction), friction * *slope);
         }
         if let Some(law) = &mut self.wear {
             law.coefficient *= wear;

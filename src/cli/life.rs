@@ -3,6 +3,7 @@
 
 mod fits;
 pub mod folder;
+mod hours;
 mod mission;
 pub mod output;
 mod told;

@@ -7,19 +7,8 @@ use linkwear_runtime::{
 };
 
 use super::error::Cause;
+use super::mission_choice::MissionChoice;
 use super::study::LifeStudy;
-
-/// The mission that a life is used for.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum MissionChoice {
-    /// The only one of the mechanism, if it has one.
-    #[default]
-    Only,
-    /// None, whatever the mechanism has: its own parameters all the time.
-    None,
-    /// The one of this name.
-    Named(String),
-}
 
 /// Part of a segment's revolution in contact below which wear by sliding means nothing, as it is of a whole life.
 const LEAST_TOUCHING: f64 = 0.5;

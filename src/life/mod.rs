@@ -14,6 +14,8 @@ mod facts;
 mod fit;
 mod journal;
 mod mission;
+mod mission_choice;
+mod mission_result;
 mod part;
 mod paths;
 mod process;
@@ -28,14 +30,14 @@ pub use crate::parts::MergeError;
 pub use crate::shard::{Shard, ShardError};
 pub use cost::Cost;
 pub use counted::{CountedEnds, LISTED_LIVES};
-pub use duty_result::{AloneResult, MissionResult, SegmentResult};
 pub use error::{Cause, LifeError};
 pub use facts::LifeFacts;
 pub use fit::{JointFit, UnfitForLife};
 pub use journal::LifeJournal;
 #[cfg(feature = "page")]
 pub(crate) use journal::NAME as JOURNAL;
-pub use mission::MissionChoice;
+pub use mission_choice::MissionChoice;
+pub use mission_result::{AloneResult, MissionResult, SegmentResult};
 #[cfg(feature = "page")]
 pub(crate) use part::NAME as SHARD;
 pub use part::{LifePart, merge};

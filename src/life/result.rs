@@ -6,7 +6,7 @@ use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
 use serde::{Deserialize, Serialize};
 
 use super::counted::CountedEnds;
-use super::duty_result::MissionResult;
+use super::mission_result::MissionResult;
 use super::paths::LifePaths;
 use super::process::JointProcess;
 use super::steady::TurnErrors;

@@ -15,10 +15,10 @@ use linkwear_runtime::life::{
 };
 use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
 
-use super::duty_result::MissionResult;
 use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
 use super::mission::Duty;
+use super::mission_result::MissionResult;
 use super::process::Process;
 use super::result::LifeResult;
 use super::source::{KeptSource, Log};

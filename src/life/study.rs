@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use super::counted::LISTED_LIVES;
 use super::fit::JointFit;
-use super::mission::MissionChoice;
+use super::mission_choice::MissionChoice;
 use crate::checksum::sha256;
 use crate::journal::Identity;
 use crate::mechanism::Mechanism;

@@ -46,6 +46,18 @@ impl Strength {
         }
     }
 
+    /// So many times as much at every speed.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        match &mut self {
+            Self::Coulomb { coefficient } => *coefficient *= factor,
+            Self::Stribeck { static_coefficient, kinetic_coefficient, .. } => {
+                *static_coefficient *= factor;
+                *kinetic_coefficient *= factor;
+            }
+        }
+        self
+    }
+
     /// What [`Self::new`] makes it of.
     pub fn given(self) -> (f64, Option<(f64, f64)>) {
         match self {

@@ -6,7 +6,7 @@ use crate::life::{LifeResult, SegmentResult};
 use crate::number::number;
 
 use super::super::table::table;
-use super::output::hours;
+use super::hours::hours;
 
 /// The segments with their shares; nothing without a mission.
 pub fn mission_text(life: &LifeResult) -> String {

@@ -13,6 +13,7 @@ use serde_json::json;
 use super::super::answer::Answer;
 use super::super::answer::life::{CycleAnswer, ShardAnswer};
 use super::super::table::{count, table};
+use super::hours::hours;
 use super::mission::mission_text;
 use super::told::told_of;
 
@@ -190,13 +191,6 @@ fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> Stri
             writeln!(text, "\nin each life all wear runs by one factor, of coefficient of variation {cov}");
     }
     text
-}
-
-/// Whole hours, or four digits of fewer than a hundred.
-pub fn hours(seconds: f64) -> String {
-    let hours = seconds / HOUR;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between a hundred and 1e15")]
-    if (100.0..1e15).contains(&hours) { count(hours.round() as u64) } else { number(hours) }
 }
 
 fn process_line(joint: &JointProcess) -> String {
