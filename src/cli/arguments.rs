@@ -70,7 +70,8 @@ pub enum Command {
     Simulate(SimulateArguments),
     /// Wear the joints with clearance, cycle by cycle, until the first has failed.
     #[command(
-        after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives"
+        after_help = "Example:\n  linkwear life mechanisms/rssr.toml --trajectories 1000 --seed 7 --out lives\n  \
+                      linkwear life examples/data/four_bar_duty.toml --mission shift"
     )]
     Life(LifeArguments),
     /// Write a page to look at in a browser: the mechanism moving in 3-D, curves, its life, tables; one file, without a network. FILE may be

@@ -108,7 +108,7 @@ fn provenance(
         arguments.free.iter().map(|axis| (axis.name.clone(), json!(axis.written))).collect();
     let noise: Map<_, _> = arguments.noise.iter().map(|(name, level)| (name.clone(), json!(level))).collect();
     let options = json!({
-        "free": free,
+        "bounds": free,
         "measurements_sha256": hashes,
         "of": (!arguments.of.is_empty()).then_some(&arguments.of),
         "noise": (!noise.is_empty()).then_some(noise),

@@ -157,6 +157,9 @@ fn lives_and_their_files_are_as_told() {
         asked(&["life", RSSR, "--trajectories", count]);
     }
     asked(&["life", RSSR, "--mean"]);
+    for mission in ["shift", "week", "measured"] {
+        asked(&["life", "examples/data/four_bar_duty.toml", "--mission", mission, "--mean"]);
+    }
     asked(&[
         "life",
         RSSR,
@@ -205,6 +208,21 @@ fn readings(folder: &Folder) -> String {
         }
     }
     folder.write("readings.csv", &text)
+}
+
+#[test]
+fn what_is_identified_is_as_told() {
+    let curve = ["--measured", "examples/data/rocker_torque.csv"];
+    let damper = ["identify", "examples/data/rocker_drive.toml", "--free", "c_rocker=0.005..0.5 N m s/rad"];
+    asked(&[&damper[..], &curve[..]].concat());
+    // One that the curve cannot tell.
+    asked(
+        &[&damper[..], &["--free", "m_clamp=10g..1kg", "--free", "m_load=0.1kg..2kg"], &curve[..]].concat(),
+    );
+    let worn =
+        ["--inspections", "R2=examples/data/worn_bush.csv", "--revolutions", "revolutions", "--wear", "wear"];
+    let bush = ["identify", "examples/data/worn_bush.toml", "--free", "k_wear=1e-8..1e-6", "--gauge", "2um"];
+    asked(&[&bush[..], &worn[..]].concat());
 }
 
 #[test]

@@ -186,6 +186,7 @@ pub struct CovariateAnswer {
     /// Its power.
     coefficient: f64,
     /// Whether it multiplies the size of increments, and not Lambda; absent if not.
+    #[serde(skip_serializing_if = "Option::is_none")]
     of_size: Option<bool>,
 }
 
@@ -207,10 +208,13 @@ pub struct IncrementsAnswer {
     /// What is known of each: `exact`, `from-level` (from the level of a reset), `anew` (from a reading after one), `through` (with a
     /// bound on the way), `at-least`, `below`; `entered` and `entered-from-new` are no increments, but limits that wear was below when
     /// the unit entered. Absent where all are exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
     known: Option<Vec<String>>,
     /// Exposure of the bound on the way [unit of exposure]; null where there is none; absent where there is none at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<Vec<Option<f64>>>,
     /// That bound [unit of wear].
+    #[serde(skip_serializing_if = "Option::is_none")]
     below: Option<Vec<Option<f64>>>,
 }
 

@@ -30,6 +30,7 @@ const TAKEN: &[&str] = &[
     "ROWS",
     "DRIVERS",
     "CONTACTS",
+    "MISSIONS",
     "CHANNELS",
     "TABLES",
     // Functions that are called beside the user's names.

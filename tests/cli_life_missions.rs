@@ -1,0 +1,57 @@
+//! `life --mission`: what is told of segments, resumed and in shards; wrong choices.
+
+mod command;
+
+use command::{Folder, linkwear};
+
+const DUTY: &str = "examples/data/four_bar_duty.toml";
+
+#[test]
+fn a_mission_is_told_by_segments() {
+    let life = linkwear(&["life", DUTY, "--mission", "shift", "--mean", "--format", "json"]).json();
+    let segments = life["mission"]["segments"].as_array().expect("segments");
+    let names: Vec<&str> = segments.iter().map(|one| one["name"].as_str().expect("a name")).collect();
+    assert_eq!(names, ["idle", "light", "heavy"]);
+    for key in ["time_share", "revolution_share"] {
+        let sum: f64 = segments.iter().map(|one| one[key].as_f64().expect("a share")).sum();
+        // Shares of a whole: rounding.
+        assert!((sum - 1.0).abs() < 1e-12, "{key} {sum}");
+    }
+    let without = linkwear(&["life", DUTY, "--no-mission", "--mean", "--format", "json"]).json();
+    assert!(without["mission"].is_null());
+    assert_ne!(without["mean"], life["mean"]);
+}
+
+#[test]
+fn lives_of_a_mission_are_the_same_in_shards_and_resumed() {
+    let folder = Folder::new("life-missions");
+    let words = ["life", DUTY, "--mission", "shift", "--trajectories", "40", "--format", "json"];
+    let [whole, a, b, both] = ["whole", "a", "b", "both"].map(|name| folder.path(name));
+    let told = linkwear(&[&words[..], &["--out", &whole]].concat()).json();
+    for (part, out) in [("1/2", &a), ("2/2", &b)] {
+        assert_eq!(linkwear(&[&words[..], &["--shard", part, "--out", out]].concat()).code, 0);
+    }
+    assert_eq!(linkwear(&["merge", &a, &b, "--out", &both]).code, 0);
+    assert_eq!(folder.read("both/lives.csv"), folder.read("whole/lives.csv"));
+    let again = linkwear(&[&words[..], &["--out", &whole, "--resume"]].concat()).json();
+    assert_eq!((&again["mean"], &again["mission"]), (&told["mean"], &told["mission"]));
+    // Another mission is another life.
+    let other = ["life", DUTY, "--mission", "week", "--trajectories", "40", "--out", &whole, "--resume"];
+    let answer = linkwear(&other);
+    assert_eq!(answer.code, 1, "{}", answer.out);
+    assert!(answer.err.contains("mission"), "{}", answer.err);
+}
+
+#[test]
+fn wrong_choices_are_answered() {
+    for (words, cause) in [
+        (&["life", DUTY, "--mean"][..], "shift"),
+        (&["life", DUTY, "--mean", "--mission", "night"], "night"),
+        (&["life", "mechanisms/four_bar_wear.toml", "--mean", "--mission", "shift"], "shift"),
+    ] {
+        let answer = linkwear(words);
+        assert_ne!(answer.code, 0, "{words:?}");
+        assert!(answer.err.contains(cause), "{}", answer.err);
+    }
+    assert_eq!(linkwear(&["life", DUTY, "--mission", "shift", "--no-mission"]).code, 2);
+}
