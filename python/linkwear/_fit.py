@@ -33,7 +33,8 @@ def fit(
 
     ``data`` is the path of a CSV file, a data frame, or arrays by name; ``unit``, ``wear`` and ``exposure`` are names of columns. Further
     options are those of ``linkwear fit``: ``lambda_``, ``process``, ``power_law``, ``groups``, ``from_zero``, ``resolution``, ``gauge``,
-    ``covariate``, ``one_unit``, ``compare``, ``bootstrap``, ``seed``. Units are those of the data.
+    ``covariate``, ``covariate_of_size``, ``reset``, ``entered_below``, ``one_unit``, ``random_effects``, ``compare``, ``bootstrap``, ``seed``.
+    Units are those of the data.
 
     Raises FileError with the line, UsageError.
     """
@@ -78,12 +79,15 @@ class Fit(Record):
         """The remaining life to a wear ``threshold`` from the wear ``current``, in the units of the data.
 
         Further options are those of ``linkwear predict``: ``at``, ``covariate``, ``rate``, ``inspections``, ``time``, ``wear``, ``gauge``,
-        ``flat_prior``, ``particles``, ``draws``, ``seed``.
+        ``flat_prior``, ``catalogue``, ``unit``, ``particles``, ``draws``, ``seed``; and what can be asked: ``quantile``, ``reliability_at``,
+        ``mission`` (``"0..2"``), each one or a list, ``survived``, ``also`` (``"other.json:0.5"``), ``from_`` with ``per_day``,
+        ``working_days``, ``pause``.
         """
         covariates = options.get("covariate")
         if isinstance(covariates, Mapping):
             options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
-        said = words({"threshold": threshold, "current": current, **options})
+        asked = {name.rstrip("_"): value for name, value in options.items()}
+        said = words({"threshold": threshold, "current": current, **asked})
         return Prediction(json.loads(_linkwear.predict(said, "fit", self._file)))
 
     def save(self, path: str | os.PathLike[str]) -> None:

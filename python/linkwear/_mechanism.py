@@ -137,6 +137,8 @@ class Mechanism:
         coupling: str | None = None,
         mean: bool = False,
         fit: str | list[str] | None = None,
+        mission: str | None = None,
+        no_mission: bool = False,
         shared_factor: float | None = None,
         no_feedback: bool = False,
         tol: float | None = None,
@@ -151,7 +153,8 @@ class Mechanism:
         """Wears its joints until the first has failed: the mean path, and random lives by the Gamma process of the file or of a fit.
 
         ``trajectories`` random lives of ``seed``, the same bits on any number of ``threads``; ``coupling`` is ``"table"`` or ``"full"``;
-        ``mean=True`` leaves the random lives out; ``fit`` is the path of a fit, ``"R1=fit.json"`` where several joints wear.
+        ``mean=True`` leaves the random lives out; ``fit`` is the path of a fit, ``"R1=fit.json"`` where several joints wear;
+        ``mission`` names one of the mechanism's missions, ``no_mission=True`` lives without.
 
         Raises RunError, UsageError.
         """
@@ -162,6 +165,8 @@ class Mechanism:
                 "coupling": coupling,
                 "mean": mean,
                 "fit": fit,
+                "mission": mission,
+                "no_mission": no_mission,
                 "shared_factor": shared_factor,
                 "no_feedback": no_feedback,
                 "tol": tol,

@@ -46,6 +46,14 @@ def test_a_life(command_line: Any, tmp_path: Path) -> None:
     assert np.array_equal(lives["failed joint"], ours.to_pandas()["failed joint"])
 
 
+def test_a_life_of_a_mission(command_line: Any) -> None:
+    duty = ROOT / "examples" / "data" / "four_bar_duty.toml"
+    theirs = command_line("life", duty, "--mission", "week", "--mean")
+    ours = lw.compile(duty).life(mission="week", mean=True)
+    assert of_numbers(ours.to_dict()) == of_numbers(theirs)
+    assert ours.mission.segments[3].name == "heavy"
+
+
 def test_parameters_and_checks(command_line: Any) -> None:
     theirs = command_line("check", file("rssr"), "--set", "speed=10 Hz")
     ours = lw.compile(file("rssr"), speed="10 Hz")
@@ -66,6 +74,12 @@ def test_fits_and_predictions(command_line: Any, tmp_path: Path) -> None:
     question = ["--threshold", "100", "--current", "40", "--at", "1000"]
     expected = command_line("predict", fit, *question)
     assert of_numbers(ours.predict(threshold=100, current=40, at=1000).to_dict()) == of_numbers(expected)
+    more = ["--quantile", "0.01", "--quantile", "0.05", "--mission", "0..500", "--from", "2026-11-23", "--per-day", "200"]
+    told = ours.predict(
+        threshold=100, current=40, at=1000, quantile=[0.01, 0.05], mission="0..500", from_="2026-11-23", per_day=200
+    )
+    assert of_numbers(told.to_dict()) == of_numbers(command_line("predict", fit, *question, *more))
+    assert told.dates.quantiles.p10 == command_line("predict", fit, *question, *more)["dates"]["quantiles"]["p10"]
     # Arrays and frames are the same readings, and a saved fit is the same fit.
     import pandas
 
