@@ -34,6 +34,7 @@ pub use machine::Machine;
 pub use problem::Model;
 pub use readings::{Group, Readings};
 pub use residuals::Whiteness;
+#[cfg(feature = "cli")]
 pub(crate) use residuals::probability;
 pub use result::{Combination, Direction, Estimated, GroupFit, Identified, Minimum, Misfit, State};
 pub use starts::{IdentifySettings, identify};
