@@ -9,6 +9,8 @@ mod agreement;
 mod support;
 mod truth;
 
+use std::collections::HashSet;
+
 use agreement::compare;
 use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::model::Closure;
@@ -33,6 +35,8 @@ fn check(source: &SourceFile, closure: Option<Closure>, seconds: f64) -> f64 {
     let integrator = Integrator::Dopri5 { tolerance: 1e-9, max_step: None };
     let settings = Settings::new(integrator, Span::Time(seconds), SAMPLES);
     let description = compiled.description();
+    let names: HashSet<&str> = description.channels.iter().map(|channel| channel.name.as_ref()).collect();
+    assert_eq!(names.len(), description.channels.len(), "two columns of {} have one name", source.name);
     let system = compiled.interpreter();
     let run = simulate(&system, description, &compiled.parameters(), &settings, Watch::NONE)
         .unwrap_or_else(|error| panic!("{}: {error}\n{}", source.name, source.text));

@@ -12,7 +12,7 @@ use crate::model::Oracle;
 
 impl Oracle {
     /// States of all bodies from output columns: `R4.q`, `R4.v` (`q1`, `v1` and so on where a joint has
-    /// several), `S2.q0` to `S2.q3`, `coupler.wx` to `coupler.wz`, and for a free joint `.x`, `.vx` and so
+    /// several), `S2.q0` to `S2.q3` (`e0` to `e3` where a joint has `q1` besides), `coupler.wx` to `coupler.wz`, and for a free joint `.x`, `.vx` and so
     /// on. Bodies are placed outwards over the first joints, in file order, whose columns are there.
     /// `None` if some body cannot be reached.
     pub fn states_from(&self, value: &dyn Fn(&str) -> Option<f64>) -> Option<Vec<BodyState>> {
@@ -60,8 +60,9 @@ impl Oracle {
             let [x, y, z] = ["wx", "wy", "wz"].map(|axis| value(&format!("{body}.{axis}")));
             Some(Vector3::new(x?, y?, z?))
         };
+        let letter = if count > 1 { "e" } else { "q" };
         for k in 0..4 {
-            position.push(column(&format!("q{k}"))?);
+            position.push(column(&format!("{letter}{k}"))?);
         }
         speed.extend((omega(geometry.child)? - omega(geometry.parent)?).iter());
         if geometry.kind == Kind::Free {

@@ -14,8 +14,8 @@ use crate::row::{Pair, Row};
 ///
 /// Revolute `[angle]`, prismatic `[distance]`, cylindrical `[angle, distance]`, screw `[angle]`,
 /// universal `[angle about the parent's axis, angle about the child's axis]`, planar
-/// `[first, second, angle]`: position and speed of equal length, rad and m. Spherical: quaternion of the
-/// relative rotation (scalar first) and relative angular velocity in W; inline: after the distance. Free: the same, followed by the
+/// `[first, second, angle]`, slot `[first, angle]`: position and speed of equal length, rad and m. Spherical: quaternion of the
+/// relative rotation (scalar first) and relative angular velocity in W; inline, inplane: after the distances. Free: the same, followed by the
 /// child's point relative to the parent's in W [m], and by the velocity, in W, of the child's point
 /// relative to the parent's material there [m/s].
 /// Angles are in (-pi, pi], except a screw's, which its slide makes unique.
@@ -113,6 +113,8 @@ impl JointGeometry {
             Kind::Spherical => together(),
             Kind::Inline => slides(&[0, 1]),
             Kind::Planar => [slides(&[2]), upright()].concat(),
+            Kind::Slot => [slides(&[1, 2]), upright()].concat(),
+            Kind::Inplane => slides(&[2]),
             Kind::Fixed => [together(), locked()].concat(),
             Kind::Free => Vec::new(),
         }
@@ -128,9 +130,11 @@ impl JointGeometry {
     /// Scalar coordinate `k` as a row: its value, its rate and what moves it.
     pub fn coordinate(&self, k: usize, pair: &Pair) -> Row {
         match (self.kind, k) {
-            (Kind::Revolute, 0) | (Kind::Cylindrical, 0) | (Kind::Planar, 2) => self.turn_about_axis(pair),
+            (Kind::Revolute | Kind::Cylindrical, 0) | (Kind::Slot, 1) | (Kind::Planar, 2) => {
+                self.turn_about_axis(pair)
+            }
             (Kind::Prismatic | Kind::Inline, 0) | (Kind::Cylindrical, 1) => pair.slide(&self.parent_axis(2)),
-            (Kind::Planar, _) => pair.slide(&self.parent_axis(k)),
+            (Kind::Planar | Kind::Slot | Kind::Inplane, _) => pair.slide(&self.parent_axis(k)),
             (Kind::Screw, 0) => {
                 let mut turn = self.turn_about_axis(pair);
                 turn.residual = pair.slide(&self.parent_axis(2)).residual * TAU / self.lead;
@@ -230,6 +234,8 @@ mod tests {
             JointModel::new("spherical", &[]),
             JointModel::new("inline", &[main]),
             JointModel::new("planar", &[main, axis([0.8, 0.0, -0.3])]),
+            JointModel::new("slot", &[main, axis([0.8, 0.0, -0.3])]),
+            JointModel::new("inplane", &[main, axis([0.8, 0.0, -0.3])]),
             JointModel::new("fixed", &[]),
             JointModel::new("free", &[]),
         ]
@@ -246,6 +252,7 @@ mod tests {
             drives: Vec::new(),
             passive: Vec::new(),
             clearance: None,
+            surface: None,
             span: Span::default(),
         };
         JointGeometry::new(&joint, [Vector3::new(0.2, 0.1, -0.3), Vector3::new(0.25, 0.0, -0.1)])

@@ -14,13 +14,15 @@ pub enum Kind {
     Spherical,
     Inline,
     Planar,
+    Slot,
+    Inplane,
     Fixed,
     Free,
 }
 
 impl Kind {
     /// Every kind.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Revolute,
         Self::Prismatic,
         Self::Cylindrical,
@@ -29,6 +31,8 @@ impl Kind {
         Self::Spherical,
         Self::Inline,
         Self::Planar,
+        Self::Slot,
+        Self::Inplane,
         Self::Fixed,
         Self::Free,
     ];
@@ -54,6 +58,8 @@ impl Kind {
             Self::Spherical => "spherical",
             Self::Inline => "inline",
             Self::Planar => "planar",
+            Self::Slot => "slot",
+            Self::Inplane => "inplane",
             Self::Fixed => "fixed",
             Self::Free => "free",
         }
@@ -64,10 +70,11 @@ impl Kind {
         match self {
             Self::Revolute | Self::Screw => [1, 0],
             Self::Prismatic => [0, 1],
-            Self::Cylindrical => [1, 1],
+            Self::Cylindrical | Self::Slot => [1, 1],
             Self::Universal => [2, 0],
             Self::Spherical => [3, 0],
             Self::Inline => [3, 1],
+            Self::Inplane => [3, 2],
             Self::Planar => [1, 2],
             Self::Fixed => [0, 0],
             Self::Free => [3, 3],
@@ -81,7 +88,7 @@ impl Kind {
 
     /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
     pub const fn is_wide(self) -> bool {
-        matches!(self, Self::Spherical | Self::Inline | Self::Planar)
+        matches!(self, Self::Spherical | Self::Inline | Self::Inplane | Self::Planar)
     }
 
     /// Scalar coordinates that can be driven, sprung and damped; true for an angle.
@@ -92,6 +99,8 @@ impl Kind {
             Self::Cylindrical => &[true, false],
             Self::Universal => &[true, true],
             Self::Planar => &[false, false, true],
+            Self::Slot => &[false, true],
+            Self::Inplane => &[false, false],
             Self::Spherical | Self::Fixed | Self::Free => &[],
         }
     }

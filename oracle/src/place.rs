@@ -57,6 +57,10 @@ impl JointGeometry {
                 let shift = q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1);
                 (rotation_about(&axis, q[2]) * align, shift)
             }
+            Kind::Slot => (rotation_about(&axis, q[1]) * align, q[0] * self.parent_axis(0)),
+            Kind::Inplane => {
+                (rotation_by_quaternion(&q[2..6]), q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1))
+            }
             Kind::Fixed => (align, none),
             Kind::Inline => (rotation_by_quaternion(&q[1..5]), q[0] * axis),
             Kind::Spherical | Kind::Free => {
@@ -83,6 +87,11 @@ impl JointGeometry {
             Kind::Planar => {
                 let slip = parent * (v[0] * self.parent_axis(0) + v[1] * self.parent_axis(1));
                 (v[2] * axis, slip)
+            }
+            Kind::Slot => (v[1] * axis, parent * (v[0] * self.parent_axis(0))),
+            Kind::Inplane => {
+                let slip = parent * (v[0] * self.parent_axis(0) + v[1] * self.parent_axis(1));
+                (Vector3::from_column_slice(&v[2..5]), slip)
             }
             Kind::Fixed => (none, none),
             Kind::Inline => (Vector3::from_column_slice(&v[1..4]), v[0] * axis),

@@ -55,15 +55,25 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
         "Coordinates of a joint with several, from 1; of a spherical or free joint the unit quaternion q0 to q3, scalar first, of the \
          child relative to the parent",
     ),
+    (
+        "<joint>.e<n>",
+        &["1"],
+        "The unit quaternion e0 to e3 likewise, of a joint that has coordinates with numbers besides",
+    ),
     ("<joint>.v<n>", &["rad/s", "m/s"], "Their rates"),
     ("<joint>.a<n>", &["rad/s^2", "m/s^2"], "The rates of those"),
     (
         "<element>.<axis>",
         &["m"],
-        "Position of a point; of a free joint, displacement of the child from the parent; of a joint with clearance, offset of the \
+        "Position of a point; of a free joint, displacement of the child from the parent; of a joint that holds a place, that place seen \
+         from its origin; of a joint with clearance, offset of the \
          journal or ball in the bearing, in the bearing's frame",
     ),
-    ("<element>.v<axis>", &["m/s"], "Velocity of a point; of a free joint, the rate of its displacement"),
+    (
+        "<element>.v<axis>",
+        &["m/s"],
+        "Velocity of a point; of a free joint or one that holds a place, the rate of its displacement in the parent",
+    ),
     ("<body>.w<axis>", &["rad/s"], "Angular velocity of a body, absolute"),
     ("<joint>.F<axis>", &["N"], "Force by the parent on the child at the joint, drive not included"),
     ("<joint>.M<axis>", &["N m"], "Moment of the same about the joint"),

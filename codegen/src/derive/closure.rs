@@ -18,6 +18,7 @@ use super::log_closure::log_rows;
 use super::motion::Motion;
 use super::relative_motion::{Place, RelativeMotion, Side, Sums};
 use super::row::Row;
+use super::surface_row::surface_row;
 use super::wrench::Wrench;
 
 /// All rows of one cut with the relative motion they were made from.
@@ -56,7 +57,7 @@ fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool, sums: Sums) -> CutRow
         let rows = log_rows(&motion, exact);
         return CutRows { cut, motion, rows };
     }
-    let slides = data.model.rows() > 0 && data.model.slides();
+    let slides = data.model.holds_place() || (data.model.rows() > 0 && data.model.slides());
     let in_child = joint_in_child(geometry, cut.joint, links);
     let side = match in_child {
         _ if cut.plane && geometry.linkage.rows_in_ground => Side::Ground,
@@ -71,7 +72,8 @@ fn rows_of<'g>(motion: &Motion<'g>, cut: Cut, exact: bool, sums: Sums) -> CutRow
     };
     let markers = joint_markers(geometry, cut.joint, links, in_child);
     let motion = RelativeMotion::between(motion, markers, side, (place, sums));
-    let rows = RowMaker::new(&motion, exact).joint(geometry, &data.model);
+    let mut rows = RowMaker::new(&motion, exact).joint(geometry, &data.model);
+    rows.extend(data.surface.iter().map(|surface| surface_row(geometry, &motion, surface)));
     CutRows { cut, motion, rows }
 }
 

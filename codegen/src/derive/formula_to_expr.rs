@@ -57,6 +57,7 @@ impl<'g> Inputs<'g> {
             Term::JointPosition(..)
             | Term::JointSpeed(..)
             | Term::PointPosition(..)
+            | Term::Place(_)
             | Term::PointSpeed(..) => state(term),
         }
     }

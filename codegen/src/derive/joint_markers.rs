@@ -14,8 +14,9 @@ pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
     let linkage = geometry.linkage;
     let data = geometry.mechanism.joint(joint);
     let turns = !data.model.turns_freely();
-    let mut parent = linkage.link_at(data.parent, data.at, turns);
-    let mut child = linkage.link_at(data.child, data.at, turns);
+    let [on_parent, on_child] = data.points();
+    let mut parent = linkage.link_at(data.parent, on_parent, turns);
+    let mut child = linkage.link_at(data.child, on_child, turns);
     if let Some(last) = linkage.link_of_joint[joint.index()] {
         // The chain's end is the outboard body, which may be a copy of it on this branch.
         if linkage.reversed[joint.index()] { parent = Some(last) } else { child = Some(last) }
@@ -25,11 +26,10 @@ pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
 }
 
 /// In whose link's frame a joint is looked at: see [`seen_from_child`]. But a line that holds a freely turning child
-/// is fixed in the parent.
+/// is fixed in the parent, as is a surface.
 pub fn joint_in_child(geometry: &Geometry<'_>, joint: JointId, [parent, child]: [LinkIndex; 2]) -> bool {
     let model = &geometry.mechanism.joint(joint).model;
-    let on_line = model.rows() > 0 && model.slides() && model.turns_freely();
-    !on_line && seen_from_child(geometry.linkage, parent, child)
+    !model.is_held_in_parent() && seen_from_child(geometry.linkage, parent, child)
 }
 
 /// Markers at a joint on the links of its parent and child. They are parallel when all coordinates are zero;
@@ -75,9 +75,9 @@ fn at_joint<'g>(
     [parent, child]: [LinkIndex; 2],
     frames: [Frame; 2],
 ) -> [Marker<'g>; 2] {
-    let at = geometry.mechanism.joint(joint).at;
-    let child = Marker { link: child, point: geometry.local(child, at), frame: frames[1] };
-    [Marker { link: parent, point: geometry.local(parent, at), frame: frames[0] }, child]
+    let points = geometry.mechanism.joint(joint).points();
+    let child = Marker { link: child, point: geometry.local(child, points[1]), frame: frames[1] };
+    [Marker { link: parent, point: geometry.local(parent, points[0]), frame: frames[0] }, child]
 }
 
 /// A frame with e_z on the axis, simple in the frame of the chosen side, and its image on the other.

@@ -234,8 +234,14 @@ impl Builder<'_> {
 
     fn close(&mut self, joint: JointId) {
         let (parent, child) = (self.mechanism.joint(joint).parent, self.mechanism.joint(joint).child);
-        let (parent_link, child_link) = (self.held(joint, parent), self.held(joint, child));
-        let cut = match (self.mechanism.closure, self.end_body(parent, child)) {
+        let data = self.mechanism.joint(joint);
+        let [on_parent, on_child] = data.points();
+        let turns = !data.model.turns_freely();
+        let (parent_link, child_link) =
+            (self.linkage.link_at(parent, on_parent, turns), self.linkage.link_at(child, on_child, turns));
+        let holds_place = self.mechanism.joint(joint).model.holds_place();
+        let end_body = self.end_body(parent, child).filter(|_| !holds_place);
+        let cut = match (self.mechanism.closure, end_body) {
             (Closure::Joint, _) | (_, None) => {
                 let plane = self.is_plane(joint, [parent_link, child_link]);
                 Cut { joint, closure: Closure::Joint, parent: parent_link, child: child_link, plane }

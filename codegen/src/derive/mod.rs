@@ -44,6 +44,7 @@ mod rows;
 mod shortest_way;
 mod solve;
 mod start;
+mod surface_row;
 #[cfg(test)]
 mod tests;
 mod turned;

@@ -38,6 +38,7 @@ fn joint(name: &str, model: JointModel, parent: Carrier, child: usize, at: usize
         drives: Vec::new(),
         passive: Vec::new(),
         clearance: None,
+        surface: None,
         span: Span::default(),
     }
 }

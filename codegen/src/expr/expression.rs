@@ -185,6 +185,31 @@ impl<'g> Expr<'g> {
         self.unary(Unary::LogCoefficient(rank))
     }
 
+    /// The value of a function of it, by the constructor that folds and orders.
+    pub(super) fn through(self, operation: Unary) -> Self {
+        match operation {
+            Unary::Neg => -self,
+            Unary::Sqrt => self.sqrt(),
+            Unary::Sin => self.sin(),
+            Unary::Cos => self.cos(),
+            Unary::Exp => self.exp(),
+            Unary::Ln => self.ln(),
+            Unary::LogCoefficient(rank) => self.log_coefficient(rank),
+        }
+    }
+
+    /// The value of a function of it and another, likewise.
+    pub(super) fn joined(self, operation: Binary, other: Self) -> Self {
+        match operation {
+            Binary::Add => self + other,
+            Binary::Sub => self - other,
+            Binary::Mul => self * other,
+            Binary::Div => self / other,
+            Binary::Atan2 => self.atan2(other),
+            Binary::AngleOverSine => self.angle_over_sine(other),
+        }
+    }
+
     /// The node behind it.
     pub(super) fn node(self) -> Node {
         self.scope.make(|g| g.node(self.id))

@@ -11,6 +11,7 @@ mod operators;
 mod passes;
 mod scope;
 mod signs;
+mod substitute;
 mod turned_back;
 mod vector;
 

@@ -33,6 +33,8 @@ pub enum Term {
     PointPosition(PointId, usize),
     /// Component of a point's velocity in W [m/s].
     PointSpeed(PointId, usize),
+    /// Coordinate (0, 1, 2) of the place that a surface is an equation of [m].
+    Place(usize),
     /// `-a`.
     Neg(Box<Self>),
     /// `a + b`.

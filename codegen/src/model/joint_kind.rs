@@ -74,6 +74,18 @@ pub enum AxisKeys {
     Axes,
 }
 
+/// Which key of a file says what a joint demands of the place of its child's point in the parent, besides what its
+/// primitives take away.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlaceKey {
+    /// None: it demands nothing.
+    None,
+    /// `length`: a constant distance from `origin`.
+    Length,
+    /// `equation`: over x, y, z, the place as seen from `origin`.
+    Equation,
+}
+
 /// A kind of joint.
 #[derive(Debug, PartialEq, Eq)]
 pub struct JointKind {
@@ -86,10 +98,12 @@ pub struct JointKind {
     pub primitives: &'static [Primitive],
     /// What clearance adds before them; none if such a joint cannot have clearance.
     pub clearance: &'static [Primitive],
+    /// What it demands of a place. Such a joint takes one freedom away and carries no body.
+    pub place: PlaceKey,
 }
 
 const fn row(name: &'static str, axes: AxisKeys, primitives: &'static [Primitive]) -> JointKind {
-    JointKind { name, axes, primitives, clearance: &[] }
+    JointKind { name, axes, primitives, clearance: &[], place: PlaceKey::None }
 }
 
 /// Every kind of joint.
@@ -102,6 +116,10 @@ pub static JOINT_KINDS: &[JointKind] = &[
     JointKind { clearance: &[Shift], ..row("spherical", AxisKeys::None, &[Ball]) },
     row("inline", AxisKeys::Axis, &[Slide(Z), Ball]),
     row("planar", AxisKeys::AxisAndFirst, &[Slide(X), Slide(Y), Turn(Z)]),
+    row("slot", AxisKeys::AxisAndFirst, &[Slide(X), Turn(Z)]),
+    row("inplane", AxisKeys::AxisAndFirst, &[Slide(X), Slide(Y), Ball]),
+    JointKind { place: PlaceKey::Length, ..row("distance", AxisKeys::None, &[Pose]) },
+    JointKind { place: PlaceKey::Equation, ..row("on_surface", AxisKeys::None, &[Pose]) },
     row("fixed", AxisKeys::None, &[]),
     row("free", AxisKeys::None, &[Pose]),
 ];
@@ -143,12 +161,19 @@ impl JointKind {
         JOINT_KINDS.iter().find(|kind| kind.name == name)
     }
 
+    /// Whether its second direction makes a difference beyond where its coordinates count from: of a slot, along which it
+    /// slides and across which it does not.
+    pub fn needs_first(&self) -> bool {
+        self.primitives.contains(&Slide(X)) && !self.primitives.contains(&Slide(Y))
+    }
+
     /// What it looks like, by what it consists of.
     pub fn look(&self) -> Look {
         match self.primitives {
             [] => Look::Rigid,
             [Turn(_)] => Look::Pin,
             [Slide(_)] => Look::Slider,
+            _ if self.place != PlaceKey::None => Look::Ball,
             primitives if primitives.contains(&Ball) => Look::Ball,
             [.., Turn(_)] => Look::Short,
             _ => Look::Rod,
@@ -232,8 +257,11 @@ impl JointModel {
     }
 
     /// The values that a start position consists of: the coordinates, and for a rotation about a point a rotation
-    /// vector; for a free joint a rotation vector and the displacement of the joint's point.
+    /// vector; for a free joint a rotation vector and the displacement of the joint's point. A joint that holds a place has none.
     pub fn start_values(&self) -> Vec<Coordinate> {
+        if self.holds_place() {
+            return Vec::new();
+        }
         self.kind.primitives.iter().flat_map(|primitive| primitive.values()).copied().collect()
     }
 
@@ -253,7 +281,7 @@ impl JointModel {
         self.any(|primitive| matches!(primitive, Ball | Pose))
     }
 
-    /// Whether the joint takes nothing away.
+    /// Whether the joint's primitives take nothing away.
     pub fn is_free(&self) -> bool {
         self.any(|primitive| primitive == Pose)
     }
@@ -301,10 +329,25 @@ impl JointModel {
         (0..3).filter(|axis| !moves(*axis)).collect()
     }
 
+    /// Whether what it holds is fixed in the parent and turns against the child: a line or a plane that guides a ball, a slot
+    /// that guides a pin, a surface.
+    pub fn is_held_in_parent(&self) -> bool {
+        let held = self.held_axes();
+        let across = [X, Y].into_iter().filter(|direction| held.contains(&direction.frame_axis())).count();
+        let guides = self.turns_freely() || (across == 1 && self.turns().contains(&Z));
+        self.holds_place() || (self.rows() > 0 && self.slides() && guides)
+    }
+
     /// Number of constraint rows of the joint when it is cut.
     pub fn rows(&self) -> usize {
         let turned = if self.turns_freely() { 3 } else { self.turns().len() };
-        self.held_axes().len() + 3 - turned + usize::from(self.thread().is_some())
+        let others = [self.thread().is_some(), self.holds_place()];
+        self.held_axes().len() + 3 - turned + others.map(usize::from).into_iter().sum::<usize>()
+    }
+
+    /// Whether it demands something of a place, which no coordinate of its own could leave free.
+    pub fn holds_place(&self) -> bool {
+        self.kind.place != PlaceKey::None
     }
 }
 
@@ -323,6 +366,10 @@ mod tests {
             ("spherical", Look::Ball, false),
             ("inline", Look::Ball, false),
             ("planar", Look::Short, true),
+            ("slot", Look::Short, true),
+            ("inplane", Look::Ball, false),
+            ("distance", Look::Ball, false),
+            ("on_surface", Look::Ball, false),
             ("fixed", Look::Rigid, true),
             ("free", Look::Rod, false),
         ] {
@@ -336,7 +383,8 @@ mod tests {
             for clearance in [false, !kind.clearance.is_empty()] {
                 let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance };
                 let freedoms = model.start_values().len() + model.offsets().len();
-                assert_eq!(model.rows() + freedoms, 6, "{}", kind.name);
+                let left = if model.holds_place() { 5 } else { freedoms };
+                assert_eq!(model.rows() + left, 6, "{}", kind.name);
                 let coordinates = model.coordinates();
                 assert_eq!(coordinates, model.start_values()[..coordinates.len()], "{}", kind.name);
             }

@@ -24,7 +24,9 @@ pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
 pub use coordinate::Coordinate;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
-pub use joint_kind::{Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, Primitive};
+pub use joint_kind::{
+    Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, PlaceKey, Primitive,
+};
 pub use mission::{Mission, Segment};
 pub use resolve::{OverrideError, Overrides, resolve};
 
@@ -137,6 +139,8 @@ pub struct Joint {
     pub child: Carrier,
     /// Where the joint is.
     pub at: PointId,
+    /// What it demands of the place of that point, if its kind does.
+    pub surface: Option<Box<Surface>>,
     /// The user wants the loop cut here.
     pub cut: bool,
     /// Motion law of one coordinate, over parameters, inputs and t.
@@ -147,6 +151,16 @@ pub struct Joint {
     pub clearance: Option<Box<Clearance>>,
     /// Where it is written.
     pub span: Span,
+}
+
+/// Where a joint's point may be, seen from a point of the parent.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// The point of the parent.
+    pub origin: PointId,
+    /// Zero where the point may be [m]: over parameters and the place along axes that turn with the parent and are parallel to
+    /// those of W at the reference pose.
+    pub equation: Formula,
 }
 
 /// A joint with clearance.
@@ -235,6 +249,13 @@ pub struct TreeJoint {
     pub outboard: BodyId,
     /// True if the outboard body is the joint's parent.
     pub reversed: bool,
+}
+
+impl Joint {
+    /// Its point on the parent and on the child: one, but where a surface is seen from another.
+    pub fn points(&self) -> [PointId; 2] {
+        [self.surface.as_ref().map_or(self.at, |surface| surface.origin), self.at]
+    }
 }
 
 impl Mechanism {

@@ -112,7 +112,7 @@ fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
 
 /// Whether the joint is described differently on its two sides, or the user wants it cut.
 fn must_cut(mechanism: &Mechanism, joint: &Joint) -> bool {
-    joint.cut || is_open(mechanism, joint)
+    joint.cut || joint.surface.is_some() || is_open(mechanism, joint)
 }
 
 /// Whether the branches on the two sides of the joint are described open.
@@ -130,6 +130,8 @@ fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
 fn why_cut(mechanism: &Mechanism, joint: &Joint) -> &'static str {
     if is_open(mechanism, joint) {
         "its point or axis is given per body, so the loop is open there"
+    } else if joint.surface.is_some() {
+        "a joint of its kind holds the place of a point and carries no body"
     } else {
         "it has `cut = true`"
     }
@@ -171,7 +173,11 @@ fn unreached(mechanism: &Mechanism, depths: &[Option<usize>]) -> Vec<Diagnostic>
     vec![
         Diagnostic::new(Code::CutDisconnects, message)
             .at(joint.span, "")
-            .help("a joint outside a loop cannot be cut: take `cut = true` away, or give its point and axis once for both bodies"),
+            .help(if joint.surface.is_some() {
+                "give the body a joint that carries it besides, at least a `free` one to the ground"
+            } else {
+                "a joint outside a loop cannot be cut: take `cut = true` away, or give its point and axis once for both bodies"
+            }),
     ]
 }
 

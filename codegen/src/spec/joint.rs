@@ -13,7 +13,9 @@ tables! {
     #[cfg_attr(test, schemars(extend("oneOf" = [
         { "required": ["revolute"] }, { "required": ["prismatic"] }, { "required": ["cylindrical"] },
         { "required": ["screw"] }, { "required": ["universal"] }, { "required": ["spherical"] },
-        { "required": ["inline"] }, { "required": ["planar"] }, { "required": ["fixed"] }, { "required": ["free"] }
+        { "required": ["inline"] }, { "required": ["planar"] }, { "required": ["slot"] },
+        { "required": ["inplane"] }, { "required": ["distance"] }, { "required": ["on_surface"] },
+        { "required": ["fixed"] }, { "required": ["free"] }
     ], "required" = ["at"])))]
     pub struct JointSpec {
         /// Rotation about `axis`.
@@ -40,6 +42,18 @@ tables! {
         /// Motion in the plane with normal `axis`.
         /// [parent and child; e.g. ["ground", "crank"]]
         pub planar: Option<Pair>,
+        /// Rotation about `axis` of a pin that slides along `first` in a slot of the parent.
+        /// [parent and child; e.g. ["wheel", "crank"]]
+        pub slot: Option<Pair>,
+        /// Rotation about a point that slides in the plane with normal `axis`.
+        /// [parent and child; e.g. ["ground", "foot"]]
+        pub inplane: Option<Pair>,
+        /// Constant distance of the child's point `at` from the parent's point `origin`: a rod without mass.
+        /// [parent and child; e.g. ["crank", "rocker"]]
+        pub distance: Option<Pair>,
+        /// The child's point `at` stays where `equation` is zero.
+        /// [parent and child; e.g. ["cam", "follower"]]
+        pub on_surface: Option<Pair>,
         /// No relative motion.
         /// [parent and child; e.g. ["ground", "crank"]]
         pub fixed: Option<Pair>,
@@ -55,9 +69,19 @@ tables! {
         /// The two axes of a universal joint: on the parent, on the child.
         /// [two directions; required of universal; e.g. [[1, 0, 0], [0, 1, 0]]]
         pub axes: Option<At<Vec<PerBody>>>,
-        /// Direction of `q1` of a planar joint.
-        /// [direction; default near an axis of the ground; e.g. [1, 0, 0]]
+        /// Direction of `q1` of a planar or inplane joint, and of a slot.
+        /// [direction; required of a slot; default near an axis of the ground; e.g. [1, 0, 0]]
         pub first: Option<PerBody>,
+        /// The parent's point from which `distance` and `on_surface` see the child's.
+        /// [point; required of distance and on_surface; e.g. "O"]
+        pub origin: Option<Name>,
+        /// Distance of a distance joint.
+        /// [m; above 0; default as drawn; e.g. "120 mm"]
+        pub length: Option<Quantity>,
+        /// Zero on the surface: a length over parameters and the place `x`, `y`, `z` of the child's point seen from `origin`,
+        /// along axes that turn with the parent and are those of the ground at the reference pose.
+        /// [m; required of on_surface; e.g. "sqrt(x^2 + y^2) - 30 mm"]
+        pub equation: Option<Quantity>,
         /// Advance of a screw per turn.
         /// [m; not 0; required of a screw; e.g. "5 mm"]
         pub lead: Option<Quantity>,
@@ -149,6 +173,10 @@ impl JointSpec {
             ("spherical", &self.spherical),
             ("inline", &self.inline),
             ("planar", &self.planar),
+            ("slot", &self.slot),
+            ("inplane", &self.inplane),
+            ("distance", &self.distance),
+            ("on_surface", &self.on_surface),
             ("fixed", &self.fixed),
             ("free", &self.free),
         ];

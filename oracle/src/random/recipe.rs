@@ -28,11 +28,12 @@ impl Recipe {
         Self { seed, bodies, loops: 0, kinds: Kind::ALL.to_vec(), drives, forces: true }
     }
 
-    /// As [`Recipe::tree`], with one or two closed loops and no free joint.
+    /// As [`Recipe::tree`], with one or two closed loops and no joint that holds next to nothing.
     pub fn closed(seed: u64) -> Self {
         let mut dice = Dice::new(seed ^ 0x100b);
         let (bodies, loops, drives) = (3 + dice.below(5), 1 + dice.below(2), dice.below(2));
-        let kinds = Kind::ALL.iter().copied().filter(|kind| *kind != Kind::Free).collect();
+        let kinds =
+            Kind::ALL.iter().copied().filter(|kind| !matches!(kind, Kind::Free | Kind::Inplane)).collect();
         Self { seed, bodies, loops, kinds, drives, forces: true }
     }
 

@@ -175,7 +175,7 @@ fn geometry(kind: Kind, spare: &mut Vec<usize>, dice: &mut Dice) -> String {
             let other = at_right_angles(main, dice);
             format!(", axes = [{}, {}]", direction(main), direction(other))
         }
-        Kind::Planar => {
+        Kind::Planar | Kind::Slot | Kind::Inplane => {
             let first = at_right_angles(main, dice);
             format!(", axis = {}, first = {}", direction(main), direction(first))
         }

@@ -98,6 +98,7 @@ impl Sketch {
             drives: Vec::new(),
             passive: Vec::new(),
             clearance: None,
+            surface: None,
             span: Span::default(),
         });
         id

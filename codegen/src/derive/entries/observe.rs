@@ -102,12 +102,14 @@ impl<'a, 'g> Channels<'a, 'g> {
             self.push(format!("{name}.v{suffix}"), per_second, all.speed[coordinate]);
             self.push(format!("{name}.a{suffix}"), per_second2, all.acceleration[coordinate]);
         }
-        if data.model.turns_freely() {
+        if data.model.turns_freely() && !data.model.holds_place() {
             let turned = |link| link_displacement(g, geometry.linkage, &state.q, link);
             let [parent, child] = joint_links(&geometry, joint).map(turned);
             let relative = quaternion_product(conjugate(parent), child);
+            // Where q1 is a coordinate, Euler parameters have a letter of their own.
+            let letter = if all.position.len() > 1 { "e" } else { "q" };
             for (index, component) in relative.into_iter().enumerate() {
-                self.push(format!("{name}.q{index}"), "1", component);
+                self.push(format!("{name}.{letter}{index}"), "1", component);
             }
         }
         if data.model.is_free() {

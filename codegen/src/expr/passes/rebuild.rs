@@ -2,7 +2,7 @@
 //! Names and sections come along.
 
 use super::program::{Program, Whole};
-use crate::expr::{Binary, Expr, ExprId, Graph, Node, Scope, Unary};
+use crate::expr::{Expr, ExprId, Graph, Node, Scope};
 
 /// A copy under construction.
 pub struct Rebuild<'a, 'g> {
@@ -66,29 +66,8 @@ impl<'g> Rebuild<'_, 'g> {
             Node::Constant(bits) => self.scope.number(f64::from_bits(bits)),
             // All symbols are inputs, which are there.
             Node::Symbol(symbol) => self.scope.symbol(self.old.symbol_name(symbol)),
-            Node::Unary(operation, a) => {
-                let a = self.get(a);
-                match operation {
-                    Unary::Neg => -a,
-                    Unary::Sqrt => a.sqrt(),
-                    Unary::Sin => a.sin(),
-                    Unary::Cos => a.cos(),
-                    Unary::Exp => a.exp(),
-                    Unary::Ln => a.ln(),
-                    Unary::LogCoefficient(rank) => a.log_coefficient(rank),
-                }
-            }
-            Node::Binary(operation, a, b) => {
-                let (a, b) = (self.get(a), self.get(b));
-                match operation {
-                    Binary::Add => a + b,
-                    Binary::Sub => a - b,
-                    Binary::Mul => a * b,
-                    Binary::Div => a / b,
-                    Binary::Atan2 => a.atan2(b),
-                    Binary::AngleOverSine => a.angle_over_sine(b),
-                }
-            }
+            Node::Unary(operation, a) => self.get(a).through(operation),
+            Node::Binary(operation, a, b) => self.get(a).joined(operation, self.get(b)),
         };
         self.set(id, new);
     }

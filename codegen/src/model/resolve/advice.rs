@@ -11,6 +11,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("radial", "\"20 um\""),
     ("journal_radius", "\"10 mm\""),
     ("length", "\"20 mm\""),
+    ("equation", "\"sqrt(x^2 + y^2) - 30 mm\""),
     ("modulus", "\"115 GPa\""),
     ("young", "\"210 GPa\""),
     ("hardness", "\"3.5 GPa\""),
@@ -83,6 +84,9 @@ pub(super) fn mismatch(
     if key(what) == "drive" && rate {
         let turns = if turning.turns > 0 { "2*pi*" } else { "" };
         return format!("a drive gives the position over time: write \"{turns}{text}*t\"");
+    }
+    if key(what) == "equation" && found == Dimension::of(2, 0, 0) {
+        return "an equation of squares is an area: take the root of it, as in `sqrt(x^2 + y^2) - r`".to_owned();
     }
     if key(what) == "coefficient" && found == Dimension::of(1, -1, 2) {
         return "this is the wear rate k/H: write its product with the hardness, a pure number such as 1e-8, and \

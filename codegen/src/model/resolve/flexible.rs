@@ -76,7 +76,9 @@ impl Resolver<'_> {
             None => uses.push(Use { point, held, turns }),
         };
         for joint in joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier) {
-            add(joint.at, true, !joint.model.turns_freely());
+            let [on_parent, on_child] = joint.points();
+            let point = if joint.parent == carrier { on_parent } else { on_child };
+            add(point, true, !joint.model.turns_freely());
         }
         for force in forces {
             for (_, point) in force.attachments().into_iter().filter(|(body, _)| *body == carrier) {

@@ -5,7 +5,7 @@ use super::lookup::enumerated;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
-use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel};
+use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel, PlaceKey};
 use crate::spec::{At, Dimension, JointSpec, Name, PerBody, Triple};
 
 /// An axis in place of one that is wrong.
@@ -34,7 +34,8 @@ impl Resolver<'_> {
             AxisKeys::Axis => vec![self.main_axis(name, model.kind, joint)],
             AxisKeys::AxisAndFirst => {
                 let normal = self.main_axis(name, model.kind, joint);
-                vec![normal, self.first_direction(name, joint, normal)]
+                let first = self.first_direction(name, (joint, model.kind), normal);
+                vec![normal, first]
             }
             AxisKeys::Axes => self.two_axes(name, joint),
         };
@@ -53,6 +54,9 @@ impl Resolver<'_> {
                 "axes" => keys == AxisKeys::Axes,
                 "first" => keys == AxisKeys::AxisAndFirst,
                 "lead" => model.thread().is_some(),
+                "origin" => model.holds_place(),
+                "length" => model.kind.place == PlaceKey::Length,
+                "equation" => model.kind.place == PlaceKey::Equation,
                 _ => true,
             };
             if !fits {
@@ -199,11 +203,20 @@ impl Resolver<'_> {
         value
     }
 
-    /// Direction of `q1` of a planar joint, made to be in the plane.
-    fn first_direction(&mut self, name: &Name, joint: &At<JointSpec>, normal: Axis) -> Axis {
+    /// Direction of `q1` of a planar joint or of a slot, made to be in the plane.
+    fn first_direction(
+        &mut self,
+        name: &Name,
+        (joint, kind): (&At<JointSpec>, &JointKind),
+        normal: Axis,
+    ) -> Axis {
         let what = place("first", "joint", name);
         let Some(written) = &joint.value.first else {
-            if normal.parent != normal.child {
+            if kind.needs_first() {
+                let message = format!("the {} joint `{}` has no `first`", kind.name, name.value);
+                self.missing(joint.span, name.span, Code::MissingKey, message)
+                    .help("add `first = [1, 0, 0]`, the direction of the slot at the reference pose");
+            } else if normal.parent != normal.child {
                 let message = format!(
                     "joint `{}` has a normal for each body, so it needs `first` for each too",
                     name.value

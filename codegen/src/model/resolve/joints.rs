@@ -17,11 +17,13 @@ impl Resolver<'_> {
             let sides = bodies.flatten();
             let at = self.joint_point(name, joint, sides);
             let (parent, child) = sides.map_or((Carrier::Ground, Carrier::Ground), |[(a, _), (b, _)]| (a, b));
+            let surface = if model.holds_place() { self.surface(name, joint, sides) } else { None };
             joints.push(Joint {
                 name: name.value.clone(),
                 parent,
                 child,
                 at: at.unwrap_or(PointId::new(0)),
+                surface: surface.map(Box::new),
                 cut: spec.cut.as_ref().is_some_and(|cut| cut.value),
                 drives: self.drives(name, spec, &model),
                 passive: self.passive(name, spec, &model),
@@ -63,6 +65,10 @@ impl Resolver<'_> {
         };
         let what = format!("joint `{}`", name.value);
         let Some([parent, child]) = sides else { return self.point_named(at, &what) };
+        if joint.value.origin.is_some() {
+            // The parent has a point of its own.
+            return self.point_on(at, Some(child), &what);
+        }
         let point = self.point_on(at, Some(parent), &what)?;
         self.point_on(at, Some(child), &what);
         Some(point)

@@ -27,6 +27,7 @@ mod resolver;
 mod section;
 mod series;
 mod starts;
+mod surface;
 mod term;
 mod turns;
 

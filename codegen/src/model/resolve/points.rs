@@ -118,8 +118,10 @@ impl Resolver<'_> {
             let body =
                 (0..bodies.len()).find(|body| by_body(*body)).map(|body| Carrier::Body(BodyId::new(body)));
             let joint = || {
-                let joint = joints.iter().find(|joint| joint.at == id)?;
-                Some(if joint.child == Carrier::Ground { joint.parent } else { joint.child })
+                let joint = joints.iter().find(|joint| joint.points().contains(&id))?;
+                let [on_parent, on_child] = joint.points();
+                let is_parents = joint.child == Carrier::Ground || (on_parent != on_child && on_parent == id);
+                Some(if is_parents { joint.parent } else { joint.child })
             };
             let found = body.or_else(joint);
             let held =

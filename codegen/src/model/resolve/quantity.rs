@@ -20,22 +20,29 @@ pub(super) struct Allowed {
     pub(super) tunable: bool,
     pub(super) time: bool,
     pub(super) state: bool,
+    pub(super) place: bool,
 }
+
+/// Names of the coordinates of a place.
+pub(super) const PLACE: [&str; 3] = ["x", "y", "z"];
 
 impl Allowed {
     /// Parameters fixed at generation.
-    pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false };
+    pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false, place: false };
     /// All parameters.
-    pub(super) const PARAMETERS: Self = Self { tunable: true, time: false, state: false };
+    pub(super) const PARAMETERS: Self = Self { tunable: true, ..Self::CONSTANTS };
     /// Parameters, inputs and t.
-    pub(super) const TIME: Self = Self { tunable: true, time: true, state: false };
+    pub(super) const TIME: Self = Self { time: true, ..Self::PARAMETERS };
     /// Parameters, inputs, t, joint coordinates, points, and their speeds.
-    pub(super) const STATE: Self = Self { tunable: true, time: true, state: true };
+    pub(super) const STATE: Self = Self { state: true, ..Self::TIME };
+    /// All parameters and the place x, y, z of a point.
+    pub(super) const PLACE: Self = Self { place: true, ..Self::PARAMETERS };
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
             (_, true) => "parameters, inputs, t, joint coordinates and points",
             (true, false) => "parameters, inputs and t",
+            (false, false) if self.place => "parameters and the place x, y, z",
             (false, false) => "parameters",
         }
     }
@@ -99,7 +106,9 @@ impl Resolver<'_> {
         let (resolved, bare) = match &origin.quantity.value {
             Literal::Number(value) => ((Term::Number(*value), Dimension::NONE), Some(*value)),
             Literal::Text(text) => {
-                let expression = match parse_expression(text, &|word| self.names.is_name(word)) {
+                let expression = match parse_expression(text, &|word| {
+                    self.names.is_name(word) || (origin.allowed.place && PLACE.contains(&word))
+                }) {
                     Ok(expression) => expression,
                     Err(error) => {
                         self.report_syntax(origin, error);

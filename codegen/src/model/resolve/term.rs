@@ -1,7 +1,7 @@
 //! The pieces of a formula: names to ids, dimensions, and what may occur where.
 
 use super::names::Thing;
-use super::quantity::{Here, Origin, Resolved};
+use super::quantity::{Here, Origin, PLACE, Resolved};
 use super::resolver::{Reported, Resolver};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
@@ -86,6 +86,9 @@ impl Resolver<'_> {
             }
             return Some((Term::Time, Dimension::TIME));
         }
+        if let Some(axis) = PLACE.iter().position(|known| allowed.place && *known == name) {
+            return self.place_term(name, axis, here);
+        }
         match self.names.find(name) {
             Some((Thing::Parameter(id) | Thing::Input(id), _)) => self.parameter_term(id, here),
             Some((thing, span)) => {
@@ -119,6 +122,18 @@ impl Resolver<'_> {
                 None
             }
         }
+    }
+
+    fn place_term(&mut self, name: &str, axis: usize, here: Here<'_>) -> Resolved {
+        if let Some((thing, span)) = self.names.find(name) {
+            let message =
+                format!("`{name}` is a coordinate of the place here, and {} of this file", thing.a());
+            self.refuse_in(here, Code::ConflictingKeys, &message).also(span, "declared here").help(format!(
+                "rename that of the file: in the equation of a surface `{name}` is a coordinate of the place"
+            ));
+            return None;
+        }
+        Some((Term::Place(axis), Dimension::LENGTH))
     }
 
     /// A name that nothing has.
