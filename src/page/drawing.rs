@@ -204,10 +204,18 @@ fn ground(out: &mut String, scene: &Scene, camera: &Camera) {
 
 fn joints(out: &mut String, scene: &Scene, camera: &Camera, (row, poses): At<'_>) {
     for joint in &scene.joints {
-        let (body, place) = joint.sides[1];
-        let place = body.and_then(|body| poses.get(body)).map_or(place, |first| moved(row, *first, place));
-        let [x, y] = camera.see(place);
+        let [[px, py], [x, y]] = joint.sides.map(|(body, place)| {
+            let place =
+                body.and_then(|body| poses.get(body)).map_or(place, |first| moved(row, *first, place));
+            camera.see(place)
+        });
         let _ = match joint.look {
+            Look::Strut => writeln!(
+                out,
+                "<path stroke=\"#343a40\" stroke-width=\"3\" d=\"M{px:.1} {py:.1}L{x:.1} {y:.1}\"/>\
+                 <circle class=\"paper\" stroke=\"#343a40\" stroke-width=\"2\" cx=\"{px:.1}\" cy=\"{py:.1}\" r=\"4\"/>\
+                 <circle class=\"paper\" stroke=\"#343a40\" stroke-width=\"2\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>"
+            ),
             Look::Slider => writeln!(
                 out,
                 "<rect class=\"paper\" stroke=\"#343a40\" stroke-width=\"2\" x=\"{:.1}\" y=\"{:.1}\" width=\"18\" height=\"12\"/>",

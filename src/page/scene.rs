@@ -128,7 +128,7 @@ impl Eye<'_> {
             .mechanism
             .joints
             .iter()
-            .flat_map(|joint| [(joint.parent, joint.at), (joint.child, joint.at)]);
+            .flat_map(|joint| [joint.parent, joint.child].into_iter().zip(joint.points()));
         let mut places: Vec<[f64; 3]> = Vec::new();
         for (carrier, at) in own.filter(|(carrier, _)| is_own(*carrier)) {
             add(&mut places, self.place(at, carrier));
@@ -235,7 +235,11 @@ impl Eye<'_> {
             name: joint.name.clone(),
             look: joint.model.kind.look(),
             is_plane: joint.model.kind.is_plane(),
-            sides: [joint.parent, joint.child].map(|side| (body(side), self.place(joint.at, side))),
+            sides: {
+                let [on_parent, on_child] = joint.points();
+                [(joint.parent, on_parent), (joint.child, on_child)]
+                    .map(|(side, point)| (body(side), self.place(point, side)))
+            },
             axis: joint.model.axes.first().map(|axis| axis.parent),
             clearance: joint.clearance.as_ref().map(|clearance| Play {
                 radial: self.value(&clearance.radial),

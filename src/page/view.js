@@ -239,6 +239,10 @@ function paint(when, bend, gap, show) {
   });
   for (const joint of scene.joints) {
     const [parent, child] = [joint.ends[0].at, joint.ends[1].at];
+    if (joint.look === "strut") {
+      put(few ? thin : rod, parent[0], parent[1], parent[2], child[0], child[1], child[2], 0.6 * knob, colours.soft);
+      for (const end of [parent, child]) gpu.ball(end[0], end[1], end[2], knob, colours.soft);
+    }
     if (joint.look === "ball") gpu.ball(child[0], child[1], child[2], 1.25 * knob, colours.soft);
     if (joint.axis && joint.look !== "rigid") {
       const d = joint.along, long = joint.look === "pin" || joint.look === "short" ? 1.7 * knob : 4 * knob, slides = joint.look === "slider";

@@ -137,6 +137,8 @@ pub enum Look {
     Short,
     /// A rod along its axis.
     Rod,
+    /// A rod from the parent's point to the child's.
+    Strut,
     /// Nothing that moves.
     Rigid,
 }
@@ -150,6 +152,7 @@ impl Look {
             Self::Ball => "ball",
             Self::Short => "short",
             Self::Rod => "rod",
+            Self::Strut => "strut",
             Self::Rigid => "rigid",
         }
     }
@@ -173,7 +176,8 @@ impl JointKind {
             [] => Look::Rigid,
             [Turn(_)] => Look::Pin,
             [Slide(_)] => Look::Slider,
-            _ if self.place != PlaceKey::None => Look::Ball,
+            _ if self.place == PlaceKey::Length => Look::Strut,
+            _ if self.place == PlaceKey::Equation => Look::Ball,
             primitives if primitives.contains(&Ball) => Look::Ball,
             [.., Turn(_)] => Look::Short,
             _ => Look::Rod,
@@ -368,7 +372,7 @@ mod tests {
             ("planar", Look::Short, true),
             ("slot", Look::Short, true),
             ("inplane", Look::Ball, false),
-            ("distance", Look::Ball, false),
+            ("distance", Look::Strut, false),
             ("on_surface", Look::Ball, false),
             ("fixed", Look::Rigid, true),
             ("free", Look::Rod, false),

@@ -86,7 +86,8 @@ pub(super) fn mismatch(
         return format!("a drive gives the position over time: write \"{turns}{text}*t\"");
     }
     if key(what) == "equation" && found == Dimension::of(2, 0, 0) {
-        return "an equation of squares is an area: take the root of it, as in `sqrt(x^2 + y^2) - r`".to_owned();
+        return "an equation of squares is an area: take the root of it, as in `sqrt(x^2 + y^2) - r`"
+            .to_owned();
     }
     if key(what) == "coefficient" && found == Dimension::of(1, -1, 2) {
         return "this is the wear rate k/H: write its product with the hardness, a pure number such as 1e-8, and \
