@@ -23,7 +23,7 @@ fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 }
 
 fn rounded(gap: f64) -> String {
-    if gap < 1e-3 { format!("{gap:.1e}") } else { format!("{gap:.3}") }
+    if (1e-3..1e6).contains(&gap) { format!("{gap:.3}") } else { format!("{gap:.1e}") }
 }
 
 /// How far loops stay open: only the kinds that are, rounded.

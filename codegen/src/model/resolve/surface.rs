@@ -31,7 +31,17 @@ impl Resolver<'_> {
             self.sphere(name, spec.length.as_ref(), [(origin, parent.0), (at, child.0)])?
         } else if let Some(equation) = &spec.equation {
             let what = place("equation", "joint", name);
-            self.formula(equation, Some(Dimension::LENGTH), Allowed::PLACE, &what)
+            let formula = self.formula(equation, Some(Dimension::LENGTH), Allowed::PLACE, &what);
+            let mut seen = false;
+            formula.term.visit(&mut |term| seen |= matches!(term, Term::Place(_)));
+            let wrong = matches!(formula.term, Term::Number(value) if value.is_nan());
+            if !seen && !wrong {
+                let message = format!("{what} does not depend on the place: it has no direction to push in");
+                self.refuse(Code::ZeroAxis, equation.span, message)
+                    .help("write it over `x`, `y` and `z`, for example `sqrt(x^2 + y^2) - 30 mm`");
+                return None;
+            }
+            formula
         } else {
             let message = format!("joint `{}` has no `equation`", name.value);
             self.missing(joint.span, name.span, Code::MissingKey, message)
@@ -64,7 +74,7 @@ impl Resolver<'_> {
                 if self.value(&length) == 0.0 {
                     let message =
                         format!("the points of the distance joint `{}` are one point as drawn", name.value);
-                    self.refuse(Code::ConflictingKeys, name.span, message)
+                    self.refuse(Code::ZeroLength, name.span, message)
                         .help("give its `length`, or take a `spherical` joint");
                     return None;
                 }
