@@ -82,6 +82,48 @@ fn lives_give_the_plan_of_their_law() {
     assert_eq!(told["by_age"], folder_told["by_age"]);
 }
 
+const DATA: &str = "examples/data/sliding_wear_100g.csv";
+
+#[test]
+fn a_fit_of_data_tells_what_it_leaves_open_and_its_readings_decide_how_much() {
+    let folder = Folder::new("plan-bands");
+    let columns =
+        ["--unit", "unit", "--wear", "wear_um", "--exposure", "cycles", "--from-zero", "--power-law"];
+    let fit = |name: &str, data: &str| {
+        let out = folder.path(name);
+        let told = linkwear(&[&["fit", data, "--out", &out], &columns[..]].concat());
+        assert_eq!(told.code, 0, "{}", told.err);
+        out
+    };
+    let all = fit("all.json", DATA);
+    // The same readings without half of the four units.
+    let text = std::fs::read_to_string(DATA).expect("shipped");
+    let few: Vec<&str> =
+        text.lines().filter(|line| !["111,", "112,"].iter().any(|unit| line.starts_with(unit))).collect();
+    let few = fit("few.json", &folder.write("few.csv", &few.join("\n")));
+    let picture = folder.path("plan.svg");
+    let told = plan(&all, &["--threshold", "50", "--plot", &picture]);
+    let less = plan(&few, &["--threshold", "50"]);
+    let width = |told: &Value, band: &str| {
+        let ends = &told["by_age"][band];
+        (number(&ends["upper"]) / number(&ends["lower"])).ln()
+    };
+    for (band, value) in [("age_band", "age"), ("cost_rate_band", "cost_rate")] {
+        let (own, ends) = (number(&told["by_age"][value]), &told["by_age"][band]);
+        assert!(number(&ends["lower"]) < own && own < number(&ends["upper"]), "{told}");
+        assert!(width(&less, band) > width(&told, band), "{band}: {less} {told}");
+    }
+    let band = &told["at_failure"]["cost_rate_band"];
+    assert!(number(&band["lower"]) < number(&told["at_failure"]["cost_rate"]), "{told}");
+    assert_eq!(told["by_age"]["pays"], 1.0);
+    let drawn = std::fs::read_to_string(&picture).expect("drawn");
+    assert!(drawn.contains("what the fit leaves open, 95 %") && !drawn.contains("NaN"), "{drawn}");
+    // Parameters that are taken as known leave nothing open, and a warning says why.
+    let known = plan(&folder.write("known.json", FIT), &["--threshold", "20"]);
+    assert!(known["by_age"]["age_band"].is_null() && known["at_failure"]["cost_rate_band"].is_null());
+    assert!(known["warnings"].to_string().contains("not told"), "{known}");
+}
+
 #[test]
 fn what_cannot_be_planned_is_refused_with_the_reason() {
     let folder = Folder::new("plan-wrong");
@@ -107,6 +149,12 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     let bad = folder.write("bad.csv", "life [cycles]\n3\n-4\n");
     let (code, text) = refused(&[&[bad.as_str()], &costs[..]].concat());
     assert!(code == 1 && text.contains("bad.csv:3"), "{text}");
+    // The folder of a life that was lived by its mean path alone.
+    folder.write("life.json", "{}");
+    std::fs::remove_file(&lives).expect("written above");
+    let mean = lives.trim_end_matches("/lives.csv");
+    let (code, text) = refused(&[&[mean], &costs[..]].concat());
+    assert!(code == 1 && text.contains("no random lives") && text.contains("--trajectories"), "{text}");
     let above = ["--threshold", "20", "--inspection", "5", "--replace-from", "21"];
     let (code, _) = refused(&[&[fit.as_str()], &above[..], &costs[..]].concat());
     assert_eq!(code, 1);

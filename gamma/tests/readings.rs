@@ -211,6 +211,22 @@ fn intervals_count_what_was_selected_and_are_wrong_without() {
 }
 
 #[test]
+fn a_likelihood_that_stays_flat_leaves_an_end_open() {
+    for (field, run, is_open) in [(TRUNCATED[1], 1, true), (TRUNCATED[1], 0, false), (TRUNCATED[2], 3, true)]
+    {
+        let data = field.sample(run).expect("units enter");
+        let found = estimate_units(&data, &Model::default()).expect("fits");
+        let cv = found.cv_interval(&data, 0.95).expect("an interval");
+        let [alpha, beta] = [0, 1].map(|at| profile_interval(&found.fit, &data, at, 0.95).expect("interval"));
+        assert_eq!(cv.high == f64::INFINITY, is_open, "{cv:?}");
+        // Slow units say nothing of how fast the others are: no mean rate alpha / beta is too large then.
+        assert_eq!(beta.low == 0.0, is_open, "{beta:?}");
+        let whole = [alpha.low, alpha.high, beta.high, cv.low];
+        assert!(whole.iter().all(|end| end.is_finite() && *end > 0.0), "{whole:?}");
+    }
+}
+
+#[test]
 #[ignore = "minutes to an hour: the table of docs/readings.md"]
 fn table_of_coverages_of_field_data() {
     let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(2000);

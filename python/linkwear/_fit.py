@@ -53,6 +53,14 @@ def load_fit(path: str | os.PathLike[str]) -> Fit:
     return Fit(text, text)
 
 
+def _asked(options: dict[str, Any]) -> list[str]:
+    """Words of a question, covariates by name."""
+    covariates = options.get("covariate")
+    if isinstance(covariates, Mapping):
+        options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
+    return words({name.rstrip("_"): value for name, value in options.items()})
+
+
 def _table(data: Any) -> tuple[str, str]:
     if isinstance(data, (str, os.PathLike)):
         return os.fspath(data), Path(data).read_text()
@@ -83,12 +91,18 @@ class Fit(Record):
         ``mission`` (``"0..2"``), each one or a list, ``survived``, ``also`` (``"other.json:0.5"``), ``from_`` with ``per_day``,
         ``working_days``, ``pause``.
         """
-        covariates = options.get("covariate")
-        if isinstance(covariates, Mapping):
-            options["covariate"] = [f"{name}={float(value)!r}" for name, value in covariates.items()]
-        asked = {name.rstrip("_"): value for name, value in options.items()}
-        said = words({"threshold": threshold, "current": current, **asked})
+        said = _asked({"threshold": threshold, "current": current, **options})
         return Prediction(json.loads(_linkwear.predict(said, "fit", self._file)))
+
+    def plan(self, *, threshold: float, preventive: float, failure: float, **options: Any) -> Record:
+        """When to replace parts that fail at a wear ``threshold``, by the costs of a replacement in time and of a failure.
+
+        Further options are those of ``linkwear plan``: ``covariate``, ``rate``, ``preventive_time``, ``failure_time``, ``inspection``,
+        ``downtime``, ``interval``, ``replace_from``, ``look_at``, ``current``, ``at``, ``parts``, ``horizon``, ``confidence``. The answer
+        is what ``linkwear plan --format json`` prints as attributes: ``plan.by_age.age``, ``plan.by_age.age_band.lower``.
+        """
+        said = _asked({"threshold": threshold, "preventive": preventive, "failure": failure, **options})
+        return Record(json.loads(_linkwear.plan(said, "fit", self._file)))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes it for ``linkwear predict`` and :func:`load_fit`."""

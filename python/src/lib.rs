@@ -64,6 +64,13 @@ fn predict(py: Python<'_>, words: Vec<String>, name: String, fit: String) -> PyR
     answer.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
 }
 
+/// Plans by the JSON of a fit; returns the JSON of `linkwear plan`.
+#[pyfunction]
+fn plan(py: Python<'_>, words: Vec<String>, name: String, fit: String) -> PyResult<String> {
+    let answer = abandoned(py, move || linkwear::cli::ask::plan(&words, &name, &fit))?;
+    answer.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
+}
+
 /// Puts shards of lives together; returns the JSON of `linkwear merge`, and the lives as [`mechanism::Lives`] has them.
 #[pyfunction]
 fn merge(py: Python<'_>, shards: Vec<String>) -> PyResult<(String, mechanism::Lives)> {
@@ -81,6 +88,7 @@ fn _linkwear(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<state_space::StateSpace>()?;
     module.add_function(wrap_pyfunction!(fit, module)?)?;
     module.add_function(wrap_pyfunction!(predict, module)?)?;
+    module.add_function(wrap_pyfunction!(plan, module)?)?;
     module.add_function(wrap_pyfunction!(merge, module)?)?;
     module.add_function(wrap_pyfunction!(merge_study, module)?)?;
     module.add_function(wrap_pyfunction!(replicates, module)?)?;

@@ -80,6 +80,10 @@ def test_fits_and_predictions(command_line: Any, tmp_path: Path) -> None:
     )
     assert of_numbers(told.to_dict()) == of_numbers(command_line("predict", fit, *question, *more))
     assert told.dates.quantiles.p10 == command_line("predict", fit, *question, *more)["dates"]["quantiles"]["p10"]
+    costs = ["--threshold", "50", "--preventive", "200", "--failure", "1500", "--parts", "12", "--horizon", "20000"]
+    planned = ours.plan(threshold=50, preventive=200, failure=1500, parts=12, horizon=20000)
+    assert of_numbers(planned.to_dict()) == of_numbers(command_line("plan", fit, *costs))
+    assert planned.by_age.age_band.lower < planned.by_age.age < planned.by_age.age_band.upper
     # Arrays and frames are the same readings, and a saved fit is the same fit.
     import pandas
 

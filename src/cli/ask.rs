@@ -15,7 +15,7 @@ use super::arguments::{Arguments, Command};
 use super::failure::{Failure, entries, first_paragraph};
 #[cfg(feature = "page")]
 use super::page;
-use super::{check, fit, input, life, predict, simulate, study};
+use super::{check, fit, input, life, plan, predict, simulate, study};
 use crate::csv_table::CsvTable;
 use crate::life::{LifeFacts, LifeJournal, LifePart, LifeResult};
 use crate::provenance::sealed;
@@ -277,6 +277,18 @@ pub fn predict(words: &[String], name: &str, fit: &str) -> Result<Value, Failure
     let Command::Predict(arguments) = parsed("predict", words, name)? else { return Err(no_such_words()) };
     let fit = FitFile::parse(fit).map_err(Failure::fit(Path::new(name)))?;
     Ok(predict::answer(&arguments, &fit)?.json)
+}
+
+/// `plan`, by the JSON of a fit.
+///
+/// # Errors
+/// As [`predict`].
+pub fn plan(words: &[String], name: &str, fit: &str) -> Result<Value, Failure> {
+    let Command::Plan(arguments) = parsed("plan", words, name)? else { return Err(no_such_words()) };
+    #[cfg(feature = "page")]
+    nothing_written(arguments.plot.as_deref())?;
+    let fit = FitFile::parse(fit).map_err(Failure::fit(Path::new(name)))?;
+    Ok(plan::by_fit(&arguments, fit)?.json)
 }
 
 /// The words of a subcommand, its file last.

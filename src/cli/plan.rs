@@ -1,32 +1,41 @@
 //! `plan`: when to replace a part, when to look at it, how many spares to keep, what a look is worth.
 
-use std::fmt::Write as _;
+#[cfg(feature = "page")]
+mod drawn;
+mod text;
+
 use std::path::Path;
 
-use linkwear_gamma::FitFile;
-use linkwear_gamma::life::{Estimate, LifeError, Lifetime, ObservedLives, OperatingState};
+use linkwear_gamma::life::{Estimate, FirstPassage, LifeError, Lifetime, ObservedLives, OperatingState};
 use linkwear_gamma::plan::{
-    AgePlan, ConditionPlan, Costs, InUse, Looks, Monitored, PlanError, PlannedLife, Spares, Worth, best_age,
-    best_inspection, spares, worth_of_a_look,
+    AgeBands, AgePlan, ConditionPlan, Costs, Ends as PlanEnds, InUse, Looks, Monitored, PlanError,
+    PlannedLife, Spares, Worth, age_bands, best_age, best_inspection, look_band, spares, worth_of_a_look,
 };
+use linkwear_gamma::{FitFile, Prediction};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
+use super::answer::common::Ends;
 use super::answer::plan::{
     AtFailureAnswer, ByAgeAnswer, ByLooksAnswer, CountAnswer, LookAnswer, PlanAnswer, SparesAnswer,
 };
 use super::arguments::PlanArguments;
 use super::failure::Failure;
 use super::input::{covariates, read_fit};
-use super::life::folder::{LIFE_OF_LIVES, LIVES};
-use super::table::table;
+use super::life::folder::{LIFE, LIFE_OF_LIVES, LIVES};
+#[cfg(feature = "page")]
+use super::picture;
 use crate::checksum::sha256_of;
 use crate::csv_table::CsvTable;
-use crate::number::number;
 use crate::provenance::Provenance;
 
 /// Lives below which the best age is told with a warning: the cost of so few lies some percent too low.
 const FEW: usize = 200;
+
+/// Laws of life that the fit leaves possible: ends of an interval of 95 % are the fifth from either side.
+const POSSIBLE: usize = 200;
+/// Of these for plans of looks, one of so many: each costs an integral for every look.
+const OF_LOOKS: usize = 4;
 
 /// What is planned for.
 enum Source {
@@ -34,8 +43,31 @@ enum Source {
     Lives(ObservedLives, usize, String),
 }
 
+impl Source {
+    /// An answer of the law of life.
+    fn with_life<T>(&self, ask: &dyn Fn(&dyn Lifetime) -> Result<T, PlanError>) -> Result<T, PlanError> {
+        match self {
+            Self::Fit(fit) => {
+                let (estimate, state, _) = &**fit;
+                ask(&state.life(estimate)?)
+            }
+            Self::Lives(law, ..) => ask(law),
+        }
+    }
+}
+
 pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
-    let source = source(arguments)?;
+    #[cfg(feature = "page")]
+    picture::check_plot(&arguments.file, arguments.plot.as_deref())?;
+    answer(arguments, source(arguments)?)
+}
+
+/// By the JSON of a fit, which is called as the file that is asked for.
+pub fn by_fit(arguments: &PlanArguments, fit: FitFile) -> Result<Answer, Failure> {
+    answer(arguments, of_fit(arguments, fit)?)
+}
+
+fn answer(arguments: &PlanArguments, source: Source) -> Result<Answer, Failure> {
     let wrong = |error: PlanError| {
         Failure::data(&arguments.file, None, error, "see `linkwear plan --help` for what the options mean")
     };
@@ -43,6 +75,11 @@ pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
         .and_then(|costs| costs.taking(arguments.preventive_time, arguments.failure_time))
         .map_err(wrong)?;
     let plans = plans(arguments, &source, &costs).map_err(wrong)?;
+    #[cfg(feature = "page")]
+    if arguments.plot.is_some() {
+        let chart = plans.picture(&source, &costs).map_err(wrong)?;
+        picture::write_plot(arguments.plot.as_deref(), || chart)?;
+    }
     let (from, sha256, warnings) = match &source {
         Source::Fit(fit) => {
             let (.., fit) = &**fit;
@@ -58,7 +95,7 @@ pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
     };
     let provenance = Provenance::new(sha256, None, options(arguments));
     let told = plans.told(arguments, from, warnings);
-    Ok(Answer::new(text(arguments, &told), told, Some(&provenance)))
+    Ok(Answer::new(text::text(arguments, &told), told, Some(&provenance)))
 }
 
 fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
@@ -77,13 +114,19 @@ fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
         }
         return lives(table);
     }
-    let Some(threshold) = arguments.threshold else {
-        return Err(Failure::usage(
-            "a fit needs --threshold",
-            "give the wear at failure, in the unit of the fit",
-        ));
-    };
-    let fit = read_fit(file)?;
+    if arguments.threshold.is_none() {
+        return Err(no_threshold());
+    }
+    of_fit(arguments, read_fit(file)?)
+}
+
+fn no_threshold() -> Failure {
+    Failure::usage("a fit needs --threshold", "give the wear at failure, in the unit of the fit")
+}
+
+fn of_fit(arguments: &PlanArguments, fit: FitFile) -> Result<Source, Failure> {
+    let file = &arguments.file;
+    let Some(threshold) = arguments.threshold else { return Err(no_threshold()) };
     let estimate = fit.informed(&arguments.covariate).map_err(Failure::fit(file))?;
     let asked = |error: LifeError| {
         Failure::data(file, None, error, "see `linkwear plan --help` for what the options mean")
@@ -93,6 +136,14 @@ fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
 }
 
 fn lives(file: &Path) -> Result<Source, Failure> {
+    let folder = file.parent().filter(|folder| !file.exists() && folder.join(LIFE).exists());
+    if let Some(folder) = folder {
+        let help = "live it with random lives: `linkwear life .. --trajectories 1000 --out DIR`";
+        let message = format!(
+            "no random lives are in this folder ({LIVES}): its life has the mean path alone, which tells no scatter to plan for"
+        );
+        return Err(Failure::data(folder, None, message, help));
+    }
     let table = CsvTable::read(file)?;
     let lives = table.numbers(LIFE_OF_LIVES)?;
     let law = ObservedLives::of(&lives).map_err(|error| {
@@ -111,28 +162,37 @@ struct Plans {
     looks: Option<ConditionPlan>,
     look: Option<Worth>,
     spares: Option<(Spares, Option<Spares>)>,
+    /// Lives that the fit leaves possible; none where its parameters are taken as known, and of lives.
+    possible: Vec<FirstPassage>,
+    open: Option<AgeBands>,
+    open_of_looks: Option<PlanEnds>,
 }
 
 fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Plans, PlanError> {
-    let fresh;
-    let life: &dyn Lifetime = match source {
-        Source::Fit(fit) => {
-            let (estimate, state, _) = &**fit;
-            fresh = state.life(estimate)?;
-            &fresh
-        }
-        Source::Lives(law, ..) => law,
+    let age = source.with_life(&|life| best_age(life, costs))?;
+    let mut plans = Plans {
+        age,
+        looks: None,
+        look: None,
+        spares: None,
+        possible: Vec::new(),
+        open: None,
+        open_of_looks: None,
     };
-    let age = best_age(life, costs)?;
-    let mut plans = Plans { age, looks: None, look: None, spares: None };
     if let Source::Fit(fit) = source {
         let (estimate, state, _) = &**fit;
+        plans.possible = Prediction::possible_lives(estimate, state, POSSIBLE)?.unwrap_or_default();
+        plans.open = age_bands(&plans.possible, costs, &plans.age, Prediction::LEVEL);
         if let Some(inspection) = arguments.inspection {
             let looks = Looks::new(inspection, arguments.downtime)?;
             let (law, clock) = state.wear(estimate)?;
             let part = Monitored::new(law, clock, state.threshold())?;
             let (interval, threshold) = (arguments.interval, arguments.replace_from);
-            plans.looks = Some(best_inspection(&part, costs, &looks, interval, threshold)?);
+            let best = best_inspection(&part, costs, &looks, interval, threshold)?;
+            let some: Vec<_> = plans.possible.iter().skip(OF_LOOKS / 2).step_by(OF_LOOKS).cloned().collect();
+            plans.open_of_looks =
+                look_band(&some, state.threshold(), (costs, &looks), &best, Prediction::LEVEL);
+            plans.looks = Some(best);
         }
         if let Some(at) = arguments.look_at {
             let now = (arguments.current, arguments.at);
@@ -142,7 +202,9 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
         }
     }
     if let (Some(parts), Some(horizon)) = (arguments.parts, arguments.horizon) {
-        let of = |age: Option<f64>| spares(&PlannedLife { life, age }, parts, horizon, arguments.confidence);
+        let of = |age: Option<f64>| {
+            source.with_life(&|life| spares(&PlannedLife { life, age }, parts, horizon, arguments.confidence))
+        };
         let by_age = age.age.map(|at| of(Some(at))).transpose()?;
         plans.spares = Some((of(None)?, by_age));
     }
@@ -152,6 +214,15 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
 impl Plans {
     fn told(&self, arguments: &PlanArguments, from: &'static str, mut warnings: Vec<String>) -> PlanAnswer {
         let Self { age, .. } = self;
+        if from == "fit" && self.open.is_none() {
+            let why = match self.possible.is_empty() {
+                true => {
+                    "the fit holds neither its increments nor a covariance: what it leaves open is not told"
+                }
+                false => "what the fit leaves open is too much to plan for: no bands are told",
+            };
+            warnings.push(why.to_owned());
+        }
         if self.looks.is_some_and(|plan| plan.at_an_end) {
             warnings.push(
                 "the interval is at an end of what was tried, 1/64 to 3 mean lives: looking still more often, or never, may cost less"
@@ -162,10 +233,16 @@ impl Plans {
             |found: &Spares| CountAnswer { mean: found.mean, needed: found.needed, enough: found.enough };
         PlanAnswer {
             from,
-            at_failure: AtFailureAnswer { cost_rate: age.failure_only },
+            at_failure: AtFailureAnswer {
+                cost_rate: age.failure_only,
+                cost_rate_band: self.open.map(|open| ends(open.failure_only)),
+            },
             by_age: ByAgeAnswer {
                 age: age.age,
+                age_band: self.open.map(|open| ends(open.age)),
+                pays: self.open.map(|open| open.pays),
                 cost_rate: age.cost_rate,
+                cost_rate_band: self.open.map(|open| ends(open.cost_rate)),
                 fail: age.fail,
                 mean_use: age.mean_use,
             },
@@ -174,6 +251,7 @@ impl Plans {
                 interval: plan.interval,
                 threshold: plan.threshold,
                 cost_rate: plan.cost.rate,
+                cost_rate_band: self.open_of_looks.map(ends),
                 fail: plan.cost.fail,
                 looks: plan.cost.looks,
                 cycle: plan.cost.cycle,
@@ -202,6 +280,12 @@ impl Plans {
     }
 }
 
+/// Null for an end that is open.
+fn ends((lower, upper): PlanEnds) -> Ends {
+    let end = |value: f64| value.is_finite().then_some(value);
+    Ends { lower: end(lower), upper: end(upper) }
+}
+
 /// What decides the numbers.
 fn options(arguments: &PlanArguments) -> Value {
     json!({
@@ -214,74 +298,4 @@ fn options(arguments: &PlanArguments) -> Value {
         "look_at": arguments.look_at, "current": arguments.current, "at": arguments.at,
         "parts": arguments.parts, "horizon": arguments.horizon, "confidence": arguments.confidence,
     })
-}
-
-fn text(arguments: &PlanArguments, told: &PlanAnswer) -> String {
-    let unit = if told.from == "lives" { "cycle" } else { "unit of time" };
-    let mut text = format!("what replacements cost per {unit} in the long run, by {}\n\n", told.from);
-    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
-    let waiting = told.at_failure.cost_rate;
-    let row = |plan: String, rate: f64, fail: f64| {
-        vec![plan, number(rate), percent(1.0 - rate / waiting), percent(fail)]
-    };
-    let mut rows = vec![row("replace at failure".to_owned(), waiting, 1.0)];
-    match told.by_age.age {
-        Some(age) => {
-            rows.push(row(format!("replace at age {}", number(age)), told.by_age.cost_rate, told.by_age.fail))
-        }
-        None => rows.push(vec![
-            "replace at an age".to_owned(),
-            "does not pay".to_owned(),
-            String::new(),
-            String::new(),
-        ]),
-    }
-    if let Some(looks) = &told.by_looks {
-        let plan =
-            format!("look every {}, replace from wear {}", number(looks.interval), number(looks.threshold));
-        rows.push(row(plan, looks.cost_rate, looks.fail));
-    }
-    text.push_str(&table(&["plan", "cost", "saved", "fail in use"], &rows));
-    if let Some(looks) = &told.by_looks {
-        let _ = write!(
-            text,
-            "\nfailures are noticed {}; {} looks at a part",
-            looks.failures,
-            number(looks.looks)
-        );
-        if looks.unnoticed > 0.0 {
-            let _ = write!(text, ", {} with a failure unnoticed", number(looks.unnoticed));
-        }
-        text.push('\n');
-    }
-    if let Some(look) = &told.look {
-        let _ = writeln!(text, "\na look {} from now is worth {}", number(look.at), number(look.value));
-        let then =
-            look.replace_after.map_or("at failure".to_owned(), |at| format!("{} from now", number(at)));
-        let _ = writeln!(
-            text,
-            "  without it the part is replaced {then}; until the look {} fail, and it has {} replaced at once",
-            percent(look.fails_before),
-            percent(look.replaced_at_once)
-        );
-    }
-    if let Some(spares) = &told.spares {
-        let _ = writeln!(
-            text,
-            "\nspares for {} part(s) over {}, enough with {}\n",
-            spares.parts,
-            number(spares.horizon),
-            percent(arguments.confidence)
-        );
-        let row = |plan: &str, count: &CountAnswer| {
-            vec![plan.to_owned(), number(count.mean), count.needed.to_string(), percent(count.enough)]
-        };
-        let mut rows = vec![row("replace at failure", &spares.at_failure)];
-        rows.extend(spares.by_age.as_ref().map(|count| row("replace at the age above", count)));
-        text.push_str(&table(&["plan", "mean", "spares", "enough with"], &rows));
-    }
-    for warning in &told.warnings {
-        let _ = writeln!(text, "\nwarning: {warning}");
-    }
-    text
 }

@@ -10,6 +10,7 @@ mod fits;
 mod identified;
 mod lives;
 mod motion;
+mod plans;
 #[cfg(feature = "png")]
 pub mod png;
 mod predictions;
@@ -18,6 +19,7 @@ mod scene;
 use linkwear_gamma::Prediction;
 use linkwear_gamma::data::Observations;
 use linkwear_gamma::fit::{Fit, Goodness};
+use linkwear_gamma::plan::{AgePlan, Course, Ends};
 use linkwear_runtime::Run;
 use serde_json::Value;
 
@@ -41,6 +43,11 @@ pub fn identified_picture(found: &crate::identify::Identified) -> String {
 /// Charts of a fit as one picture (SVG).
 pub fn fit_picture(fit: &Fit, goodness: &Goodness, data: &Observations) -> String {
     Chart::file(&fits::charts(fit, goodness, data))
+}
+
+/// The cost of a plan over the age of replacement (SVG).
+pub fn plan_picture(course: &Course, plan: &AgePlan, best: Option<Ends>, unit: &str) -> String {
+    Chart::file(&[plans::chart(course, plan, best, unit)])
 }
 
 /// Charts of a prediction as one picture (SVG).

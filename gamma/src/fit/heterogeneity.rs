@@ -4,7 +4,7 @@
 use super::error::FitError;
 use super::estimate::{Fit, estimate_increments};
 use super::interval::Interval;
-use super::maximise::maximise;
+use super::maximise::{LARGEST_CV, maximise};
 use super::model::Model;
 use crate::data::Observations;
 use crate::matrix::Factor;
@@ -19,8 +19,6 @@ const START_CV: f64 = 0.3;
 /// Gain in the log-likelihood below which no difference is found: so little tells nothing, and rounding of some thousand terms lets
 /// no top be found.
 const GAIN: f64 = 1e-6;
-/// Largest coefficient of variation that an interval is looked for in.
-const LARGEST_CV: f64 = 1e3;
 
 /// A fit in which units differ.
 #[derive(Clone, Debug, PartialEq)]
@@ -165,10 +163,10 @@ impl Heterogeneity {
     }
 
     /// The coefficients of variation that a likelihood-ratio test at 1 - `level` does not reject, from 0 on if it does not reject
-    /// that.
+    /// that, and without an upper end if it rejects none up to 1000.
     ///
     /// # Errors
-    /// [`FitError::NotConverged`] where the likelihood does not fall far enough.
+    /// [`FitError::NotConverged`] where the other parameters cannot be re-estimated.
     pub fn cv_interval(&self, observations: &Observations, level: f64) -> Result<Interval, FitError> {
         let reach = normal_quantile(0.5 + 0.5 * level);
         let wide = Model { units_differ: true, ..self.fit.model };
@@ -191,13 +189,36 @@ impl Heterogeneity {
             true => 1.0 / rising_root(&|inverse| root(1.0 / inverse) - reach, 1.0 / top),
             false => 0.0,
         };
-        let above =
-            |more: f64| if top + more > LARGEST_CV { f64::INFINITY } else { root(top + more) - reach };
-        let high = top + rising_root(&above, (0.5 * top).max(LEAST_CV));
-        if high.is_finite() && high < LARGEST_CV {
+        let high = match self.is_flat_above(top, observations, reach) {
+            true => f64::INFINITY,
+            false => top + rising_root(&|more| root(top + more) - reach, (0.5 * top).max(LEAST_CV)),
+        };
+        if high < LARGEST_CV || high == f64::INFINITY {
             Ok(Interval { low, high })
         } else {
             Err(FitError::NotConverged)
         }
+    }
+
+    /// Whether the test rejects no larger coefficient of variation, by doubling it and starting each time from the last best fit.
+    fn is_flat_above(&self, top: f64, observations: &Observations, reach: f64) -> bool {
+        let wide = Model { units_differ: true, ..self.fit.model };
+        let mut phi = self.fit.phi.clone();
+        phi.truncate(wide.parameters() - 1);
+        phi.push(0.0);
+        let last = phi.len() - 1;
+        let mut cv = top.max(START_CV);
+        while cv < LARGEST_CV {
+            cv = (2.0 * cv).min(LARGEST_CV);
+            phi[last] = libm::log(cv);
+            let Ok((best, point)) = maximise(&wide, &observations.increments, &phi, Some(last)) else {
+                return false;
+            };
+            if libm::sqrt((2.0 * (self.fit.log_likelihood - point.value)).max(0.0)) >= reach {
+                return false;
+            }
+            phi = best;
+        }
+        true
     }
 }

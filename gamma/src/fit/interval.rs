@@ -7,7 +7,11 @@ use super::maximise::maximise;
 use crate::data::Observations;
 use crate::special::normal_quantile;
 
-/// An interval for a parameter.
+/// Standard errors from the estimate up to which the end of an interval is looked for: a likelihood that has not fallen enough by
+/// then is flat.
+const FARTHEST: f64 = 30.0;
+
+/// An interval for a parameter; an end is infinite, or 0 for a parameter that is positive, where the data set none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
     /// Lower end.
@@ -24,10 +28,11 @@ impl Interval {
 }
 
 /// The values of parameter `index` of [`Fit::parameters`] that a likelihood-ratio test at 1 - `level` does not
-/// reject, the others re-estimated at each.
+/// reject, the others re-estimated at each. Where the likelihood stays too flat toward a side up to 30 standard errors away, that
+/// side is open.
 ///
 /// # Errors
-/// [`FitError::NotConverged`] when the likelihood does not fall far enough on a side.
+/// [`FitError::NotConverged`] when the others cannot be re-estimated on the way.
 pub fn profile_interval(
     fit: &Fit,
     observations: &Observations,
@@ -41,7 +46,7 @@ pub fn profile_interval(
 }
 
 /// The value where the signed root of the likelihood ratio reaches `target`: a secant on a function that is nearly
-/// linear, because phi is in logarithms.
+/// linear, because phi is in logarithms. Infinite where it stays below.
 fn end(fit: &Fit, observations: &Observations, index: usize, target: f64) -> Result<f64, FitError> {
     let top = fit.phi[index];
     let deviation = fit.covariance[index][index].sqrt();
@@ -63,10 +68,21 @@ fn end(fit: &Fit, observations: &Observations, index: usize, target: f64) -> Res
         if (r1 - target).abs() < 1e-9 {
             return Ok(x1);
         }
+        let away = (x1 - top).abs();
+        let too_flat = r1.abs() < target.abs();
+        if too_flat && (away > FARTHEST * deviation || r1 == r0) {
+            return Ok(target.signum() * f64::INFINITY);
+        }
         if r1 == r0 {
             break;
         }
-        let step = ((target - r1) * (x1 - x0) / (r1 - r0)).clamp(-3.0 * deviation, 3.0 * deviation);
+        // Where it falls again on the way out, the secant would turn back.
+        let longest = (3.0 * deviation).max(0.5 * away);
+        let slope = (r1 - r0) / (x1 - x0);
+        let step = match slope > 0.0 {
+            true => ((target - r1) / slope).clamp(-longest, longest),
+            false => target.signum() * longest,
+        };
         (x0, r0, x1) = (x1, r1, guard(x1, x1 + step));
     }
     Err(FitError::NotConverged)

@@ -7,6 +7,8 @@ use super::point::Point;
 use crate::data::{Increment, Known};
 use crate::matrix::Factor;
 
+/// Largest coefficient of variation of units that is looked at: all beyond it say the same.
+pub const LARGEST_CV: f64 = 1e3;
 /// Steps of Newton's method; 5 to 15 are usual.
 const MOST_STEPS: usize = 200;
 /// What is left to climb below which a top that is none may be taken as one: relative to 1 in the log-likelihood.
@@ -42,7 +44,8 @@ pub fn start(model: &Model, increments: &[Increment]) -> Result<Vec<f64>, FitErr
     best.map(|(_, phi)| phi).ok_or(none)
 }
 
-/// Newton's method from a start, each step shortened until the likelihood grows; a parameter may be held.
+/// Newton's method from a start, each step shortened until the likelihood grows; a parameter may be held. With one held the
+/// coefficient of variation of units may end at [`LARGEST_CV`]: the likelihood may still rise there, but by nothing that counts.
 pub fn maximise(
     model: &Model,
     increments: &[Increment],
@@ -83,8 +86,11 @@ fn climb(
     held: Option<usize>,
 ) -> Result<Point, FitError> {
     let mut here = model.point(phi, increments, held);
-    let free: Vec<usize> = (0..phi.len()).filter(|at| Some(*at) != held).collect();
+    let edge = held.and(model.units_differ.then(|| (phi.len() - 1, libm::log(LARGEST_CV))));
     for _ in 0..MOST_STEPS {
+        let at_edge = edge.filter(|(cv, most)| phi[*cv] >= *most && here.gradient[*cv] > 0.0);
+        let is_free = |at: &usize| Some(*at) != held && Some(*at) != at_edge.map(|(cv, _)| cv);
+        let free: Vec<usize> = (0..phi.len()).filter(is_free).collect();
         let gradient: Vec<f64> = free.iter().map(|at| here.gradient[*at]).collect();
         let Some(step) = ascent(&here, &free, &gradient) else { return Err(FitError::NotConverged) };
         let gain: f64 = step.iter().zip(&gradient).map(|(s, g)| s * g).sum();
@@ -96,6 +102,9 @@ fn climb(
             let mut next = phi.clone();
             for (at, step) in free.iter().zip(&step) {
                 next[*at] += length * step;
+            }
+            if let Some((cv, most)) = edge.filter(|(cv, _)| Some(*cv) != held) {
+                next[cv] = next[cv].min(most);
             }
             let usable = !model.power_law || next[2] > 0.0;
             let there = usable.then(|| model.point(&next, increments, held));

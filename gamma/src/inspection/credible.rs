@@ -2,7 +2,7 @@
 //! In: values with weights. Out: an interval. Never knows what is asked.
 
 use crate::error::probability;
-use crate::life::{Band, FirstPassage, LifeError, Lifetime};
+use crate::life::{Band, FirstPassage, LifeError, LifeMixture, Lifetime};
 
 /// What a law answers, and the probability by it of what has been seen since.
 pub type Seen = (f64, f64);
@@ -38,6 +38,19 @@ pub trait Mixture: Lifetime {
             lower: weighted(&values, tail * total),
             upper: weighted(&values, (1.0 - tail) * total),
         })
+    }
+}
+
+impl Mixture for LifeMixture {
+    fn parts(&self) -> Vec<(f64, &FirstPassage)> {
+        self.lives().collect()
+    }
+}
+
+/// Parameters that are known.
+impl Mixture for FirstPassage {
+    fn parts(&self) -> Vec<(f64, &FirstPassage)> {
+        vec![(1.0, self)]
     }
 }
 

@@ -72,6 +72,11 @@ impl FirstPassage {
         rate * self.law.hazard(factor * self.exposure(t), self.left)
     }
 
+    /// The law of its wear.
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
     /// The clock it wears by.
     pub fn clock(&self) -> &Clock {
         &self.clock

@@ -52,6 +52,11 @@ impl LifeMixture {
         })
     }
 
+    /// Lives with their probabilities.
+    pub fn lives(&self) -> impl Iterator<Item = (f64, &FirstPassage)> {
+        self.lives.iter().map(|(weight, life)| (*weight, life))
+    }
+
     fn mean(&self, of: impl Fn(&FirstPassage) -> f64) -> f64 {
         self.lives.iter().map(|(weight, life)| weight * of(life)).sum()
     }

@@ -6,6 +6,7 @@
 //! length (the theorem of renewal and reward).
 
 mod age;
+mod bands;
 mod condition;
 mod costs;
 mod error;
@@ -15,6 +16,7 @@ mod spares;
 mod worth;
 
 pub use age::{AgePlan, PlannedLife, age_cost_rate, best_age};
+pub use bands::{AgeBands, Course, Ends, age_bands, age_course, look_band};
 pub use condition::{ConditionCost, ConditionPlan, Monitored, best_inspection};
 pub use costs::{Costs, Looks};
 pub use error::PlanError;

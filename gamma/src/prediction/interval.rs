@@ -3,8 +3,8 @@
 
 use super::Prediction;
 use crate::error::LifeError;
-use crate::inspection::{Posterior, Prior};
-use crate::life::{Estimate, LifeMixture, Lifetime, OperatingState, Sample};
+use crate::inspection::{Mixture, Posterior, Prior};
+use crate::life::{Estimate, FirstPassage, LifeMixture, Lifetime, OperatingState, Sample};
 
 /// Increments up to which the predictive interval integrates over the parameters; of more the normal law of their logarithms
 /// is as good, and quicker.
@@ -46,7 +46,7 @@ impl IntervalKind {
 }
 
 /// A law of life with what it takes into account of the parameters.
-type Law = (Box<dyn Lifetime>, IntervalKind);
+type Law = (Box<dyn Mixture>, IntervalKind);
 
 impl Prediction {
     /// The interval that holds the life of a joint of the fit's population with probability [`Self::LEVEL`], over all samples
@@ -64,6 +64,38 @@ impl Prediction {
     ) -> Result<((f64, f64), IntervalKind), LifeError> {
         let (law, kind) = predictive_law(estimate, state)?;
         Ok((ends(&*law)?, kind))
+    }
+
+    /// `count` laws of life as the data leave them possible, equally probable: those that [`Self::predictive_interval`] mixes, in the
+    /// order of their typical lives one from each part of even probability. None where the parameters are taken as known.
+    ///
+    /// # Errors
+    /// As [`Self::predictive_interval`].
+    pub fn possible_lives(
+        estimate: &Estimate,
+        state: &OperatingState,
+        count: usize,
+    ) -> Result<Option<Vec<FirstPassage>>, LifeError> {
+        let (law, kind) = predictive_law(estimate, state)?;
+        if kind == IntervalKind::PlugIn {
+            return Ok(None);
+        }
+        let mut parts = law.parts();
+        parts.sort_by(|(_, a), (_, b)| a.typical().total_cmp(&b.typical()));
+        let total: f64 = parts.iter().map(|(weight, _)| weight).sum();
+        let mut ahead = parts.into_iter();
+        let (mut reached, mut life) = (0.0, None);
+        let mut lives = Vec::with_capacity(count);
+        for at in 0..count {
+            let middle = total * (at as f64 + 0.5) / count as f64;
+            while reached < middle {
+                let Some((weight, next)) = ahead.next() else { break };
+                reached += weight;
+                life = Some(next);
+            }
+            lives.extend(life.cloned());
+        }
+        Ok(Some(lives))
     }
 }
 

@@ -5,6 +5,7 @@ use super::Prediction;
 use super::interval::{IntervalKind, ends, predictive_law};
 use super::questions::{Answers, Ask, Questions};
 use crate::error::LifeError;
+use crate::inspection::Mixture;
 use crate::life::{Band, Estimate, FirstPassage, Lifetime, Moments, OperatingState, Survived, variance};
 use crate::series::SeriesSystem;
 use crate::special::normal_quantile;
@@ -98,7 +99,7 @@ fn bands(
 
 /// A life that lasts as long as all of several do.
 struct AllOf {
-    laws: Vec<Box<dyn Lifetime>>,
+    laws: Vec<Box<dyn Mixture>>,
     typical: f64,
 }
 

@@ -66,11 +66,12 @@ pub struct OneFit<'a> {
     pub parameters: Vec<String>,
     /// Standard errors.
     pub standard_errors: Vec<f64>,
-    /// Intervals by profile likelihood, lower and upper end, by the name of the parameter; null where one is open.
-    #[cfg_attr(test, schemars(with = "BTreeMap<String, Option<[f64; 2]>>"))]
+    /// Intervals by profile likelihood, lower and upper end, by the name of the parameter: an end is null where the data set none, the
+    /// whole is null where it could not be found.
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, Option<[Option<f64>; 2]>>"))]
     pub profile_intervals: Map<String, Value>,
     /// The same by the bootstrap; null without.
-    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, Option<[f64; 2]>>>"))]
+    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, Option<[Option<f64>; 2]>>>"))]
     pub bootstrap_intervals: Option<Map<String, Value>>,
     /// The parametric bootstrap.
     pub bootstrap: BootstrapAnswer,

@@ -4,6 +4,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::common::Ends;
+
 /// When to replace a part, when to look at it, and how many spares to keep. Times are in the unit of the lives (of a fit: of its
 /// exposure, divided by `--rate`; of a life: cycles), costs in the currency they were given in.
 #[derive(Serialize)]
@@ -31,6 +33,8 @@ pub struct PlanAnswer {
 pub struct AtFailureAnswer {
     /// Cost per unit of time in the long run [cost/time].
     pub cost_rate: f64,
+    /// What the fit leaves open of it, 95 % [cost/time]; null where parameters are taken as known, and of lives.
+    pub cost_rate_band: Option<Ends>,
 }
 
 /// Parts are replaced at an age, or at failure if that comes first.
@@ -39,8 +43,15 @@ pub struct AtFailureAnswer {
 pub struct ByAgeAnswer {
     /// The age of least cost [time]; null if waiting for failure costs least.
     pub age: Option<f64>,
+    /// What the fit leaves open of that age, 95 % [time], an end null where waiting for failure may cost least; null where parameters
+    /// are taken as known, and of lives.
+    pub age_band: Option<Ends>,
+    /// How probable it is, by what the fit leaves open, that replacement at some age costs less than waiting; null likewise.
+    pub pays: Option<f64>,
     /// Cost per unit of time in the long run [cost/time].
     pub cost_rate: f64,
+    /// What the fit leaves open of the cost at this very age, 95 % [cost/time]; null likewise.
+    pub cost_rate_band: Option<Ends>,
     /// Share of parts that fail before.
     pub fail: f64,
     /// Mean time in use of a part [time].
@@ -59,6 +70,9 @@ pub struct ByLooksAnswer {
     pub threshold: f64,
     /// Cost per unit of time in the long run [cost/time].
     pub cost_rate: f64,
+    /// What the fit leaves open of the cost at this very interval and threshold, 95 % [cost/time]; null where parameters are taken as
+    /// known.
+    pub cost_rate_band: Option<Ends>,
     /// Share of parts that fail.
     pub fail: f64,
     /// Looks at a part, mean.

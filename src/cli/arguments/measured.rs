@@ -140,6 +140,10 @@ pub struct PlanArguments {
     /// Probability that the spares are enough.
     #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95")]
     pub confidence: f64,
+    /// Draw the cost over the age of replacement, with its best age and what the fit leaves open (SVG; PNG by the feature `png`).
+    #[cfg(feature = "page")]
+    #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
+    pub plot: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

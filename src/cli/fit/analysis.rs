@@ -23,7 +23,7 @@ pub struct Analysis {
     /// Whether units entered below a limit and are followed from their entry on only.
     pub enter_unseen: bool,
     pub file: FitFile,
-    /// None where the likelihood does not fall far enough.
+    /// None where one could not be found.
     pub intervals: Vec<Option<Interval>>,
     pub goodness: Goodness,
     pub bootstrap: Option<Bootstrap>,

@@ -140,7 +140,8 @@ fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
 }
 
 fn intervals(own: &Analysis, of: impl Fn(usize) -> Option<Interval>) -> Map<String, Value> {
-    let pair = |at: usize| of(at).map(|interval| [interval.low, interval.high]);
+    let end = |value: f64| value.is_finite().then_some(value);
+    let pair = |at: usize| of(at).map(|interval| [end(interval.low), end(interval.high)]);
     own.file.names().into_iter().enumerate().map(|(at, name)| (name, json!(pair(at)))).collect()
 }
 
@@ -217,7 +218,13 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
     );
     let errors = fit.standard_errors();
     let span = |interval: Option<Interval>| {
-        interval.map_or_else(|| "open".to_owned(), |i| format!("{} .. {}", number(i.low), number(i.high)))
+        let end = |value: f64, open: &str| match value.is_finite() {
+            true => number(value),
+            false => open.to_owned(),
+        };
+        let ends =
+            |i: Interval| format!("{} .. {}", end(i.low, "no lower bound"), end(i.high, "no upper bound"));
+        interval.map_or_else(|| "not found".to_owned(), ends)
     };
     let rows: Vec<Vec<String>> = own
         .file

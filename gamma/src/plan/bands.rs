@@ -1,0 +1,153 @@
+//! What possible laws of life leave open of a plan. In: lives as the data leave them possible, all equally probable; a plan. Out:
+//! intervals. Never knows where the lives are from.
+
+use super::age::{AgePlan, age_cost_rate, best_age};
+use super::condition::{ConditionPlan, Monitored};
+use super::costs::{Costs, Looks};
+use super::error::PlanError;
+use crate::life::{FirstPassage, Lifetime};
+use crate::order::sorted_quantile;
+
+/// Part of the lives that may be left out because their parameters are beyond what can be computed.
+const LEFT_OUT: f64 = 0.01;
+
+/// Lower and upper end.
+pub type Ends = (f64, f64);
+
+/// What is open of a plan by age.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AgeBands {
+    /// Of the age of least cost; infinite where waiting for failure may be cheapest.
+    pub age: Ends,
+    /// Of what the plan costs per unit of time, at the age that it says.
+    pub cost_rate: Ends,
+    /// Of what waiting for failure costs per unit of time.
+    pub failure_only: Ends,
+    /// Part of the lives for which replacement at some age pays.
+    pub pays: f64,
+}
+
+/// Intervals of probability `level` around a plan by age. None where too many of the lives cannot be planned for.
+pub fn age_bands(lives: &[FirstPassage], costs: &Costs, plan: &AgePlan, level: f64) -> Option<AgeBands> {
+    let one = |life: &FirstPassage| -> Result<[f64; 3], PlanError> {
+        let best = best_age(life, costs)?;
+        let own = plan.age.map_or(Ok(best.failure_only), |age| age_cost_rate(life, costs, age))?;
+        Ok([best.age.unwrap_or(f64::INFINITY), own, best.failure_only])
+    };
+    let [ages, rates, waiting] = all(lives, &one)?;
+    let pays = ages.iter().filter(|age| age.is_finite()).count() as f64 / ages.len() as f64;
+    Some(AgeBands {
+        age: ends(&ages, level),
+        cost_rate: ends(&rates, level),
+        failure_only: ends(&waiting, level),
+        pays,
+    })
+}
+
+/// The interval of probability `level` of what a plan of looks costs per unit of time, at the interval and threshold that it says;
+/// parts fail at wear `failure`. None as in [`age_bands`].
+pub fn look_band(
+    lives: &[FirstPassage],
+    failure: f64,
+    (costs, looks): (&Costs, &Looks),
+    plan: &ConditionPlan,
+    level: f64,
+) -> Option<Ends> {
+    let one = |life: &FirstPassage| -> Result<[f64; 1], PlanError> {
+        let part = Monitored::new(*life.law(), life.clock().clone(), failure)?;
+        Ok([part.cost(costs, looks, plan.interval, plan.threshold)?.rate])
+    };
+    let [rates] = all(lives, &one)?;
+    Some(ends(&rates, level))
+}
+
+/// Cost per unit of time by the age of replacement: age, cost by the estimate, what the lives leave open of it.
+pub type Course = Vec<(f64, f64, Option<Ends>)>;
+
+/// The course of the cost over ages; without lives as by the estimate alone.
+///
+/// # Errors
+/// As [`age_cost_rate`].
+pub fn age_course(
+    life: &dyn Lifetime,
+    lives: &[FirstPassage],
+    (costs, ages): (&Costs, &[f64]),
+    level: f64,
+) -> Result<Course, PlanError> {
+    let one = |age: f64| {
+        let of = |life: &FirstPassage| Ok([age_cost_rate(life, costs, age)?]);
+        let band = all(lives, &of).map(|[rates]| ends(&rates, level));
+        Ok((age, age_cost_rate(life, costs, age)?, band))
+    };
+    ages.iter().copied().map(one).collect()
+}
+
+/// What `one` says of each life, ascending.
+fn all<const N: usize>(
+    lives: &[FirstPassage],
+    one: &dyn Fn(&FirstPassage) -> Result<[f64; N], PlanError>,
+) -> Option<[Vec<f64>; N]> {
+    let found: Vec<[f64; N]> = lives.iter().filter_map(|life| one(life).ok()).collect();
+    let missing = (lives.len() - found.len()) as f64;
+    if found.is_empty() || missing > LEFT_OUT * lives.len() as f64 {
+        return None;
+    }
+    Some(std::array::from_fn(|at| {
+        let mut values: Vec<f64> = found.iter().map(|values| values[at]).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }))
+}
+
+fn ends(sorted: &[f64], level: f64) -> Ends {
+    let tail = 0.5 - 0.5 * level;
+    // Between a number and infinity there is none.
+    let at =
+        |p: f64| Some(sorted_quantile(sorted, p)).filter(|value| !value.is_nan()).unwrap_or(f64::INFINITY);
+    (at(tail), at(1.0 - tail))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::life::{Estimate, OperatingState};
+    use crate::process::Gamma;
+
+    fn lives(rates: &[f64]) -> Vec<FirstPassage> {
+        let state = OperatingState::new(50.0).expect("valid");
+        let life = |rate: &f64| {
+            let estimate = Estimate::new(&Gamma, [2.0 * rate, 2.0], None).expect("valid");
+            state.life(&estimate).expect("valid")
+        };
+        rates.iter().map(life).collect()
+    }
+
+    #[test]
+    fn ages_and_costs_of_faster_wear_are_the_ends() {
+        let costs = Costs::new(1.0, 8.0).expect("valid");
+        let lives = lives(&[0.5, 1.0, 2.0]);
+        let plan = best_age(&lives[1], &costs).expect("a plan");
+        let bands = age_bands(&lives, &costs, &plan, 1.0).expect("lives");
+        let of = |at: usize| best_age(&lives[at], &costs).expect("a plan");
+        assert_eq!(bands.age, (of(2).age.expect("pays"), of(0).age.expect("pays")));
+        assert_eq!(bands.failure_only, (of(0).failure_only, of(2).failure_only));
+        assert_eq!(bands.pays, 1.0);
+        // The same age costs less where wear is slow, and nearly a failure each where it is twice as fast.
+        let own = |at: usize| age_cost_rate(&lives[at], &costs, plan.age.expect("pays")).expect("valid");
+        assert_eq!(bands.cost_rate, (own(0), own(2)));
+        assert!(own(0) < own(1) && own(2) > 5.0 * own(1));
+    }
+
+    #[test]
+    fn a_law_for_which_no_age_pays_leaves_the_age_open() {
+        let costs = Costs::new(4.0, 8.0).expect("valid");
+        // The first is a part that fails by one jump at any time: no age pays.
+        let state = OperatingState::new(50.0).expect("valid");
+        let jump = Estimate::new(&Gamma, [1e-3, 1e-3], None).expect("valid");
+        let lives = [vec![state.life(&jump).expect("valid")], lives(&[1.0])].concat();
+        let plan = best_age(&lives[1], &costs).expect("a plan");
+        let bands = age_bands(&lives, &costs, &plan, 0.95).expect("lives");
+        assert_eq!((bands.age.1, bands.pays), (f64::INFINITY, 0.5));
+        assert!(age_bands(&[], &costs, &plan, 0.95).is_none());
+    }
+}
