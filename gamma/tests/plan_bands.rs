@@ -48,8 +48,8 @@ fn held(units: usize, readings: usize, runs: u64, lives: usize) -> [usize; 3] {
         let file = FitFile::new(&fit, &data, &[], ("w", "t"), false);
         let found = file.informed(&[]).expect("no covariates");
         let plan = best_age(&state.life(&found).expect("valid"), &costs).expect("a plan");
-        let possible = Prediction::possible_lives(&found, &state, lives).expect("valid").expect("uncertain");
-        let bands = age_bands(&possible, &costs, &plan, Prediction::LEVEL).expect("bands");
+        let possible = Prediction::possible_lives(&found, &state, lives).expect("valid");
+        let bands = age_bands(possible.as_slice(), &costs, &plan, Prediction::LEVEL).expect("bands");
         let own = age_cost_rate(&law, &costs, plan.age.expect("pays")).expect("valid");
         let truths = [best.age.expect("pays"), own, best.failure_only];
         for ((count, truth), (low, high)) in

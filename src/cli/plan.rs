@@ -6,7 +6,7 @@ mod text;
 
 use std::path::Path;
 
-use linkwear_gamma::life::{Estimate, FirstPassage, LifeError, Lifetime, ObservedLives, OperatingState};
+use linkwear_gamma::life::{Estimate, LifeError, Lifetime, ObservedLives, OperatingState, PossibleLives};
 use linkwear_gamma::plan::{
     AgeBands, AgePlan, ConditionPlan, Costs, Ends as PlanEnds, InUse, Looks, Monitored, PlanError,
     PlannedLife, Spares, Worth, age_bands, best_age, best_inspection, look_band, spares, worth_of_a_look,
@@ -163,7 +163,7 @@ struct Plans {
     look: Option<Worth>,
     spares: Option<(Spares, Option<Spares>)>,
     /// Lives that the fit leaves possible; none where its parameters are taken as known, and of lives.
-    possible: Vec<FirstPassage>,
+    possible: PossibleLives,
     open: Option<AgeBands>,
     open_of_looks: Option<PlanEnds>,
 }
@@ -175,23 +175,23 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
         looks: None,
         look: None,
         spares: None,
-        possible: Vec::new(),
+        possible: PossibleLives::default(),
         open: None,
         open_of_looks: None,
     };
     if let Source::Fit(fit) = source {
         let (estimate, state, _) = &**fit;
-        plans.possible = Prediction::possible_lives(estimate, state, POSSIBLE)?.unwrap_or_default();
-        plans.open = age_bands(&plans.possible, costs, &plans.age, Prediction::LEVEL);
+        plans.possible = Prediction::possible_lives(estimate, state, POSSIBLE)?;
+        plans.open = age_bands(plans.possible.as_slice(), costs, &plans.age, Prediction::LEVEL);
         if let Some(inspection) = arguments.inspection {
             let looks = Looks::new(inspection, arguments.downtime)?;
             let (law, clock) = state.wear(estimate)?;
             let part = Monitored::new(law, clock, state.threshold())?;
             let (interval, threshold) = (arguments.interval, arguments.replace_from);
             let best = best_inspection(&part, costs, &looks, interval, threshold)?;
-            let some: Vec<_> = plans.possible.iter().skip(OF_LOOKS / 2).step_by(OF_LOOKS).cloned().collect();
+            let some = plans.possible.one_of(OF_LOOKS);
             plans.open_of_looks =
-                look_band(&some, state.threshold(), (costs, &looks), &best, Prediction::LEVEL);
+                look_band(some.as_slice(), state.threshold(), (costs, &looks), &best, Prediction::LEVEL);
             plans.looks = Some(best);
         }
         if let Some(at) = arguments.look_at {
@@ -215,7 +215,7 @@ impl Plans {
     fn told(&self, arguments: &PlanArguments, from: &'static str, mut warnings: Vec<String>) -> PlanAnswer {
         let Self { age, .. } = self;
         if from == "fit" && self.open.is_none() {
-            let why = match self.possible.is_empty() {
+            let why = match self.possible.as_slice().is_empty() {
                 true => {
                     "the fit holds neither its increments nor a covariance: what it leaves open is not told"
                 }

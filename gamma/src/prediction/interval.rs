@@ -4,7 +4,7 @@
 use super::Prediction;
 use crate::error::LifeError;
 use crate::inspection::{Mixture, Posterior, Prior};
-use crate::life::{Estimate, FirstPassage, LifeMixture, Lifetime, OperatingState, Sample};
+use crate::life::{Estimate, LifeMixture, Lifetime, OperatingState, PossibleLives, Sample};
 
 /// Increments up to which the predictive interval integrates over the parameters; of more the normal law of their logarithms
 /// is as good, and quicker.
@@ -75,10 +75,10 @@ impl Prediction {
         estimate: &Estimate,
         state: &OperatingState,
         count: usize,
-    ) -> Result<Option<Vec<FirstPassage>>, LifeError> {
+    ) -> Result<PossibleLives, LifeError> {
         let (law, kind) = predictive_law(estimate, state)?;
         if kind == IntervalKind::PlugIn {
-            return Ok(None);
+            return Ok(PossibleLives::default());
         }
         let mut parts = law.parts();
         parts.sort_by(|(_, a), (_, b)| a.typical().total_cmp(&b.typical()));
@@ -95,7 +95,7 @@ impl Prediction {
             }
             lives.extend(life.cloned());
         }
-        Ok(Some(lives))
+        Ok(PossibleLives { lives })
     }
 }
 

@@ -24,8 +24,8 @@ impl Plans {
                 .chain(self.age.age)
                 .collect();
             let ages = sorted(ages);
-            let some: Vec<_> = self.possible.iter().step_by(OF_LIVES).cloned().collect();
-            let course = age_course(life, &some, (costs, &ages), Prediction::LEVEL)?;
+            let some = self.possible.one_of(OF_LIVES);
+            let course = age_course(life, some.as_slice(), (costs, &ages), Prediction::LEVEL)?;
             let unit = if matches!(source, Source::Lives(..)) { "cycles" } else { "unit of the exposure" };
             Ok(plan_picture(&course, &self.age, self.open.map(|open| open.age), unit))
         })
