@@ -50,6 +50,7 @@ fn styled(compiled: &Compiled, run: &Run, style: &str) -> Option<String> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a row of the run")]
     let row = run.rows.get((SHOWN * rows as f64) as usize)?;
     ground(&mut out, &scene, &camera);
+    circles(&mut out, &scene, &camera, (row, &poses));
     bodies(&mut out, &scene, &camera, (row, &poses), (6.0, 1.0));
     joints(&mut out, &scene, &camera, (row, &poses));
     axes(&mut out, &camera);
@@ -113,6 +114,11 @@ impl Camera {
         }
         let grounds = scene.joints.iter().flat_map(|joint| joint.sides).filter(|(body, _)| body.is_none());
         grounds.for_each(|(_, place)| see(place));
+        for row in run.rows.iter().step_by(stride) {
+            for circle in &scene.circles {
+                circle.places().for_each(|place| see(moved(row, poses[circle.body], place)));
+            }
+        }
         let [wide, high] = range.map(|[low, high]| (high - low).max(1e-9));
         camera.scale = ((WIDTH - 2.0 * MARGIN) / wide).min((HEIGHT - 2.0 * MARGIN) / high);
         camera.middle = range.map(|[low, high]| 0.5 * (low + high));
@@ -149,6 +155,33 @@ fn bodies(
         }
         if opacity == 1.0 && scene.bodies.len() <= 12 {
             name_of(out, body, index, see);
+        }
+    }
+}
+
+/// Pitch circles, with the name of a wheel that has no rod to write it at.
+fn circles(out: &mut String, scene: &Scene, camera: &Camera, (row, poses): At<'_>) {
+    let mut named = Vec::new();
+    for circle in &scene.circles {
+        let places = circle.places().map(|place| camera.see(moved(row, poses[circle.body], place)));
+        let path: Vec<String> = places.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let _ = writeln!(
+            out,
+            "<polyline class=\"k{}\" fill=\"none\" stroke-width=\"2\" points=\"{}\"/>",
+            circle.body % 8,
+            path.join(" ")
+        );
+        let body = &scene.bodies[circle.body];
+        if body.rods.is_empty() && scene.bodies.len() <= 12 && !named.contains(&circle.body) {
+            named.push(circle.body);
+            let top = circle.places().map(|place| camera.see(moved(row, poses[circle.body], place)));
+            let Some([x, y]) = top.min_by(|a, b| a[1].total_cmp(&b[1])) else { continue };
+            let (class, name) = (circle.body % 8, escaped(&body.name));
+            let _ = writeln!(
+                out,
+                "<text class=\"f{class}\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{name}</text>",
+                y - 8.0
+            );
         }
     }
 }

@@ -14,6 +14,9 @@ pub struct Scene {
     pub up: [f64; 3],
     pub bodies: Vec<Shape>,
     pub joints: Vec<JointMark>,
+    /// Pitch circles of wheels.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub circles: Vec<Circle>,
     /// Points on moving bodies.
     pub traces: Vec<String>,
 }
@@ -41,6 +44,34 @@ pub struct LineNode {
     pub shape: Vec<[f64; 3]>,
     /// Its slope along the line.
     pub slope: Vec<[f64; 3]>,
+}
+
+/// A circle on a body.
+#[derive(Debug, Serialize)]
+pub struct Circle {
+    pub body: usize,
+    pub centre: [f64; 3],
+    /// Across its plane.
+    pub axis: [f64; 3],
+    pub radius: f64,
+}
+
+/// Points of a circle that is drawn.
+const ROUND: usize = 48;
+
+impl Circle {
+    /// Places around it, the last one the first.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let helper = if self.axis[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let across = cross(self.axis, helper);
+        let first = across.map(|x| x / norm(across));
+        let second = cross(self.axis, first);
+        (0..=ROUND).map(move |at| {
+            #[allow(clippy::cast_precision_loss, reason = "small whole numbers")]
+            let (sine, cosine) = (std::f64::consts::TAU * at as f64 / ROUND as f64).sin_cos();
+            [0, 1, 2].map(|i| self.centre[i] + self.radius * (cosine * first[i] + sine * second[i]))
+        })
+    }
 }
 
 /// A joint.
@@ -89,6 +120,7 @@ impl Scene {
             up: if length > 0.0 { gravity.map(|part| -part / length) } else { [0.0, 0.0, 1.0] },
             bodies: (0..mechanism.bodies.len()).map(|index| see.shape(index)).collect(),
             joints: see.joints(),
+            circles: see.circles(),
             traces: moving.map(|point| point.name.clone()).collect(),
         }
     }
@@ -224,6 +256,21 @@ impl Eye<'_> {
             slope: node.rotation.iter().map(|turn| out([0.0, turn[2], -turn[1]])).collect(),
         });
         nodes.collect()
+    }
+
+    fn circles(&self) -> Vec<Circle> {
+        let sides = self.mechanism.couplings.iter().flat_map(|coupling| &coupling.meshes);
+        let mut circles: Vec<Circle> = Vec::new();
+        for (side, circle) in sides.filter_map(|side| Some((side, side.pitch_circle?))) {
+            let axis = self.mechanism.joint(side.joint).model.axes[0].parent;
+            circles.push(Circle {
+                body: side.body.index(),
+                centre: circle.centre,
+                axis,
+                radius: circle.radius,
+            });
+        }
+        circles
     }
 
     fn joints(&self) -> Vec<JointMark> {

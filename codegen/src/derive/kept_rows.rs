@@ -4,6 +4,7 @@
 use crate::expr::Expr;
 
 use super::closure::CutRows;
+use super::couplings::CouplingRow;
 use super::motion::Motion;
 use super::row::Row;
 
@@ -27,12 +28,19 @@ pub struct KeptRow<'a, 'g> {
 /// Picks the rows that are kept, in order, with their Jacobians.
 pub fn kept_rows<'a, 'g>(
     motion: &Motion<'g>,
-    cuts: &'a [CutRows<'g>],
+    (cuts, couplings): (&'a [CutRows<'g>], &'a [CouplingRow<'g>]),
     keep: &[bool],
 ) -> Vec<KeptRow<'a, 'g>> {
     let rows = cuts.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
-    rows.zip(keep)
+    let (of_cuts, of_couplings) = keep.split_at(keep.len() - couplings.len());
+    let of_cuts = rows
+        .zip(of_cuts)
         .filter(|(_, keep)| **keep)
-        .map(|((cut, row), _)| KeptRow { row, jacobian: cut.jacobian(&motion.poses, row) })
-        .collect()
+        .map(|((cut, row), _)| KeptRow { row, jacobian: cut.jacobian(&motion.poses, row) });
+    let of_couplings = couplings
+        .iter()
+        .zip(of_couplings)
+        .filter(|(_, keep)| **keep)
+        .map(|(coupling, _)| KeptRow { row: &coupling.row, jacobian: coupling.jacobian.clone() });
+    of_cuts.chain(of_couplings).collect()
 }

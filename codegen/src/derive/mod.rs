@@ -8,6 +8,7 @@ mod accelerations;
 mod attachment;
 mod closure;
 mod contacts;
+mod couplings;
 mod deformation;
 mod dynamics;
 mod element;

@@ -135,6 +135,8 @@ codes! {
     BadClearance = "E0415",
     /// A mission that a machine cannot have.
     BadMission = "E0416",
+    /// A coupling whose wheels do not fit together.
+    BadCoupling = "E0417",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",
@@ -146,6 +148,8 @@ codes! {
     DrivenCut = "E0504",
     /// A start value of a joint that is cut.
     StartOnCut = "E0505",
+    /// A coupled joint that must be cut.
+    CoupledCut = "E0506",
 
     /// A loop that Newton cannot close from the given start.
     LoopDoesNotClose = "E0601",

@@ -13,6 +13,7 @@ use crate::spec::Dimension;
 
 mod body;
 mod coordinate;
+mod coupling;
 mod force;
 mod formula;
 mod joint_kind;
@@ -22,6 +23,9 @@ pub mod topology;
 pub use crate::spec::Closure;
 pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
 pub use coordinate::Coordinate;
+pub use coupling::{
+    ByMultiplier, Compliance, CoupledCoordinate, Coupling, ForceColumn, MeshSide, PitchCircle,
+};
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
 pub use joint_kind::{
@@ -54,6 +58,8 @@ pub struct Mechanism {
     pub points: Vec<Point>,
     /// Joints in file order.
     pub joints: Vec<Joint>,
+    /// Couplings in file order.
+    pub couplings: Vec<Coupling>,
     /// Force elements in file order.
     pub forces: Vec<Force>,
     /// Duty cycles in file order.
@@ -287,6 +293,10 @@ impl Mechanism {
     pub fn drives(&self) -> impl Iterator<Item = (JointId, &Drive)> {
         let joints = self.joints.iter().enumerate();
         joints.flat_map(|(at, joint)| joint.drives.iter().map(move |drive| (JointId::new(at), drive)))
+    }
+    /// Couplings that are rows.
+    pub fn rigid_couplings(&self) -> impl Iterator<Item = &Coupling> {
+        self.couplings.iter().filter(|coupling| coupling.compliance.is_none())
     }
     /// Takes the modes of all flexible bodies away: same mass, no deformation.
     pub fn freeze(&mut self) {

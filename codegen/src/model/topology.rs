@@ -1,12 +1,12 @@
 //! Which joints carry the bodies (the spanning tree) and which close loops (the cuts).
 //! In: [`Mechanism`]. Out: [`Topology`]. Never knows equations.
 //!
-//! The tree grows from the ground by the best joint at its rim: driven joints and those with clearance first (their
+//! The tree grows from the ground by the best joint at its rim: driven and coupled joints and those with clearance first (their
 //! coordinates are asked for, so they must be coordinates), then joints with start values, then those with more constraint
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
 
-use super::{Carrier, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
+use super::{Carrier, Closure, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::id::{BodyId, JointId};
 
@@ -17,7 +17,7 @@ type Class = (bool, bool, usize, bool);
 ///
 /// # Errors
 /// If a body can be reached only through joints that must be cut, if driven joints close a loop among
-/// themselves or must be cut, if a cut joint has a start value.
+/// themselves or must be cut, if a cut joint has a start value or is coupled.
 pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let classes: Vec<Class> = classes(mechanism);
     let may_carry: Vec<bool> = mechanism.joints.iter().map(|joint| !must_cut(mechanism, joint)).collect();
@@ -35,6 +35,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     faults.extend(unreached(mechanism, &depths));
     if faults.is_empty() {
         faults.extend(driven_loops(mechanism, &topology));
+        faults.extend(coupled_cuts(mechanism, &topology));
         faults.extend(starts_on_cuts(mechanism, &topology));
     }
     if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
@@ -76,17 +77,25 @@ fn best_step(
 fn classes(mechanism: &Mechanism) -> Vec<Class> {
     let mut started = vec![false; mechanism.joints.len()];
     mechanism.starts.iter().for_each(|start| started[start.joint.index()] = true);
-    let mentioned = mentioned(mechanism);
+    let (mentioned, coupled) = (mentioned(mechanism), coupled(mechanism));
     let class = |(position, joint): (usize, &Joint)| {
         let passive = !joint.passive.is_empty() || mentioned[position];
         (
-            joint.drives.is_empty() && joint.clearance.is_none(),
+            joint.drives.is_empty() && joint.clearance.is_none() && !coupled[position],
             !started[position],
             6 - joint.model.rows(),
             !passive,
         )
     };
     mechanism.joints.iter().enumerate().map(class).collect()
+}
+
+/// Joints whose coordinates occur in couplings.
+fn coupled(mechanism: &Mechanism) -> Vec<bool> {
+    let mut coupled = vec![false; mechanism.joints.len()];
+    let terms = mechanism.couplings.iter().flat_map(|coupling| &coupling.terms);
+    terms.for_each(|term| coupled[term.joint.index()] = true);
+    coupled
 }
 
 /// Joints whose coordinates occur in the formulas of forces.
@@ -195,6 +204,29 @@ fn driven_loops(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
         fault.help("leave one joint of the loop without a drive: its motion follows from the others")
     })
     .collect()
+}
+
+/// An angle across a cut is known up to whole turns only; a coupling counts them.
+fn coupled_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
+    let mut faults = Vec::new();
+    for coupling in mechanism.couplings.iter().filter(|_| mechanism.closure == Closure::Joint) {
+        let cut = coupling.terms.iter().find(|term| topology.cuts.contains(&term.joint));
+        let Some(joint) = cut.map(|term| mechanism.joint(term.joint)) else { continue };
+        let why = if must_cut(mechanism, joint) {
+            why_cut(mechanism, joint)
+        } else {
+            "all joints of its loop are driven, coupled or have clearance"
+        };
+        let message =
+            format!("joint `{}` is in the coupling `{}`, but is cut: {why}", joint.name, coupling.name);
+        faults.push(
+            Diagnostic::new(Code::CoupledCut, message)
+                .at(coupling.span, "")
+                .also(joint.span, "cut here")
+                .help("open the loop at a joint that is in no coupling: write `cut = true` there"),
+        );
+    }
+    faults
 }
 
 impl Topology {

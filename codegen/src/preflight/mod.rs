@@ -161,12 +161,12 @@ fn start_fault(
     }
 }
 
-/// 6 (bodies) minus what every joint takes away.
+/// 6 (bodies) minus what every joint and coupling takes away.
 fn grubler(mechanism: &Mechanism) -> i64 {
     let taken: usize = mechanism
         .joints
         .iter()
         .map(|joint| crate::derive::row_count(&joint.model, crate::model::Closure::Joint))
         .sum();
-    6 * mechanism.bodies.len() as i64 - taken as i64
+    6 * mechanism.bodies.len() as i64 - (taken + mechanism.rigid_couplings().count()) as i64
 }

@@ -259,7 +259,8 @@ fn loose(mechanism: &Mechanism, analysis: &Analysis) -> Option<Diagnostic> {
     let passive: usize = passive.map(|joint| joint.model.start_values().len()).sum();
     let started = mechanism.starts.iter().filter(|start| start.held).count();
     // An element may hold as many freedoms as a bushing does.
-    let meant = passive + started + 6 * mechanism.forces.len();
+    let springs = mechanism.couplings.iter().filter(|coupling| coupling.compliance.is_some()).count();
+    let meant = passive + started + springs + 6 * mechanism.forces.len();
     let free = analysis.mobility.saturating_sub(analysis.drivers.len() + analysis.idle.len() + play);
     if free <= meant {
         return None;

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::body::BodySpec;
+use super::coupling::CouplingSpec;
 use super::doc::Doc;
 use super::force::ForceSpec;
 use super::joint::JointSpec;
@@ -53,6 +54,9 @@ pub struct File {
     /// Joints between bodies or to the ground.
     /// [table]
     pub joints: Table<JointSpec>,
+    /// Gears, belts and other relations between joint coordinates.
+    /// [table]
+    pub couplings: Table<CouplingSpec>,
     /// Springs, forces and torques.
     /// [table]
     pub forces: Table<ForceSpec>,
@@ -301,6 +305,9 @@ tables! {
         /// Joints of a cell.
         /// [table]
         pub joints: Table<JointSpec>,
+        /// Couplings of a cell.
+        /// [table]
+        pub couplings: Table<CouplingSpec>,
         /// Forces of a cell.
         /// [table]
         pub forces: Table<ForceSpec>,

@@ -2,6 +2,7 @@
 //! In: a [`crate::source::SourceFile`]. Out: [`Spec`]. Never knows mechanics or ids.
 
 mod body;
+mod coupling;
 mod dimension;
 mod doc;
 mod failure;
@@ -26,6 +27,7 @@ mod written;
 pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
+pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
 pub use file::{
     CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable, RepeatSpec,

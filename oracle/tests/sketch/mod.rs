@@ -45,6 +45,7 @@ impl Sketch {
             bodies: Vec::new(),
             points: Vec::new(),
             joints: Vec::new(),
+            couplings: Vec::new(),
             forces: Vec::new(),
             closure: Closure::Joint,
             allowed: Vec::new(),

@@ -10,6 +10,7 @@ use super::joint_state::JointStates;
 use super::loads::Loads;
 
 mod ball_damper;
+mod coupling;
 mod elasticity;
 mod forces;
 mod joint;
@@ -32,6 +33,10 @@ pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrenc
         for passive in &data.passive {
             joint::JointElement { joint: JointId::new(index), passive }.add_to(&mut loads, g, state);
         }
+    }
+    for coupling in mechanism.couplings.iter().filter(|coupling| coupling.compliance.is_some()) {
+        g.begin_section(format!("coupling {}", coupling.name));
+        coupling.add_to(&mut loads, g, state);
     }
     for force in &mechanism.forces {
         g.begin_section(format!("force {}", force.name));

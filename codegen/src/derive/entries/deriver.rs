@@ -11,6 +11,7 @@ use super::names::{INPUT_RATES, variable_names};
 use crate::derive::accelerations::accelerations;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
+use crate::derive::couplings::{CouplingRow, coupling_rows};
 use crate::derive::elements::loads;
 use crate::derive::formula_to_expr::Inputs;
 use crate::derive::geometry::Geometry;
@@ -97,6 +98,7 @@ pub struct Instant<'g> {
     pub state: JointStates<'g>,
     pub loads: Loads<'g>,
     pub cuts: Vec<CutRows<'g>>,
+    pub couplings: Vec<CouplingRow<'g>>,
 }
 
 impl<'g> Instant<'g> {
@@ -157,7 +159,10 @@ impl<'g> Deriver<'g> {
     pub fn new(geometry: Geometry<'g>, given: Given<'g>, guide: Option<&Guide>) -> Self {
         let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
-        let keep = guide.map_or_else(|| vec![true; rows.sum()], |guide| guide.keep.clone());
+        let keep = guide.map_or_else(
+            || vec![true; rows.sum::<usize>() + mechanism.rigid_couplings().count()],
+            |guide| guide.keep.clone(),
+        );
         let drivers = drivers(&geometry);
         let names = variable_names(mechanism, linkage);
         let symbol = |name: &str, suffix: &str| g.symbol(name.replace('.', "_") + suffix);
@@ -262,7 +267,8 @@ impl<'g> Deriver<'g> {
         let state = JointStates { geometry, motion, q, v, v_dot, points_in_ground: true };
         let loads = loads(g, &state, &self.contacts);
         let cuts = cut_rows(&state.motion, exact, Sums::Links);
-        Instant { state, loads, cuts }
+        let couplings = coupling_rows(g, &state);
+        Instant { state, loads, cuts, couplings }
     }
 
     fn label_poses(&self, poses: &Poses<'g>, q: &[Expr<'g>]) {

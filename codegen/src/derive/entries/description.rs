@@ -6,9 +6,8 @@ use linkwear_runtime::{
     ParameterInfo, RowInfo, SegmentInfo, Sizes, VariableInfo,
 };
 
-use super::deriver::Deriver;
+use super::deriver::{Deriver, Instant};
 use super::names::{INPUT_RATES, variable_names};
-use crate::derive::closure::CutRows;
 use crate::derive::geometry::Geometry;
 use crate::derive::linkage::Freedom;
 use crate::derive::start::StartValues;
@@ -102,14 +101,21 @@ impl Deriver<'_> {
         (infos, roles)
     }
 
-    /// What the rows of all cuts forbid, and which of them are kept, by index among the kept ones.
-    pub(super) fn row_infos(&self, cuts: &[CutRows<'_>]) -> Vec<RowInfo> {
+    /// What the rows of all cuts and couplings forbid, and which of them are kept, by index among the kept ones.
+    pub(super) fn row_infos(&self, instant: &Instant<'_>) -> Vec<RowInfo> {
+        let mechanism = self.geometry.mechanism;
         let mut kept = 0;
-        cuts.iter()
-            .flat_map(|cut| cut.rows.iter().map(move |row| (cut.cut.joint, row)))
+        let of_cuts = instant.cuts.iter().flat_map(|cut| {
+            let name = &mechanism.joint(cut.cut.joint).name;
+            cut.rows.iter().map(move |row| (name, row))
+        });
+        let names = mechanism.rigid_couplings().map(|coupling| &coupling.name);
+        let of_couplings = names.zip(instant.couplings.iter().map(|coupling| &coupling.row));
+        of_cuts
+            .chain(of_couplings)
             .zip(&self.keep)
-            .map(|((joint, row), keep)| RowInfo {
-                joint: self.geometry.mechanism.joint(joint).name.clone().into(),
+            .map(|((name, row), keep)| RowInfo {
+                joint: name.clone().into(),
                 meaning: row.meaning.clone().into(),
                 angular: row.angular,
                 kept: keep.then(|| {

@@ -107,7 +107,7 @@ impl<'g> Deriver<'g> {
                 rates: &instant.state.v_dot,
                 masses,
                 loads: &instant.loads,
-                rows: &kept_rows(motion, cuts, &self.keep),
+                rows: &kept_rows(motion, (cuts, &instant.couplings), &self.keep),
                 partition: &self.partition,
             };
             let forward = forward(&problem, &self.jacobians);
@@ -180,9 +180,10 @@ impl<'g> Deriver<'g> {
         let instant = self.instant(self.driven_state(&[]), true);
         let free = &self.partition.free;
         let by = |cuts: &[CutRows<'g>]| {
-            let all: Vec<Expr<'g>> =
-                cuts.iter().flat_map(|cut| cut.rows.iter().map(|row| row.residual)).collect();
-            let rows = kept_rows(&instant.state.motion, cuts, &self.keep);
+            let of_cuts = cuts.iter().flat_map(|cut| &cut.rows);
+            let of_couplings = instant.couplings.iter().map(|coupling| &coupling.row);
+            let all: Vec<Expr<'g>> = of_cuts.chain(of_couplings).map(|row| row.residual).collect();
+            let rows = kept_rows(&instant.state.motion, (cuts, &instant.couplings), &self.keep);
             let rates: Vec<Expr<'g>> = rows.iter().map(|kept| kept.row.rate).collect();
             let jacobian: Vec<Expr<'g>> =
                 rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
@@ -201,7 +202,7 @@ impl<'g> Deriver<'g> {
                 .cites("[CS (3)]"),
         ];
         let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&instant.cuts))
+        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&instant))
     }
 
     fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
@@ -282,7 +283,7 @@ impl<'g> Deriver<'g> {
         let fixed = solved.is_some_and(|solved| solved.rows_fix_all);
         let forces = std::cell::OnceCell::new();
         let by = |cuts: &[CutRows<'g>]| {
-            let rows: Vec<_> = kept_rows(motion, cuts, &all)
+            let rows: Vec<_> = kept_rows(motion, (cuts, &instant.couplings), &all)
                 .into_iter()
                 .map(|kept| {
                     let Bias { whole, closed } = kept.row.bias;

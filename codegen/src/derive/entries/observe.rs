@@ -8,6 +8,7 @@ use super::deriver::{Deriver, Instant};
 use super::names::{number_among, units};
 use crate::derive::attachment::{NodePose, NodeShape};
 use crate::derive::closure::CutRows;
+use crate::derive::couplings::{Multiplied, given, mesh_wrenches};
 use crate::derive::dynamics::joint_wrenches;
 use crate::derive::joint_markers::joint_links;
 use crate::derive::link_mass::LinkMass;
@@ -219,6 +220,21 @@ impl<'a, 'g> Channels<'a, 'g> {
                 }
             }
         }
+        for (coupling, multiplier) in geometry.mechanism.couplings.iter().zip(self.coupling_forces()) {
+            geometry.g.begin_section(format!("force of {}", coupling.name));
+            let by = Multiplied::new(multiplier);
+            for column in &coupling.columns {
+                self.push(format!("{}.{}", coupling.name, column.name), column.unit, by.number(column.value));
+            }
+            // What others give way with is among the loads.
+            let wrenches =
+                if coupling.compliance.is_none() { mesh_wrenches(state, coupling, &by) } else { Vec::new() };
+            for (link, wrench) in wrenches {
+                if let Some(at) = link {
+                    external[at] += wrench;
+                }
+            }
+        }
         geometry.g.begin_section("joint wrenches, from the leaves of the tree to its root");
         let transmitted = joint_wrenches(&state.motion, masses, &external);
         for (index, joint) in geometry.mechanism.joints.iter().enumerate() {
@@ -238,7 +254,21 @@ impl<'a, 'g> Channels<'a, 'g> {
         }
     }
 
-    /// Wrench by parent on child in W at the child's joint point, without the drives.
+    /// Forces of all couplings: multipliers, whose rows are behind those of the cuts, and what others give way with.
+    fn coupling_forces(&self) -> Vec<Expr<'g>> {
+        let (g, state) = (self.deriver.geometry.g, &self.instant.state);
+        let lambda = &self.deriver.lambda;
+        let mut multipliers = lambda[lambda.len() - self.instant.couplings.len()..].iter();
+        let couplings = self.deriver.geometry.mechanism.couplings.iter();
+        couplings
+            .filter_map(|coupling| match &coupling.compliance {
+                Some(law) => Some(given(g, state, coupling, law).force),
+                None => multipliers.next().copied(),
+            })
+            .collect()
+    }
+
+    /// Wrench by parent on child in W at the child's joint point, without the drives and the forces of relations.
     fn tree_wrench(&self, joint: JointId, at: usize, total: Wrench<'g>) -> [Vec3<'g>; 2] {
         let (poses, geometry) = (&self.instant.state.motion.poses, self.deriver.geometry);
         let linkage = geometry.linkage;
@@ -262,6 +292,18 @@ impl<'a, 'g> Channels<'a, 'g> {
             match linkage.links[link].freedom {
                 Freedom::Translation { axis } => force -= along(axis),
                 _ => moment -= along([0.0, 0.0, 1.0]),
+            }
+        }
+        for (coupling, multiplier) in geometry.mechanism.couplings.iter().zip(self.coupling_forces()) {
+            let felt = coupling.meshes.is_empty();
+            for term in coupling.terms.iter().filter(|term| felt && term.joint == joint) {
+                let Some(link) = linkage.link_of_coordinate(joint, term.coordinate) else { continue };
+                let amount = multiplier * self.instant.state.lower(geometry.g, &term.factor);
+                let along = |axis: [f64; 3]| amount * (poses.world[link].rotation * geometry.g.vector(axis));
+                match linkage.links[link].freedom {
+                    Freedom::Translation { axis } => force -= along(axis),
+                    _ => moment -= along([0.0, 0.0, 1.0]),
+                }
             }
         }
         // The child of a reversed joint feels the opposite.

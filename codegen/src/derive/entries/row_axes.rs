@@ -61,7 +61,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let masses = deriver.masses();
     let instant = deriver.instant(deriver.driven_state(&[]), false);
     let (motion, partition) = (&instant.state.motion, &deriver.partition);
-    let mut rows = kept_rows(motion, &instant.cuts, &deriver.keep);
+    let mut rows = kept_rows(motion, (&instant.cuts, &instant.couplings), &deriver.keep);
     // In a plane, rows out of it say nothing.
     rows.retain(|kept| partition.free.iter().any(|speed| !kept.jacobian[*speed].is_zero()));
     let entry = |row: usize, speed: usize| rows[row].jacobian[partition.free[speed]];

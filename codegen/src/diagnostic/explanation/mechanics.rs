@@ -167,4 +167,47 @@ idle = { share = 0.3 }"#,
 press = { share = 0.5 }
 idle = { share = "rest" }"#,
     },
+    Explanation {
+        code: Code::BadCoupling,
+        file: File::Swing,
+        text: "A coupling whose wheels do not fit together: tooth numbers that are not whole, axes that are not as its kind \
+               needs them, a centre distance that module and teeth do not have, wheels whose axes no body carries. Signs and \
+               radii follow from the drawing, so the drawing must be right. `docs/couplings.md` has every kind.",
+        wrong: r#"spec = 1
+name = "gears"
+gravity = [0, 0, 0]
+
+[points]
+A = [0, 0, 0]
+B = ["80 mm", 0, 0]
+
+[bodies]
+pinion = { mass = "0.2 kg", centre = "A", inertia = ["1e-4 kg m^2", "1e-4 kg m^2", "1e-4 kg m^2"] }
+wheel = { mass = "1 kg", centre = "B", inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"] }
+
+[joints]
+R1 = { revolute = ["ground", "pinion"], at = "A", axis = [0, 0, 1] }
+R2 = { revolute = ["ground", "wheel"], at = "B", axis = [0, 0, 1] }
+
+[couplings]
+mesh = { gears = ["pinion", "wheel"], teeth = [20, 60], module = "2.5 mm" }"#,
+        right: r#"spec = 1
+name = "gears"
+gravity = [0, 0, 0]
+
+[points]
+A = [0, 0, 0]
+B = ["80 mm", 0, 0]
+
+[bodies]
+pinion = { mass = "0.2 kg", centre = "A", inertia = ["1e-4 kg m^2", "1e-4 kg m^2", "1e-4 kg m^2"] }
+wheel = { mass = "1 kg", centre = "B", inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"] }
+
+[joints]
+R1 = { revolute = ["ground", "pinion"], at = "A", axis = [0, 0, 1] }
+R2 = { revolute = ["ground", "wheel"], at = "B", axis = [0, 0, 1] }
+
+[couplings]
+mesh = { gears = ["pinion", "wheel"], teeth = [20, 60], module = "2 mm" }"#,
+    },
 ];

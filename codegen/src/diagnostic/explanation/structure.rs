@@ -79,4 +79,22 @@ R3 = "40 deg""#,
         right: r#"[assembly]
 R4 = "10 deg""#,
     },
+    Explanation {
+        code: Code::CoupledCut,
+        file: File::FourBar,
+        text: "A joint in a coupling must be cut. Across a cut an angle is known up to whole turns only, and a coupling counts \
+               turns. Open the loop at a joint that is in no coupling.",
+        wrong: r#"[bodies]
+disc = { mass = "1 kg", centre = "O", inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"] }
+[joints]
+RD = { revolute = ["ground", "disc"], at = "O", axis = [0, 0, 1] }
+[couplings]
+follow = { relation = { RD = 1, R3 = 2 } }"#,
+        right: r#"[bodies]
+disc = { mass = "1 kg", centre = "O", inertia = ["1e-3 kg m^2", "1e-3 kg m^2", "1e-3 kg m^2"] }
+[joints]
+RD = { revolute = ["ground", "disc"], at = "O", axis = [0, 0, 1] }
+[couplings]
+follow = { relation = { RD = 1, R4 = 2 } }"#,
+    },
 ];

@@ -178,7 +178,13 @@ impl Resolver<'_> {
     }
 
     /// The coordinate that `key` names: none, `q`, or `q1` to `q3`.
-    fn coordinate(&mut self, key: &str, model: &JointModel, span: Span, what: &str) -> Option<usize> {
+    pub(super) fn coordinate(
+        &mut self,
+        key: &str,
+        model: &JointModel,
+        span: Span,
+        what: &str,
+    ) -> Option<usize> {
         let count = model.coordinates().len();
         let number = key.strip_prefix('q').and_then(|number| number.parse::<usize>().ok());
         let found = match number {

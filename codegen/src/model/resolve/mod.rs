@@ -6,9 +6,13 @@
 
 mod advice;
 mod beam;
+mod belt;
 mod bodies;
 mod clearance;
+mod coaxial;
 mod connect;
+mod coupling_numbers;
+mod couplings;
 mod flexible;
 mod forces;
 mod inertia;
@@ -16,6 +20,7 @@ mod inputs;
 mod joint_model;
 mod joints;
 mod lookup;
+mod mesh;
 mod missions;
 mod modal_start;
 mod names;
@@ -30,6 +35,7 @@ mod starts;
 mod surface;
 mod term;
 mod turns;
+mod wheels;
 
 pub use overrides::{OverrideError, Overrides};
 
@@ -99,9 +105,10 @@ impl Resolver<'_> {
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);
         let missions = self.resolve_missions(&file, &joints);
+        let couplings = self.resolve_couplings(&file, &joints, &bodies);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
-        self.find_carriers(&file, &bodies, &joints, &forces);
+        self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
         self.resolve_flexible(&file, &mut bodies, &joints, &forces);
         self.check_connected(&file, &joints);
         self.warn_unused(written);
@@ -112,6 +119,7 @@ impl Resolver<'_> {
             bodies,
             points: std::mem::take(&mut self.points),
             joints,
+            couplings,
             forces,
             missions,
             closure: file.closure.unwrap_or_default(),

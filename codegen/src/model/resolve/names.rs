@@ -24,6 +24,7 @@ pub(super) enum Thing {
     Point(PointId),
     Body(BodyId),
     Joint(JointId),
+    Coupling,
     Force,
 }
 
@@ -35,6 +36,7 @@ impl Thing {
             Self::Point(_) => "point",
             Self::Body(_) => "body",
             Self::Joint(_) => "joint",
+            Self::Coupling => "coupling",
             Self::Force => "force",
         }
     }
@@ -87,6 +89,7 @@ impl Names {
         self.declare_table(&file.points, |at| Thing::Point(PointId::new(at)), faults);
         self.declare_table(&file.bodies, |at| Thing::Body(BodyId::new(at)), faults);
         self.declare_table(&file.joints, |at| Thing::Joint(JointId::new(at)), faults);
+        self.declare_table(&file.couplings, |_| Thing::Coupling, faults);
         self.declare_table(&file.forces, |_| Thing::Force, faults);
         self.foreseen.clear();
     }
@@ -122,7 +125,7 @@ impl Names {
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, inputs, points, bodies, joints and forces share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints, couplings and forces share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;

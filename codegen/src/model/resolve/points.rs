@@ -4,7 +4,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Force, Formula, Joint, Point, Position};
+use crate::model::{Body, Carrier, Coupling, Force, Formula, Joint, Point, Position};
 use crate::source::Span;
 use crate::spec::{At, Dimension, File, Name, PerBody, PointSpec, Table, Triple};
 
@@ -99,8 +99,14 @@ impl Resolver<'_> {
     }
 
     /// The body whose material point each point is: the one written, else the first body described with it, else the
-    /// child of the first joint there, else the ground.
-    pub(super) fn find_carriers(&mut self, file: &File, bodies: &[Body], joints: &[Joint], forces: &[Force]) {
+    /// child of the first joint there, else what carries the axes of wheels that mesh there, else the ground.
+    pub(super) fn find_carriers(
+        &mut self,
+        file: &File,
+        bodies: &[Body],
+        joints: &[Joint],
+        (forces, couplings): (&[Force], &[Coupling]),
+    ) {
         for position in 0..self.points.len() {
             if file.points.0.get(position).is_some_and(|(_, point)| point.value.on.is_some()) {
                 continue;
@@ -123,7 +129,9 @@ impl Resolver<'_> {
                 let is_parents = joint.child == Carrier::Ground || (on_parent != on_child && on_parent == id);
                 Some(if is_parents { joint.parent } else { joint.child })
             };
-            let found = body.or_else(joint);
+            let meshes = couplings.iter().filter(|coupling| coupling.at == Some(id));
+            let mesh = || meshes.flat_map(|coupling| &coupling.meshes).next().map(|side| side.carrier);
+            let found = body.or_else(joint).or_else(mesh);
             let held =
                 |force: &Force| force.at.iter().zip(&force.bodies).any(|end| end == (&id, &Carrier::Ground));
             if found.is_none() && !bodies.is_empty() && !forces.iter().any(held) && !self.has_errors() {
