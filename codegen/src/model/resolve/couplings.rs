@@ -8,7 +8,7 @@ use super::resolver::Resolver;
 use super::wheels::{Draft, Seating, terms};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, PointId};
-use crate::model::{Body, Carrier, Coupling, ForceColumn, Formula, Joint, MeshSide};
+use crate::model::{Carrier, Coupling, ForceColumn, Formula, Joint, MeshSide};
 use crate::source::Span;
 use crate::spec::{At, COMPLIANCE_KEYS, COUPLING_KINDS, Dimension, File, Name};
 
@@ -18,12 +18,7 @@ const TOOTH: [&str; 3] = ["Ft", "Fr", "Fa"];
 const BELT: [&str; 3] = ["Ft", "F1", "F2"];
 
 impl Resolver<'_> {
-    pub(super) fn resolve_couplings(
-        &mut self,
-        file: &File,
-        joints: &[Joint],
-        bodies: &[Body],
-    ) -> Vec<Coupling> {
+    pub(super) fn resolve_couplings(&mut self, file: &File, joints: &[Joint]) -> Vec<Coupling> {
         let mut couplings = Vec::new();
         // Wrong joints have places and axes that nobody drew.
         let is_drawn = !self.has_errors();
@@ -34,7 +29,7 @@ impl Resolver<'_> {
                 (Some(kind), None) => {
                     let draft = Draft { kind, name, spec, file, joints };
                     if self.has_its_keys(&draft, coupling.span) && is_drawn {
-                        couplings.extend(self.coupling(&draft, bodies));
+                        couplings.extend(self.coupling(&draft));
                     }
                 }
                 (None, _) => {
@@ -77,12 +72,11 @@ impl Resolver<'_> {
         complete
     }
 
-    fn coupling(&mut self, draft: &Draft<'_>, bodies: &[Body]) -> Option<Coupling> {
+    fn coupling(&mut self, draft: &Draft<'_>) -> Option<Coupling> {
         let Some(names) = draft.kind.bodies.and_then(|bodies| bodies(draft.spec)) else {
             return self.relation(draft, draft.spec.relation.as_ref()?);
         };
         let wheels = self.wheels(draft, names)?;
-        debug_assert!(wheels.iter().all(|wheel| wheel.index() < bodies.len()));
         if draft.kind.count == 3 { self.coaxial(draft, &wheels) } else { self.pair(draft, &wheels) }
     }
 

@@ -105,7 +105,7 @@ impl Resolver<'_> {
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);
         let missions = self.resolve_missions(&file, &joints);
-        let couplings = self.resolve_couplings(&file, &joints, &bodies);
+        let couplings = self.resolve_couplings(&file, &joints);
         let forces = self.resolve_forces(&file.forces);
         let starts = self.resolve_starts(&file, &joints);
         self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
