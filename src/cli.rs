@@ -18,6 +18,7 @@ mod fit;
 mod fmu;
 mod generate;
 mod identify;
+mod import;
 mod input;
 mod life;
 mod merge;
@@ -94,6 +95,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Plan(arguments) => plan::run(arguments),
         Command::Fit(arguments) => fit::run(arguments),
         Command::New(arguments) => new::run(arguments),
+        Command::Import(arguments) => import::run(arguments),
         Command::Diff(arguments) => diff::run(arguments),
         Command::Explain { code } => explain::run(code),
         Command::Schema { output } => Ok(packaging::schema(*output)),

@@ -28,6 +28,8 @@ pub mod files;
 pub mod fmu;
 pub mod identify;
 #[cfg(feature = "cli")]
+pub mod import;
+#[cfg(feature = "cli")]
 pub mod inputs;
 pub mod journal;
 pub mod life;

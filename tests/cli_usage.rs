@@ -20,6 +20,7 @@ fn help_of_every_subcommand_has_an_example() {
         "fit",
         "plan",
         "predict",
+        "import",
         "new",
         "fmu",
         "diff",

@@ -136,6 +136,11 @@ pub enum Command {
     #[command(after_help = "Examples:\n  linkwear new four_bar && linkwear check four_bar.toml\n  \
                       linkwear new press --starter slider-crank && linkwear life press.toml")]
     New(NewArguments),
+    /// Make a mechanism file of a robot's URDF; what is not carried over is listed.
+    #[command(
+        after_help = "Example:\n  linkwear import examples/data/arm.urdf --out arm.toml && linkwear check arm.toml"
+    )]
+    Import(ImportArguments),
     /// Say what two results of one kind, or two mechanism files, have different, and by how much.
     #[command(
         after_help = "Examples:\n  linkwear diff coarse.csv fine.csv --tolerance 1e-3\n  linkwear diff before.json after.json\n  \
@@ -349,6 +354,18 @@ pub struct NewArguments {
     /// What to start from.
     #[arg(long, value_name = "KIND", value_enum, default_value_t = Starter::FourBar)]
     pub starter: Starter,
+}
+
+#[derive(Debug, Args)]
+pub struct ImportArguments {
+    /// Robot (URDF; of a xacro file what `xacro` makes of it).
+    pub file: PathBuf,
+    /// Where the mechanism file goes; one that is there is not replaced.
+    #[arg(short, long, value_name = "FILE.toml", value_parser = output())]
+    pub out: PathBuf,
+    /// Let the root link move freely, as that of a robot that walks or flies; without it is the ground.
+    #[arg(long)]
+    pub floating: bool,
 }
 
 #[cfg(test)]

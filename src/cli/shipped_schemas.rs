@@ -8,7 +8,7 @@ macro_rules! schemas {
 }
 
 /// The schemas of all outputs.
-pub const SCHEMAS: [(&str, &str); 24] = schemas![
+pub const SCHEMAS: [(&str, &str); 25] = schemas![
     "check",
     "equations",
     "cost",
@@ -27,6 +27,7 @@ pub const SCHEMAS: [(&str, &str); 24] = schemas![
     "predict",
     "diff",
     "explain",
+    "import",
     "new",
     "completions",
     "man",

@@ -145,6 +145,7 @@ fn equations_and_code_are_as_told() {
     for words in ["report", "view", "draw"] {
         asked(&[words, PENDULUM, "--out", &folder.path(words)]);
     }
+    asked(&["import", "examples/data/arm.urdf", "--out", &folder.path("arm.toml")]);
     asked(&["completions", "bash"]);
     asked(&["man"]);
     held("new", &folder.linkwear(&["new", "fresh", "--format", "json"]).json(), "new");

@@ -213,6 +213,22 @@ pub struct NewAnswer {
     pub next: Vec<String>,
 }
 
+/// A mechanism file made from another format.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct ImportAnswer {
+    /// The file.
+    pub file: String,
+    /// Name of the mechanism.
+    pub name: String,
+    /// Its bodies.
+    pub bodies: usize,
+    /// Its joints.
+    pub joints: usize,
+    /// What was not carried over, or was changed on the way.
+    pub left_out: Vec<String>,
+}
+
 /// Manual pages.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]

@@ -44,6 +44,7 @@ fn outputs() -> Vec<(&'static str, Value)> {
         ("predict", schema::<predict::PredictAnswer<'_>>("predict", true)),
         ("diff", schema::<diff::DiffAnswer>("diff", false)),
         ("explain", schema::<explain::ExplainAnswer>("explain", false)),
+        ("import", schema::<equations::ImportAnswer>("import", false)),
         ("new", schema::<equations::NewAnswer>("new", false)),
         ("completions", schema::<equations::TextAnswer>("completions", false)),
         ("man", schema::<equations::PagesAnswer>("man", false)),

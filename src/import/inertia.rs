@@ -1,0 +1,121 @@
+//! Links that are fixed to each other as one body. In: a robot. Out: bodies with mass, centre and inertia in the root's frame. Never
+//! knows text.
+
+use super::error::ImportError;
+use super::place::Matrix;
+use super::robot::{Base, Kind, Mass, Robot};
+
+/// Links that move as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// The link nearest to the root, after which the body is called.
+    pub first: usize,
+    /// All together, in the root's frame; None without mass.
+    pub mass: Option<Mass>,
+}
+
+/// Bodies and which link belongs to which; the first body is that of the root.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bodies {
+    pub bodies: Vec<Body>,
+    /// By link: its body; None for one that is left out.
+    pub of_link: Vec<Option<usize>>,
+}
+
+/// The bodies that move. One without mass that carries nothing is left out; one that carries something is a fault.
+pub fn merged(robot: &Robot, base: Base, left_out: &mut Vec<String>) -> Result<Bodies, ImportError> {
+    let places = robot.places();
+    let mut own = vec![0; robot.links.len()];
+    let mut bodies = vec![Body { first: robot.root, mass: None }];
+    let mut fixed = Vec::new();
+    for at in robot.order() {
+        let joint = &robot.joints[at];
+        own[joint.child] = match joint.kind {
+            Kind::Fixed => {
+                fixed
+                    .push(format!("{} to {}", robot.links[joint.child].name, robot.links[joint.parent].name));
+                own[joint.parent]
+            }
+            _ => {
+                bodies.push(Body { first: joint.child, mass: None });
+                bodies.len() - 1
+            }
+        };
+    }
+    for (link, place) in places.iter().enumerate() {
+        let Some(mass) = robot.links[link].mass else { continue };
+        let moved =
+            Mass { mass: mass.mass, centre: place.point(mass.centre), inertia: place.tensor(&mass.inertia) };
+        let body = &mut bodies[own[link]];
+        body.mass = Some(body.mass.map_or(moved, |before| together(&before, &moved)));
+    }
+    if !fixed.is_empty() {
+        left_out.push(format!(
+            "fixed joints, {}: their links are one body ({})",
+            fixed.len(),
+            shortened(&fixed)
+        ));
+    }
+    let parent = |body: usize| {
+        robot.joints.iter().find(|joint| joint.child == bodies[body].first).map(|joint| own[joint.parent])
+    };
+    let mut kept = vec![true; bodies.len()];
+    // Children come behind their parents.
+    for body in (0..bodies.len()).rev().filter(|body| bodies[*body].mass.is_none()) {
+        if body == 0 && base == Base::Fixed {
+            continue;
+        }
+        let link = &robot.links[bodies[body].first];
+        let carries = (body + 1..bodies.len()).any(|other| kept[other] && parent(other) == Some(body));
+        if carries || body == 0 {
+            let message = format!("link `{}` moves and has no mass", link.name);
+            let cure = if body == 0 {
+                "give it an <inertial>, or hold it: without --floating it is the ground"
+            } else {
+                "give it an <inertial> with its mass and inertia"
+            };
+            return Err(ImportError::new(link.line, message, cure));
+        }
+        kept[body] = false;
+        left_out.push(format!("{}: a link without mass that carries nothing, with its joint", link.name));
+    }
+    if base == Base::Fixed && bodies[0].mass.is_some() {
+        left_out.push(format!(
+            "mass of {}: the root is the ground (--floating lets it move)",
+            robot.links[robot.root].name
+        ));
+    }
+    let mut number = Vec::new();
+    let mut next = 0;
+    for is_kept in &kept {
+        number.push(is_kept.then_some(next));
+        next += usize::from(*is_kept);
+    }
+    let bodies = bodies.into_iter().zip(&kept).filter(|(_, kept)| **kept).map(|(body, _)| body).collect();
+    Ok(Bodies { bodies, of_link: own.into_iter().map(|body| number[body]).collect() })
+}
+
+/// The first of many.
+fn shortened(names: &[String]) -> String {
+    let most = 6;
+    let more = if names.len() > most { ", .." } else { "" };
+    format!("{}{more}", names[..names.len().min(most)].join(", "))
+}
+
+/// Two masses as one: Steiner's theorem.
+fn together(a: &Mass, b: &Mass) -> Mass {
+    let mass = a.mass + b.mass;
+    let centre = std::array::from_fn(|i| (a.mass * a.centre[i] + b.mass * b.centre[i]) / mass);
+    let about = |part: &Mass| -> Matrix {
+        let d: [f64; 3] = std::array::from_fn(|i| part.centre[i] - centre[i]);
+        let square: f64 = d.iter().map(|x| x * x).sum();
+        let more = |i: usize, j: usize| part.mass * (if i == j { square } else { 0.0 } - d[i] * d[j]);
+        std::array::from_fn(|i| std::array::from_fn(|j| part.inertia[i][j] + more(i, j)))
+    };
+    let (first, second) = (about(a), about(b));
+    Mass {
+        mass,
+        centre,
+        inertia: std::array::from_fn(|i| std::array::from_fn(|j| first[i][j] + second[i][j])),
+    }
+}

@@ -1,0 +1,128 @@
+//! Robots against what their elements mean, and files that are none.
+
+use linkwear_codegen::{Options, SourceFile, compile};
+
+use super::*;
+
+const ARM: &str = include_str!("../../examples/data/arm.urdf");
+
+/// One link on a joint, and what else stands within the joint.
+fn one(kind: &str, link: &str, joint: &str) -> String {
+    let sides = r#"<parent link="a"/><child link="b"/>"#;
+    format!(
+        "<robot name=\"one\">\n<link name=\"a\"/>\n<link name=\"b\">{link}</link>\n<joint name=\"j\" type=\"{kind}\">{sides}{joint}</joint>\n</robot>\n"
+    )
+}
+
+const MASS: &str = r#"<inertial><mass value="2"/><inertia ixx="0.1" iyy="0.1" izz="0.1"/></inertial>"#;
+
+fn compiled(text: &str) -> linkwear_codegen::Compiled {
+    let source = SourceFile { name: "made.toml".to_owned(), text: text.to_owned() };
+    compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+#[test]
+fn joints_of_every_type_are_mechanisms() {
+    for (kind, made) in [
+        ("revolute", "revolute = [\"ground\", \"b\"]"),
+        ("continuous", "revolute = [\"ground\", \"b\"]"),
+        ("prismatic", "prismatic = [\"ground\", \"b\"]"),
+        ("planar", "planar = [\"ground\", \"b\"]"),
+        ("floating", "free = [\"ground\", \"b\"]"),
+    ] {
+        let found = from_urdf(&one(kind, MASS, ""), Base::Fixed).expect("a robot");
+        assert!(found.text.contains(made), "{kind}: {}", found.text);
+        assert_eq!((found.bodies, found.joints), (1, 1));
+        compiled(&found.text);
+    }
+}
+
+#[test]
+fn the_shipped_arm_compiles_held_and_floating() {
+    let held = from_urdf(ARM, Base::Fixed).expect("a robot");
+    assert_eq!((held.bodies, held.joints), (7, 7));
+    compiled(&held.text);
+    let floating = from_urdf(ARM, Base::Floating).expect("a robot");
+    assert_eq!((floating.bodies, floating.joints), (8, 8));
+    assert!(floating.text.contains("free = [\"ground\", \"world\"]"), "{}", floating.text);
+    compiled(&floating.text);
+    for what in ["friction of shoulder_pan", "<visual>, 9 times", "fixed joints, 3", "limits of 7", "gravity"]
+    {
+        assert!(held.left_out.iter().any(|line| line.contains(what)), "{what}: {:?}", held.left_out);
+    }
+}
+
+/// Two halves of a bar fixed to each other are the bar.
+#[test]
+fn links_that_are_fixed_to_each_other_are_one_body() {
+    let half = |name: &str, mass: f64| {
+        // A thin bar of 1 m along x, from the origin of its link.
+        let turn = mass / 12.0;
+        format!(
+            "<link name=\"{name}\"><inertial><origin xyz=\"0.5 0 0\"/><mass value=\"{mass}\"/><inertia ixx=\"1e-6\" iyy=\"{turn}\" izz=\"{turn}\"/></inertial></link>\n"
+        )
+    };
+    let text = format!(
+        "<robot name=\"bar\"><link name=\"world\"/>{}{}<joint name=\"j\" type=\"continuous\"><parent link=\"world\"/><child link=\"near\"/><axis xyz=\"0 0 1\"/></joint>\n\
+         <joint name=\"f\" type=\"fixed\"><parent link=\"near\"/><child link=\"far\"/><origin xyz=\"1 0 0\"/></joint></robot>",
+        half("near", 3.0),
+        half("far", 3.0)
+    );
+    let found = from_urdf(&text, Base::Fixed).expect("a robot");
+    // 6 kg, 2 m: m l^2 / 12 = 2.
+    assert!(found.text.contains("mass = \"6 kg\", centre = [\"1.0 m\", 0, 0]"), "{}", found.text);
+    assert!(found.text.contains("\"2.0 kg m^2\", \"2.0 kg m^2\""), "{}", found.text);
+}
+
+#[test]
+fn files_that_are_no_robots_are_refused_with_line_and_cure() {
+    let deep = "<a>".repeat(100_000);
+    let loops = "<robot name=\"r\"><link name=\"a\"/>\n<link name=\"b\"/><link name=\"c\"/><joint name=\"j\" type=\"fixed\"><parent link=\"b\"/><child link=\"c\"/></joint>\
+                 <joint name=\"k\" type=\"fixed\"><parent link=\"c\"/><child link=\"b\"/></joint></robot>";
+    let cases: Vec<(String, &str, usize)> = vec![
+        (String::new(), "no XML", 1),
+        ("<robot>\n<link></robot>".to_owned(), "no XML", 2),
+        (deep, "no XML", 1),
+        ("<mujoco/>".to_owned(), "not of <robot>", 1),
+        ("<robot/>".to_owned(), "no links", 1),
+        (loops.to_owned(), "circle", 1),
+        ("<robot name=\"r\">\n<link/></robot>".to_owned(), "no `name`", 2),
+        (one("hinge", MASS, ""), "type \"hinge\"", 4),
+        (one("revolute", "", "") + " ", "left", 0),
+        (one("revolute", &MASS.replace("\"2\"", "\"-2\""), ""), "mass of link `b` is -2", 3),
+        (one("revolute", &MASS.replace("\"2\"", "\"nan\""), ""), "\"nan\"", 3),
+        (one("revolute", &MASS.replace("\"2\"", "\"0\""), ""), "inertia and no mass", 3),
+        (one("revolute", MASS, "<axis xyz=\"0 0 0\"/>"), "0 0 0", 4),
+        (one("revolute", MASS, "<axis xyz=\"0 1\"/>"), "is \"0 1\"", 4),
+        (one("revolute", MASS, "<dynamics damping=\"-1\"/>"), "damping", 4),
+        (one("revolute", MASS, "").replace("child link=\"b\"", "child link=\"c\""), "not in the file", 4),
+        ("<!DOCTYPE r [<!ENTITY a \"b\">]><robot/>".to_owned(), "no XML", 1),
+    ];
+    for (text, told, line) in cases {
+        match from_urdf(&text, Base::Fixed) {
+            // A link without mass that carries nothing: no fault, and told.
+            Ok(found) => assert!(line == 0 && found.bodies == 0, "{text}"),
+            Err(error) => {
+                assert!(error.message.contains(told) && error.line == line, "{told}: {error:?}");
+                assert!(!error.cure.is_empty());
+            }
+        }
+    }
+    let carries = ARM.replace("<mass value=\"2.33\"/>", "<mass value=\"0\"/>");
+    let error = from_urdf(&carries, Base::Fixed).expect_err("no mass");
+    assert!(error.message.contains("forearm"), "{error:?}");
+}
+
+#[test]
+fn cut_and_mutated_files_are_answered() {
+    // A letter of one file in another place: 2000 of them, by a step that meets all parts.
+    let bytes = ARM.as_bytes();
+    for at in 0..2000 {
+        let mut text = bytes.to_vec();
+        let (to, from) = ((at * 7919) % text.len(), (at * 104_729) % text.len());
+        text[to] = bytes[from];
+        let text = String::from_utf8_lossy(&text);
+        let _ = from_urdf(&text, Base::Fixed);
+        let _ = from_urdf(&text[..text.floor_char_boundary(to)], Base::Floating);
+    }
+}
