@@ -5,7 +5,7 @@ use super::inertia::{between, cross, distance, dot};
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId};
-use crate::model::{Carrier, CoupledCoordinate, Formula, Joint};
+use crate::model::{Carrier, CoupledCoordinate, Formula, Joint, Look};
 use crate::spec::{CouplingKind, CouplingSpec, Dimension, File, Name};
 
 /// A coupling that is being resolved.
@@ -64,10 +64,11 @@ pub(super) enum Seating {
 }
 
 impl Seating {
-    const fn kind(self) -> &'static str {
+    /// Whether a joint leaves this motion and no other.
+    fn is_left_by(self, joint: &Joint) -> bool {
         match self {
-            Self::Turns => "revolute",
-            Self::Slides => "prismatic",
+            Self::Turns => joint.model.is_hinge(),
+            Self::Slides => joint.model.kind.look() == Look::Slider,
         }
     }
 }
@@ -78,7 +79,7 @@ impl Resolver<'_> {
         let size = self.drawing_size(joints);
         let own = (0..joints.len()).filter(|at| {
             let joint = &joints[*at];
-            joint.model.kind.name == seating.kind() && side_of(joint, Carrier::Body(body)).is_some()
+            seating.is_left_by(joint) && side_of(joint, Carrier::Body(body)).is_some()
         });
         let mut seats = Vec::new();
         for at in own {
@@ -92,12 +93,12 @@ impl Resolver<'_> {
                 for (step, joint) in joints.iter().enumerate() {
                     let first = next == 1;
                     let Some(to) = side_of(joint, from).filter(|_| !first || step == at) else { continue };
-                    let same_line = joint.model.kind.name == seating.kind()
+                    let same_line = seating.is_left_by(joint)
                         && is_parallel(axis, joint.model.axes[0].parent)
                         && (seating == Seating::Slides
                             || off_line(centre, axis, self.position_value(joint.at, to)) <= DRAWN * size);
                     let known = reached.iter().any(|(body, _)| *body == to);
-                    if known || !(same_line || joint.model.kind.name == "fixed") {
+                    if known || !(same_line || joint.model.rows() == 6) {
                         continue;
                     }
                     let mut path: Vec<(JointId, f64)> = path.clone();
