@@ -91,7 +91,7 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     (
         "<coupling>.T<n>",
         &["N m"],
-        "Torque on a body of a planetary set or differential, in their order from 1",
+        "Moment on a body of a planetary set or differential, in their order from 1",
     ),
     ("<coupling>.T", &["N m"], "Multiplier of a relation whose sum is an angle"),
     ("<coupling>.F", &["N"], "Multiplier of a relation whose sum is a length"),
