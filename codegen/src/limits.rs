@@ -57,6 +57,13 @@ pub const ROW_NUMBERS: Limit =
 pub const STUDY_POINTS: Limit =
     Limit { what: "points", most: 1_000_000, help: "vary less finely, or sample with --sample sobol:N" };
 
+/// Rows of a table: each is a few operations wherever a formula calls it.
+pub const TABLE_ROWS: Limit = Limit {
+    what: "rows in a table",
+    most: 256,
+    help: "give fewer rows, as many as its bends need; a long series in time is an input",
+};
+
 /// Copies that one `[repeat]` group makes: more are a slip of the pen.
 pub const CELLS: Limit = Limit { what: "cells", most: 10_000, help: "split the mechanism" };
 

@@ -30,7 +30,10 @@ fn bounded(graph: &Graph, nodes: usize, symbol: &dyn Fn(usize) -> f64) -> Vec<Bo
             Node::Unary(Unary::Cos, a) => (at(a).value.cos(), at(a).error),
             Node::Unary(Unary::Sqrt, a) => (at(a).value.sqrt(), at(a).error / at(a).value.sqrt()),
             Node::Unary(Unary::Exp, a) => (at(a).value.exp(), at(a).error * at(a).value.exp()),
-            Node::Unary(..) | Node::Binary(Binary::AngleOverSine, ..) => (f64::NAN, f64::INFINITY),
+            // A choice may fall the other way after a rounding.
+            Node::Unary(..) | Node::Binary(Binary::AngleOverSine, ..) | Node::Select(..) => {
+                (f64::NAN, f64::INFINITY)
+            }
             Node::Binary(operation, a, b) => {
                 let (a, b) = (at(a), at(b));
                 let square = a.value * a.value + b.value * b.value;

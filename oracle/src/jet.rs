@@ -2,6 +2,7 @@
 //! In: [`Term`]. Out: [`Jet`]. Never knows expression graphs: derivatives come from truncated Taylor
 //! arithmetic, not from symbolic rules.
 
+use crate::pieces;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkwear_codegen::id::{JointId, PointId};
@@ -30,7 +31,7 @@ impl Jet {
     }
 
     /// `f(self)` from `f`, `f'` and `f''` at the value.
-    fn chain(self, value: f64, slope: f64, curvature: f64) -> Self {
+    pub(crate) fn chain(self, value: f64, slope: f64, curvature: f64) -> Self {
         let first = slope * self.first;
         Self { value, first, second: curvature * self.first * self.first + slope * self.second }
     }
@@ -74,6 +75,7 @@ impl Jet {
             Function::Exp => a.chain(x.exp(), x.exp(), x.exp()),
             Function::Ln => a.chain(x.ln(), 1.0 / x, -1.0 / (x * x)),
             Function::Sqrt => a.chain(x.sqrt(), 0.5 / x.sqrt(), -0.25 / (x * x.sqrt())),
+            Function::Piecewise(function) => pieces::call(function, arguments),
         }
     }
 
@@ -160,6 +162,11 @@ pub fn evaluate(term: &Term, parameters: &[f64], t: f64, state: &dyn State) -> J
         Term::Mul(a, b) => down(a) * down(b),
         Term::Div(a, b) => down(a) / down(b),
         Term::Power(a, n) => down(a).power(*n),
+        Term::Table(table, of) => pieces::table(table, down(of)),
+        Term::Choice(parts) => {
+            let [below, yes, no] = &**parts;
+            if down(below).value < 0.0 { down(yes) } else { down(no) }
+        }
         Term::Call(function, arguments) => {
             let values: Vec<Jet> = arguments.iter().map(down).collect();
             Jet::call(*function, &values)

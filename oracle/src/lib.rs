@@ -22,6 +22,7 @@ mod kind;
 mod least_norm;
 mod mass;
 mod model;
+mod pieces;
 mod place;
 pub mod random;
 mod row;

@@ -67,6 +67,9 @@ pub struct Channel {
     pub wraps: bool,
 }
 
+/// How the names of columns begin whose signs say which pieces of formulas hold. `t` is no name that an element can have.
+pub const SWITCH: &str = "t.switch";
+
 /// Everything a program needs to run, record and explain a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
@@ -112,6 +115,14 @@ impl Description {
     /// Of every kept row, its row among all; fewer than `count` where the description misses one.
     pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
+    }
+
+    /// The columns whose signs say which pieces of formulas hold.
+    pub(crate) fn switches(&self) -> std::ops::Range<usize> {
+        let is_switch = |channel: &Channel| channel.name.starts_with(SWITCH);
+        let first = self.channels.iter().position(is_switch).unwrap_or(self.channels.len());
+        let count = self.channels[first..].iter().take_while(|channel| is_switch(channel)).count();
+        first..first + count
     }
 
     /// That of the mechanism in a segment of a mission: its laws of friction and wear.

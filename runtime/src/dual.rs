@@ -141,6 +141,11 @@ impl<T: Scalar> Scalar for Dual<T> {
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Self::new(T::select(mask, yes.value, no.value), T::select(mask, yes.derivative, no.derivative))
     }
+
+    #[inline]
+    fn floor(self) -> Self {
+        Self::new(self.value.floor(), T::constant(0.0))
+    }
 }
 
 #[cfg(test)]
@@ -183,6 +188,16 @@ mod tests {
         let x = Dual::new(D::variable(0.7), D::constant(1.0));
         let (sine, _) = x.sin_cos();
         assert_eq!(sine.derivative.derivative, -f64::sin_cos(0.7).0);
+    }
+
+    #[test]
+    fn whole_numbers_below_are_exact_and_do_not_change() {
+        for x in
+            [-3.0, -2.5, -1e-300, 0.0, 0.499_999_999_999_999_94, 0.5, 1.0 - f64::EPSILON, 7.0, 1e9 + 0.75]
+        {
+            assert_eq!(Scalar::floor(x), x.floor(), "{x}");
+            assert_eq!(D::variable(x).floor(), D::new(x.floor(), 0.0));
+        }
     }
 
     #[test]

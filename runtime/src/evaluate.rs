@@ -37,6 +37,8 @@ pub struct Evaluator<'a> {
     /// Whether any of them may be other than zero for dropped rows.
     has_dropped: bool,
     clearances: Clearances,
+    /// Columns that tell which pieces of formulas hold.
+    switches: std::ops::Range<usize>,
     /// Bits of a time at which contacts were taken over.
     contacts_known_at: Option<u64>,
     derivative: Derivative,
@@ -101,6 +103,7 @@ impl<'a> Evaluator<'a> {
             row_scales: vec![1.0; sizes.rows],
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
+            switches: description.switches(),
             clearances: Clearances::new(&description.contacts)?,
             contacts_known_at: None,
             derivative: Derivative::new(sizes, parameters),
@@ -372,6 +375,18 @@ impl<'a> Evaluator<'a> {
         put_kept(&self.kept, multipliers, &mut self.multipliers);
         let wrenches = self.clearances.wrenches();
         self.questions.ask(Entry::Observe, t, &[q, v, accelerations, &self.multipliers, drives, wrenches])
+    }
+
+    /// Whether formulas change their piece by conditions.
+    pub(crate) fn has_switches(&self) -> bool {
+        !self.switches.is_empty()
+    }
+
+    /// Values whose sign says which pieces of formulas hold at a state.
+    pub(crate) fn switches(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
+        let switches = self.switches.clone();
+        // They depend on no force: those of the last forward dynamics will do.
+        &self.observe(t, q, v)[switches]
     }
 
     /// What answers [`Self::observe`] for several states at once, if the system has it.

@@ -98,7 +98,8 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, Description, DriverInfo, List, ParameterInfo, RowInfo, TabledDescription, VariableInfo,
+        Channel, Description, DriverInfo, List, ParameterInfo, RowInfo, SWITCH, TabledDescription,
+        VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},

@@ -36,6 +36,14 @@ pub trait Scalar:
     /// `yes` where `mask` holds, else `no`; both are evaluated.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// The largest whole number that is not above it, exact below 2^51. Its derivative is zero, as between its jumps.
+    #[inline]
+    fn floor(self) -> Self {
+        let c = Self::constant;
+        let nearest = (self + c(ROUND)) - c(ROUND);
+        Self::select(self.lt(nearest), nearest - c(1.0), nearest)
+    }
+
     /// The magnitude of `self` with the sign of `other`, zeros included; of `other` without one, as it comes.
     #[inline]
     fn with_sign_of(self, other: Self) -> Self {
@@ -85,6 +93,9 @@ pub trait Scalar:
 fn power_of_two_at(power: i32) -> f64 {
     f64::from_bits(u64::from((power + 1023).unsigned_abs()) << 52)
 }
+
+/// Adding and subtracting 1.5 * 2^52 rounds |x| < 2^51 to the nearest whole number, ties to even.
+pub(crate) const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// Scalar product.
 #[inline(always)]

@@ -9,11 +9,9 @@
 //! `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993), which accept the low part of the reduced angle.
 #![expect(clippy::excessive_precision, reason = "digits as published")]
 
-use crate::scalar::Scalar;
+use crate::scalar::{ROUND, Scalar};
 
 const TWO_OVER_PI: f64 = core::f64::consts::FRAC_2_PI;
-/// Adding and subtracting 1.5 * 2^52 rounds |x| < 2^51 to the nearest whole number, ties to even.
-const ROUND: f64 = 6_755_399_441_055_744.0;
 /// First 33 bits of pi/2.
 const PIO2_1: f64 = 1.570_796_326_734_125_614_17;
 /// Second 33 bits of pi/2.

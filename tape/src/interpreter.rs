@@ -38,9 +38,11 @@ enum Instruction {
     SinCos { angle: u32, sine: u32, cosine: u32 },
     Exp(u32, u32),
     Ln(u32, u32),
+    Floor(u32, u32),
     Atan2(u32, u32, u32),
     AngleOverSine(u32, u32, u32),
     LogCoefficient(u8, u32, u32),
+    Select { of: u32, yes: u32, no: u32, result: u32 },
     Store(u32, u32),
 }
 
@@ -108,6 +110,9 @@ impl Routine {
                     sine: result,
                     cosine: place(Operand::Value(statement.first + 1)),
                 },
+                Op::Select(of, yes, no) => {
+                    Instruction::Select { of: place(of), yes: place(yes), no: place(no), result }
+                }
                 Op::Unary(operation, a) => unary(operation, place(a), result),
                 Op::Binary(operation, a, b) => binary(operation, place(a), place(b), result),
             });
@@ -125,6 +130,7 @@ fn unary(operation: Unary, a: u32, result: u32) -> Instruction {
         Unary::Sqrt => Instruction::Sqrt(a, result),
         Unary::Exp => Instruction::Exp(a, result),
         Unary::Ln => Instruction::Ln(a, result),
+        Unary::Floor => Instruction::Floor(a, result),
         Unary::LogCoefficient(rank) => Instruction::LogCoefficient(rank, a, result),
         Unary::Sin | Unary::Cos => unreachable!("lowering turns sines and cosines into pairs"),
     }
@@ -173,6 +179,11 @@ impl Routine {
                 }
                 Instruction::Exp(a, r) => w[r as usize] = w[a as usize].exp(),
                 Instruction::Ln(a, r) => w[r as usize] = w[a as usize].ln(),
+                Instruction::Floor(a, r) => w[r as usize] = w[a as usize].floor(),
+                Instruction::Select { of, yes, no, result } => {
+                    let is_below = w[of as usize].lt(T::constant(0.0));
+                    w[result as usize] = T::select(is_below, w[yes as usize], w[no as usize]);
+                }
                 Instruction::Atan2(a, b, r) => w[r as usize] = w[a as usize].atan2(w[b as usize]),
                 Instruction::AngleOverSine(a, b, r) => {
                     w[r as usize] = angle_over_sine(w[a as usize], w[b as usize]);

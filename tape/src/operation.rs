@@ -10,6 +10,8 @@ pub enum Unary {
     Cos,
     Exp,
     Ln,
+    /// The largest whole number that is not above it; see `linkwear_runtime::Scalar::floor`.
+    Floor,
     /// Series-safe coefficients of the logarithm on SE(3), by rank of derivative; see
     /// `linkwear_runtime::log_coefficient`. The argument is theta², the squared rotation angle.
     LogCoefficient(u8),
@@ -53,15 +55,18 @@ pub enum Op {
     Binary(Binary, Operand, Operand),
     /// Sine (this value) and cosine (the next value) of an angle.
     SinCos(Operand),
+    /// The second where the first is below zero, else the third. No branch: both are there.
+    Select(Operand, Operand, Operand),
 }
 
 impl Op {
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = Operand> {
-        let (first, second) = match self {
-            Self::Unary(_, a) | Self::SinCos(a) => (*a, None),
-            Self::Binary(_, a, b) => (*a, Some(*b)),
+        let (first, second, third) = match self {
+            Self::Unary(_, a) | Self::SinCos(a) => (*a, None, None),
+            Self::Binary(_, a, b) => (*a, Some(*b), None),
+            Self::Select(a, yes, no) => (*a, Some(*yes), Some(*no)),
         };
-        std::iter::once(first).chain(second)
+        std::iter::once(first).chain(second).chain(third)
     }
 }

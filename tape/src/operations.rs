@@ -19,7 +19,7 @@ pub struct Operations {
     pub sqrt: u64,
     /// Sine-cosine pairs.
     pub sincos: u64,
-    /// Everything else: exp, ln, atan2, intrinsics.
+    /// Everything else: exp, ln, atan2, choices, intrinsics.
     pub other: u64,
     /// Sum.
     pub total: u64,
@@ -46,7 +46,7 @@ impl Operations {
             Op::Binary(Binary::Div, ..) => self.div += 1,
             Op::Unary(Unary::Sqrt, _) => self.sqrt += 1,
             Op::SinCos(_) | Op::Unary(Unary::Sin | Unary::Cos, _) => self.sincos += 1,
-            Op::Unary(..) | Op::Binary(..) => self.other += 1,
+            Op::Unary(..) | Op::Binary(..) | Op::Select(..) => self.other += 1,
         }
         self.total += 1;
     }

@@ -2,7 +2,7 @@
 //! In: [`crate::model::Formula`]. Out: [`Expr`]. Never knows how coordinates are computed: a closure says.
 
 use crate::expr::{Expr, Vec3};
-use crate::model::{Formula, Function, Term};
+use crate::model::{Formula, Function, Term, Value};
 
 /// Values of parameters and time as expressions: numbers for what is folded, symbols for what stays.
 #[derive(Clone, Debug)]
@@ -50,6 +50,11 @@ impl<'g> Inputs<'g> {
             Term::Mul(a, b) => value(a) * value(b),
             Term::Div(a, b) => value(a) / value(b),
             Term::Power(a, n) => value(a).powi(*n),
+            Term::Table(table, of) => table.of(value(of)),
+            Term::Choice(parts) => {
+                let [below, yes, no] = &**parts;
+                value(below).below_zero(value(yes), value(no))
+            }
             Term::Call(function, arguments) => {
                 let arguments: Vec<Expr<'g>> = arguments.iter().map(value).collect();
                 call(*function, &arguments)
@@ -60,6 +65,33 @@ impl<'g> Inputs<'g> {
             | Term::Place(_)
             | Term::PointSpeed(..) => state(term),
         }
+    }
+}
+
+impl Value for Expr<'_> {
+    fn number(self, value: f64) -> Self {
+        self.scope().number(value)
+    }
+
+    fn sine(self) -> Self {
+        self.sin()
+    }
+
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+
+    fn whole(self) -> Self {
+        self.floor()
+    }
+
+    fn choose(self, yes: Self, no: Self) -> Self {
+        self.below_zero(yes, no)
+    }
+
+    fn choose_quietly(self, yes: Self, no: Self) -> Self {
+        self.keep_quiet();
+        self.below_zero(yes, no)
     }
 }
 
@@ -82,5 +114,6 @@ fn call<'g>(function: Function, arguments: &[Expr<'g>]) -> Expr<'g> {
         Function::Exp => x.exp(),
         Function::Ln => x.ln(),
         Function::Sqrt => x.sqrt(),
+        Function::Piecewise(function) => function.of(arguments),
     }
 }

@@ -102,6 +102,12 @@ codes! {
     NotFinite = "E0308",
     /// A member that this joint or point does not have.
     UnknownMember = "E0309",
+    /// A drive or a surface whose position or slope would jump.
+    NotSmooth = "E0310",
+    /// An argument that shapes a function and cannot be so.
+    BadArgument = "E0311",
+    /// A table that is no function, or whose rows cannot be read.
+    BadTable = "E0312",
 
     /// An axis without a direction.
     ZeroAxis = "E0401",

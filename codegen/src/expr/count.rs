@@ -18,7 +18,7 @@ impl Graph {
             Node::Unary(Unary::Sin | Unary::Cos, angle) => {
                 !std::mem::replace(&mut angles[angle.index()], true)
             }
-            Node::Unary(..) | Node::Binary(..) => true,
+            Node::Unary(..) | Node::Binary(..) | Node::Select(..) => true,
         })
         .count()
     }

@@ -26,6 +26,11 @@ impl<'g> Expr<'g> {
                 let da = a.derivative_by(known, zero);
                 if da.is_zero() { zero } else { self.unary_rule(operation, a, da) }
             }
+            Node::Select(a, yes, no) => {
+                // Between its jumps; where it has one, a derivative means nothing.
+                let [yes, no] = [yes, no].map(|side| self.at(side).derivative_by(known, zero));
+                self.at(a).below_zero(yes, no)
+            }
             Node::Binary(operation, a, b) => {
                 let (a, b) = (self.at(a), self.at(b));
                 let (da, db) = (a.derivative_by(known, zero), b.derivative_by(known, zero));
@@ -45,6 +50,8 @@ impl<'g> Expr<'g> {
             Unary::Cos => -(a.sin() * da),
             Unary::Exp => self * da,
             Unary::Ln => da / a,
+            // Between its jumps.
+            Unary::Floor => self.scope().zero(),
             Unary::LogCoefficient(rank) => a.log_coefficient(rank + 1) * da,
         }
     }

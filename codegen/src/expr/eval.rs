@@ -22,6 +22,8 @@ impl Graph {
                 Node::Unary(Unary::Cos, a) => at(a).sin_cos().1,
                 Node::Unary(Unary::Exp, a) => at(a).exp(),
                 Node::Unary(Unary::Ln, a) => at(a).ln(),
+                Node::Unary(Unary::Floor, a) => at(a).floor(),
+                Node::Select(a, yes, no) => T::select(at(a).lt(T::constant(0.0)), at(yes), at(no)),
                 Node::Unary(Unary::LogCoefficient(rank), a) => log_coefficient(rank, at(a)),
                 Node::Binary(Binary::Add, a, b) => at(a) + at(b),
                 Node::Binary(Binary::Sub, a, b) => at(a) - at(b),

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::scope::Scope;
 use super::{Binary, ExprId, Node, Unary};
@@ -39,6 +39,32 @@ impl Scope {
     /// Sum of any number of terms.
     pub fn sum<'g>(&'g self, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
         terms.into_iter().fold(self.zero(), |sum, term| sum + term)
+    }
+
+    /// What the pieces that roots need are chosen by: values whose sign changes where another piece begins, each once.
+    pub fn switches<'g>(&'g self, roots: &[ExprId]) -> Vec<Expr<'g>> {
+        let needed = self.make(|g| {
+            let uses = g.uses(roots);
+            let needed = (0..uses.len()).filter(|index| uses[*index] > 0);
+            let nodes = needed.map(|index| g.node(ExprId::new(index)));
+            nodes
+                .filter(|node| !matches!(node, Node::Select(by, ..) if g.quiet.contains(by)))
+                .collect::<Vec<Node>>()
+        });
+        let own = |id| Expr { scope: self, id };
+        let (mut switches, mut known) = (Vec::new(), FxHashSet::default());
+        for node in needed {
+            let switch = match node {
+                Node::Select(by, ..) => own(by),
+                // Where it jumps, and half way in between.
+                Node::Unary(Unary::Floor, of) => own(of) - own(of).floor() - 0.5,
+                _ => continue,
+            };
+            if known.insert(switch.id) {
+                switches.push(switch);
+            }
+        }
+        switches
     }
 
     /// Operations that these roots need so far; see [`super::Graph::operations`].
@@ -167,6 +193,31 @@ impl<'g> Expr<'g> {
         self.folded(f64::ln, |x| x.unary(Unary::Ln))
     }
 
+    /// The largest whole number that is not above it.
+    pub fn floor(self) -> Self {
+        self.folded(f64::floor, |x| x.unary(Unary::Floor))
+    }
+
+    /// `yes` where it is below zero, else `no`.
+    pub fn below_zero(self, yes: Self, no: Self) -> Self {
+        match self.as_number() {
+            _ if yes.id == no.id => yes,
+            Some(number) => {
+                if number < 0.0 {
+                    yes
+                } else {
+                    no
+                }
+            }
+            None => self.scope.expression(Node::Select(self.id, yes.id, no.id)),
+        }
+    }
+
+    /// As a condition it is none of [`Scope::switches`].
+    pub fn keep_quiet(self) {
+        self.scope.make(|g| g.quiet.insert(self.id));
+    }
+
     /// Angle of the vector (`x`, `self`) [rad].
     pub fn atan2(self, x: Self) -> Self {
         match (self.as_number(), x.as_number()) {
@@ -194,6 +245,7 @@ impl<'g> Expr<'g> {
             Unary::Cos => self.cos(),
             Unary::Exp => self.exp(),
             Unary::Ln => self.ln(),
+            Unary::Floor => self.floor(),
             Unary::LogCoefficient(rank) => self.log_coefficient(rank),
         }
     }

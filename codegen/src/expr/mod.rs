@@ -15,7 +15,7 @@ mod substitute;
 mod turned_back;
 mod vector;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::limits::EXPRESSIONS;
 
@@ -38,17 +38,20 @@ pub enum Node {
     Unary(Unary, ExprId),
     /// A function of two values.
     Binary(Binary, ExprId, ExprId),
+    /// The second where the first is below zero, else the third.
+    Select(ExprId, ExprId, ExprId),
 }
 
 impl Node {
     /// The nodes that it is computed from.
     pub fn children(self) -> impl Iterator<Item = ExprId> {
-        let (first, second) = match self {
-            Self::Constant(_) | Self::Symbol(_) => (None, None),
-            Self::Unary(_, a) => (Some(a), None),
-            Self::Binary(_, a, b) => (Some(a), Some(b)),
+        let (first, second, third) = match self {
+            Self::Constant(_) | Self::Symbol(_) => (None, None, None),
+            Self::Unary(_, a) => (Some(a), None, None),
+            Self::Binary(_, a, b) => (Some(a), Some(b), None),
+            Self::Select(a, yes, no) => (Some(a), Some(yes), Some(no)),
         };
-        first.into_iter().chain(second)
+        first.into_iter().chain(second).chain(third)
     }
 }
 
@@ -59,6 +62,8 @@ pub struct Graph {
     known: FxHashMap<Node, ExprId>,
     symbols: Vec<String>,
     labels: FxHashMap<ExprId, String>,
+    /// Conditions whose sides meet so well that no step has to end there.
+    quiet: FxHashSet<ExprId>,
     sections: Vec<String>,
     /// Index of the section of every node.
     section_of: Vec<usize>,
@@ -141,7 +146,7 @@ impl Graph {
     }
 
     fn label(&mut self, id: ExprId, name: impl Into<String>) {
-        if matches!(self.node(id), Node::Unary(..) | Node::Binary(..)) {
+        if matches!(self.node(id), Node::Unary(..) | Node::Binary(..) | Node::Select(..)) {
             self.labels.entry(id).or_insert_with(|| name.into());
         }
     }

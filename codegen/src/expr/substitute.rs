@@ -18,6 +18,10 @@ impl<'g> Expr<'g> {
         let result = match self.node() {
             Node::Constant(_) | Node::Symbol(_) => self,
             Node::Unary(operation, a) => self.at(a).substituted(known).through(operation),
+            Node::Select(a, yes, no) => {
+                let [a, yes, no] = [a, yes, no].map(|part| self.at(part).substituted(known));
+                a.below_zero(yes, no)
+            }
             Node::Binary(operation, a, b) => {
                 let (a, b) = (self.at(a).substituted(known), self.at(b).substituted(known));
                 a.joined(operation, b)

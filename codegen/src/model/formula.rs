@@ -1,6 +1,10 @@
 //! Formulas with names resolved: what the text of a file means, before it becomes a symbolic graph.
 //! In: parsed text with resolved names. Out: [`Formula`]. Never knows the graph.
 
+use std::sync::Arc;
+
+use super::piecewise::{Piecewise, SMOOTH};
+use super::table::DataTable;
 use crate::id::{JointId, ParameterId, PointId};
 use crate::source::Span;
 use crate::spec::Dimension;
@@ -47,11 +51,15 @@ pub enum Term {
     Div(Box<Self>, Box<Self>),
     /// `a ^ n`.
     Power(Box<Self>, i32),
-    /// A smooth function.
+    /// A function.
     Call(Function, Vec<Self>),
+    /// The second where the first is below zero, else the third.
+    Choice(Box<[Self; 3]>),
+    /// Value of a table.
+    Table(Arc<DataTable>, Box<Self>),
 }
 
-/// The functions a formula may call: all of them smooth on their domain.
+/// The functions a formula may call: smooth on their domain but for the last, which have pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs, reason = "named as in mathematics")]
 pub enum Function {
@@ -68,6 +76,7 @@ pub enum Function {
     Exp,
     Ln,
     Sqrt,
+    Piecewise(Piecewise),
 }
 
 impl Formula {
@@ -105,13 +114,78 @@ impl Term {
     pub fn visit(&self, action: &mut dyn FnMut(&Self)) {
         action(self);
         match self {
-            Self::Neg(a) | Self::Power(a, _) => a.visit(action),
+            Self::Neg(a) | Self::Power(a, _) | Self::Table(_, a) => a.visit(action),
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
                 a.visit(action);
                 b.visit(action);
             }
             Self::Call(_, arguments) => arguments.iter().for_each(|a| a.visit(action)),
+            Self::Choice(parts) => parts.iter().for_each(|a| a.visit(action)),
             _ => {}
+        }
+    }
+
+    /// The same, but of choices that are known with these parameters only the side that is taken.
+    pub(in crate::model) fn visit_chosen(&self, p: &[f64], action: &mut dyn FnMut(&Self)) {
+        action(self);
+        match self {
+            Self::Neg(a) | Self::Power(a, _) | Self::Table(_, a) => a.visit_chosen(p, action),
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => {
+                a.visit_chosen(p, action);
+                b.visit_chosen(p, action);
+            }
+            Self::Call(_, arguments) => arguments.iter().for_each(|a| a.visit_chosen(p, action)),
+            Self::Choice(parts) => {
+                let [below, yes, no] = &**parts;
+                below.visit_chosen(p, action);
+                match below.value_at(p, None) {
+                    Some(below) if below < 0.0 => yes.visit_chosen(p, action),
+                    Some(_) => no.visit_chosen(p, action),
+                    // Which side counts is decided at run time: what is wrong with one may never be asked for.
+                    None => {}
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The last derivative by time that is continuous for sure, and the function that is least so; `moves` says which leaves
+    /// change with time.
+    pub(in crate::model) fn continuity(&self, moves: &dyn Fn(&Self) -> bool) -> (i32, &'static str) {
+        let least = |parts: &[&Self]| {
+            let all = parts.iter().map(|part| part.continuity(moves));
+            all.min_by_key(|(order, _)| *order).unwrap_or((SMOOTH, ""))
+        };
+        let is_moving = |part: &Self| {
+            let mut found = false;
+            part.visit(&mut |leaf| found |= moves(leaf));
+            found
+        };
+        match self {
+            Self::Neg(a) | Self::Power(a, _) => a.continuity(moves),
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) => least(&[a, b]),
+            Self::Call(function, arguments) => {
+                let inner = least(&arguments.iter().collect::<Vec<_>>());
+                match function {
+                    Function::Piecewise(own)
+                        if own.continuity() < inner.0 && arguments.iter().any(is_moving) =>
+                    {
+                        (own.continuity(), own.name())
+                    }
+                    _ => inner,
+                }
+            }
+            Self::Table(table, of) => {
+                let inner = of.continuity(moves);
+                if table.continuity() < inner.0 && is_moving(of) {
+                    (table.continuity(), table.kind())
+                } else {
+                    inner
+                }
+            }
+            Self::Choice(parts) if is_moving(&parts[0]) => (-1, "if"),
+            Self::Choice(parts) => least(&[&parts[1], &parts[2]]),
+            _ => (SMOOTH, ""),
         }
     }
 
@@ -134,6 +208,16 @@ impl Term {
             Self::Mul(a, b) => a.value_at(p, t)? * b.value_at(p, t)?,
             Self::Div(a, b) => a.value_at(p, t)? / b.value_at(p, t)?,
             Self::Power(a, n) => a.value_at(p, t)?.powi(*n),
+            Self::Table(table, of) => table.of(of.value_at(p, t)?),
+            Self::Choice(parts) => {
+                let [below, yes, no] = &**parts;
+                let side = if below.value_at(p, t)? < 0.0 { yes } else { no };
+                side.value_at(p, t)?
+            }
+            Self::Call(Function::Piecewise(function), arguments) => {
+                let values: Option<Vec<f64>> = arguments.iter().map(|a| a.value_at(p, t)).collect();
+                function.of(&values?)
+            }
             Self::Call(function, arguments) => {
                 let x = arguments[0].value_at(p, t)?;
                 match function {
@@ -150,6 +234,7 @@ impl Term {
                     Function::Exp => x.exp(),
                     Function::Ln => x.ln(),
                     Function::Sqrt => x.sqrt(),
+                    Function::Piecewise(function) => function.of(&[x]),
                 }
             }
             _ => return None,

@@ -18,7 +18,9 @@ mod force;
 mod formula;
 mod joint_kind;
 mod mission;
+mod piecewise;
 mod resolve;
+mod table;
 pub mod topology;
 pub use crate::spec::Closure;
 pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
@@ -32,7 +34,9 @@ pub use joint_kind::{
     Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, PlaceKey, Primitive,
 };
 pub use mission::{Mission, Segment};
+pub use piecewise::{Piecewise, Value};
 pub use resolve::{OverrideError, Overrides, resolve};
+pub use table::DataTable;
 
 /// A body or the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

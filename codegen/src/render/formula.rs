@@ -66,6 +66,10 @@ impl Formula<'_> {
                 (format!("\\sqrt{{{}}}", self.write(a)), Strength::Atom)
             }
             Node::Unary(function, a) => (self.call(&unary_name(function), &[self.write(a)]), Strength::Atom),
+            Node::Select(a, yes, no) => {
+                let condition = format!("{} < 0", self.write(a));
+                (self.call("if", &[condition, self.write(yes), self.write(no)]), Strength::Atom)
+            }
             Node::Binary(operation, a, b) => self.binary(operation, a, b),
         }
     }
@@ -165,6 +169,7 @@ fn unary_name(function: Unary) -> String {
         Unary::Cos => "cos".to_owned(),
         Unary::Exp => "exp".to_owned(),
         Unary::Ln => "ln".to_owned(),
+        Unary::Floor => "floor".to_owned(),
         Unary::LogCoefficient(rank) => format!("log_coefficient_{rank}"),
     }
 }

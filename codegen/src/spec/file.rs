@@ -15,6 +15,7 @@ use super::joint::JointSpec;
 use super::mission::MissionSpec;
 use super::point::PointSpec;
 use super::start::StartSpec;
+use super::table::TableSpec;
 use super::texts::{tables, texts_of, without_texts};
 use super::written::{At, Name, Quantity, Table, Triple};
 
@@ -75,6 +76,9 @@ pub struct File {
     /// Duty cycles: how the machine is used while it wears.
     /// [table]
     pub missions: Table<MissionSpec>,
+    /// Functions given by rows, which formulas call by their names.
+    /// [table]
+    pub tables: Table<TableSpec>,
     /// Groups of points, bodies and joints made several times.
     /// [table]
     pub repeat: Table<RepeatSpec>,

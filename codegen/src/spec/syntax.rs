@@ -11,7 +11,7 @@ mod lex;
 mod parser;
 mod units;
 
-pub use expression::{Expression, Form, Operator, SyntaxError};
+pub use expression::{Expression, Form, Operator, Relation, SyntaxError};
 
 /// Longest formula [bytes]: far above any real one.
 const LONGEST: usize = 2000;
@@ -161,7 +161,7 @@ mod tests {
 
     proptest::proptest! {
         #[test]
-        fn no_text_panics(text in "[ 0-9a-z.*/^()+,µ-]{0,40}") {
+        fn no_text_panics(text in "[ 0-9a-z.*/^()<>=+,µ-]{0,40}") {
             if let Err(error) = read(&text) {
                 proptest::prop_assert!(error.range.end <= text.len() && text.get(error.range).is_some());
             }

@@ -181,6 +181,7 @@ impl Part {
             Op::Unary(operation, a) => Op::Unary(operation, self.known(a)),
             Op::Binary(operation, a, b) => Op::Binary(operation, self.known(a), self.known(b)),
             Op::SinCos(a) => Op::SinCos(self.known(a)),
+            Op::Select(a, yes, no) => Op::Select(self.known(a), self.known(yes), self.known(no)),
         };
         let titles = &mut self.tape.sections;
         let section = *self.sections.entry(statement.section).or_insert_with(|| {

@@ -171,6 +171,9 @@ impl<'a> Lowerer<'a> {
             Node::Unary(Unary::Cos, angle) => self.sine_or_cosine(id, angle, 1),
             Node::Unary(Unary::Neg, inner) => self.negated(id, inner),
             Node::Unary(operation, a) => self.push(id, Op::Unary(operation, self.operand(a))),
+            Node::Select(a, yes, no) => {
+                self.push(id, Op::Select(self.operand(a), self.operand(yes), self.operand(no)))
+            }
             Node::Binary(operation, ..) if self.signs.is_reversed(id) => self.reversed(id, operation),
             Node::Binary(operation, a, b) => {
                 self.push(id, Op::Binary(operation, self.operand(a), self.operand(b)))

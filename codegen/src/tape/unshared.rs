@@ -16,6 +16,7 @@ pub fn unshared_operations(graph: &Graph, roots: &[ExprId]) -> Operations {
             match node {
                 Node::Unary(operation, _) => counts.count(&Op::Unary(operation, zero)),
                 Node::Binary(operation, ..) => counts.count(&Op::Binary(operation, zero, zero)),
+                Node::Select(..) => counts.count(&Op::Select(zero, zero, zero)),
                 Node::Constant(_) | Node::Symbol(_) => {}
             }
             for child in node.children() {

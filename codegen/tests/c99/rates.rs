@@ -9,7 +9,9 @@ use super::shipped;
 
 #[test]
 fn rates_with_contact_friction_and_wear_are_the_runtime_s_in_every_bit() {
-    for name in ["slider_crank_clearance", "four_bar_wear", "rssr_ball_wear", "rssr", "rssr_flexible"] {
+    for name in
+        ["slider_crank_clearance", "four_bar_wear", "rssr_ball_wear", "rssr", "rssr_flexible", "cam_press"]
+    {
         let compiled = shipped(name);
         let (system, sizes, mut numbers) = (compiled.interpreter(), compiled.sizes(), Numbers::default());
         let parameters = compiled.parameters();

@@ -43,6 +43,10 @@ pub(super) fn run<'g>(tape: &Tape, input: &dyn Fn(u32) -> Number<'g>) -> Vec<Num
         let (first, second) = match *op {
             Op::Unary(operation, a) => (unary(operation, get(a)), None),
             Op::Binary(operation, a, b) => (binary(operation, get(a), get(b)), None),
+            Op::Select(of, yes, no) => {
+                let is_below = get(of).lt(Number::Known(0.0));
+                (Number::select(is_below, get(yes), get(no)), None)
+            }
             Op::SinCos(angle) => {
                 let (sine, cosine) = get(angle).sin_cos();
                 (sine, Some(cosine))
@@ -73,6 +77,7 @@ fn unary(operation: Unary, a: Number<'_>) -> Number<'_> {
         Unary::Cos => a.sin_cos().1,
         Unary::Exp => a.exp(),
         Unary::Ln => a.ln(),
+        Unary::Floor => a.floor(),
         Unary::LogCoefficient(rank) => log_coefficient(rank, a),
     }
 }

@@ -25,6 +25,7 @@ mod singular_passage;
 mod state_space;
 mod steps;
 mod surface;
+mod switches;
 mod turns;
 mod unbounded;
 mod warning;

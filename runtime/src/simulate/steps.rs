@@ -9,7 +9,7 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
-use super::{dead_point, events};
+use super::{dead_point, events, switches};
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43};
 use crate::watch::Watch;
@@ -269,10 +269,15 @@ impl<M: Method> AdaptiveSteps<M> {
                 return if sampled { sampler.sample(motion, to, state) } else { Ok(()) };
             }
             let stop = stop_at_kink(motion, sampler, method.t());
+            switches::cross(motion, method, stop, between)?;
+            if to <= method.t() {
+                continue;
+            }
             let outcome = method.step(motion, stop);
             sampler.statistics.rejected = method.rejected();
             outcome?;
             events::stop_at_contact(motion, sampler, method, between)?;
+            switches::stop_at_switch(motion, sampler, method, between)?;
             look_back(motion, sampler, method, between)?;
             *open = true;
         }

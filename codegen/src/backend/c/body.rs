@@ -98,6 +98,10 @@ impl Writer<'_> {
                     self.declare(statement, which, &format!("{pair}.{field}"));
                 }
             }
+            Op::Select(a, yes, no) => {
+                let [a, yes, no] = [a, yes, no].map(|operand| self.operand(operand));
+                self.declare(statement, 0, &format!("{a} < 0.0 ? {yes} : {no}"));
+            }
             Op::Unary(operation, a) => {
                 let right = unary(operation, &self.operand(a));
                 self.declare(statement, 0, &right);
@@ -143,6 +147,7 @@ fn unary(operation: Unary, a: &str) -> String {
         Unary::Sqrt => format!("sqrt({a})"),
         Unary::Exp => format!("exponential({a})"),
         Unary::Ln => format!("logarithm({a})"),
+        Unary::Floor => format!("whole_part({a})"),
         Unary::LogCoefficient(rank) => format!("log_coefficient_{rank}({a})"),
         Unary::Sin | Unary::Cos => unreachable!("lowering turns sines and cosines into pairs"),
     }

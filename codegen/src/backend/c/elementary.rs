@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use linkwear_runtime::{angle_over_sine, elementary, log_coefficient, sin_cos};
+use linkwear_runtime::{Scalar, angle_over_sine, elementary, log_coefficient, sin_cos};
 
 use super::recorder::{Function, Number, Recorder};
 
@@ -28,6 +28,7 @@ impl Function {
             Self::Exponential => "exponential".to_owned(),
             Self::Logarithm => "logarithm".to_owned(),
             Self::Angle => "angle".to_owned(),
+            Self::Floor => "whole_part".to_owned(),
             Self::AngleOverSine => "angle_over_sine".to_owned(),
             Self::LogCoefficient(rank) => format!("log_coefficient_{rank}"),
         }
@@ -113,6 +114,10 @@ fn definition(function: Function) -> (String, BTreeSet<Function>) {
             let doc = "theta / sin theta by sin^2 theta (a) and cos theta (b).";
             recorded(function, doc, &["a", "b"], |[a, b]| angle_over_sine(a, b))
         }
+        Function::Floor => {
+            let doc = "The largest whole number that is not above a number below 2^51.";
+            recorded(function, doc, &["a"], |[a, _]| a.floor())
+        }
         Function::LogCoefficient(rank) => {
             let doc = "Coefficient of the inverse right Jacobian of SO(3), by theta^2.";
             recorded(function, doc, &["a"], |[a, _]| log_coefficient(rank, a))
@@ -171,18 +176,17 @@ pub fn of_tape(tape: &crate::tape::Tape) -> BTreeSet<Function> {
             Op::SinCos(_) => Some(Function::Sine),
             Op::Unary(Unary::Exp, _) => Some(Function::Exponential),
             Op::Unary(Unary::Ln, _) => Some(Function::Logarithm),
+            Op::Unary(Unary::Floor, _) => Some(Function::Floor),
             Op::Unary(Unary::LogCoefficient(rank), _) => Some(Function::LogCoefficient(rank)),
             Op::Binary(Binary::Atan2, ..) => Some(Function::Angle),
             Op::Binary(Binary::AngleOverSine, ..) => Some(Function::AngleOverSine),
-            Op::Unary(..) | Op::Binary(..) => None,
+            Op::Unary(..) | Op::Binary(..) | Op::Select(..) => None,
         })
         .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use linkwear_runtime::Scalar;
-
     use super::*;
 
     #[test]

@@ -46,6 +46,7 @@ pub enum Function {
     Logarithm,
     Angle,
     AngleOverSine,
+    Floor,
     LogCoefficient(u8),
 }
 

@@ -104,6 +104,10 @@ impl Writer {
             Op::Unary(operation, a) => unary(operation, &self.operand(a)),
             Op::Binary(operation, a, b) => binary(operation, &self.operand(a), &self.operand(b)),
             Op::SinCos(a) => format!("T::sin_cos({})", self.operand(a)),
+            Op::Select(a, yes, no) => {
+                let [a, yes, no] = [a, yes, no].map(|operand| self.operand(operand));
+                format!("T::select({a}.lt(T::constant(0.0)), {yes}, {no})")
+            }
         };
         let left = match statement.op {
             Op::SinCos(_) => format!("({}, {})", self.named(statement, 0), self.named(statement, 1)),
@@ -152,6 +156,7 @@ fn unary(operation: Unary, a: &str) -> String {
         Unary::Sqrt => format!("T::sqrt({a})"),
         Unary::Exp => format!("T::exp({a})"),
         Unary::Ln => format!("T::ln({a})"),
+        Unary::Floor => format!("T::floor({a})"),
         Unary::LogCoefficient(rank) => format!("log_coefficient({rank}, {a})"),
         Unary::Sin | Unary::Cos => unreachable!("lowering turns sines and cosines into pairs"),
     }

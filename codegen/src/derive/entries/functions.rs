@@ -1,7 +1,7 @@
 //! The blocks of every entry point.
 //! In: the deriver's symbols, link motion. Out: [`Function`]s in the order of [`Entry::ALL`].
 
-use linkwear_runtime::{Channel, Entry, RowInfo};
+use linkwear_runtime::{Channel, Entry, RowInfo, SWITCH};
 
 use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
@@ -222,7 +222,13 @@ impl<'g> Deriver<'g> {
         function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs([]), outputs)
     }
 
-    pub(super) fn observe(&self, masses: &[LinkMass<'g>], with_poses: bool) -> (Function, Vec<Channel>) {
+    /// `switches`: values whose signs say which pieces of formulas hold.
+    pub(super) fn observe(
+        &self,
+        masses: &[LinkMass<'g>],
+        with_poses: bool,
+        switches: &[Expr<'g>],
+    ) -> (Function, Vec<Channel>) {
         let g = self.geometry.g;
         let mut instant = self.instant(self.driven_state(&self.v_dot), false);
         let list = |instant: &Instant<'g>| {
@@ -235,7 +241,13 @@ impl<'g> Deriver<'g> {
         let in_ground = list(&instant);
         instant.state.points_in_ground = false;
         let in_links = self.is_short().then(|| list(&instant));
-        let (channels, values) = in_links.filter(|in_links| in_links.0 < in_ground.0).unwrap_or(in_ground).1;
+        let (mut channels, mut values) =
+            in_links.filter(|in_links| in_links.0 < in_ground.0).unwrap_or(in_ground).1;
+        for (number, value) in switches.iter().enumerate() {
+            let name = format!("{SWITCH}{}", number + 1).into();
+            channels.push(Channel { name, unit: "1".into(), wraps: false });
+            values.push(*value);
+        }
         let inputs = self.state_inputs([
             Block::vector("v_dot", self.v_dot.iter().copied()).doc("Accelerations from forward_dynamics."),
             Block::vector("lambda", self.lambda.iter().copied()).doc(

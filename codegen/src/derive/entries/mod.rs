@@ -11,7 +11,7 @@ mod row_axes;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 
-use crate::expr::Scope;
+use crate::expr::{ExprId, Scope};
 use crate::model::{Mechanism, Topology};
 
 use super::geometry::Geometry;
@@ -85,7 +85,10 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let rates = deriver.rates(&state_rates);
     let (closure, rows) = deriver.closure();
     let energy = deriver.energy(&dynamic, &masses);
-    let (observe, channels) = deriver.observe(&masses, purpose == Purpose::Picture);
+    let roots = [&forward_dynamics, &rates].into_iter().flat_map(|function| &function.outputs);
+    let roots: Vec<ExprId> = roots.flat_map(|block| block.entries.iter().copied()).collect();
+    let switches = deriver.geometry.g.switches(&roots);
+    let (observe, channels) = deriver.observe(&masses, purpose == Purpose::Picture, &switches);
     let equations_of_motion = deriver.equations_of_motion(&masses, solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =

@@ -45,10 +45,10 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3" }"#,
     Explanation {
         code: Code::UnknownFunction,
         file: File::Swing,
-        text: "A function that is not known, or that has another number of arguments. All functions are smooth, so \
-               there is no `abs`, `max` or `if`: motions must have accelerations.",
+        text: "A function that is not known, or that has another number of arguments. `docs/formulas.md` lists \
+               them all.",
         wrong: r#"[joints]
-hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "-1 N m*sign(hinge.v)" }"#,
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "-1 N m*sgn(hinge.v)" }"#,
         right: r#"[joints]
 hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "-1 N m*tanh(hinge.v/(0.01 rad/s))" }"#,
     },
@@ -97,5 +97,38 @@ length = "1 m/(2 - 1)""#,
 hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "-1 N m*sin(hinge.q2)" }"#,
         right: r#"[joints]
 hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "-1 N m*sin(hinge.q)" }"#,
+    },
+    Explanation {
+        code: Code::NotSmooth,
+        file: File::Swing,
+        text: "A drive whose position or speed would jump: the force for that is infinite. A drive needs a second \
+               derivative, which may jump itself. Motion laws and smooth forms have one; `if`, `step`, `sign`, `floor` \
+               and `mod` of the time jump, `abs`, `min`, `max` and `clamp` of it have a kink. Of parameters alone \
+               all of them may stand in a drive.",
+        wrong: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "30 deg*min(t/(1 s), 1)" }"#,
+        right: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "30 deg*cycloidal(t/(1 s))" }"#,
+    },
+    Explanation {
+        code: Code::BadArgument,
+        file: File::Swing,
+        text: "An argument that shapes a function and cannot be so: the width of a smooth form must be above zero, \
+               the ramp of a trapezoid at most half of the phase, the period of a motion law at least the whole \
+               phase. Such arguments are fixed when code is generated.",
+        wrong: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "30 deg*trapezoid(t/(1 s), 0.7)" }"#,
+        right: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "30 deg*trapezoid(t/(1 s), 0.25)" }"#,
+    },
+    Explanation {
+        code: Code::BadTable,
+        file: File::Swing,
+        text: "A table that is no function: arguments that do not rise, fewer than two rows, columns of different lengths, \
+               a period that does not end with the value that it begins with; or a CSV file that cannot be read.",
+        wrong: r#"[tables]
+brake = { argument = ["0 rad/s", "2 rad/s", "1 rad/s"], value = ["0 N m", "3 N m", "4 N m"] }"#,
+        right: r#"[tables]
+brake = { argument = ["0 rad/s", "1 rad/s", "2 rad/s"], value = ["0 N m", "3 N m", "4 N m"] }"#,
     },
 ];

@@ -67,6 +67,7 @@ impl<'g> Rebuild<'_, 'g> {
             // All symbols are inputs, which are there.
             Node::Symbol(symbol) => self.scope.symbol(self.old.symbol_name(symbol)),
             Node::Unary(operation, a) => self.get(a).through(operation),
+            Node::Select(a, yes, no) => self.get(a).below_zero(self.get(yes), self.get(no)),
             Node::Binary(operation, a, b) => self.get(a).joined(operation, self.get(b)),
         };
         self.set(id, new);

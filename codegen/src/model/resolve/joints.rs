@@ -4,7 +4,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::PointId;
-use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive};
+use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive, Term};
 use crate::source::Span;
 use crate::spec::{At, ByCoordinate, JointSpec, Name, Pair, Quantity, SpringSpec, Table};
 
@@ -84,9 +84,27 @@ impl Resolver<'_> {
                 if is == Coordinate::Angle {
                     self.warn_turns_as_angle(law, &what);
                 }
+                self.check_smooth(&formula, &what);
                 Drive { coordinate, law: formula }
             })
             .collect()
+    }
+
+    /// The forces of a drive and of a surface come from its second derivative: its value and slope must not jump.
+    pub(super) fn check_smooth(&mut self, law: &Formula, what: &str) {
+        let inputs: Vec<bool> = self.parameters.iter().map(|parameter| parameter.input).collect();
+        let (order, function) = law.term.continuity(&|leaf| match leaf {
+            Term::Time | Term::Place(_) => true,
+            Term::Parameter(id) => inputs[id.index()],
+            _ => false,
+        });
+        if order < 1 {
+            let jumps = if order < 0 { "position" } else { "speed" };
+            let message = format!("{what}: the {jumps} would jump, by `{function}` of what moves");
+            self.refuse(Code::NotSmooth, law.span, message).help(
+                "use `smooth_step`, `smooth_abs` or a motion law: `cycloidal(t/T)`, `poly345(t/T)`, `trapezoid(t/T)`",
+            );
+        }
     }
 
     fn passive(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Passive> {

@@ -8,6 +8,7 @@ mod advice;
 mod beam;
 mod belt;
 mod bodies;
+mod call;
 mod clearance;
 mod coaxial;
 mod connect;
@@ -33,6 +34,8 @@ mod section;
 mod series;
 mod starts;
 mod surface;
+mod tabled;
+mod tables;
 mod term;
 mod turns;
 mod wheels;
@@ -72,6 +75,8 @@ pub fn resolve(
         joint_models: Vec::new(),
         modal_starts: Vec::new(),
         attached: Vec::new(),
+        tables: Vec::new(),
+        lost_tables: Vec::new(),
     };
     let mechanism = resolver.mechanism(&spec.file, overrides);
     resolver.fold_cells(&spec.file);
@@ -89,6 +94,7 @@ impl Resolver<'_> {
         self.names.foresee(written);
         self.resolve_parameters(&written.parameters, overrides);
         self.resolve_inputs(&written.inputs, overrides);
+        self.resolve_tables(&written.tables);
         self.check_overrides(written, overrides);
         let (file, problems) = crate::spec::expand(written, &mut |count| {
             let count = self.formula(count, Some(Dimension::NONE), Allowed::CONSTANTS, "`count`");

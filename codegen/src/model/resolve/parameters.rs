@@ -274,5 +274,6 @@ fn names_in<'a>(expression: &'a Expression, names: &mut Vec<&'a str>) {
             names_in(right, names);
         }
         Form::Call(_, arguments) => arguments.iter().for_each(|argument| names_in(argument, names)),
+        Form::Compare(_, both) => both.iter().for_each(|side| names_in(side, names)),
     }
 }

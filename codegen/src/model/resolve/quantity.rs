@@ -219,9 +219,12 @@ impl Resolver<'_> {
     /// Reports if a part that depends on nothing but parameters is infinite or not a number, e.g. `t/(2 - 2)`.
     fn check_finite(&mut self, term: &Term, origin: &Origin<'_>) -> bool {
         let mut finite = true;
-        term.visit(&mut |part| {
+        term.visit_chosen(&self.values, &mut |part| {
             // Only leaves and what can leave the numbers; sums of finite parts are checked with the whole.
-            let check = matches!(part, Term::Number(_) | Term::Div(..) | Term::Power(..) | Term::Call(..));
+            let check = matches!(
+                part,
+                Term::Number(_) | Term::Div(..) | Term::Power(..) | Term::Call(..) | Term::Table(..)
+            );
             if finite && check && part.value_at(&self.values, None).is_some_and(|value| !value.is_finite()) {
                 finite = false;
             }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::modal_start::ModalStart;
 use super::names::Names;
+use super::tabled::Tabled;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::input::Reach;
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
@@ -31,6 +32,10 @@ pub(super) struct Resolver<'a> {
     pub(super) modal_starts: Vec<ModalStart>,
     /// Other files that were read.
     pub(super) attached: Vec<PathBuf>,
+    /// Functions given by rows.
+    pub(super) tables: Vec<Tabled>,
+    /// Names of all that are written.
+    pub(super) lost_tables: Vec<String>,
 }
 
 /// A fault that was reported, unless another explains it; more can be said about it.

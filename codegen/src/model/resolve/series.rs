@@ -169,7 +169,7 @@ impl Series {
 }
 
 /// Cells of a row, without quotes.
-fn cells(row: &str) -> impl Iterator<Item = &str> {
+pub(super) fn cells(row: &str) -> impl Iterator<Item = &str> {
     row.split(',').map(|cell| cell.trim().trim_matches('"').trim())
 }
 
@@ -179,7 +179,7 @@ fn range(values: &[f64]) -> (f64, f64) {
 }
 
 /// Size of a unit in SI and its dimension.
-fn size_of(unit: &str) -> Option<(f64, Dimension)> {
+pub(super) fn size_of(unit: &str) -> Option<(f64, Dimension)> {
     let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
     match parse_expression(&text, &|_| false).ok()?.form {
         Form::Number { value, dimension, .. } => Some((value, dimension)),

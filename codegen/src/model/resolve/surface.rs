@@ -32,6 +32,7 @@ impl Resolver<'_> {
         } else if let Some(equation) = &spec.equation {
             let what = place("equation", "joint", name);
             let formula = self.formula(equation, Some(Dimension::LENGTH), Allowed::PLACE, &what);
+            self.check_smooth(&formula, &what);
             let mut seen = false;
             formula.term.visit(&mut |term| seen |= matches!(term, Term::Place(_)));
             let wrong = matches!(formula.term, Term::Number(value) if value.is_nan());

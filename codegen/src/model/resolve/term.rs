@@ -5,24 +5,8 @@ use super::quantity::{Here, Origin, PLACE, Resolved};
 use super::resolver::{Reported, Resolver};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
-use crate::model::{Function, Term};
+use crate::model::Term;
 use crate::spec::{Dimension, Expression, Form, Operator};
-
-const FUNCTIONS: &[(&str, Function)] = &[
-    ("sin", Function::Sin),
-    ("cos", Function::Cos),
-    ("tan", Function::Tan),
-    ("asin", Function::Asin),
-    ("acos", Function::Acos),
-    ("atan", Function::Atan),
-    ("atan2", Function::Atan2),
-    ("sinh", Function::Sinh),
-    ("cosh", Function::Cosh),
-    ("tanh", Function::Tanh),
-    ("exp", Function::Exp),
-    ("ln", Function::Ln),
-    ("sqrt", Function::Sqrt),
-];
 
 impl Resolver<'_> {
     pub(super) fn term(&mut self, expression: &Expression, origin: &Origin<'_>) -> Resolved {
@@ -42,6 +26,11 @@ impl Resolver<'_> {
             }
             Form::Binary(operator, left, right) => self.binary(*operator, [left, right], here),
             Form::Call(function, arguments) => self.call(function, arguments, here),
+            Form::Compare(..) => {
+                self.refuse_in(here, Code::FormulaSyntax, "a comparison is no quantity")
+                    .help("comparisons choose: `if(a < b, then, else)`");
+                None
+            }
         }
     }
 
@@ -237,45 +226,5 @@ impl Resolver<'_> {
                 }
             }),
         }
-    }
-
-    fn call(&mut self, name: &str, arguments: &[Expression], here: Here<'_>) -> Resolved {
-        let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) else {
-            let known: Vec<&str> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
-            let list = known.join(", ");
-            self.refuse_in(here, Code::UnknownFunction, &format!("there is no function `{name}`"))
-                .did_you_mean(name, known)
-                .help(format!("functions are {list}: all are smooth, so that motions have accelerations"));
-            return None;
-        };
-        let resolved: Vec<Resolved> =
-            arguments.iter().map(|argument| self.term(argument, here.origin)).collect();
-        let needed = if *function == Function::Atan2 { 2 } else { 1 };
-        if arguments.len() != needed {
-            let (plural, found) = (if needed == 1 { "" } else { "s" }, arguments.len());
-            let message = format!("`{name}` takes {needed} argument{plural}, not {found}");
-            let form = if needed == 1 { format!("{name}(x)") } else { format!("{name}(y, x)") };
-            self.refuse_in(here, Code::UnknownFunction, &message).help(format!("write `{form}`"));
-            return None;
-        }
-        let (terms, dimensions): (Vec<Term>, Vec<Dimension>) =
-            resolved.into_iter().collect::<Option<Vec<_>>>()?.into_iter().unzip();
-        let dimension = match function {
-            Function::Sqrt => dimensions[0].root(),
-            Function::Atan2 => (dimensions[0] == dimensions[1]).then_some(Dimension::NONE),
-            _ => (dimensions[0] == Dimension::NONE).then_some(Dimension::NONE),
-        };
-        let Some(dimension) = dimension else {
-            let found = dimensions.iter().map(|d| d.description()).collect::<Vec<_>>().join(" and ");
-            let need = match function {
-                Function::Sqrt => "needs even powers of the units",
-                Function::Atan2 => "needs two quantities of one dimension",
-                _ => "needs a pure number or an angle",
-            };
-            self.refuse_in(here, Code::UnitMismatch, &format!("`{name}` {need}, not {found}"))
-                .help("divide by a quantity of the same kind, or check the units");
-            return None;
-        };
-        Some((Term::Call(*function, terms), dimension))
     }
 }

@@ -68,7 +68,19 @@ impl Resolver<'_> {
                 {
                     misread.get_or_insert(argument.range.clone());
                 }
-                if function.starts_with('a') { Turning::ANGLE } else { Turning::default() }
+                let of = |place: usize| inner.get(place).copied().unwrap_or_default();
+                match function.as_str() {
+                    "asin" | "acos" | "atan" | "atan2" => Turning::ANGLE,
+                    "abs" | "min" | "max" | "clamp" | "mod" | "smooth_abs" => of(0),
+                    "if" => of(1),
+                    _ => Turning::default(),
+                }
+            }
+            Form::Compare(_, both) => {
+                both.iter().for_each(|side| {
+                    self.turning(side, misread);
+                });
+                Turning::default()
             }
         }
     }

@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 22] = [
+const TABLES: [(&str, &str); 23] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -37,6 +37,7 @@ const TABLES: [(&str, &str); 22] = [
     ("StartTable", "Start values in `[assembly]` and `[initial]`, where they are a table"),
     ("ClearanceSpec", "`[clearance.<joint>]`"),
     ("WearSpec", "`[wear.<joint>]`"),
+    ("TableSpec", "`[tables.<name>]`"),
     ("MissionSpec", "`[missions.<name>]`"),
     ("SegmentSpec", "A segment of a mission"),
     ("SegmentJointSpec", "A joint in a segment of a mission"),

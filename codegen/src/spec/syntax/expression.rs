@@ -15,6 +15,19 @@ pub enum Operator {
     Div,
 }
 
+/// A comparison of two values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `<`
+    Less,
+    /// `<=`
+    AtMost,
+    /// `>`
+    Greater,
+    /// `>=`
+    AtLeast,
+}
+
 /// What a piece of a formula is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
@@ -43,6 +56,8 @@ pub enum Form {
     Power(Box<Expression>, i32),
     /// `sin(a)`.
     Call(String, Vec<Expression>),
+    /// `a < b`, the first argument of `if`.
+    Compare(Relation, Box<[Expression; 2]>),
 }
 
 /// A piece of a formula and its place in the text, in bytes.
@@ -76,6 +91,7 @@ impl Expression {
             Form::Neg(inner) | Form::Power(inner, _) => inner.hardness(),
             Form::Binary(_, left, right) => left.hardness().or_else(|| right.hardness()),
             Form::Call(_, arguments) => arguments.iter().find_map(Self::hardness),
+            Form::Compare(_, both) => both.iter().find_map(Self::hardness),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::expression::{SyntaxError, fault};
+use super::expression::{Relation, SyntaxError, fault};
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub(super) enum Kind {
     Word(String),
     /// One of `+-*/^(),.`
     Mark(char),
+    /// A comparison.
+    Relation(Relation),
 }
 
 /// A token and its place.
@@ -42,6 +44,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
         } else if "+-*/^(),.".contains(next) {
             at += 1;
             Kind::Mark(next)
+        } else if let Some(relation) = relation(&text[at..]) {
+            at += if matches!(relation, Relation::Less | Relation::Greater) { 1 } else { 2 };
+            Kind::Relation(relation)
         } else {
             let message = format!("`{next}` has no meaning in a formula");
             return Err(fault(message, start..start + next.len_utf8()));
@@ -49,6 +54,17 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
         tokens.push(Token { kind, range: start..at });
     }
     Ok(tokens)
+}
+
+/// The comparison that a text begins with.
+fn relation(text: &str) -> Option<Relation> {
+    let known = [
+        ("<=", Relation::AtMost),
+        (">=", Relation::AtLeast),
+        ("<", Relation::Less),
+        (">", Relation::Greater),
+    ];
+    known.into_iter().find(|(mark, _)| text.starts_with(mark)).map(|(_, relation)| relation)
 }
 
 fn number(text: &str, range: Range<usize>) -> Result<f64, SyntaxError> {

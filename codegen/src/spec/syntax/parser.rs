@@ -26,6 +26,10 @@ pub(super) fn parse(
         let message = match &token.kind {
             Kind::Word(_) | Kind::Number(_) => "an operator is missing here",
             Kind::Mark(_) => "this does not belong here",
+            Kind::Relation(_) => {
+                return Err(fault("a comparison stands here", token.range.clone())
+                    .advise("comparisons choose: `if(a < b, then, else)`, and compare two values only"));
+            }
         };
         return Err(fault(message, token.range.clone()).advise("products need a `*`: `2*L1`, `L1*(L2 + L3)`"));
     }
@@ -207,15 +211,15 @@ impl<'a> Parser<'a> {
                 let end = self.tokens[self.next - 1].range.end;
                 Ok(Expression { range: range.start..end, ..inner })
             }
-            Kind::Mark(_) => Err(no_value(range)),
+            Kind::Mark(_) | Kind::Relation(_) => Err(no_value(range)),
         }
     }
 
     fn named(&mut self, word: &str, range: Range<usize>) -> Result<Expression, SyntaxError> {
         if self.take('(') {
-            let mut arguments = vec![self.sum()?];
+            let mut arguments = vec![self.argument()?];
             while self.take(',') {
-                arguments.push(self.sum()?);
+                arguments.push(self.argument()?);
             }
             self.expect(')')?;
             let end = self.tokens[self.next - 1].range.end;
@@ -232,6 +236,16 @@ impl<'a> Parser<'a> {
             return Ok(expression(Form::Member(word.to_owned(), name.to_owned()), range.start..member.end));
         }
         Ok(expression(Form::Name(word.to_owned()), range))
+    }
+
+    /// A value, or a comparison of two.
+    fn argument(&mut self) -> Result<Expression, SyntaxError> {
+        let left = self.sum()?;
+        let Some(Kind::Relation(relation)) = self.peek().map(|token| &token.kind) else { return Ok(left) };
+        self.next += 1;
+        let right = self.sum()?;
+        let range = left.range.start..right.range.end;
+        Ok(expression(Form::Compare(*relation, Box::new([left, right])), range))
     }
 
     /// The pressure of a Rockwell number, if one is written.

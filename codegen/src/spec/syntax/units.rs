@@ -134,6 +134,7 @@ impl Parser<'_> {
             Kind::Word(word) => word.clone(),
             Kind::Number(value) => value.to_string(),
             Kind::Mark(mark) => mark.to_string(),
+            Kind::Relation(_) => String::new(),
         };
         let join = |tokens: &[Token]| {
             let mut joined = String::new();

@@ -36,7 +36,7 @@ impl Random {
 
     fn op(&mut self, inputs: usize, values: u32, calls: bool) -> Op {
         let (a, b) = (self.operand(inputs, values), self.operand(inputs, values));
-        match self.below(if calls { 26 } else { 22 }) {
+        match self.below(if calls { 28 } else { 24 }) {
             0..6 => Op::Binary(Binary::Add, a, b),
             6..11 => Op::Binary(Binary::Sub, a, b),
             11..17 => Op::Binary(Binary::Mul, a, b),
@@ -45,9 +45,11 @@ impl Random {
             19 => Op::Unary(Unary::Sqrt, a),
             20 => Op::SinCos(a),
             21 => Op::Unary(Unary::LogCoefficient(self.below(3) as u8), a),
-            22 => Op::Unary(Unary::Exp, a),
-            23 => Op::Unary(Unary::Ln, a),
-            24 => Op::Binary(Binary::Atan2, a, b),
+            22 => Op::Select(a, b, self.operand(inputs, values)),
+            23 => Op::Unary(Unary::Floor, a),
+            24 => Op::Unary(Unary::Exp, a),
+            25 => Op::Unary(Unary::Ln, a),
+            26 => Op::Binary(Binary::Atan2, a, b),
             _ => Op::Binary(Binary::AngleOverSine, a, b),
         }
     }
@@ -108,9 +110,11 @@ pub(crate) fn evaluated(tape: &Tape, input: &[f64]) -> Vec<f64> {
                 Unary::Sqrt => get(a).sqrt(),
                 Unary::Exp => Scalar::exp(get(a)),
                 Unary::Ln => Scalar::ln(get(a)),
+                Unary::Floor => Scalar::floor(get(a)),
                 Unary::LogCoefficient(rank) => log_coefficient(rank, get(a)),
                 Unary::Sin | Unary::Cos => panic!("tapes have pairs"),
             }],
+            Op::Select(of, yes, no) => vec![if get(of) < 0.0 { get(yes) } else { get(no) }],
             Op::Binary(operation, a, b) => {
                 let (a, b) = (get(a), get(b));
                 vec![match operation {

@@ -68,6 +68,10 @@ impl<'a> Trajectory<'a> {
         (lanes, lane): Place<'_, 'a, N>,
     ) -> Result<bool, RunError> {
         let Integrator::Rk43 { tolerance, max_step } = self.runner.integrator else { return Ok(false) };
+        // Steps that end at switches are a lone trajectory's.
+        if self.evaluator().has_switches() {
+            return Ok(false);
+        }
         self.runner.restore(from)?;
         let mut turn = self.runner.begin(looked_at)?;
         let motion = &mut self.runner.motion;
