@@ -12,4 +12,10 @@ mechanisms! {
     bennett,
     /// The stiff flyball governor.
     flyball,
+    /// A Geneva drive while its pin is in the slot.
+    geneva,
+    /// A disc cam with a roller follower.
+    cam,
+    /// A wheel carrier on five rods without mass.
+    five_link,
 }

@@ -57,9 +57,12 @@ fn random(recipe: &Recipe) -> SourceFile {
     SourceFile { name: format!("random {recipe:?}"), text: recipe.toml() }
 }
 
-const SHIPPED: [(&str, f64); 11] = [
+const SHIPPED: [(&str, f64); 14] = [
     ("andrews", 0.02),
     ("bennett", 0.7),
+    ("cam", 0.2),
+    ("five_link", 0.3),
+    ("geneva", 0.25),
     ("bricard", 0.7),
     ("flyball", 0.05),
     ("four_bar", 0.7),

@@ -43,6 +43,9 @@ impl Oracle {
 
     fn motion_from(&self, joint: JointId, value: &dyn Fn(&str) -> Option<f64>) -> Option<JointMotion> {
         let geometry = &self.joints[joint.index()];
+        if Kind::OF_PLACES.contains(&geometry.kind) {
+            return None;
+        }
         let name = &self.mechanism.joint(joint).name;
         let column = |suffix: &str| value(&format!("{name}.{suffix}"));
         let count = geometry.scalars();

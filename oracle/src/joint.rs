@@ -3,10 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use linkwear_codegen::model::{Axis, Carrier, Joint};
+use linkwear_codegen::id::{JointId, PointId};
+use linkwear_codegen::model::{Axis, Carrier, Joint, Term};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
+use crate::formula::{State, evaluate};
 use crate::frame::{across, angle_about, rotation_about};
+use crate::jet::Jet;
 use crate::kind::Kind;
 use crate::row::{Pair, Row};
 
@@ -42,10 +45,33 @@ pub(crate) struct JointGeometry {
     /// Columns: the same right-handed triad as the parent's and as the child's branch describe it. The
     /// third is the joint's (first) axis.
     pub triads: [Matrix3<f64>; 2],
+    /// Of a joint that holds a place: what is zero there, with the values of all parameters.
+    pub surface: Option<(Term, Vec<f64>)>,
+}
+
+/// A place that moves, as a surface asks for it.
+struct Place([Jet; 3]);
+
+impl State for Place {
+    fn joint_position(&self, _: JointId, _: usize) -> f64 {
+        f64::NAN
+    }
+    fn joint_speed(&self, _: JointId, _: usize) -> f64 {
+        f64::NAN
+    }
+    fn point_position(&self, _: PointId, _: usize) -> f64 {
+        f64::NAN
+    }
+    fn point_speed(&self, _: PointId, _: usize) -> f64 {
+        f64::NAN
+    }
+    fn place(&self, component: usize) -> Jet {
+        self.0[component]
+    }
 }
 
 impl JointGeometry {
-    pub fn new(joint: &Joint, points: [Vector3<f64>; 2]) -> Self {
+    pub fn new(joint: &Joint, points: [Vector3<f64>; 2], parameters: &[f64]) -> Self {
         let model = &joint.model;
         let triads = match model.axes[..] {
             [] => [Matrix3::identity(); 2],
@@ -63,6 +89,7 @@ impl JointGeometry {
             lead: model.lead,
             points,
             triads,
+            surface: joint.surface.as_ref().map(|it| (it.equation.term.clone(), parameters.to_vec())),
         }
     }
 
@@ -117,7 +144,25 @@ impl JointGeometry {
             Kind::Inplane => slides(&[2]),
             Kind::Fixed => [together(), locked()].concat(),
             Kind::Free => Vec::new(),
+            Kind::Distance | Kind::OnSurface => self.on_surface(pair).into_iter().collect(),
         }
+    }
+
+    /// The row of a surface: the three coordinates of the place in the parent are rows themselves, and the equation of them
+    /// is differentiated by Taylor arithmetic.
+    fn on_surface(&self, pair: &Pair) -> Option<Row> {
+        let (term, parameters) = self.surface.as_ref()?;
+        let along = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| pair.slide(&axis));
+        let at = |place: [Jet; 3]| evaluate(term, parameters, 0.0, &Place(place));
+        let moving = along.map(|row| Jet { value: row.residual, first: row.rate, second: row.bias });
+        let mut sum = Row::default();
+        for (k, row) in along.iter().enumerate() {
+            let mut place = along.map(|row| Jet::constant(row.residual));
+            place[k].first = 1.0;
+            sum = sum.plus(at(place).first, row);
+        }
+        let value = at(moving);
+        Some(Row { residual: value.value, rate: value.first, bias: value.second, ..sum })
     }
 
     fn turn_about_axis(&self, pair: &Pair) -> Row {
@@ -255,7 +300,7 @@ mod tests {
             surface: None,
             span: Span::default(),
         };
-        JointGeometry::new(&joint, [Vector3::new(0.2, 0.1, -0.3), Vector3::new(0.25, 0.0, -0.1)])
+        JointGeometry::new(&joint, [Vector3::new(0.2, 0.1, -0.3), Vector3::new(0.25, 0.0, -0.1)], &[])
     }
 
     /// A body that moves with constant angular velocity and velocity: its accelerations are zero.

@@ -18,10 +18,15 @@ pub enum Kind {
     Inplane,
     Fixed,
     Free,
+    Distance,
+    OnSurface,
 }
 
 impl Kind {
-    /// Every kind.
+    /// Kinds that hold the place of a point and place no body.
+    pub const OF_PLACES: [Self; 2] = [Self::Distance, Self::OnSurface];
+
+    /// Every kind that can carry a body.
     pub const ALL: [Self; 12] = [
         Self::Revolute,
         Self::Prismatic,
@@ -43,7 +48,7 @@ impl Kind {
     /// If the joint has clearance, or is of a kind that the oracle does not know.
     pub fn of(model: &JointModel) -> Self {
         assert!(!model.clearance, "the oracle knows ideal joints only");
-        let known = Self::ALL.into_iter().find(|kind| kind.key() == model.kind.name);
+        let known = Self::ALL.into_iter().chain(Self::OF_PLACES).find(|kind| kind.key() == model.kind.name);
         known.unwrap_or_else(|| panic!("the oracle knows no {} joint", model.kind.name))
     }
 
@@ -62,10 +67,12 @@ impl Kind {
             Self::Inplane => "inplane",
             Self::Fixed => "fixed",
             Self::Free => "free",
+            Self::Distance => "distance",
+            Self::OnSurface => "on_surface",
         }
     }
 
-    /// Rotations and pure translations it leaves.
+    /// Rotations and pure translations it leaves; of those that hold a place as far as it leaves them everywhere.
     pub const fn freedoms(self) -> [usize; 2] {
         match self {
             Self::Revolute | Self::Screw => [1, 0],
@@ -78,12 +85,13 @@ impl Kind {
             Self::Planar => [1, 2],
             Self::Fixed => [0, 0],
             Self::Free => [3, 3],
+            Self::Distance | Self::OnSurface => [3, 2],
         }
     }
 
     /// Whether the child turns in space: its orientation is a quaternion.
     pub const fn is_round(self) -> bool {
-        self.freedoms()[0] == 3
+        self.freedoms()[0] == 3 && !matches!(self, Self::Distance | Self::OnSurface)
     }
 
     /// Three freedoms about a point or in a plane; two such joints in a loop leave one of them idle.
@@ -101,7 +109,7 @@ impl Kind {
             Self::Planar => &[false, false, true],
             Self::Slot => &[false, true],
             Self::Inplane => &[false, false],
-            Self::Spherical | Self::Fixed | Self::Free => &[],
+            Self::Spherical | Self::Fixed | Self::Free | Self::Distance | Self::OnSurface => &[],
         }
     }
 }

@@ -8,8 +8,9 @@ use nalgebra::Vector3;
 
 use crate::check::{check_constants, check_coordinates};
 use crate::error::OracleError;
+use crate::formula::{State, evaluate};
 use crate::frame::{BodyState, Frame};
-use crate::jet::{Jet, State, evaluate};
+use crate::jet::Jet;
 use crate::joint::{JointGeometry, JointMotion};
 use crate::kind::Kind;
 use crate::mass::MassProperties;
@@ -63,8 +64,9 @@ impl Oracle {
             .joints
             .iter()
             .map(|joint| {
-                let points = [joint.parent, joint.child].map(|carrier| position(joint.at, carrier));
-                JointGeometry::new(joint, points)
+                let [on_parent, on_child] = joint.points();
+                let points = [position(on_parent, joint.parent), position(on_child, joint.child)];
+                JointGeometry::new(joint, points, parameters)
             })
             .collect::<Vec<_>>();
         check_coordinates(mechanism, &joints)?;

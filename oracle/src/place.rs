@@ -62,6 +62,7 @@ impl JointGeometry {
                 (rotation_by_quaternion(&q[2..6]), q[0] * self.parent_axis(0) + q[1] * self.parent_axis(1))
             }
             Kind::Fixed => (align, none),
+            Kind::Distance | Kind::OnSurface => unreachable!("what holds a place places no body"),
             Kind::Inline => (rotation_by_quaternion(&q[1..5]), q[0] * axis),
             Kind::Spherical | Kind::Free => {
                 let shift = q.get(4..7).map_or(none, Vector3::from_column_slice);
@@ -94,6 +95,7 @@ impl JointGeometry {
                 (Vector3::from_column_slice(&v[2..5]), slip)
             }
             Kind::Fixed => (none, none),
+            Kind::Distance | Kind::OnSurface => unreachable!("what holds a place places no body"),
             Kind::Inline => (Vector3::from_column_slice(&v[1..4]), v[0] * axis),
             Kind::Spherical | Kind::Free => {
                 let slip = v.get(3..6).map_or(none, Vector3::from_column_slice);

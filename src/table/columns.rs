@@ -43,6 +43,11 @@ pub fn tables() -> [(&'static str, Vec<ColumnForm>); 4] {
 const SAMPLES: &[(&str, &[&str], &str)] = &[
     ("t", &["s"], "Time"),
     (
+        "t.switch<n>",
+        &["1"],
+        "A condition of a formula with pieces, by number from 1: below zero where it holds",
+    ),
+    (
         "<joint>.q",
         &["rad", "m"],
         "Coordinate of a joint with one: angle or displacement, zero at the reference pose",

@@ -179,7 +179,7 @@ fn geometry(kind: Kind, spare: &mut Vec<usize>, dice: &mut Dice) -> String {
             let first = at_right_angles(main, dice);
             format!(", axis = {}, first = {}", direction(main), direction(first))
         }
-        Kind::Spherical | Kind::Fixed | Kind::Free => String::new(),
+        Kind::Spherical | Kind::Fixed | Kind::Free | Kind::Distance | Kind::OnSurface => String::new(),
     }
 }
 
