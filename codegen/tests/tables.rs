@@ -149,3 +149,10 @@ fn what_a_table_cannot_do_is_refused() {
     let outside = r#"law = { data = "../../etc/hostname" }"#;
     assert!(refused(outside, r#"force = "law(rail.q)""#).contains("E0312"));
 }
+
+#[test]
+fn a_table_that_begins_after_the_start_is_refused_with_the_cure() {
+    let late = r#"law = { argument = ["1 s", "2 s"], value = ["0 N", "5 N"] }"#;
+    let answer = refused(late, r#"force = "law(t)""#);
+    assert!(answer.contains("E0308") && answer.contains("outside = \"hold\""), "{answer}");
+}

@@ -291,7 +291,9 @@ pub enum RunError {
         jump: f64,
     },
     /// Something became infinite or not a number.
-    #[error("at t = {t} s `{what}` is not a finite number; check the forces and expressions that act on it")]
+    #[error(
+        "at t = {t} s `{what}` is not a finite number; check the forces and expressions that act on it, and whether a table is asked outside its rows"
+    )]
     NonFinite {
         /// Time at which it was evaluated.
         t: f64,

@@ -240,8 +240,14 @@ impl Resolver<'_> {
         }
         let when = if finite && term.value_at(&self.values, None).is_none() { " at t = 0" } else { "" };
         let message = format!("{} is infinite or not a number{when}", origin.what);
-        self.refuse(Code::NotFinite, origin.quantity.span, message)
-            .help("check divisions by zero and the ranges of sqrt, ln, asin and acos");
+        let mut asks_table = false;
+        term.visit(&mut |part| asks_table |= matches!(part, Term::Table(..)));
+        let help = if asks_table {
+            "check whether the rows of its tables reach so far; `outside = \"hold\"` in a table goes on with its last value"
+        } else {
+            "check divisions by zero and the ranges of sqrt, ln, asin and acos"
+        };
+        self.refuse(Code::NotFinite, origin.quantity.span, message).help(help);
         false
     }
 }
