@@ -214,3 +214,30 @@ fn a_rod_without_mass_is_the_limit_of_a_light_one() {
         }
     }
 }
+
+/// A profile by rows, met at a lowest point that is a row: its lever arm there is rounding.
+#[test]
+fn a_cam_by_a_table_is_the_cam_of_its_formula() {
+    let by_formula = shipped("cam");
+    let mut by_table = by_formula.clone();
+    let formula = "mean - lift*(x^2 - y^2)/(x^2 + y^2)";
+    assert!(by_table.text.contains(formula));
+    by_table.text = by_table.text.replace(formula, "profile(atan2(y, x))");
+    let rows = (0..25).map(|k| f64::from(15 * k - 180));
+    let arguments: Vec<String> = rows.clone().map(|angle| format!("\"{angle} deg\"")).collect();
+    let values = rows.map(|angle| 30.0 + 4.0 * (2.0 * angle.to_radians()).cos());
+    let values: Vec<String> = values.map(|radius| format!("\"{radius:.9} mm\"")).collect();
+    by_table.text += &format!(
+        "\n[tables.profile]\nargument = [{}]\nvalue = [{}]\ninterpolation = \"spline\"\noutside = \"periodic\"\n",
+        arguments.join(", "),
+        values.join(", ")
+    );
+    let [table, formula] = [by_table, by_formula].map(|source| {
+        run(&compile_source(&source, &[], None), Span::Time(0.2), Span::Time(0.0), 21, 1e-10)
+            .column("roller.y")
+    });
+    for (a, b) in table.iter().zip(&formula) {
+        // A cubic spline through rows h apart: h^4/384 times the fourth derivative, 16 times 4 mm.
+        assert!((a - b).abs() < 0.9e-6, "{a} and {b}");
+    }
+}

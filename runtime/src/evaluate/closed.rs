@@ -10,6 +10,9 @@ pub const CLOSED: f64 = 1e-7;
 /// The part that a start may use up: along the motion a loop that is not drawn exactly opens further.
 pub const CLOSED_AT_START: f64 = 0.1 * CLOSED;
 
+/// Lever arms below this [m] are what rounding leaves of none, as of a cam at its lowest point: a thousandth of an atom.
+const DUST: f64 = 1e-13;
+
 impl LoopError {
     /// How far the loops are open as a part of the longest lever arm [m] or of a radian.
     pub fn part(&self, arm: f64) -> f64 {
@@ -51,6 +54,6 @@ impl Evaluator<'_> {
         let arms = rows.flat_map(|(row, _)| row.iter().zip(&*description.speeds));
         let arms = arms.filter(|(_, speed)| speed.unit.starts_with("rad"));
         let longest = arms.fold(0.0_f64, |longest, (arm, _)| longest.max(arm.abs()));
-        if longest.is_finite() && longest > 0.0 { longest } else { 1.0 }
+        if longest.is_finite() && longest > DUST { longest } else { 1.0 }
     }
 }
