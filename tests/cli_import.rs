@@ -2,6 +2,8 @@
 
 mod command;
 
+use std::collections::BTreeMap;
+
 use command::{Folder, linkwear};
 
 const ARM: &str = "examples/data/arm.urdf";
@@ -32,31 +34,119 @@ const PINOCCHIO: [f64; 7] = [
 #[test]
 fn the_drives_of_the_shipped_arm_are_those_of_pinocchio() {
     let folder = Folder::new("import-arm");
-    let file = folder.path("arm.toml");
-    let told = linkwear(&["import", ARM, "--out", &file, "--format", "json"]).json();
+    let (text, told) = imported(&folder, ARM);
     assert_eq!((&told["bodies"], &told["joints"]), (&7.into(), &7.into()), "{told}");
-    let mut text = std::fs::read_to_string(&file).expect("written");
-    for (name, [q, v, a], unit) in MOTION {
+    let drives = MOTION.map(|(name, [q, v, a], unit)| {
         let half = 0.5 * a;
-        let drive = format!("{q:?} {unit} + ({v:?} {unit}/s)*t + ({half:?} {unit}/s^2)*t^2");
-        let joint = format!("\n{name} = {{ ");
-        assert!(text.contains(&joint), "{name}: {text}");
-        text = text.replace(&joint, &format!("\n{name} = {{ drive = \"{drive}\", "));
-    }
-    let driven = folder.write("driven.toml", &text);
-    let table = folder.path("run.csv");
-    let run = linkwear(&["simulate", &driven, "--time", "0.001", "--out", &table]);
-    assert_eq!(run.code, 0, "{}", run.err);
-    let rows = std::fs::read_to_string(&table).expect("written");
-    let mut lines = rows.lines().filter(|line| !line.starts_with('#'));
-    let (head, first) = (lines.next().expect("a header"), lines.next().expect("a row"));
+        (name, format!("{q:?} {unit} + ({v:?} {unit}/s)*t + ({half:?} {unit}/s^2)*t^2"))
+    });
+    let rows = driven(&folder, &text, &drives, &["--time", "0.001"]);
     for ((name, ..), expected) in MOTION.into_iter().zip(PINOCCHIO) {
-        let column = format!("{name}.drive ");
-        let at = head.split(',').position(|title| title.starts_with(&column)).expect("a column");
-        let found: f64 = first.split(',').nth(at).expect("a cell").parse().expect("a number");
+        let found = rows[0][&format!("{name}.drive")];
         // Rounding of a chain of seven joints, beside torques of 10 N m.
         assert!((found - expected).abs() < 1e-10, "{name}: {found} {expected}");
     }
+}
+
+const PANDA: &str = "tests/data/panda/panda.urdf";
+/// By `rnea.py` in the same folder.
+const PANDA_RNEA: &str = include_str!("data/panda/rnea.csv");
+/// Mean, amplitude and rate [rad/s] of its joints: the motion of `rnea.py`. The second finger follows by the file's mimic.
+const PANDA_MOTION: [(&str, [f64; 3], &str); 8] = [
+    ("panda_joint1", [0.3, 0.9, 2.1], "rad"),
+    ("panda_joint2", [-0.4, 0.7, 1.7], "rad"),
+    ("panda_joint3", [0.2, -0.8, 2.9], "rad"),
+    ("panda_joint4", [-1.5, 0.9, 2.3], "rad"),
+    ("panda_joint5", [0.6, 1.1, 3.7], "rad"),
+    ("panda_joint6", [1.8, -1.2, 3.1], "rad"),
+    ("panda_joint7", [-0.5, 1.3, 4.3], "rad"),
+    ("panda_finger_joint1", [0.02, 0.015, 5.0], "m"),
+];
+/// Rounding of a chain of nine bodies, beside torques of 40 N m; 2e-14 was found.
+const PANDA_ROUNDING: f64 = 1e-10;
+
+/// The rows of Pinocchio's file: time, then a number for each joint.
+fn pinocchio(what: &str) -> Vec<(f64, [f64; 8])> {
+    let rows = PANDA_RNEA.lines().filter_map(|line| line.strip_prefix(what)?.strip_prefix(','));
+    let numbers =
+        rows.map(|row| row.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>());
+    numbers.map(|row| (row[0], row[1..].try_into().expect("8 joints"))).collect()
+}
+
+fn greatest_difference(row: &BTreeMap<String, f64>, expected: [f64; 8]) -> f64 {
+    let differences = PANDA_MOTION
+        .iter()
+        .zip(expected)
+        .map(|((name, ..), value)| (row[&format!("{name}.drive")] - value).abs());
+    differences.fold(0.0, f64::max)
+}
+
+#[test]
+fn the_drives_of_a_panda_are_those_of_pinocchio_along_its_motion() {
+    let folder = Folder::new("import-panda");
+    let (text, told) = imported(&folder, PANDA);
+    assert_eq!((&told["bodies"], &told["joints"]), (&9.into(), &9.into()), "{told}");
+    assert!(!told["left_out"].to_string().contains("mimic"), "{told}");
+    let drives = PANDA_MOTION.map(|(name, [mean, swing, rate], unit)| {
+        (name, format!("{mean:?} {unit} + ({swing:?} {unit})*sin(({rate:?} rad/s)*t)"))
+    });
+    let rows = driven(&folder, &text, &drives, &["--time", "1", "--samples", "11"]);
+    let expected = pinocchio("moving");
+    assert_eq!((rows.len(), expected.len()), (11, 11));
+    for (row, (time, expected)) in rows.iter().zip(expected) {
+        let difference = greatest_difference(row, expected);
+        assert!((row["t"] - time).abs() < 1e-12 && difference < PANDA_ROUNDING, "{time} s: {difference:e}");
+    }
+}
+
+#[test]
+fn what_holds_a_panda_against_gravity_is_what_pinocchio_says() {
+    let folder = Folder::new("import-panda-gravity");
+    let (text, _) = imported(&folder, PANDA);
+    for (time, expected) in pinocchio("gravity").into_iter().step_by(5) {
+        let drives = PANDA_MOTION.map(|(name, [mean, swing, rate], unit)| {
+            (name, format!("{:?} {unit}", mean + swing * libm::sin(rate * time)))
+        });
+        let rows = driven(&folder, &text, &drives, &["--time", "0.001", "--samples", "2"]);
+        let difference = greatest_difference(&rows[0], expected);
+        assert!(difference < PANDA_ROUNDING, "at the place of {time} s: {difference:e}");
+    }
+}
+
+/// What `import` writes of a file and tells.
+fn imported(folder: &Folder, urdf: &str) -> (String, serde_json::Value) {
+    let file = folder.path("robot.toml");
+    let told = linkwear(&["import", urdf, "--out", &file, "--format", "json"]).json();
+    (std::fs::read_to_string(&file).expect("written"), told)
+}
+
+/// Rows of a run with drives on joints, by column without its unit.
+fn driven(
+    folder: &Folder,
+    text: &str,
+    drives: &[(&str, String)],
+    options: &[&str],
+) -> Vec<BTreeMap<String, f64>> {
+    let mut text = text.to_owned();
+    for (name, drive) in drives {
+        let joint = format!("\n{name} = {{ ");
+        let at = text.find("[joints]").expect("joints");
+        assert!(text[at..].contains(&joint), "{name}: {text}");
+        text = text.replace(&joint, &format!("\n{name} = {{ drive = \"{drive}\", "));
+    }
+    let file = folder.write("driven.toml", &text);
+    let table = folder.path("run.csv");
+    let run = linkwear(&[&["simulate", &file, "--out", &table], options].concat());
+    assert_eq!(run.code, 0, "{}", run.err);
+    let rows = std::fs::read_to_string(&table).expect("written");
+    let mut lines = rows.lines().filter(|line| !line.starts_with('#'));
+    let head = lines.next().expect("a header").split(',');
+    let columns: Vec<&str> = head.map(|title| title.split(' ').next().expect("a name")).collect();
+    let row = |line: &str| {
+        let cells = columns.iter().zip(line.split(','));
+        cells.map(|(name, cell)| ((*name).to_owned(), cell.parse().expect("a number"))).collect()
+    };
+    lines.map(row).collect()
 }
 
 #[test]

@@ -53,6 +53,13 @@ pub enum Kind {
     Fixed,
 }
 
+impl Kind {
+    /// Whether it has one coordinate, an angle or a length.
+    pub const fn is_single(self) -> bool {
+        matches!(self, Self::Revolute | Self::Prismatic)
+    }
+}
+
 /// A joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
@@ -66,8 +73,18 @@ pub struct Joint {
     pub axis: [f64; 3],
     /// Viscous [N m s/rad or N s/m]; 0: none.
     pub damping: f64,
+    /// The joint that it moves with.
+    pub follows: Option<Follows>,
     /// What is told of it beside its equations.
     pub remarks: Vec<String>,
+}
+
+/// How a joint's coordinate follows from another: `times` of it and `plus`, in m and rad.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follows {
+    pub leader: usize,
+    pub times: f64,
+    pub plus: f64,
 }
 
 impl Robot {

@@ -74,6 +74,62 @@ fn links_that_are_fixed_to_each_other_are_one_body() {
     assert!(found.text.contains("\"2.0 kg m^2\", \"2.0 kg m^2\""), "{}", found.text);
 }
 
+/// Three links on two joints, the second of which follows the first.
+fn pair(kinds: [&str; 2], mimic: &str) -> String {
+    let joint = |name: &str, kind: &str, parent: &str, child: &str, inside: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{inside}</joint>\n"
+        )
+    };
+    format!(
+        "<robot name=\"pair\">\n<link name=\"a\"/>\n<link name=\"b\">{MASS}</link>\n<link name=\"c\">{MASS}</link>\n{}{}</robot>\n",
+        joint("lead", kinds[0], "a", "b", ""),
+        joint("follow", kinds[1], "b", "c", mimic)
+    )
+}
+
+#[test]
+fn a_joint_that_mimics_another_is_a_relation() {
+    let mimic = r#"<mimic joint="lead" multiplier="2.5" offset="0.125"/>"#;
+    for (kinds, factor, offset) in [
+        (["revolute", "continuous"], "-2.5", "0.125 rad"),
+        (["prismatic", "prismatic"], "-2.5", "0.125 m"),
+        (["revolute", "prismatic"], "\"-2.5 m\"", "0.125 m"),
+        (["prismatic", "revolute"], "\"-2.5 1/m\"", "0.125 rad"),
+    ] {
+        let found = from_urdf(&pair(kinds, mimic), Base::Fixed).expect("a robot");
+        let made = format!(
+            "follow_follows = {{ relation = {{ follow = 1, lead = {factor} }}, offset = \"{offset}\" }}"
+        );
+        assert!(found.text.contains(&made), "{}", found.text);
+        // One freedom is left of two, and the loops close with the offset.
+        let compiled = compiled(&found.text);
+        assert_eq!(compiled.mechanism.couplings.len(), 1);
+        assert_eq!(compiled.analysis.mobility, 1, "{kinds:?}");
+    }
+    let told = |found: &Imported| found.left_out.iter().any(|line| line.contains("moves alone"));
+    for (kinds, mimic) in [
+        (["floating", "revolute"], mimic),
+        (["revolute", "planar"], mimic),
+        (["fixed", "revolute"], mimic),
+        (["revolute", "revolute"], r#"<mimic joint="lead" multiplier="0"/>"#),
+    ] {
+        let found = from_urdf(&pair(kinds, mimic), Base::Fixed).expect("a robot");
+        assert!(told(&found) && !found.text.contains("[couplings]"), "{:?}", found.left_out);
+        compiled(&found.text);
+    }
+    for (mimic, message) in [
+        (r#"<mimic joint="other"/>"#, "`other`, which is not in the file"),
+        (r#"<mimic joint="follow"/>"#, "mimics itself"),
+        (r#"<mimic joint="lead" multiplier="x"/>"#, "\"x\""),
+        ("<mimic/>", "no `joint`"),
+    ] {
+        let error =
+            from_urdf(&pair(["revolute", "revolute"], mimic), Base::Fixed).expect_err("no such mimic");
+        assert!(error.message.contains(message) && error.line == 6, "{message}: {error:?}");
+    }
+}
+
 #[test]
 fn files_that_are_no_robots_are_refused_with_line_and_cure() {
     let deep = "<a>".repeat(100_000);

@@ -6,7 +6,7 @@ use roxmltree::Node;
 
 use super::error::ImportError;
 use super::place::Place;
-use super::robot::{Joint, Kind, Link, Mass, Robot};
+use super::robot::{Follows, Joint, Kind, Link, Mass, Robot};
 use super::xml::{child, children, document, line, needed, number, numbers};
 
 /// Elements that say nothing of how a robot moves, and what they are.
@@ -62,6 +62,9 @@ pub fn read(text: &str) -> Result<(Robot, Vec<String>), ImportError> {
             ));
         }
         joints.push(joint);
+    }
+    for (at, node) in children(root, "joint").enumerate() {
+        joints[at].follows = follows(node, at, &joints, &mut left_out)?;
     }
     let robot = Robot {
         name: root.attribute("name").unwrap_or("robot").to_owned(),
@@ -198,9 +201,10 @@ fn joint(
         place: place(node)?,
         axis,
         damping: 0.0,
+        follows: None,
         remarks: Vec::new(),
     };
-    let is_one = matches!(kind, Kind::Revolute | Kind::Prismatic);
+    let is_one = kind.is_single();
     if let Some(dynamics) = child(node, "dynamics").filter(|_| is_one) {
         joint.damping = number(dynamics, "damping", Some(0.0))?;
         if joint.damping < 0.0 {
@@ -215,14 +219,6 @@ fn joint(
         if friction != 0.0 {
             left_out.push(format!("friction of {}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {}*tanh({}.v/(0.01 {}))\"", joint.name, force_unit(kind), joint.name, speed_unit(kind)));
         }
-    }
-    if let Some(mimic) = child(node, "mimic") {
-        let other = needed(mimic, "joint")?;
-        let (times, plus) = (number(mimic, "multiplier", Some(1.0))?, number(mimic, "offset", Some(0.0))?);
-        left_out.push(format!(
-            "mimic of {}: it should follow {other} times {times} plus {plus}, and moves alone",
-            joint.name
-        ));
     }
     if let Some(limit) = child(node, "limit").filter(|_| is_one) {
         let of = |key: &str| number(limit, key, Some(0.0));
@@ -240,6 +236,34 @@ fn joint(
         ));
     }
     Ok(joint)
+}
+
+/// The joint that the joint `at` mimics.
+fn follows(
+    node: Node<'_, '_>,
+    at: usize,
+    joints: &[Joint],
+    left_out: &mut Vec<String>,
+) -> Result<Option<Follows>, ImportError> {
+    let Some(mimic) = child(node, "mimic") else { return Ok(None) };
+    let (own, other) = (&joints[at], needed(mimic, "joint")?);
+    let (times, plus) = (number(mimic, "multiplier", Some(1.0))?, number(mimic, "offset", Some(0.0))?);
+    let wrong = |message: String| ImportError::new(line(mimic), message, "name the joint that it moves with");
+    let leader = joints
+        .iter()
+        .position(|joint| joint.name == other)
+        .ok_or_else(|| wrong(format!("joint `{}` mimics `{other}`, which is not in the file", own.name)))?;
+    if leader == at {
+        return Err(wrong(format!("joint `{other}` mimics itself")));
+    }
+    if !own.kind.is_single() || !joints[leader].kind.is_single() || times == 0.0 {
+        left_out.push(format!(
+            "mimic of {}: it should follow {other} times {times} plus {plus}, and moves alone",
+            own.name
+        ));
+        return Ok(None);
+    }
+    Ok(Some(Follows { leader, times, plus }))
 }
 
 fn force_unit(kind: Kind) -> &'static str {

@@ -95,6 +95,7 @@ pub fn written(robot: &Robot, bodies: &Bodies, base: Base, mut left_out: Vec<Str
         }
         let _ = writeln!(text, "{name} = {{ {keys} }}");
     }
+    text.push_str(&couplings(robot, &moving, &mut names, &mut left_out));
     let limited = moving.iter().filter(|(joint, ..)| !joint.remarks.is_empty()).count();
     if limited > 0 {
         left_out.push(format!("limits of {limited} joint(s): they stand as comments, nothing stops there"));
@@ -102,6 +103,41 @@ pub fn written(robot: &Robot, bodies: &Bodies, base: Base, mut left_out: Vec<Str
     left_out.push("gravity: the format has none; the file has 9.81 m/s^2 downwards along z".to_owned());
     let joints = moving.len() + usize::from(base == Base::Floating);
     Imported { name, text, bodies: bodies.bodies.len() - held, joints, left_out }
+}
+
+/// Joints that follow others, as relations.
+fn couplings(
+    robot: &Robot,
+    moving: &[(&Joint, String, String)],
+    names: &mut Names,
+    left_out: &mut Vec<String>,
+) -> String {
+    let mut text = String::new();
+    for (joint, name, _) in moving {
+        let Some(follows) = &joint.follows else { continue };
+        let leader = &robot.joints[follows.leader];
+        let Some((_, leader_name, _)) = moving.iter().find(|(other, ..)| other.name == leader.name) else {
+            left_out.push(format!("mimic of {}: {} is left out, so it moves alone", joint.name, leader.name));
+            continue;
+        };
+        // The sum is in the unit of the follower, so the factor turns the leader's unit into it.
+        let (own, per) = match (joint.kind, leader.kind) {
+            (Kind::Revolute, Kind::Prismatic) => ("rad", " 1/m"),
+            (Kind::Prismatic, Kind::Revolute) => ("m", " m"),
+            (Kind::Revolute, _) => ("rad", ""),
+            _ => ("m", ""),
+        };
+        let factor = match per {
+            "" => format!("{:?}", -follows.times),
+            unit => format!("\"{:?}{unit}\"", -follows.times),
+        };
+        let mut keys = format!("relation = {{ {name} = 1, {leader_name} = {factor} }}");
+        if follows.plus != 0.0 {
+            let _ = write!(keys, ", offset = \"{:?} {own}\"", follows.plus);
+        }
+        let _ = writeln!(text, "{} = {{ {keys} }}", names.fresh(&format!("{name}_follows")));
+    }
+    if text.is_empty() { text } else { format!("\n[couplings]\n{text}") }
 }
 
 /// On one line.
