@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use linkwear_runtime::life::WearOf;
 use linkwear_runtime::wear::Measure;
-use linkwear_runtime::{Description, WearInfo};
+use linkwear_runtime::{ContactInfo, Description, WearInfo};
 use serde::{Deserialize, Serialize};
 
 /// What is said of the measure of one joint.
@@ -28,7 +28,7 @@ pub struct WearMeasure {
 }
 
 impl WearMeasure {
-    fn of(joint: &str, wear: &WearInfo) -> Self {
+    fn of(joint: &str, wear: &WearInfo, journal: bool) -> Self {
         let bin = 360.0 / wear.bins as f64;
         let (measure, what, assumes, instead) = match WearOf::described(wear) {
             WearOf::Depth => (
@@ -52,6 +52,12 @@ impl WearMeasure {
                 "failure of one place, as of a lining: measure = \"maximum\"",
             ),
         };
+        let beside = match WearOf::described(wear) {
+            _ if !journal => "",
+            WearOf::Profile(Measure::Maximum) => ", of the bush and of the journal together",
+            _ => ", and the mean depth of the journal over its angle",
+        };
+        let what = what + beside;
         Self {
             joint: joint.to_owned(),
             measure: measure.to_owned(),
@@ -65,9 +71,12 @@ impl WearMeasure {
 
 /// One for each joint that wears.
 pub fn wear_measures(description: &Description) -> Vec<WearMeasure> {
-    let contacts = description.contacts.iter();
-    let wearing = contacts.filter_map(|contact| Some((&*contact.joint, contact.wear.as_ref()?)));
-    wearing.map(|(joint, wear)| WearMeasure::of(joint, wear)).collect()
+    let contacts = description.contacts.iter().enumerate();
+    let of = |(at, contact): (usize, &ContactInfo)| {
+        let wear = contact.wear.as_ref()?;
+        Some(WearMeasure::of(&contact.joint, wear, description.journal_ratio(at).is_some()))
+    };
+    contacts.filter_map(of).collect()
 }
 
 /// A paragraph; nothing where nothing wears. Joints of one measure share their words.

@@ -2,6 +2,8 @@
 
 mod support;
 
+use std::f64::consts::TAU;
+
 use linkwear_codegen::source::SourceFile;
 use linkwear_codegen::{Options, compile};
 use linkwear_runtime::{Evaluator, Integrator, Settings, Span, assemble_static_contact};
@@ -90,5 +92,37 @@ fn a_linkage_that_closes_thanks_to_its_clearances_starts_within_them() {
     for touch in evaluator.clearances().contacts() {
         // The shortest offsets share what is missing; Gauss-Newton ends within a millionth.
         assert!((touch.offset[0].hypot(touch.offset[1]) - 15e-6).abs() < 1e-10, "{:?}", touch.offset);
+    }
+}
+
+#[test]
+fn a_journal_in_the_tree_and_one_across_a_cut_tell_which_place_of_theirs_touches() {
+    let run = |more: &str| {
+        let source = four_bar("area = \"hertz\"", &format!("area = \"hertz\"\nmeasure = \"mean\"\n{more}"));
+        let compiled = compile_source(&source, &[], None);
+        let method = Integrator::Dopri5 { tolerance: 1e-8, max_step: None };
+        run_with(&compiled, &Settings::new(method, Span::Turns(1.0), 31)).run
+    };
+    let wearing = run("hardness_ratio = 0.5\ncoefficient_factor = 2");
+    for joint in ["R2", "R3"] {
+        let column = |name: &str| wearing.column(&format!("{joint}.{name}")).expect("a column");
+        let angles = column("contact_angle").into_iter().zip(column("q")).zip(column("journal_angle"));
+        for ((contact, turned), journal) in angles {
+            let apart = (contact - turned - journal).rem_euclid(TAU);
+            // A few roundings of angles below two turns.
+            assert!(apart.min(TAU - apart) < 1e-14, "{joint}: {contact} {turned} {journal}");
+        }
+    }
+    let plain = run("");
+    for (own, other) in wearing.turns.iter().flatten().zip(plain.turns.iter().flatten()) {
+        // Wear moves nothing within a run: the same bits, but for a factor of two.
+        assert_eq!((own.wear_integral, own.depth), (other.wear_integral, 2.0 * other.depth));
+        let (bush, journal) =
+            (own.deposit.as_ref().expect("a profile"), own.journal.as_ref().expect("a profile"));
+        // 20 um on 8 mm: the bush is so much larger; a thousand steps round.
+        let volumes = journal.mean() / (bush.mean() * (8e-3 + 20e-6) / 8e-3);
+        assert!((volumes - 0.5).abs() < 1e-12, "{volumes}");
+        assert!((bush.mean() / other.deposit.as_ref().expect("a profile").mean() - 2.0).abs() < 1e-12);
+        assert!(other.journal.is_none());
     }
 }

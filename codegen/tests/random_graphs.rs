@@ -73,6 +73,8 @@ fn nobody() -> Description {
         channels: vec![].into(),
         turn_driver: None,
         contacts: Vec::new().into(),
+        journals: Vec::new().into(),
+        coefficients: Vec::new().into(),
         missions: Vec::new().into(),
     }
 }

@@ -10,8 +10,8 @@ use crate::loaded::Loaded;
 use crate::variables::Variable;
 
 type D = Dual<f64>;
-/// What a contact answers, and the offset of its journal.
-type Answer = (Response<D>, [D; 3]);
+/// What a contact answers, the offset of its journal, and how far that has turned.
+type Answer = (Response<D>, [D; 3], D);
 
 /// Storage to differentiate with.
 pub struct Sensitivity {
@@ -57,7 +57,7 @@ impl Sensitivity {
         };
         Self {
             workspace: vec![Dual::new(0.0, 0.0); sizes.workspace],
-            clearances: Clearances::new(&description.contacts).unwrap_or_default(),
+            clearances: Clearances::of(description).unwrap_or_default(),
             kept: description.rows.iter().map(|row| row.kept).collect(),
             contact_columns: added.filter_map(|channel| column(&channel.name)).collect(),
             sizes,
@@ -98,7 +98,7 @@ impl Sensitivity {
         };
         let contacts = ask(Entry::Contacts, &input, &mut self.workspace);
         let responses = self.responses(loaded, at, &contacts)?;
-        let wrenches: Vec<D> = responses.iter().flat_map(|(response, _)| response.wrench).collect();
+        let wrenches: Vec<D> = responses.iter().flat_map(|(response, ..)| response.wrench).collect();
         debug_assert_eq!(wrenches.len(), CONTACT_WRENCH * sizes.contacts);
         let question: Vec<D> = [&input[..], &wrenches, &contacts].concat();
         let answer = ask(Entry::Derivative, &question, &mut self.workspace);
@@ -113,7 +113,7 @@ impl Sensitivity {
         let change = |value: &D| value.derivative;
         let mut outputs: Vec<f64> = columns.iter().map(change).collect();
         outputs.extend(self.contact_columns.iter().map(|(joint, ending)| {
-            let (response, offset) = &responses[*joint];
+            let (response, offset, turned) = &responses[*joint];
             change(&match ending.as_str() {
                 "x" => offset[0],
                 "y" => offset[1],
@@ -121,13 +121,14 @@ impl Sensitivity {
                 "gap" => -response.penetration,
                 "Fn" => response.normal_force,
                 "vt" => response.sliding_speed,
+                "journal_angle" => offset[1].atan2(offset[0]) - *turned,
                 _ => offset[1].atan2(offset[0]),
             })
         }));
         Ok(Changes {
             derivatives: rates.iter().chain(accelerations).map(change).collect(),
             outputs,
-            indicators: responses.iter().map(|(response, _)| response.penetration.derivative).collect(),
+            indicators: responses.iter().map(|(response, ..)| response.penetration.derivative).collect(),
         })
     }
 
@@ -145,7 +146,7 @@ impl Sensitivity {
             let joint: &linkwear_runtime::clearance_joint::Clearance = joint;
             let info: &linkwear_runtime::ContactInfo = info;
             let state: &linkwear_runtime::clearance_joint::ClearanceState = state;
-            if state.profile.is_some() {
+            if state.profile.is_some() || state.journal.is_some() {
                 return Err(format!("joint {} is worn by angle: it has no derivatives", info.joint));
             }
             let clearance = motion[CONTACT_MOTION - 1] + D::constant(state.worn);
@@ -155,7 +156,8 @@ impl Sensitivity {
                 closing_speed: D::constant(state.memory.closing_speed),
             };
             let round = |offset| Support::round(offset, clearance);
-            Ok((joint.respond(motion, round, (clearance, stiffness), &memory), joint.offset(motion)))
+            let response = joint.respond(motion, round, (clearance, stiffness), &memory);
+            Ok((response, joint.offset(motion), joint.turned(motion)))
         };
         joints.zip(motions).map(respond).collect()
     }

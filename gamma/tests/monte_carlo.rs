@@ -40,6 +40,7 @@ impl WearSource for Power {
             touching: 1.0,
             loss: 0.0,
             deposit: None,
+            journal: None,
             observed: Some(Observed::nothing(joint.clearance, 0.01)),
         };
         Ok(joints.iter().map(wear).collect())
@@ -56,6 +57,7 @@ fn settings(gamma: f64, step: WearStep) -> LifeSettings {
         wear: WearOf::Depth,
         feedback: Feedback::Scalar(ScalarFeedback::new(gamma).expect("a factor")),
         bins: None,
+        journal_bins: None,
         limits: Limits { hardness: 3.5e9, pressure_speed: None },
     };
     LifeSettings { step, keep_cycles: false, ..LifeSettings::new(vec![joint]) }

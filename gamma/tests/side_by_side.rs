@@ -45,6 +45,7 @@ impl WearSource for Powers {
                 touching: 1.0,
                 loss: 0.0,
                 deposit: Profile::try_from(vec![0.5 * depth, depth, 1.5 * depth, depth]).ok(),
+                journal: None,
                 observed: Some(Observed::nothing(joint.clearance, 0.01)),
             }
         };
@@ -75,6 +76,7 @@ fn settings(joints: usize, wear: WearOf) -> LifeSettings {
         wear,
         feedback: Feedback::Scalar(ScalarFeedback::new(1.0).expect("a factor")),
         bins: (wear != WearOf::Depth).then_some(4),
+        journal_bins: None,
         limits: Limits { hardness: 3.5e9, pressure_speed: None },
     };
     let settings = LifeSettings::new((0..joints).map(joint).collect());

@@ -99,7 +99,7 @@ impl<const N: usize> NativeBundle<N> {
     /// # Errors
     /// As [`Lanes::new`]; and if a joint keeps wear by bearing angle.
     pub fn new(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
-        if plan.joints().iter().any(Clearance::keeps_profile) {
+        if plan.joints().iter().any(Clearance::keeps_profiles) {
             return Err(Refusal::Profile);
         }
         Ok(Self { parts: Arc::new(Functions::of_steps::<N>(tapes, plan)?), sizes: plan.sizes() })

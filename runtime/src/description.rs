@@ -6,8 +6,9 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use crate::mission::{MissionInfo, SegmentInfo};
-use crate::tables::{ContactInfo, InputRole, Motion, Tables};
+use crate::tables::{CoefficientRow, ContactInfo, InputRole, JournalWear, Motion, Tables};
 use crate::text::Text;
+use crate::wear::Step;
 
 /// A list that is static in generated code and owned elsewhere.
 pub type List<T> = Cow<'static, [T]>;
@@ -70,6 +71,16 @@ pub struct Channel {
 /// How the names of columns begin whose signs say which pieces of formulas hold. `t` is no name that an element can have.
 pub const SWITCH: &str = "t.switch";
 
+/// A factor on the wear coefficient of a joint, by the state of its contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoefficientFactor {
+    /// Index of the joint among those with clearance.
+    pub contact: usize,
+    /// How it is computed: of pressure, sliding speed, then as many parameters and inputs as
+    /// [`MOST_LIVE`](crate::wear::MOST_LIVE), which the motion of the journal has in places that it leaves empty.
+    pub steps: List<Step>,
+}
+
 /// Everything a program needs to run, record and explain a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
@@ -97,11 +108,21 @@ pub struct Description {
     pub turn_driver: Option<usize>,
     /// Joints with clearance, in the order of [`crate::Entry::Contacts`].
     pub contacts: List<ContactInfo>,
+    /// Journals that wear too.
+    pub journals: List<JournalWear>,
+    /// Wear coefficients that depend on the state of the contact.
+    pub coefficients: List<CoefficientFactor>,
     /// Duty cycles, in the order of the file.
     pub missions: List<MissionInfo>,
 }
 
 impl Description {
+    /// Worn volume of a journal over that of its bush, by its index among the joints with clearance; nothing if it does not
+    /// wear.
+    pub fn journal_ratio(&self, contact: usize) -> Option<f64> {
+        self.journals.iter().find(|journal| journal.contact == contact).map(|journal| journal.ratio)
+    }
+
     /// How many of the parameters are tunable ones; the others, behind them, are inputs.
     pub fn tunable(&self) -> usize {
         self.parameters.len().saturating_sub(self.inputs.len())
@@ -168,6 +189,8 @@ impl Description {
             channels: tables.channels.iter().map(channel).collect(),
             turn_driver: tables.turn_driver,
             contacts: tables.contacts.into(),
+            journals: List::Borrowed(&[]),
+            coefficients: List::Borrowed(&[]),
             missions: tables.missions.iter().map(MissionInfo::from_row).collect(),
         }
     }
@@ -177,17 +200,33 @@ impl Description {
 #[derive(Debug)]
 pub struct TabledDescription {
     tables: &'static Tables,
+    journals: &'static [JournalWear],
+    coefficients: &'static [CoefficientRow],
     made: OnceLock<Description>,
 }
 
 impl TabledDescription {
     /// Of these tables.
     pub const fn new(tables: &'static Tables) -> Self {
-        Self { tables, made: OnceLock::new() }
+        Self::with_wear(tables, &[], &[])
+    }
+
+    /// Of these tables, with journals that wear and coefficients that vary.
+    pub const fn with_wear(
+        tables: &'static Tables,
+        journals: &'static [JournalWear],
+        coefficients: &'static [CoefficientRow],
+    ) -> Self {
+        Self { tables, journals, coefficients, made: OnceLock::new() }
     }
 
     /// The description.
     pub fn get(&self) -> &Description {
-        self.made.get_or_init(|| Description::from_tables(self.tables))
+        let factor = |&(contact, steps): &CoefficientRow| CoefficientFactor { contact, steps: steps.into() };
+        self.made.get_or_init(|| Description {
+            journals: self.journals.into(),
+            coefficients: self.coefficients.iter().map(factor).collect(),
+            ..Description::from_tables(self.tables)
+        })
     }
 }

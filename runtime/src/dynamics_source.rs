@@ -137,15 +137,19 @@ impl<'a> DynamicsSource<'a> {
     /// If a number of a joint is out of range.
     pub fn joints(&self) -> Result<Vec<JointLife>, SettingsError> {
         let of = |(at, clearance): &(usize, f64)| {
-            JointLife::of_contact(&self.description.contacts[*at], *clearance).transpose()
+            JointLife::of_joint(self.description, *at, *clearance).transpose()
         };
         self.wearing.iter().filter_map(of).collect()
     }
 
     /// The wearing joints as they are at the start.
     pub fn unworn(&self) -> Vec<JointWear> {
-        let joint =
-            |(_, clearance): &(usize, f64)| JointWear { clearance: *clearance, wear: 0.0, profile: None };
+        let joint = |(_, clearance): &(usize, f64)| JointWear {
+            clearance: *clearance,
+            wear: 0.0,
+            profile: None,
+            journal: None,
+        };
         self.wearing.iter().map(joint).collect()
     }
 
@@ -252,7 +256,8 @@ impl WearSource for DynamicsSource<'_> {
         let from = state.clone();
         self.runner.restore(from.as_ref().unwrap_or(&self.start))?;
         for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
-            self.runner.set_worn(*at, joint.clearance - unworn, joint.profile.clone())?;
+            let surfaces = [joint.profile.clone(), joint.journal.clone()];
+            self.runner.set_worn_pair(*at, joint.clearance - unworn, surfaces)?;
         }
         let (settled, turns) = self.turns()?;
         *state = Some(self.runner.state());

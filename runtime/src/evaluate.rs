@@ -104,7 +104,7 @@ impl<'a> Evaluator<'a> {
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
             switches: description.switches(),
-            clearances: Clearances::new(&description.contacts)?,
+            clearances: Clearances::of(description)?,
             contacts_known_at: None,
             derivative: Derivative::new(sizes, parameters),
             questions: Questions::new(system, parameters, description.inputs.len()),

@@ -32,11 +32,19 @@ macro_rules! describe_mechanism {
             DESCRIPTION.get()
         }
     };
+    ($tables:ident, $journals:ident, $coefficients:ident) => {
+        /// Names and units of parameters, coordinates, rows and output columns.
+        pub fn description() -> &'static $crate::Description {
+            static DESCRIPTION: $crate::TabledDescription =
+                $crate::TabledDescription::with_wear(&$tables, &$journals, &$coefficients);
+            DESCRIPTION.get()
+        }
+    };
 }
 
 /// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.
 #[cfg(not(feature = "std"))]
 #[macro_export]
 macro_rules! describe_mechanism {
-    ($tables:ident) => {};
+    ($tables:ident $(, $more:ident)*) => {};
 }

@@ -84,7 +84,10 @@ pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
 pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System};
-pub use tables::{ContactInfo, GammaRates, InputRole, MissionRow, Motion, SegmentRow, Tables, WearInfo};
+pub use tables::{
+    CoefficientRow, ContactInfo, GammaRates, InputRole, JournalWear, MissionRow, Motion, SegmentRow, Tables,
+    WearInfo,
+};
 pub use text::Text;
 
 #[cfg(feature = "std")]
@@ -98,8 +101,8 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, Description, DriverInfo, List, ParameterInfo, RowInfo, SWITCH, TabledDescription,
-        VariableInfo,
+        Channel, CoefficientFactor, Description, DriverInfo, List, ParameterInfo, RowInfo, SWITCH,
+        TabledDescription, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},

@@ -46,7 +46,9 @@ pub enum Entry {
 /// Values per joint with clearance in the output of [`Entry::Contacts`], in the frame of the bearing (the joint's
 /// parent; for a revolute joint e_z is the axis): offset of the journal's centre from the bearing's (3) [m], its
 /// rate seen from the bearing (3) [m/s], angular velocity of the journal relative to the bearing (3) [rad/s],
-/// clearance [m].
+/// clearance [m]. A journal in a revolute joint does not slide along the axis: where it wears, the third component of the
+/// offset is the angle of the joint [rad], and where its wear coefficient varies, parameters and inputs that it depends on are in
+/// the third component of the rate and the first two of the angular velocity.
 pub const CONTACT_MOTION: usize = 10;
 
 /// Values per joint with clearance that contact laws hand back: force on the journal (3) [N] and moment about the

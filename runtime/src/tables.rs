@@ -3,7 +3,7 @@
 
 use crate::contact::{Onset, Restitution, Stiffness, Strength};
 use crate::text::Text;
-use crate::wear::{Area, Measure};
+use crate::wear::{Area, Measure, Step};
 
 /// What an input is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +110,20 @@ impl WearInfo {
         self.profile || self.measure.is_some()
     }
 }
+
+/// How the journal of a joint wears beside its bush, which [`WearInfo`] is about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JournalWear {
+    /// Index of the joint among those with clearance.
+    pub contact: usize,
+    /// Volume that the journal loses over that of the bush by the same work of friction: (k/H of the journal)/(k/H of the
+    /// bush).
+    pub ratio: f64,
+}
+
+/// A factor on the wear coefficient of a joint: its index among those with clearance, the steps of
+/// [`factor`](crate::wear::factor).
+pub type CoefficientRow = (usize, &'static [Step]);
 
 /// The Gamma process of wear, [CS (21)]: dW ~ Gamma(shape alpha dLambda, rate beta). W and Lambda in metres here.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,10 +10,10 @@ use common::Dense;
 use common::bars::{At, Bar, Bars};
 use common::journal::{Journal, coulomb, smooth, wear};
 use linkwear_runtime::contact::{Restitution, Stiffness};
-use linkwear_runtime::wear::{Area, Profile};
+use linkwear_runtime::wear::{Area, Profile, Step};
 use linkwear_runtime::{
     AssemblyError, ContactInfo, Integrator, Run, RunError, RunWarning, SINGULAR_PIVOT, Settings, SetupError,
-    Span, TurnRunner, Watch, simulate,
+    Simulation, Span, TurnRunner, Watch, simulate,
 };
 
 const CLEARANCE: f64 = 1e-5;
@@ -135,6 +135,12 @@ const TURN: f64 = 2.0 * PI / SPEED;
 fn swelling(t: f64) -> [f64; 2] {
     let size = 40.0 + 10.0 * (3000.0 * t).sin();
     [size * (60.0 * t).cos(), size * (60.0 * t).sin()]
+}
+
+/// Swells and ebbs along one direction.
+fn breathing(t: f64) -> [f64; 2] {
+    let size = 1.0 + 0.3 * (SPEED * t).sin();
+    [30.0 * size, 40.0 * size]
 }
 
 /// Once around per turn of the driver.
@@ -286,6 +292,147 @@ fn wear_by_angle_adds_up_and_goes_where_the_contact_is() {
         let near = (deposit.middle(bin) - angle).abs() < 1.5 * deposit.bin_angle();
         assert!((*depth > 0.0) <= near, "{bin} {depth}");
     }
+}
+
+#[test]
+fn a_bush_wears_in_one_place_and_its_journal_evenly_round() {
+    // Archard by hand: 50 N at a standing angle over a way of 2 pi r a turn; the journal is four times as hard.
+    let (way, ratio) = (2.0 * PI * 0.01, 0.25);
+    let volume = 1e-8 / 3.5e9 * 50.0 * way;
+    let contact = || ContactInfo { wear: wear(Area::Hertz, true), ..smooth() };
+    let integral = |depths: &Profile| depths.depths().iter().sum::<f64>() * depths.bin_angle();
+    let system = loaded(contact(), steady).wearing(ratio);
+    let turn = runner(&system).measure(Watch::NONE).expect("it turns").joints.remove(0);
+    let (bush, journal) =
+        (turn.deposit.as_ref().expect("a profile"), turn.journal.as_ref().expect("a profile"));
+    // Volumes k F s/H of both, k/H of the journal a quarter; the load rings by 1e-8 of itself, as above.
+    let (worn, of_journal) = (integral(bush) * (0.01 + CLEARANCE) * 0.02, integral(journal) * 0.01 * 0.02);
+    assert!((worn / volume - 1.0).abs() < 1e-8, "{worn:e} {volume:e}");
+    assert!((of_journal / (ratio * volume) - 1.0).abs() < 1e-8, "{of_journal:e}");
+    // The bush in one place, less than a bin to either side (see below); the journal evenly: a step may fall to either side of
+    // a bin of fifty steps.
+    assert!(bush.depths().iter().filter(|depth| **depth > 0.0).count() <= 3);
+    for depth in journal.depths() {
+        assert!((depth / journal.mean() - 1.0).abs() < 0.02, "{depth:e} {:e}", journal.mean());
+    }
+    // A load that turns with the journal: the other way round.
+    let system = loaded(contact(), circling).wearing(ratio);
+    let mut runner = runner(&system);
+    runner.turns(2, Watch::NONE).expect("it turns");
+    let turn = runner.measure(Watch::NONE).expect("it turns").joints.remove(0);
+    let (bush, journal) = (turn.deposit.expect("a profile"), turn.journal.expect("a profile"));
+    let expected = 1e-8 / 3.5e9 * turn.wear_integral;
+    // A thousand steps round.
+    assert!((integral(&journal) * 0.01 * 0.02 / (ratio * expected) - 1.0).abs() < 1e-12);
+    assert!(journal.maximum() > 10.0 * journal.mean(), "{journal:?}");
+    assert!(bush.maximum() < 1.02 * bush.mean(), "{bush:?}");
+}
+
+/// (1 + (pressure/1e5)^2) sqrt(sliding speed) (1 + the parameter), as steps.
+fn by_pressure_and_speed() -> Vec<Step> {
+    vec![
+        Step::Given(0),
+        Step::Number(1e5),
+        Step::Div(0, 1),
+        Step::Mul(2, 2),
+        Step::Number(1.0),
+        Step::Add(4, 3),
+        Step::Given(1),
+        Step::Sqrt(6),
+        Step::Mul(5, 7),
+        Step::Given(2),
+        Step::Add(4, 9),
+        Step::Mul(8, 10),
+    ]
+}
+
+#[test]
+fn a_coefficient_by_pressure_speed_and_a_parameter_wears_as_quadrature_says() {
+    let contact = || ContactInfo { wear: wear(Area::Projected, true), ..smooth() };
+    let by_hand = |force: f64, parameter: f64| {
+        let (pressure, speed) = (force / (2.0 * 0.01 * 0.02), SPEED * 0.01);
+        let factor = (1.0 + (pressure / 1e5).powi(2)) * speed.sqrt() * (1.0 + parameter);
+        factor * 1e-8 / 3.5e9 * pressure * speed
+    };
+    let turn = |load, parameter: f64| {
+        let mut system = loaded(contact(), load).wearing_by(by_pressure_and_speed()).wearing(0.5);
+        // The parameter is gravity too: it shall not press.
+        system.mass = 1.0;
+        let method = rk4(TURN / 3600.0);
+        let parameters = [parameter, CLEARANCE];
+        let mut runner = TurnRunner::new(&system, &system.description, &parameters, method, SINGULAR_PIVOT)
+            .expect("it starts");
+        runner.turns(2, Watch::NONE).expect("it turns");
+        runner.measure(Watch::NONE).expect("it turns").joints.remove(0)
+    };
+    let integral = |depths: &Profile| depths.depths().iter().sum::<f64>() * depths.bin_angle();
+    for parameter in [0.0, 0.5] {
+        // 30 N and 40 N less the weight, which the parameter gives.
+        let force = 30.0_f64.hypot(40.0 - parameter);
+        let turn = turn(steady, parameter);
+        let depth = TURN * by_hand(force, parameter);
+        // It rings by 1e-8 of itself, as above.
+        assert!((turn.depth / depth - 1.0).abs() < 1e-7, "{:e} {depth:e}", turn.depth);
+        // Volume over 2 r L is the depth of the projected area: bush and journal have that of the depth.
+        let volume = turn.depth * 2.0 * 0.01 * 0.02;
+        let (bush, journal) = (turn.deposit.expect("a profile"), turn.journal.expect("a profile"));
+        assert!((integral(&bush) * (0.01 + CLEARANCE) * 0.02 / volume - 1.0).abs() < 1e-7);
+        assert!((integral(&journal) * 0.01 * 0.02 / (0.5 * volume) - 1.0).abs() < 1e-7);
+    }
+    // A force that swells and ebbs along one direction, by Simpson's rule.
+    let turn = turn(breathing, 0.0);
+    let force = |t: f64| breathing(t)[0].hypot(breathing(t)[1]);
+    let parts = 2000;
+    let simpson: f64 = (0..=parts)
+        .map(|at| {
+            let weight = if at == 0 || at == parts { 1.0 } else { f64::from(2 + 2 * (at % 2)) };
+            weight * by_hand(force(TURN * f64::from(at) / f64::from(parts)), 0.0)
+        })
+        .sum();
+    let depth = simpson * TURN / f64::from(3 * parts);
+    // The journal's own acceleration is (200/3e4)^2 = 4e-5 of what moves it, and cubes of the force count.
+    assert!((turn.depth / depth - 1.0).abs() < 3e-4, "{:e} {depth:e}", turn.depth);
+    // What is spread is taken between the ends of steps: second order, 3600 a turn.
+    let spread = integral(&turn.deposit.expect("a profile")) * (0.01 + CLEARANCE) * 0.02;
+    assert!((spread / (turn.depth * 2.0 * 0.01 * 0.02) - 1.0).abs() < 1e-5, "{spread:e}");
+}
+
+#[test]
+fn a_coefficient_below_zero_stops_the_run() {
+    let contact = ContactInfo { wear: wear(Area::Projected, false), ..smooth() };
+    let steps = vec![Step::Number(-1.0)];
+    let system = loaded(contact, steady).wearing_by(steps);
+    let error = runner(&system).measure(Watch::NONE).expect_err("no wear backwards");
+    assert!(matches!(&error, RunError::NonFinite { .. }), "{error}");
+}
+
+#[test]
+fn a_journal_worn_by_angle_keeps_its_energy() {
+    let contact = ContactInfo { wear: wear(Area::Hertz, true), ..smooth() };
+    let mut system = Journal::new(contact).held([3e-6, -2e-6], [0.1, 0.07]).wearing(1.0);
+    system.turning = 50.0;
+    let settings = Settings::new(dopri5(1e-11), Span::Time(0.01), 2);
+    let mut start =
+        Simulation::start(&system, &system.description, &[9.81, CLEARANCE], &settings).expect("it starts");
+    let waves = |high: f64, count: f64| {
+        let depth = |bin: usize| high * (1.0 + (count * 2.0 * PI * (bin as f64 + 0.5) / 72.0).cos());
+        Profile::try_from((0..72).map(depth).collect::<Vec<_>>()).expect("a profile")
+    };
+    start.set_worn_pair(0, 0.0, [Some(waves(1e-6, 3.0)), Some(waves(1e-6, 2.0))]).expect("it fits");
+    let energy = |simulation: &mut Simulation<'_>| {
+        let touch = simulation.contacts()[0];
+        let (y, v) = (simulation.coordinates()[1], simulation.speeds());
+        0.5 * (v[0] * v[0] + v[1] * v[1] + 1e-3 * v[2] * v[2]) + 9.81 * y + touch.elastic_energy
+    };
+    let before = energy(&mut start);
+    let turning = start.speeds()[2];
+    start.advance(0.01, Watch::NONE).expect("it runs");
+    let after = energy(&mut start);
+    // As in a round bearing: 1e-11 of a step, over some hundred bounces of it.
+    assert!((after - before).abs() < 1e-8 * before, "{before:e} {after:e}");
+    // The waves turn it: friction there is none.
+    let turned = start.speeds()[2] - turning;
+    assert!(turned.abs() > 1e-6, "{turned:e}");
 }
 
 fn runner(system: &Journal) -> TurnRunner<'_> {

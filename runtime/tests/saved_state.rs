@@ -53,6 +53,7 @@ fn a_trajectory_between_two_turns_comes_back() {
         memory: ImpactMemory::in_contact(1.0 / 3.0),
         worn: 0.1 + 0.2,
         profile: Some(Profile::unworn(8).unwrap()),
+        journal: Profile::try_from(vec![1e-7 / 3.0; 8]).ok(),
     };
     let state = TurnState {
         t: 1.0 / 7.0,
@@ -86,6 +87,7 @@ impl WearSource for Unsettled {
             wear_integral: 2.0 + 0.1 * memory[0],
             depth: 3.25e-13,
             deposit: Some(profile),
+            journal: None,
             mean_force: 32.0 / 3.0,
             peak_force: 55.1,
             losses: 0.0,
@@ -107,6 +109,7 @@ fn a_trajectory_written_after_every_step_ends_with_the_same_bits() {
         wear: WearOf::Profile(Measure::Mean),
         feedback: Feedback::Profile,
         bins: Some(12),
+        journal_bins: None,
         limits: Limits { hardness: 3.5e9, pressure_speed: None },
     };
     let settings = LifeSettings::new(vec![joint]);

@@ -43,6 +43,6 @@ pub(crate) use part::NAME as SHARD;
 pub use part::{LifePart, merge};
 pub use paths::{LifePaths, Spread};
 pub use process::JointProcess;
-pub use result::{HOUR, LifeNumbers, LifeResult, YEAR};
+pub use result::{HOUR, LifeNumbers, LifeResult, WornPair, YEAR};
 pub use steady::TurnErrors;
 pub use study::{Coupling, LifeStudy, Trajectories};

@@ -3,6 +3,7 @@
 
 use linkwear_gamma::life::{Contribution, ErrorBudget, LifeStatistics};
 use linkwear_runtime::life::{CycleRecord, FailureEvent, JointLife, TableReport};
+use linkwear_runtime::wear::Profile;
 use serde::{Deserialize, Serialize};
 
 use super::counted::CountedEnds;
@@ -49,9 +50,23 @@ pub struct LifeResult {
     pub turn_errors: TurnErrors,
     /// How long a revolution lasts [s], if all last equally long; in a mission their mean.
     pub seconds_per_revolution: Option<f64>,
+    /// Joints whose journals wear, as they are after the last cycle of the mean path.
+    #[serde(default)]
+    pub worn: Vec<WornPair>,
     /// How it was used, if by a mission.
     #[serde(default)]
     pub mission: Option<MissionResult>,
+}
+
+/// A joint whose bush and journal are worn.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct WornPair {
+    /// Its name.
+    pub joint: String,
+    /// Depth of the bush by bearing angle, if it is kept.
+    pub bush: Option<Profile>,
+    /// Depth of the journal by its own angle.
+    pub journal: Profile,
 }
 
 /// The numbers that a life is told by: those of the random lives, or of the mean path where there are none [cycles].

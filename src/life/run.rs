@@ -20,7 +20,7 @@ use super::journal::LifeJournal;
 use super::mission::Duty;
 use super::mission_result::MissionResult;
 use super::process::Process;
-use super::result::LifeResult;
+use super::result::{LifeResult, WornPair};
 use super::source::{KeptSource, Log};
 use super::steady::TurnErrors;
 use super::study::{Coupling, LifeStudy};
@@ -296,6 +296,12 @@ impl<'s> Plan<'s> {
             .map(|known| format!("{}, cycle {}: {}", name(known.joint), known.cycle, known.warning))
             .collect();
         let by_fit = |process: &Process| process.uncertainty_of_mean_path(end.joint, end.cycles);
+        let joints = self.settings.joints.iter().zip(&state.joints);
+        let worn = joints.filter_map(|(joint, state)| {
+            let (joint, bush) = (joint.joint.clone(), state.profile.clone());
+            Some(WornPair { joint, bush, journal: state.journal.clone()? })
+        });
+        let worn = worn.collect();
         Ok(LifeResult {
             joints: self.settings.joints.clone(),
             coupling: self.coupling,
@@ -313,6 +319,7 @@ impl<'s> Plan<'s> {
             parameter_error: self.process.as_ref().and_then(by_fit),
             turn_errors: TurnErrors { settling: None, averaging: None },
             seconds_per_revolution: None,
+            worn,
             mission: None,
         })
     }

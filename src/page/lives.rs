@@ -11,7 +11,7 @@ const MICROMETRES: f64 = 1e6;
 
 /// Charts of a life.
 pub fn charts(json: &Value) -> Vec<Chart> {
-    [density(json), by_cycle(json), reliability(json), wear(json), clearance(json)]
+    [density(json), by_cycle(json), reliability(json), wear(json), clearance(json), worn(json)]
         .into_iter()
         .filter(|chart| !chart.is_empty())
         .collect()
@@ -175,6 +175,32 @@ fn wear(json: &Value) -> Chart {
         x: "cycles".to_owned(),
         y: "[um]".to_owned(),
         series,
+        ..Chart::default()
+    }
+}
+
+/// Bushes and journals by angle, where journals wear.
+fn worn(json: &Value) -> Chart {
+    let mut series = Vec::new();
+    for (at, joint) in list(&json["worn"]).iter().enumerate() {
+        let name = joint["joint"].as_str().unwrap_or_default();
+        for (side, (key, what)) in [("bush_m", "bush"), ("journal_m", "journal")].into_iter().enumerate() {
+            let depths = list(&joint["angle_rad"]).iter().zip(list(&joint[key]));
+            let place = |(angle, depth): (&Value, &Value)| {
+                Some([angle.as_f64()?.to_degrees(), MICROMETRES * depth.as_f64()?])
+            };
+            let line: Vec<[f64; 2]> = depths.filter_map(place).collect();
+            if !line.is_empty() {
+                series.push(Series::line(format!("{what} of {name}"), 2 * at + side, line));
+            }
+        }
+    }
+    Chart {
+        title: "worn depth by angle, each in its own frame".to_owned(),
+        x: "angle [deg]".to_owned(),
+        y: "[um]".to_owned(),
+        series,
+        from_zero: true,
         ..Chart::default()
     }
 }

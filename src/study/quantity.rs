@@ -29,6 +29,11 @@ pub fn turn_key(column: &Column) -> String {
     column.key().replace("_force", "_normal_force")
 }
 
+/// Numbers of a turn: those of every contact, then those of a journal that wears.
+fn turn_columns() -> impl Iterator<Item = &'static (Column, fn(&ContactMeasure) -> f64)> {
+    ContactMeasure::COLUMNS.iter().chain(&ContactMeasure::JOURNAL)
+}
+
 /// Number of a life: name behind `life.`, unit, value.
 type OfLife = (&'static str, &'static str, fn(&LifeResult, &LifeNumbers) -> Option<f64>);
 
@@ -130,7 +135,8 @@ impl Quantity {
             }
             Of::Turn { joint, column } => {
                 let at = description.contacts.iter().position(|contact| *contact.joint == **joint)?;
-                Some(ContactMeasure::COLUMNS[*column].1(run.turns.last()?.get(at)?))
+                let (_, value) = turn_columns().nth(*column)?;
+                Some(value(run.turns.last()?.get(at)?))
             }
             Of::Life(_) => None,
         };
@@ -160,8 +166,10 @@ pub fn listed(all: &[Quantity]) -> Vec<String> {
 pub fn quantities(description: &Description) -> Vec<Quantity> {
     let columns = channels(description);
     let mut all = Vec::new();
-    for info in description.contacts.iter() {
-        for (at, (column, _)) in ContactMeasure::COLUMNS.iter().enumerate() {
+    for (contact, info) in description.contacts.iter().enumerate() {
+        let wears = description.journal_ratio(contact).is_some();
+        let count = if wears { usize::MAX } else { ContactMeasure::COLUMNS.len() };
+        for (at, (column, _)) in turn_columns().enumerate().take(count) {
             let (name, joint) = (format!("{}.{}", info.joint, turn_key(column)), info.joint.to_string());
             all.push(Quantity::new(name, column.unit, Of::Turn { joint, column: at }));
         }

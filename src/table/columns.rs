@@ -119,6 +119,11 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     ("<joint>.Fn", &["N"], "Normal force of a contact"),
     ("<joint>.vt", &["m/s"], "Sliding speed of a contact"),
     ("<joint>.contact_angle", &["rad"], "Angle of the contact in the bearing's frame, in (-pi, pi]"),
+    (
+        "<joint>.journal_angle",
+        &["rad"],
+        "The same in the frame of a journal that wears: which place of it touches",
+    ),
     ("energy.kinetic", &["J"], "Kinetic energy of all bodies"),
     ("energy.potential", &["J"], "Potential energy: gravity, springs, elastic bodies"),
 ];

@@ -145,7 +145,7 @@ impl Compiled {
     }
 
     fn as_c<R>(&self, header_name: &str, emit: impl FnOnce(&CInput<'_>) -> R) -> R {
-        let clearances = Clearances::new(&self.description.contacts).unwrap_or_default();
+        let clearances = Clearances::of(&self.description).unwrap_or_default();
         let system = self.interpreter();
         let start =
             Evaluator::new(&system, &self.description, &self.parameters()).ok().and_then(|mut evaluator| {

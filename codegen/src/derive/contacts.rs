@@ -31,10 +31,13 @@ fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
     &linkage.links[link]
 }
 
-/// Offset, its rate, relative angular velocity, clearance: ten values of one joint.
+/// Offset, its rate, relative angular velocity, clearance: ten values of one joint, as [`linkwear_runtime::CONTACT_MOTION`] has
+/// them.
 pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec<Expr<'g>> {
     let linkage = state.geometry.linkage;
     let data = state.geometry.mechanism.joint(joint);
+    // A journal that wears tells its angle: which place of it touches.
+    let wears = data.clearance.as_ref().is_some_and(|clearance| clearance.journal.is_some());
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
     if linkage.link_of_joint[joint.index()].is_some() {
         for (axis, coordinate) in data.model.offsets().enumerate() {
@@ -51,6 +54,9 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
             };
         } else {
             turn[2] = state.v[moved_link(linkage, joint, 0).first_speed];
+            if wears {
+                offset[2] = state.q[moved_link(linkage, joint, 0).first_coordinate];
+            }
         }
     } else {
         let motion = state.relative_motion(joint);
@@ -59,6 +65,9 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
             let axis = motion.parent_axis(j);
             if journal && j == 2 {
                 turn[2] = axis.dot(motion.omega);
+                if wears {
+                    offset[2] = state.coordinates(g, joint).position[0];
+                }
                 continue;
             }
             offset[j] = axis.dot(motion.distance);
@@ -66,6 +75,16 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
             if !journal {
                 turn[j] = axis.dot(motion.omega);
             }
+        }
+    }
+    // What a wear coefficient reads besides: a journal leaves these places empty.
+    let factor = data.clearance.as_ref().and_then(|clearance| clearance.factor.as_ref());
+    let live = factor.map_or(&[][..], |factor| &factor.live[..]);
+    for (place, id) in live.iter().enumerate() {
+        let value = state.geometry.inputs.parameters[id.index()];
+        match place {
+            0 => rate[2] = value,
+            place => turn[place - 1] = value,
         }
     }
     let clearance = match &data.clearance {

@@ -21,6 +21,11 @@ impl<'g> Inputs<'g> {
         self.lower_with(formula, &|_| self.time.scope().zero())
     }
 
+    /// The number of a parameter that is one; not a number if it is not.
+    pub fn number(&self, parameter: usize) -> f64 {
+        self.parameters[parameter].as_number().unwrap_or(f64::NAN)
+    }
+
     /// Total derivative in time of what is over parameters, time, inputs and their first rates.
     pub fn rate(&self, of: Expr<'g>) -> Expr<'g> {
         let by_inputs =

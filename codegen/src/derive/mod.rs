@@ -49,6 +49,7 @@ mod surface_row;
 #[cfg(test)]
 mod tests;
 mod turned;
+mod wear_factor;
 mod wrench;
 
 pub use closure::row_count;

@@ -36,6 +36,15 @@ impl Scope {
         self.number(0.0)
     }
 
+    /// The nodes that an expression is computed from, itself last, each after those that it reads.
+    pub fn nodes(&self, of: Expr<'_>) -> Vec<(ExprId, Node)> {
+        self.make(|g| {
+            let uses = g.uses(&[of.id]);
+            let needed = (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new);
+            needed.map(|id| (id, g.node(id))).collect()
+        })
+    }
+
     /// Sum of any number of terms.
     pub fn sum<'g>(&'g self, terms: impl IntoIterator<Item = Expr<'g>>) -> Expr<'g> {
         terms.into_iter().fold(self.zero(), |sum, term| sum + term)

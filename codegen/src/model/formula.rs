@@ -37,7 +37,8 @@ pub enum Term {
     PointPosition(PointId, usize),
     /// Component of a point's velocity in W [m/s].
     PointSpeed(PointId, usize),
-    /// Coordinate (0, 1, 2) of the place that a surface is an equation of [m].
+    /// Argument of the formula: a coordinate (0, 1, 2) of the place that a surface is an equation of [m]; pressure [Pa] or sliding
+    /// speed [m/s] of a contact.
     Place(usize),
     /// `-a`.
     Neg(Box<Self>),
@@ -122,6 +123,25 @@ impl Term {
             Self::Call(_, arguments) => arguments.iter().for_each(|a| a.visit(action)),
             Self::Choice(parts) => parts.iter().for_each(|a| a.visit(action)),
             _ => {}
+        }
+    }
+
+    /// The same with numbers for its arguments.
+    pub(in crate::model) fn with_arguments(&self, values: &[f64]) -> Self {
+        let of = |term: &Self| term.with_arguments(values);
+        let boxed = |term: &Self| Box::new(of(term));
+        match self {
+            Self::Place(at) => Self::Number(values.get(*at).copied().unwrap_or(f64::NAN)),
+            Self::Neg(a) => Self::Neg(boxed(a)),
+            Self::Add(a, b) => Self::Add(boxed(a), boxed(b)),
+            Self::Sub(a, b) => Self::Sub(boxed(a), boxed(b)),
+            Self::Mul(a, b) => Self::Mul(boxed(a), boxed(b)),
+            Self::Div(a, b) => Self::Div(boxed(a), boxed(b)),
+            Self::Power(a, n) => Self::Power(boxed(a), *n),
+            Self::Table(table, a) => Self::Table(table.clone(), boxed(a)),
+            Self::Choice(parts) => Self::Choice(Box::new([of(&parts[0]), of(&parts[1]), of(&parts[2])])),
+            Self::Call(function, arguments) => Self::Call(*function, arguments.iter().map(of).collect()),
+            _ => self.clone(),
         }
     }
 

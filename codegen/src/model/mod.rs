@@ -180,6 +180,19 @@ pub struct Clearance {
     pub radial: Formula,
     /// Laws of contact, friction and wear with their constants.
     pub laws: ContactInfo,
+    /// Worn volume of the journal over that of the bush, if it wears too.
+    pub journal: Option<f64>,
+    /// Factor on the wear coefficient, if it varies: over pressure and sliding speed, places 0 and 1.
+    pub factor: Option<WearFactor>,
+}
+
+/// A factor on a wear coefficient.
+#[derive(Clone, Debug)]
+pub struct WearFactor {
+    /// The formula.
+    pub formula: Formula,
+    /// Tunable parameters and inputs that it reads.
+    pub live: Vec<ParameterId>,
 }
 
 /// A prescribed coordinate of a joint.

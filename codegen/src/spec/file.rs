@@ -155,9 +155,21 @@ tables! {
         /// Dimensionless wear coefficient k of Archard's law.
         /// [1; above 0; required; e.g. 1e-8]
         pub coefficient: Option<Quantity>,
+        /// Factor on `coefficient`, over `pressure`, `sliding_speed`, parameters, inputs and tables.
+        /// [1; from 0; default 1; e.g. "1 + (pressure/20 MPa)^2"]
+        pub coefficient_factor: Option<Quantity>,
         /// Hardness of the softer side: a pressure, or a number of Brinell, Vickers or Rockwell such as "120 HB", "400 HV", "58 HRC".
         /// [Pa; above 0; required; e.g. "3.5 GPa"]
         pub hardness: Option<Quantity>,
+        /// Hardness of the bush over that of the journal: the journal wears too, so much of what the bush loses.
+        /// [1; above 0; default none; e.g. 0.25]
+        pub hardness_ratio: Option<Quantity>,
+        /// Hardness of the journal, in place of `hardness_ratio`: the journal wears too.
+        /// [Pa; above 0; default none; e.g. "7 GPa"]
+        pub journal_hardness: Option<Quantity>,
+        /// Wear coefficient of the journal: the journal wears too.
+        /// [1; above 0; default `coefficient`; e.g. 1e-8]
+        pub journal_coefficient: Option<Quantity>,
         /// Area that carries the load.
         /// [word; default "hertz"; e.g. "conformal"]
         pub area: Option<At<Area>>,

@@ -53,7 +53,9 @@ pub(crate) fn contact_state(
         loss,
         wear_power,
         depth_rate,
+        // Of wear by angle alone, which runs one trajectory at a time.
+        wear_factor: None,
         wrench,
     };
-    ContactState::of([x, y, z], (before.clearance, before.stiffness), &response)
+    ContactState::of(([x, y, z], before.turned), (before.clearance, before.stiffness), &response)
 }

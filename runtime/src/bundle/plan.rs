@@ -50,7 +50,7 @@ impl StepPlan {
     pub fn new(description: &Description, sizes: Sizes) -> Result<Self, SetupError> {
         Ok(Self {
             sizes,
-            joints: Clearances::new(&description.contacts)?.joints().to_vec(),
+            joints: Clearances::of(description)?.joints().to_vec(),
             layout: Layout::new(&description.motions),
             kept: description.kept_rows(sizes.rows),
             places: Places::new(&sizes),

@@ -17,6 +17,9 @@ const BALL: &[Quantity] = &[
     ("vt", "m/s", |contact| contact.sliding_speed),
 ];
 
+/// Which place of a journal that wears touches.
+const WEARING: &[Quantity] = &[("journal_angle", "rad", ContactState::journal_angle)];
+
 const JOURNAL: &[Quantity] = &[
     ("x", "m", |contact| contact.offset[0]),
     ("y", "m", |contact| contact.offset[1]),
@@ -41,7 +44,9 @@ impl Channels {
     pub(crate) fn new(description: &Description) -> Self {
         let mut list = Self { channels: description.channels.to_vec(), sources: Vec::new() };
         for (joint, info) in description.contacts.iter().enumerate() {
-            for (suffix, unit, value) in if info.ball { BALL } else { JOURNAL } {
+            let own = if info.ball { BALL } else { JOURNAL };
+            let more = if description.journal_ratio(joint).is_some() { WEARING } else { &[] };
+            for (suffix, unit, value) in own.iter().chain(more) {
                 let name = format!("{}.{suffix}", info.joint);
                 if list.channels.iter().all(|channel| channel.name != name) {
                     // The contact angle keeps to (-pi, pi]: a bearing has no turns.

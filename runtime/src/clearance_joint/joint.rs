@@ -1,6 +1,8 @@
 //! One joint with clearance: its laws, built once, and one evaluation of them.
 //! In: [`ContactInfo`]; then motion, wear so far, memory. Out: [`ContactState`].
 
+use std::f64::consts::{PI, TAU};
+
 use crate::contact::{
     Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
     SphericalMotion, Stiffness, Support, bearing_angle, positive,
@@ -8,7 +10,7 @@ use crate::contact::{
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::tables::{ContactInfo, WearInfo};
-use crate::wear::{Archard, Grid, Load, Pair, Profile, ScalarFeedback};
+use crate::wear::{Archard, Grid, Load, MOST_LIVE, Pair, ScalarFeedback, Step, Surfaces, factor, is_sound};
 
 /// A joint with clearance and its laws.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +22,11 @@ pub struct Clearance {
     modulus: f64,
     ball: bool,
     wear: Option<(Archard, WearInfo)>,
-    /// Bins of the profile, if one is kept.
+    /// Worn volume of the journal over that of the bush, if it wears.
+    journal: Option<f64>,
+    /// Factor on the wear coefficient; nothing if it is one.
+    factor: Option<Vec<Step>>,
+    /// Bins of the profiles, if one is kept.
     grid: Option<Grid>,
 }
 
@@ -29,6 +35,8 @@ pub struct Clearance {
 pub struct ContactState {
     /// Journal centre minus bearing centre, in the bearing's frame [m].
     pub offset: [f64; 3],
+    /// How far the journal has turned in the bearing [rad]; zero if it does not wear.
+    pub turned: f64,
     /// Radial clearance with its mean wear [m]: what stiffness and area go by.
     pub clearance: f64,
     /// Gap where the bodies are nearest, negative while they touch [m].
@@ -49,6 +57,8 @@ pub struct ContactState {
     pub wear_power: f64,
     /// Rate of the depth by the joint's contact area [m/s]; zero if it does not wear.
     pub depth_rate: f64,
+    /// Factor on the wear coefficient [1]; nothing is known of it where it is one throughout.
+    pub wear_factor: Option<f64>,
     /// Force on the journal [N] and moment about its centre [N m], in the bearing's frame.
     pub wrench: [f64; CONTACT_WRENCH],
 }
@@ -72,6 +82,8 @@ pub struct Response<T> {
     pub wear_power: T,
     /// Rate of the depth.
     pub depth_rate: T,
+    /// Factor on the wear coefficient, where there is one.
+    pub wear_factor: Option<T>,
     /// Force and moment on the journal.
     pub wrench: [T; CONTACT_WRENCH],
 }
@@ -79,9 +91,14 @@ pub struct Response<T> {
 impl ContactState {
     /// By its offset [m], clearance [m] with the stiffness there [N/m^n], and what the laws say.
     #[inline(always)]
-    pub(crate) fn of(offset: [f64; 3], (clearance, stiffness): (f64, f64), response: &Response<f64>) -> Self {
+    pub(crate) fn of(
+        (offset, turned): ([f64; 3], f64),
+        (clearance, stiffness): (f64, f64),
+        response: &Response<f64>,
+    ) -> Self {
         Self {
             offset,
+            turned,
             clearance,
             gap: -response.penetration,
             penetration_rate: response.penetration_rate,
@@ -92,6 +109,7 @@ impl ContactState {
             loss: response.loss,
             wear_power: response.wear_power,
             depth_rate: response.depth_rate,
+            wear_factor: response.wear_factor,
             wrench: response.wrench,
         }
     }
@@ -99,6 +117,12 @@ impl ContactState {
     /// Angle of a journal's offset about the joint's axis, in (-pi, pi] [rad]. A ball has no such axis.
     pub fn angle(&self) -> f64 {
         bearing_angle([self.offset[0], self.offset[1]])
+    }
+
+    /// The same in the frame of the journal, in (-pi, pi]: which place of it touches [rad].
+    pub fn journal_angle(&self) -> f64 {
+        let angle = (self.angle() - self.turned).rem_euclid(TAU);
+        if angle > PI { angle - TAU } else { angle }
     }
 
     /// Minus the gap [m].
@@ -143,9 +167,67 @@ impl Clearance {
             length: positive("bearing length", info.length)?,
             modulus: positive("contact modulus", info.modulus)?,
             ball: info.ball,
+            journal: None,
+            factor: None,
             grid: wear.filter(|(_, wear)| wear.keeps_profile()).map(|(_, wear)| Grid::new(wear.bins)),
             wear,
         })
+    }
+
+    /// The same with a journal that wears beside its bush, by its volume over that of the bush.
+    ///
+    /// # Errors
+    /// If the ratio is not above zero, or the joint does not wear, or is a ball.
+    pub fn with_journal(mut self, ratio: f64) -> Result<Self, OutOfRange> {
+        let name = "wear of the journal over that of the bush";
+        let wear = self.wear.as_ref().filter(|_| !self.ball);
+        let Some((_, wear)) = wear else {
+            return Err(OutOfRange {
+                name,
+                value: ratio,
+                need: "left out: only a revolute joint that wears has it",
+            });
+        };
+        self.grid = Some(Grid::new(wear.bins));
+        self.journal = Some(positive(name, ratio)?);
+        Ok(self)
+    }
+
+    /// The same with a factor on its wear coefficient.
+    ///
+    /// # Errors
+    /// If it makes no sense, or the joint does not wear.
+    pub fn with_factor(mut self, steps: &[Step]) -> Result<Self, OutOfRange> {
+        let live = if self.ball { 0 } else { MOST_LIVE };
+        if self.wear.is_none() || !is_sound(steps, 2 + live) {
+            let (name, need) = (
+                "steps of the factor on the wear coefficient",
+                "of a joint that wears, at most 1024 (a table has a dozen a row)",
+            );
+            return Err(OutOfRange { name, value: steps.len() as f64, need });
+        }
+        self.factor = Some(steps.to_vec());
+        Ok(self)
+    }
+
+    /// Factor on the wear coefficient at one instant; zero apart.
+    #[inline(always)]
+    fn wear_factor<T: Scalar>(
+        &self,
+        load: &Load<T>,
+        clearance: T,
+        motion: &[T; CONTACT_MOTION],
+    ) -> Option<T> {
+        let (steps, (archard, _)) = self.factor.as_ref().zip(self.wear.as_ref())?;
+        let pressure = archard.area().pressure(load, &self.pair(clearance));
+        let given = [pressure, load.sliding_speed.abs(), motion[5], motion[6], motion[7]];
+        let zero = T::constant(0.0);
+        Some(T::select(zero.lt(load.normal_force), factor(steps, &given), zero))
+    }
+
+    /// Worn volume of the journal over that of the bush; nothing if it does not wear.
+    pub fn journal_ratio(&self) -> Option<f64> {
+        self.journal
     }
 
     /// Directions in which the journal is free: two across the axis, or three of a ball.
@@ -156,6 +238,11 @@ impl Clearance {
     /// Radius of the journal or ball [m].
     pub fn journal_radius(&self) -> f64 {
         self.radius
+    }
+
+    /// Length of the bearing [m].
+    pub fn length(&self) -> f64 {
+        self.length
     }
 
     /// Its law of normal force.
@@ -179,18 +266,16 @@ impl Clearance {
     }
 
     /// Distance [m] of the journal's centre from the bearing's, along the unit vector `direction`, at which the
-    /// penetration is `penetration` [m]; `clearance` [m] is that of the round bearing, without the profile.
+    /// penetration is `penetration` [m]; `clearance` [m] is that of the round bearing, without profiles.
     pub(super) fn distance(
         &self,
         clearance: f64,
-        profile: Option<&Profile>,
+        surfaces: Surfaces<'_>,
         direction: [f64; 3],
         penetration: f64,
     ) -> f64 {
-        match self.grid.as_ref().zip(profile) {
-            Some((grid, profile)) => {
-                grid.distance(profile, clearance, [direction[0], direction[1]], penetration)
-            }
+        match self.grid.as_ref().filter(|_| !surfaces.are_round()) {
+            Some(grid) => grid.distance(surfaces, clearance, [direction[0], direction[1]], penetration),
             None => clearance + penetration,
         }
     }
@@ -201,30 +286,30 @@ impl Clearance {
         Pair { journal_radius, length, clearance, modulus }
     }
 
-    /// One evaluation: `motion` as [`crate::Entry::Contacts`] gives it, `worn` [m] on top of its clearance, a worn
-    /// profile of the bearing on top of that; `before`: this joint's contact at any other instant.
+    /// One evaluation: `motion` as [`crate::Entry::Contacts`] gives it, `worn` [m] on top of its clearance, worn
+    /// profiles on top of that; `before`: this joint's contact at any other instant.
     ///
-    /// Stiffness and area go by the clearance plus the mean of the profile, which stays the same through a
+    /// Stiffness and area go by the clearance plus the mean of the profiles, which stays the same through a
     /// run: a stiffness that changed along the way would not give back the energy it took.
     #[inline]
     pub fn evaluate(
         &self,
         motion: &[f64; CONTACT_MOTION],
-        (worn, profile): (f64, Option<&Profile>),
+        (worn, surfaces): (f64, Surfaces<'_>),
         memory: &ImpactMemory<f64>,
         before: &ContactState,
     ) -> ContactState {
         let round = motion[9] + worn;
-        let clearance = round + profile.map_or(0.0, Profile::mean);
+        let clearance = round + surfaces.mean();
         // A root and two divisions, mostly of the same numbers.
         let known = before.stiffness > 0.0 && before.clearance.to_bits() == clearance.to_bits();
         let stiffness = if known { before.stiffness } else { self.stiffness(clearance) };
-        let support = |offset| match self.grid.as_ref().zip(profile) {
-            Some((grid, profile)) => grid.support(profile, round, offset),
+        let support = |offset| match self.grid.as_ref().filter(|_| !surfaces.are_round()) {
+            Some(grid) => grid.support(surfaces, round, offset),
             None => Support::round(offset, round),
         };
         let response = self.respond(motion, support, (clearance, stiffness), memory);
-        ContactState::of(self.offset(motion), (clearance, stiffness), &response)
+        ContactState::of((self.offset(motion), self.turned(motion)), (clearance, stiffness), &response)
     }
 
     /// The laws at one instant, on any scalar: lanes run them as they are. `motion` as [`crate::Entry::Contacts`] gives it;
@@ -257,6 +342,8 @@ impl Clearance {
         let load = Load { normal_force, penetration, sliding_speed };
         let depth_rate =
             |(archard, _): &(Archard, WearInfo)| archard.rates(&load, &self.pair(clearance)).depth;
+        let wear_factor = self.wear_factor(&load, clearance, motion);
+        let depth = self.wear.as_ref().map_or(T::constant(0.0), depth_rate);
         Response {
             penetration,
             penetration_rate,
@@ -265,7 +352,8 @@ impl Clearance {
             elastic_energy: force.normal.elastic_energy,
             loss: damping_loss + force.friction_loss,
             wear_power: normal_force * sliding_speed.abs(),
-            depth_rate: self.wear.as_ref().map_or(T::constant(0.0), depth_rate),
+            depth_rate: wear_factor.map_or(depth, |factor| depth * factor),
+            wear_factor,
             wrench: [fx, fy, fz, mx, my, mz],
         }
     }
@@ -276,8 +364,13 @@ impl Clearance {
         [motion[0], motion[1], if self.ball { motion[2] } else { T::constant(0.0) }]
     }
 
-    /// Whether wear by bearing angle is kept.
-    pub fn keeps_profile(&self) -> bool {
+    /// How far a journal that wears has turned: a journal does not slide along its axis, so that its angle has the place.
+    pub fn turned<T: Scalar>(&self, motion: &[T; CONTACT_MOTION]) -> T {
+        if self.journal.is_some() { motion[2] } else { T::constant(0.0) }
+    }
+
+    /// Whether wear by angle is kept, of bush or journal.
+    pub fn keeps_profiles(&self) -> bool {
         self.grid.is_some()
     }
 

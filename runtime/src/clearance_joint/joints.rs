@@ -3,10 +3,11 @@
 
 use super::joint::{Clearance, ContactState};
 use crate::contact::{ImpactMemory, crossing_speed};
+use crate::description::Description;
 use crate::error::SetupError;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::tables::ContactInfo;
-use crate::wear::Profile;
+use crate::wear::{Profile, Surfaces};
 
 /// What belongs to a joint with clearance between two steps, besides coordinates and speeds: saved and
 /// restored with them.
@@ -17,14 +18,23 @@ pub struct ClearanceState {
     pub memory: ImpactMemory<f64>,
     /// Radial clearance on top of that of the parameters [m].
     pub worn: f64,
-    /// Depth by bearing angle, on top of both.
+    /// Depth of the bush by bearing angle, on top of both.
     pub profile: Option<Profile>,
+    /// Depth of the journal by its own angle, on top of all.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub journal: Option<Profile>,
 }
 
 impl ClearanceState {
     /// An unworn joint, apart.
     pub fn unworn() -> Self {
-        Self { memory: ImpactMemory::apart(), worn: 0.0, profile: None }
+        Self { memory: ImpactMemory::apart(), worn: 0.0, profile: None, journal: None }
+    }
+
+    /// What is worn, by angle, of a journal that has turned so far [rad].
+    fn surfaces(&self, turned: f64) -> Surfaces<'_> {
+        let journal = self.journal.as_ref().map(|journal| (journal, turned));
+        Surfaces { bush: self.profile.as_ref(), journal }
     }
 }
 
@@ -44,12 +54,23 @@ impl Clearances {
     ///
     /// # Errors
     /// [`SetupError::Contact`] if a constant is out of range.
-    pub fn new(contacts: &[ContactInfo]) -> Result<Self, SetupError> {
-        let build = |info: &ContactInfo| {
-            Clearance::new(info)
-                .map_err(|reason| SetupError::Contact { joint: info.joint.to_string(), reason })
+    pub fn of(description: &Description) -> Result<Self, SetupError> {
+        let Description { contacts, journals, coefficients, .. } = description;
+        let build = |(at, info): (usize, &ContactInfo)| {
+            let joint = Clearance::new(info);
+            let journal = journals.iter().find(|journal| journal.contact == at);
+            let joint = match journal {
+                Some(journal) => joint.and_then(|joint| joint.with_journal(journal.ratio)),
+                None => joint,
+            };
+            let factor = coefficients.iter().find(|factor| factor.contact == at);
+            let joint = match factor {
+                Some(factor) => joint.and_then(|joint| joint.with_factor(&factor.steps)),
+                None => joint,
+            };
+            joint.map_err(|reason| SetupError::Contact { joint: info.joint.to_string(), reason })
         };
-        let joints = contacts.iter().map(build).collect::<Result<Vec<_>, _>>()?;
+        let joints = contacts.iter().enumerate().map(build).collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             states: vec![ClearanceState::unworn(); joints.len()],
             contacts: vec![ContactState::default(); joints.len()],
@@ -98,9 +119,9 @@ impl Clearances {
     /// Distance [m] of a journal's centre from the bearing's, along the unit vector `direction`, at which the
     /// penetration is `penetration` [m], worn as at the last evaluation.
     pub fn distance(&self, index: usize, direction: [f64; 3], penetration: f64) -> f64 {
-        let profile = self.states[index].profile.as_ref();
-        let round = self.contacts[index].clearance - profile.map_or(0.0, Profile::mean);
-        self.joints[index].distance(round, profile, direction, penetration)
+        let surfaces = self.states[index].surfaces(self.contacts[index].turned);
+        let round = self.contacts[index].clearance - surfaces.mean();
+        self.joints[index].distance(round, surfaces, direction, penetration)
     }
 
     /// Whether the laws would answer otherwise to the motions of the last evaluation.
@@ -115,7 +136,8 @@ impl Clearances {
         let (wrenches, _) = self.wrenches.as_chunks_mut::<CONTACT_WRENCH>();
         let each = self.joints.iter().zip(&self.states).zip(&mut self.contacts);
         for (((joint, state), touch), (motion, wrench)) in each.zip(motions.iter().zip(wrenches)) {
-            *touch = joint.evaluate(motion, (state.worn, state.profile.as_ref()), &state.memory, touch);
+            let surfaces = state.surfaces(joint.turned(motion));
+            *touch = joint.evaluate(motion, (state.worn, surfaces), &state.memory, touch);
             *wrench = touch.wrench;
         }
     }

@@ -31,6 +31,8 @@ pub struct Support<T> {
     pub penetration: T,
     /// Its gradient by the offset [1].
     pub gradient: [T; 2],
+    /// Its derivative by the angle of a journal that is not round [m/rad]; nothing of a round one.
+    pub turning: Option<T>,
 }
 
 impl<T: Scalar> Support<T> {
@@ -38,7 +40,7 @@ impl<T: Scalar> Support<T> {
     #[inline]
     pub fn round(offset: [T; 2], clearance: T) -> Self {
         let (distance, normal) = direction(offset);
-        Self { penetration: distance - clearance, gradient: normal }
+        Self { penetration: distance - clearance, gradient: normal, turning: None }
     }
 }
 
@@ -56,6 +58,8 @@ pub struct RevoluteContact<T> {
     /// Speed of the journal's surface over the bearing's along the tangent [m/s].
     pub sliding_speed: T,
     journal_radius: T,
+    /// Derivative of the penetration by the journal's angle [m/rad].
+    turning: Option<T>,
 }
 
 /// Contact angle atan2(y, x) [rad] of a journal centre at `offset` [m] in the bearing's frame, in
@@ -85,15 +89,17 @@ impl<T: Scalar> RevoluteContact<T> {
     /// the other way round, bearing minus journal, which is right only for forces on the bearing.
     #[inline]
     pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, support: &Support<T>) -> Self {
-        let Support { penetration, gradient: normal } = *support;
+        let Support { penetration, gradient: normal, turning } = *support;
         let tangent = [-normal[1], normal[0]];
+        let by_offset = dot(normal, motion.offset_rate);
         Self {
             penetration,
-            penetration_rate: dot(normal, motion.offset_rate),
+            penetration_rate: turning.map_or(by_offset, |slope| by_offset + slope * motion.joint_speed),
             normal,
             tangent,
             sliding_speed: dot(tangent, motion.offset_rate) + journal_radius * motion.joint_speed,
             journal_radius,
+            turning,
         }
     }
 
@@ -106,10 +112,13 @@ impl<T: Scalar> RevoluteContact<T> {
         let friction_force = laws.friction.signed(self.sliding_speed) * normal.force;
         let force = |i: usize| -(normal.force * self.normal[i] + friction_force * self.tangent[i]);
         let zero = T::constant(0.0);
+        let by_friction = -(self.journal_radius * friction_force);
+        // What lifts a journal that is not round out of its contact turns it back.
+        let moment = self.turning.map_or(by_friction, |slope| by_friction - normal.force * slope);
         ContactForce {
             normal,
             force: [force(0), force(1), zero],
-            moment: [zero, zero, -(self.journal_radius * friction_force)],
+            moment: [zero, zero, moment],
             friction_loss: friction_force * self.sliding_speed,
         }
     }
@@ -198,7 +207,7 @@ mod tests {
 
     /// A wall: the penetration goes with a constant gradient.
     fn wall<T: Scalar>(x: &[T; 9]) -> Support<T> {
-        Support { penetration: x[0] * x[6] + x[1] * x[7] - x[5], gradient: [x[6], x[7]] }
+        Support { penetration: x[0] * x[6] + x[1] * x[7] - x[5], gradient: [x[6], x[7]], turning: None }
     }
 
     /// Inputs as one list: offset, its rate, joint speed, clearance, gradient, impact speed.

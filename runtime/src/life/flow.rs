@@ -256,6 +256,7 @@ mod tests {
             wear: WearOf::Depth,
             feedback: Feedback::Scalar(ScalarFeedback::new(1.0).unwrap()),
             bins: None,
+            journal_bins: None,
             limits: Limits { hardness: 3.5e9, pressure_speed: None },
         }
     }

@@ -177,7 +177,7 @@ mod tests {
         MissionSegment { name, source: Fixed(depth, 1.0), revolutions, time, clearances: vec![0.0] }
     }
 
-    const JOINT: JointWear = JointWear { clearance: 1.0, wear: 0.0, profile: None };
+    const JOINT: JointWear = JointWear { clearance: 1.0, wear: 0.0, profile: None, journal: None };
 
     #[test]
     fn wear_counts_by_revolutions_and_forces_by_time() {

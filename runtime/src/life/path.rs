@@ -11,7 +11,7 @@ use super::settings::{Feedback, JointLife, LifeSettings, WearStep};
 use super::source::{JointWear, WearSource};
 use super::state::Control;
 use super::worn::WearState;
-use crate::wear::ContactMeasure;
+use crate::wear::{ContactMeasure, Profile};
 
 /// The next step is at most so many times longer.
 const LARGEST_GROWTH: f64 = 4.0;
@@ -116,8 +116,9 @@ impl<F: WearSource> Walker<'_, F> {
         state: &mut F::State,
     ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
         let worn = |((joint, increment), base): ((&JointLife, &[f64]), &WearState)| {
-            let WearState { clearance, wear, profile, .. } = joint.after(base, increment, 1.0);
-            JointWear { clearance, wear, profile: profile.filter(|_| joint.feedback == Feedback::Profile) }
+            let WearState { clearance, wear, profile, journal, .. } = joint.after(base, increment, 1.0);
+            let fed_back = |profile: Option<Profile>| profile.filter(|_| joint.feedback == Feedback::Profile);
+            JointWear { clearance, wear, profile: fed_back(profile), journal: fed_back(journal) }
         };
         let joints: Vec<JointWear> = self.settings.parts(increments).zip(self.base).map(worn).collect();
         self.measurements += 1;
@@ -141,7 +142,7 @@ impl<F: WearSource> Walker<'_, F> {
         };
         // A jump of several cycles is one step.
         let mut span = (control.step.floor() as u64).clamp(1, most.min(longest).max(1));
-        let remembers = remembers && self.settings.joints.iter().all(|joint| joint.bins.is_none());
+        let remembers = remembers && self.settings.joints.iter().all(|joint| joint.width() == 1);
         let earlier = std::mem::take(&mut self.earlier);
         if remembers && earlier.len() == rates.len() {
             let (path, ratio) = self.along_curves(&rates, &earlier, span)?;
@@ -317,6 +318,9 @@ pub(super) fn rates(settings: &LifeSettings, measured: &[ContactMeasure]) -> Inc
         if let (Some(_), Some(profile)) = (joint.bins, &wear.deposit) {
             rates.extend(profile.depths().iter().map(|depth| joint.revolutions_per_cycle * depth));
         }
+        if let (Some(_), Some(journal)) = (joint.journal_bins, &wear.journal) {
+            rates.extend(journal.depths().iter().map(|depth| joint.revolutions_per_cycle * depth));
+        }
     }
     rates
 }
@@ -330,7 +334,8 @@ pub(super) fn measure<F: WearSource>(
     cycle: u64,
 ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
     for (joint, worn) in settings.joints.iter().zip(joints) {
-        let clearance = worn.clearance + worn.profile.as_ref().map_or(0.0, |profile| profile.maximum());
+        let profiles = worn.profile.iter().chain(&worn.journal);
+        let clearance = worn.clearance + profiles.map(Profile::maximum).sum::<f64>();
         let (name, journal_radius) = (joint.joint.clone(), joint.journal_radius);
         if clearance >= journal_radius {
             return Err(LifeError::ClearanceAboveJournal { joint: name, cycle, clearance, journal_radius });
@@ -345,6 +350,10 @@ pub(super) fn measure<F: WearSource>(
         if let Some(bins) = joint.bins {
             let found = wear.deposit.as_ref().map_or(0, |profile| profile.depths().len());
             shape("bins of a profile", bins, found)?;
+        }
+        if let Some(bins) = joint.journal_bins {
+            let found = wear.journal.as_ref().map_or(0, |profile| profile.depths().len());
+            shape("bins of a journal", bins, found)?;
         }
         if let Some((name, value)) = wear.flaw() {
             return Err(LifeError::Measured { joint: joint.joint.clone(), cycle, name, value });

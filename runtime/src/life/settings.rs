@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::worn::WearState;
 use crate::contact::{OutOfRange, checked, positive};
+use crate::description::Description;
 use crate::tables::{ContactInfo, WearInfo};
 use crate::wear::{ContactMeasure, Limits, Measure, Profile, ScalarFeedback};
 
@@ -31,9 +32,18 @@ impl WearOf {
 
     /// What a revolution adds to the W of an unworn joint [m].
     pub fn of(self, measured: &ContactMeasure) -> f64 {
-        match (self, &measured.deposit) {
+        let bush = match (self, &measured.deposit) {
             (Self::Profile(measure), Some(profile)) => measure.of(profile.depths()),
             _ => measured.depth,
+        };
+        measured.journal.as_ref().map_or(bush, |journal| bush + self.of_journal(journal))
+    }
+
+    /// What a journal has in W [m]: its contact runs round, so that by the depth of the area its mean counts.
+    fn of_journal(self, journal: &Profile) -> f64 {
+        match self {
+            Self::Profile(measure) => measure.of(journal.depths()),
+            Self::Depth => journal.mean(),
         }
     }
 }
@@ -97,6 +107,9 @@ pub struct JointLife {
     pub feedback: Feedback,
     /// Bins of the profile to keep; nothing if none is kept.
     pub bins: Option<usize>,
+    /// Bins of the journal's profile; nothing if it does not wear.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub journal_bins: Option<usize>,
     /// Where the models end.
     pub limits: Limits,
 }
@@ -221,7 +234,24 @@ impl LifeSettings {
 }
 
 impl JointLife {
-    /// The joint of a description that wears, with clearance c0 [m]; nothing if it does not wear.
+    /// A joint of a description that wears, its journal included, by its index among those with clearance; nothing if it does not
+    /// wear.
+    ///
+    /// # Errors
+    /// If a number of the joint is out of range.
+    pub fn of_joint(
+        description: &Description,
+        contact: usize,
+        clearance: f64,
+    ) -> Result<Option<Self>, SettingsError> {
+        let Some(info) = description.contacts.get(contact) else { return Ok(None) };
+        let bins = info.wear.map(|wear| wear.bins).filter(|_| description.journal_ratio(contact).is_some());
+        let lives = Self::of_contact(info, clearance)?.map(|lives| Self { journal_bins: bins, ..lives });
+        lives.as_ref().map_or(Ok(()), Self::check)?;
+        Ok(lives)
+    }
+
+    /// The joint of a description that wears, its bush alone, with clearance c0 [m]; nothing if it does not wear.
     ///
     /// # Errors
     /// If a number of the joint is out of range.
@@ -243,6 +273,7 @@ impl JointLife {
             wear: WearOf::described(&wear),
             feedback,
             bins: wear.keeps_profile().then_some(wear.bins),
+            journal_bins: None,
             limits: Limits { hardness: wear.hardness, pressure_speed: wear.pressure_speed },
         };
         lives.check()?;
@@ -260,21 +291,21 @@ impl JointLife {
         for (name, value) in numbers {
             positive(name, value).map_err(wrong)?;
         }
-        match self.bins {
-            Some(bins) if bins < Profile::FEWEST_BINS => {
+        match (self.bins.or(self.journal_bins), self.bins) {
+            (Some(bins), _) if bins < Profile::FEWEST_BINS => {
                 let (name, need) = ("the number of bins", "4 or more");
                 Err(wrong(OutOfRange { name, value: bins as f64, need }))
             }
-            None if self.wear != WearOf::Depth || self.feedback == Feedback::Profile => {
+            (_, None) if self.wear != WearOf::Depth || self.feedback == Feedback::Profile => {
                 Err(SettingsError::NoProfile { joint: self.joint.clone() })
             }
             _ => Ok(()),
         }
     }
 
-    /// Length of the joint's increments: the depth, then the bins of the profile.
+    /// Length of the joint's increments: the depth, then the bins of the bush, then those of the journal.
     pub(super) fn width(&self) -> usize {
-        1 + self.bins.unwrap_or(0)
+        1 + self.bins.unwrap_or(0) + self.journal_bins.unwrap_or(0)
     }
 
     /// gamma [1], zero if only the profile feeds back.
@@ -287,30 +318,48 @@ impl JointLife {
 
     /// The joint after `factor` times a mean increment (see [`Self::width`]).
     pub(super) fn after(&self, state: &WearState, increment: &[f64], factor: f64) -> WearState {
-        let profile = state.profile.as_ref().map(|profile| {
-            let mut worn = profile.clone();
-            let fits = match self.feedback {
-                Feedback::Scalar(_) => worn.add_depths(&increment[1..], factor),
-                Feedback::Profile => worn.wear_in(&increment[1..], factor, state.clearance),
-            };
-            debug_assert!(fits, "increments are as wide as the joint says");
-            worn
-        });
+        let (bush, journal) = increment[1..].split_at(self.bins.unwrap_or(0));
+        // To the one, the other is round: it passes all its places.
+        let worn = |profile: &Option<Profile>, other: &Option<Profile>, increment: &[f64]| {
+            profile.as_ref().map(|profile| {
+                let mut worn = profile.clone();
+                let clearance =
+                    other.as_ref().map_or(state.clearance, |other| state.clearance + other.mean());
+                let fits = match self.feedback {
+                    Feedback::Scalar(_) => worn.add_depths(increment, factor),
+                    Feedback::Profile => worn.wear_in(increment, factor, clearance),
+                };
+                debug_assert!(fits, "increments are as wide as the joint says");
+                worn
+            })
+        };
+        let profile = worn(&state.profile, &state.journal, bush);
+        let journal = worn(&state.journal, &state.profile, journal);
+        let of_journal =
+            |journal: &Option<Profile>| journal.as_ref().map(|journal| self.wear.of_journal(journal));
         let wear = match (self.wear, &profile) {
-            (WearOf::Profile(measure), Some(profile)) => measure.of(profile.depths()),
-            _ => state.wear + factor * increment[0],
+            (WearOf::Profile(measure), Some(profile)) => {
+                let bush = measure.of(profile.depths());
+                of_journal(&journal).map_or(bush, |journal| bush + journal)
+            }
+            _ => {
+                let bush = state.wear + factor * increment[0];
+                let gained = of_journal(&journal).zip(of_journal(&state.journal));
+                gained.map_or(bush, |(after, before)| bush + (after - before))
+            }
         };
         let clearance = match self.feedback {
             Feedback::Scalar(feedback) => feedback.next_clearance(state.clearance, wear - state.wear),
             Feedback::Profile => state.clearance,
         };
-        WearState { clearance, wear, profile, ..*state }
+        WearState { clearance, wear, profile, journal, ..*state }
     }
 
     /// The part of an increment that W is made of.
     pub(super) fn decisive<'i>(&self, increment: &'i [f64]) -> &'i [f64] {
         match self.wear {
-            WearOf::Depth => &increment[..1],
+            WearOf::Depth if self.journal_bins.is_none() => &increment[..1],
+            WearOf::Depth => increment,
             WearOf::Profile(_) => &increment[1..],
         }
     }
@@ -372,6 +421,43 @@ mod tests {
         for wrong in [WearInfo { feedback: -1.0, ..WEAR }, WearInfo { threshold: 0.0, ..WEAR }] {
             assert!(matches!(of(Some(wrong)), Err(SettingsError::Joint { .. })));
         }
+    }
+
+    #[test]
+    fn a_journal_wears_beside_its_bush_and_both_open_the_clearance() {
+        let of = |measure, profile, increment: &[f64]| {
+            let wear = WearInfo { measure, profile, bins: 4, ..WEAR };
+            let lives = JointLife::of_contact(&contact(Some(wear)), 1e-5).unwrap().unwrap();
+            let lives = JointLife { journal_bins: Some(4), ..lives };
+            lives.check().expect("a profile of each");
+            let unworn = |bins: usize| Profile::unworn(bins).ok();
+            let (exposure, error) = (0.0, 0.0);
+            let start = WearState {
+                clearance: 1e-5,
+                wear: 0.0,
+                exposure,
+                error,
+                profile: lives.bins.and_then(unworn),
+                journal: unworn(4),
+            };
+            lives.after(&start, increment, 2.0)
+        };
+        let both = [7e-7, 1e-7, 0.0, 0.0, 3e-7, 1e-7, 2e-7, 2e-7, 1e-7];
+        // Twice the increments: means of 2e-7 and 3e-7, largest depths of 6e-7 and 4e-7; gamma is 0.1. A few roundings.
+        for (measure, expected) in [(Measure::Mean, 5e-7), (Measure::Maximum, 1e-6)] {
+            let after = of(Some(measure), false, &both);
+            assert!((after.wear / expected - 1.0).abs() < 1e-14, "{after:?}");
+            assert!((after.clearance / (1e-5 + 0.1 * expected) - 1.0).abs() < 1e-15);
+        }
+        // By the depth of the area: 1.4e-6 and the journal's mean.
+        let after = of(None, false, &[7e-7, 1e-7, 2e-7, 2e-7, 1e-7]);
+        assert!((after.wear / 1.7e-6 - 1.0).abs() < 1e-14 && after.profile.is_none(), "{after:?}");
+        // Fed back by angle, the volumes of both stay, and the clearance of the round bearing.
+        let after = of(None, true, &both);
+        let mean = |profile: &Option<Profile>| profile.as_ref().map_or(0.0, Profile::mean);
+        assert!((mean(&after.profile) / 2e-7 - 1.0).abs() < 1e-14);
+        assert!((mean(&after.journal) / 3e-7 - 1.0).abs() < 1e-14);
+        assert_eq!(after.clearance, 1e-5);
     }
 
     #[test]

@@ -59,4 +59,6 @@ pub struct JointWear {
     pub wear: f64,
     /// Depth by bearing angle that is fed back to the local gap; nothing if wear feeds back as one number.
     pub profile: Option<Profile>,
+    /// The same of the journal, by its own angle.
+    pub journal: Option<Profile>,
 }

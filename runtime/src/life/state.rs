@@ -136,6 +136,7 @@ impl<S: Default> LifeState<S> {
             exposure: 0.0,
             error: 0.0,
             profile: joint.bins.and_then(|bins| Profile::unworn(bins).ok()),
+            journal: joint.journal_bins.and_then(|bins| Profile::unworn(bins).ok()),
         });
         Ok(Self {
             trajectory,
@@ -163,6 +164,8 @@ impl<S> LifeState<S> {
         for (joint, state) in settings.joints.iter().zip(&self.joints) {
             let found = state.profile.as_ref().map_or(0, |profile| profile.depths().len());
             same("the number of bins of a profile", joint.bins.unwrap_or(0), found)?;
+            let found = state.journal.as_ref().map_or(0, |profile| profile.depths().len());
+            same("the number of bins of a journal", joint.journal_bins.unwrap_or(0), found)?;
         }
         let measured = self.measured.as_ref().map_or(settings.joints.len(), Vec::len);
         same("the number of measured joints", settings.joints.len(), measured)

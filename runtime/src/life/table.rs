@@ -59,6 +59,7 @@ struct JointTable {
     touching: Curve,
     loss: Curve,
     bins: Vec<Curve>,
+    journal: Vec<Curve>,
     observed: Vec<Option<Observed>>,
 }
 
@@ -182,11 +183,15 @@ impl JointTable {
         }
         let column =
             |of: fn(&ContactMeasure) -> f64| points.iter().map(|point| of(point)).collect::<Vec<_>>();
-        let bin = |bin: usize| {
-            let depth = |point: &&ContactMeasure| point.deposit.as_ref().map_or(0.0, |p| p.depths()[bin]);
-            Curve::plain(&places, points.iter().map(depth).collect())
+        let profile = |bins: Option<usize>, of: fn(&ContactMeasure) -> Option<&Profile>| {
+            let bin = |bin: usize| {
+                let depth = |point: &&ContactMeasure| of(point).map_or(0.0, |p| p.depths()[bin]);
+                Curve::plain(&places, points.iter().map(depth).collect())
+            };
+            (0..bins.unwrap_or(0)).map(bin).collect()
         };
-        let bins = (0..settings.joints[joint].bins.unwrap_or(0)).map(bin).collect();
+        let bins = profile(settings.joints[joint].bins, |point| point.deposit.as_ref());
+        let journal = profile(settings.joints[joint].journal_bins, |point| point.journal.as_ref());
         Self {
             scale,
             depth: Curve::logarithmic(&places, column(|wear| wear.depth)),
@@ -197,6 +202,7 @@ impl JointTable {
             touching: Curve::plain(&places, column(|wear| wear.touching)),
             loss: Curve::plain(&places, column(|wear| wear.loss)),
             bins,
+            journal,
             observed: points.iter().map(|point| point.observed).collect(),
             places,
         }
@@ -222,6 +228,11 @@ impl JointTable {
                 WearOf::Depth => value(&self.depth),
                 WearOf::Profile(_) => self.bins.iter().map(value).sum::<f64>() / self.bins.len() as f64,
             };
+            let depth = if self.journal.is_empty() {
+                depth
+            } else {
+                depth + self.journal.iter().map(value).sum::<f64>() / self.journal.len() as f64
+            };
             joint.revolutions_per_cycle * depth
         };
         // A first cycle that reaches the threshold is a fault of the settings, which is told elsewhere.
@@ -233,7 +244,10 @@ impl JointTable {
         let cell = find(&self.places, libm::log1p(wear / self.scale));
         // Only beyond the last point can a line fall below zero.
         let value = |curve: &Curve| curve.at(cell).max(0.0);
-        let depths: Vec<f64> = self.bins.iter().map(value).collect();
+        let profile = |bins: &[Curve]| {
+            let depths: Vec<f64> = bins.iter().map(value).collect();
+            if depths.is_empty() { None } else { Profile::try_from(depths).ok() }
+        };
         ContactMeasure {
             wear_integral: value(&self.wear_integral),
             depth: value(&self.depth),
@@ -242,7 +256,8 @@ impl JointTable {
             losses: value(&self.losses),
             touching: value(&self.touching).min(1.0),
             loss: value(&self.loss),
-            deposit: if depths.is_empty() { None } else { Profile::try_from(depths).ok() },
+            deposit: profile(&self.bins),
+            journal: profile(&self.journal),
             observed: self.observed[cell.nearest()],
         }
     }
@@ -287,6 +302,7 @@ impl<F: WearSource> Survey<'_, F> {
             clearance: joint.clearance + joint.gamma() * wear,
             wear: *wear,
             profile: None,
+            journal: None,
         };
         let joints: Vec<JointWear> = self.settings.joints.iter().zip(wear).map(worn).collect();
         self.measurements += 1;

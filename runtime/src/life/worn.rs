@@ -16,4 +16,7 @@ pub struct WearState {
     pub error: f64,
     /// Depth by bearing angle, if it is kept.
     pub profile: Option<Profile>,
+    /// Depth of the journal by its own angle, if it wears.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub journal: Option<Profile>,
 }

@@ -31,6 +31,8 @@ struct Track {
     losses: u64,
     touching: f64,
     deposit: Option<Profile>,
+    /// What the journal lost, by its own angle.
+    journal: Option<Profile>,
     observed: Option<Observed>,
     probed_penetration: f64,
     frequency: f64,
@@ -79,6 +81,7 @@ impl Follower {
             losses: 0,
             touching: 0.0,
             deposit: empty_deposit(joint),
+            journal: empty_journal(joint),
             observed: None,
             probed_penetration: 0.0,
             frequency: 0.0,
@@ -202,6 +205,7 @@ impl Follower {
             track.peak = touch.normal_force;
             (track.losses, track.touching) = (0, 0.0);
             track.deposit = empty_deposit(joint);
+            track.journal = empty_journal(joint);
             track.observed = joint.wear().map(|(archard, _)| {
                 let mut observed = Observed::nothing(touch.clearance, joint.journal_radius());
                 observed.include(archard.area(), &Clearance::load(touch), &joint.pair(touch.clearance));
@@ -224,6 +228,7 @@ impl Follower {
                 touching: (track.touching / duration).min(1.0),
                 loss: done.loss,
                 deposit: track.deposit.take(),
+                journal: track.journal.take(),
                 observed: track.observed,
             }
         };
@@ -300,10 +305,20 @@ impl Track {
         if let Some(observed) = &mut self.observed {
             observed.include(archard.area(), &Clearance::load(now), &joint.pair(now.clearance));
         }
+        let volume = archard.volume_rate() * done.wear * mean_factor(before, now);
         if let Some(deposit) = &mut self.deposit
             && done.wear != 0.0
         {
-            spread(deposit, joint, (before, now), done.wear);
+            let radius = joint.journal_radius() + now.clearance;
+            let amount = volume / (radius * joint.length());
+            spread(deposit, joint, (before, now), (ContactState::angle, amount));
+        }
+        if let (Some(journal), Some(ratio)) = (&mut self.journal, joint.journal_ratio())
+            && done.wear != 0.0
+        {
+            let surface = joint.journal_radius() * joint.length();
+            let amount = ratio * volume / surface;
+            spread(journal, joint, (before, now), (ContactState::journal_angle, amount));
         }
     }
 }
@@ -314,7 +329,22 @@ fn empty_deposit(joint: &Clearance) -> Option<Profile> {
     if wear.keeps_profile() { Profile::unworn(wear.bins).ok() } else { None }
 }
 
-/// Spreads the wear integral of a step [J] over the bearing angles the contact passed in it.
+/// Factor on the wear coefficient in a step, by the work of friction at both ends: its error is of second order in the step.
+fn mean_factor(before: &ContactState, now: &ContactState) -> f64 {
+    let Some((first, last)) = before.wear_factor.zip(now.wear_factor) else { return 1.0 };
+    let work = before.wear_power + now.wear_power;
+    // A contact that came and went within a step is told by neither end.
+    if work > 0.0 { (first * before.wear_power + last * now.wear_power) / work } else { 1.0 }
+}
+
+/// The same of a journal that wears.
+fn empty_journal(joint: &Clearance) -> Option<Profile> {
+    let (_, wear) = joint.wear()?;
+    joint.journal_ratio().and_then(|_| Profile::unworn(wear.bins).ok())
+}
+
+/// Spreads the wear of a step, volume over radius and length [m rad], over the angles of bearing or journal that the contact passed
+/// in it.
 ///
 /// The amount is the integral of the step by the method itself, so the sum over all angles has its order. The
 /// place is taken as linear in time in pieces of at most half a bin: off by less than the width of a bin.
@@ -322,7 +352,7 @@ fn spread(
     deposit: &mut Profile,
     joint: &Clearance,
     (before, now): (&ContactState, &ContactState),
-    wear_integral: f64,
+    (angle, amount): (fn(&ContactState) -> f64, f64),
 ) {
     let Some((archard, _)) = joint.wear() else { return };
     let half_angle = |touch: &ContactState| {
@@ -334,11 +364,8 @@ fn spread(
         (true, false) => (before, before),
         _ => (before, now),
     };
-    let pair = joint.pair(now.clearance);
-    let surface = (pair.journal_radius + pair.clearance) * pair.length;
-    let amount = archard.volume_rate() * wear_integral / surface;
-    let from_angle = from.angle();
-    let arc = (to.angle() - from_angle + PI).rem_euclid(2.0 * PI) - PI;
+    let from_angle = angle(from);
+    let arc = (angle(to) - from_angle + PI).rem_euclid(2.0 * PI) - PI;
     let pieces = (2.0 * arc.abs() / deposit.bin_angle()).ceil().max(1.0);
     let (first, last) = (half_angle(from), half_angle(to));
     for piece in 0..pieces as usize {

@@ -229,6 +229,19 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// As [`Self::set_parameters`], or if there is no such joint.
     pub fn set_worn(&mut self, joint: usize, worn: f64, profile: Option<Profile>) -> Result<(), RunError> {
+        self.set_worn_pair(joint, worn, [profile, None])
+    }
+
+    /// The same of a joint whose journal wears: depths of bush and journal, each by its own angle.
+    ///
+    /// # Errors
+    /// As [`Self::set_worn`].
+    pub fn set_worn_pair(
+        &mut self,
+        joint: usize,
+        worn: f64,
+        [profile, journal]: [Option<Profile>; 2],
+    ) -> Result<(), RunError> {
         let states = self.motion.dynamics.evaluator.clearances().states();
         let Some(kept) = states.get(joint).cloned() else {
             let what = "joints with clearance";
@@ -237,7 +250,7 @@ impl<'a> Simulation<'a> {
         self.change(
             |evaluator| {
                 let state = &mut evaluator.clearances_mut().states_mut()[joint];
-                (state.worn, state.profile) = (worn, profile);
+                (state.worn, state.profile, state.journal) = (worn, profile, journal);
                 Ok(())
             },
             |evaluator| evaluator.clearances_mut().states_mut()[joint] = kept,

@@ -145,6 +145,19 @@ impl<'a> TurnRunner<'a> {
     /// # Errors
     /// If there is no such joint, or the clearance is none; nothing has changed then.
     pub fn set_worn(&mut self, joint: usize, worn: f64, profile: Option<Profile>) -> Result<(), SetupError> {
+        self.set_worn_pair(joint, worn, [profile, None])
+    }
+
+    /// The same of a joint whose journal wears: depths of bush and journal, each by its own angle.
+    ///
+    /// # Errors
+    /// As [`Self::set_worn`].
+    pub fn set_worn_pair(
+        &mut self,
+        joint: usize,
+        worn: f64,
+        [profile, journal]: [Option<Profile>; 2],
+    ) -> Result<(), SetupError> {
         let evaluator = &mut self.motion.dynamics.evaluator;
         let count = evaluator.sizes().contacts;
         if joint >= count {
@@ -155,7 +168,7 @@ impl<'a> TurnRunner<'a> {
         let before = evaluator.clearances().contacts().to_vec();
         let kept = evaluator.clearances().states()[joint].clone();
         let now = &mut evaluator.clearances_mut().states_mut()[joint];
-        (now.worn, now.profile) = (worn, profile);
+        (now.worn, now.profile, now.journal) = (worn, profile, journal);
         if let Err(error) = check_clearances(evaluator, self.t, &self.state) {
             evaluator.clearances_mut().states_mut()[joint] = kept;
             return Err(error);

@@ -26,6 +26,10 @@ pub struct ContactMeasure {
     /// Depth gained by the direction of the journal's offset: by bearing angle, where the bearing is round. Nothing
     /// if the joint keeps no profile.
     pub deposit: Option<Profile>,
+    /// Depth that the journal lost, by the direction in its own frame in which it points from the bearing's centre. Nothing if it
+    /// does not wear.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub journal: Option<Profile>,
     /// Extremes, for warnings of the wear laws; nothing if the joint does not wear.
     pub observed: Option<Observed>,
 }
@@ -71,9 +75,27 @@ impl ContactMeasure {
         }),
     ];
 
-    /// Its numbers without the profile and the extremes.
+    /// What a journal that wears has besides.
+    pub const JOURNAL: [Quantity<Self>; 2] = [
+        (
+            Column::new(
+                ("journal depth", "hj_mean", "m"),
+                "Depth that the journal lost, mean over its angle",
+            ),
+            |one| one.journal.as_ref().map_or(0.0, Profile::mean),
+        ),
+        (
+            Column::new(
+                ("journal largest depth", "hj_max", "m"),
+                "Depth that the journal lost where it lost most",
+            ),
+            |one| one.journal.as_ref().map_or(0.0, Profile::maximum),
+        ),
+    ];
+
+    /// Its numbers without profiles and extremes.
     pub fn numbers(&self) -> Self {
-        Self { deposit: None, observed: None, ..*self }
+        Self { deposit: None, journal: None, observed: None, ..*self }
     }
 
     /// The mean of turns of one joint; extremes are those of all turns.
@@ -88,7 +110,8 @@ impl ContactMeasure {
             losses: mean(|turn| turn.losses),
             touching: mean(|turn| turn.touching),
             loss: mean(|turn| turn.loss),
-            deposit: mean_deposit(turns),
+            deposit: mean_profile(turns, |turn| turn.deposit.as_ref()),
+            journal: mean_profile(turns, |turn| turn.journal.as_ref()),
             observed: turns.iter().filter_map(|turn| turn.observed).reduce(Observed::larger),
         }
     }
@@ -99,12 +122,14 @@ impl ContactMeasure {
             |of: fn(&Self) -> f64| parts.iter().map(|(part, share, _)| share * of(part)).sum::<f64>();
         let by_time =
             |of: fn(&Self) -> f64| parts.iter().map(|(part, _, share)| share * of(part)).sum::<f64>();
-        let deposits = parts.iter().map(|(part, share, _)| Some((part.deposit.as_ref()?.depths(), *share)));
-        let deposit = deposits.collect::<Option<Vec<_>>>().and_then(|all| {
-            let bins = all.first()?.0.len();
-            let depth = |bin: usize| all.iter().map(|(depths, share)| share * depths[bin]).sum::<f64>();
-            Profile::try_from((0..bins).map(depth).collect::<Vec<_>>()).ok()
-        });
+        let profile = |of: fn(&Self) -> Option<&Profile>| {
+            let profiles = parts.iter().map(|(part, share, _)| Some((of(part)?.depths(), *share)));
+            profiles.collect::<Option<Vec<_>>>().and_then(|all| {
+                let bins = all.first()?.0.len();
+                let depth = |bin: usize| all.iter().map(|(depths, share)| share * depths[bin]).sum::<f64>();
+                Profile::try_from((0..bins).map(depth).collect::<Vec<_>>()).ok()
+            })
+        };
         Self {
             wear_integral: by_revolution(|part| part.wear_integral),
             depth: by_revolution(|part| part.depth),
@@ -113,7 +138,8 @@ impl ContactMeasure {
             losses: by_revolution(|part| part.losses),
             touching: by_time(|part| part.touching).min(1.0),
             loss: by_revolution(|part| part.loss),
-            deposit,
+            deposit: profile(|part| part.deposit.as_ref()),
+            journal: profile(|part| part.journal.as_ref()),
             observed: parts.iter().filter_map(|(part, ..)| part.observed).reduce(Observed::larger),
         }
     }
@@ -129,7 +155,7 @@ impl ContactMeasure {
             ]
         });
         let numbers = Self::COLUMNS.iter().map(|(column, value)| (column.name, value(self))).chain(seen);
-        let depths = self.deposit.iter().flat_map(|deposit| deposit.depths());
+        let depths = self.deposit.iter().chain(&self.journal).flat_map(|profile| profile.depths());
         // A largest penetration below zero is that of a joint that never touched; a loss may be rounding.
         let wrong = |name: &str, value: f64| {
             !value.is_finite() || (value < 0.0 && !["penetration", "loss"].contains(&name))
@@ -140,11 +166,11 @@ impl ContactMeasure {
     }
 }
 
-fn mean_deposit(turns: &[&ContactMeasure]) -> Option<Profile> {
+fn mean_profile(turns: &[&ContactMeasure], of: fn(&ContactMeasure) -> Option<&Profile>) -> Option<Profile> {
     let (first, rest) = turns.split_first()?;
-    let mut sum = first.deposit.clone()?;
+    let mut sum = of(first)?.clone();
     for turn in rest {
-        let fits = sum.add_depths(turn.deposit.as_ref().map_or(&[], |deposit| deposit.depths()), 1.0);
+        let fits = sum.add_depths(of(turn).map_or(&[], Profile::depths), 1.0);
         debug_assert!(fits, "turns of one joint have profiles of one width");
     }
     let count = turns.len() as f64;

@@ -7,6 +7,7 @@
 
 mod archard;
 mod area;
+mod coefficient;
 mod feedback;
 mod limits;
 #[cfg(feature = "std")]
@@ -18,6 +19,7 @@ mod reach;
 
 pub use archard::{Archard, WearRates};
 pub use area::{Area, Load, Pair};
+pub use coefficient::{MOST_LIVE, MOST_STEPS, Step, factor, is_sound};
 pub use feedback::{Measure, ScalarFeedback};
 pub use limits::{Limits, Observed, Warning};
 #[cfg(feature = "std")]
@@ -25,4 +27,4 @@ pub use measure::ContactMeasure;
 #[cfg(feature = "std")]
 pub use profile::{DEFAULT_BINS, Profile, ProfileError};
 #[cfg(feature = "std")]
-pub use reach::Grid;
+pub use reach::{Grid, Surfaces};

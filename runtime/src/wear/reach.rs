@@ -35,8 +35,54 @@ const MOST_PIECES: f64 = 4096.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     normals: Vec<[f64; 2]>,
+    middles: Vec<f64>,
     /// Smoothing of the maximum over the clearance.
     smoothing: f64,
+}
+
+/// What is worn off a joint: bush, journal, or both. The gap at a bearing angle is the clearance, the depth of the bush there, and
+/// that of the journal at the place of it that has come there.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Surfaces<'p> {
+    /// Depth of the bush by bearing angle.
+    pub bush: Option<&'p Profile>,
+    /// Depth of the journal by its own angle, and how far it has turned in the bearing [rad].
+    pub journal: Option<(&'p Profile, f64)>,
+}
+
+impl<'p> From<&'p Profile> for Surfaces<'p> {
+    fn from(bush: &'p Profile) -> Self {
+        Self { bush: Some(bush), journal: None }
+    }
+}
+
+impl Surfaces<'_> {
+    /// Whether nothing is worn.
+    pub fn are_round(&self) -> bool {
+        self.bush.is_none() && self.journal.is_none()
+    }
+
+    /// Depths of both, over the circumference [m].
+    pub fn mean(&self) -> f64 {
+        let journal = self.journal.map(|(journal, _)| journal.mean());
+        let bush = self.bush.map_or(0.0, Profile::mean);
+        journal.map_or(bush, |journal| bush + journal)
+    }
+
+    /// No less than the largest depth of both together [m].
+    fn maximum(&self) -> f64 {
+        let journal = self.journal.map_or(0.0, |(journal, _)| journal.maximum());
+        self.bush.map_or(0.0, Profile::maximum) + journal
+    }
+
+    /// Depth of both together in a bin of the bearing with its middle [m], and the slope of the journal's [m/rad].
+    fn at(&self, bin: usize, middle: f64) -> (f64, f64) {
+        let bush = self.bush.map_or(0.0, |bush| bush.depths()[bin]);
+        self.journal.map_or((bush, 0.0), |(journal, turned)| {
+            let (depth, slope) = journal.at(middle - turned);
+            (bush + depth, slope)
+        })
+    }
 }
 
 /// A smooth maximum: of the sum of exp(value/scale), and the mean of what is weighed by it.
@@ -44,6 +90,7 @@ struct Smooth {
     largest: f64,
     sum: f64,
     mean: [f64; 2],
+    slope: f64,
 }
 
 impl Grid {
@@ -52,31 +99,52 @@ impl Grid {
         let width = 2.0 * PI / bins as f64;
         let middle = |bin: usize| (bin as f64 + 0.5) * width - PI;
         let normals = (0..bins).map(|bin| [libm::cos(middle(bin)), libm::sin(middle(bin))]).collect();
-        Self { normals, smoothing: (SMOOTHED * width) * (SMOOTHED * width) }
+        let middles = (0..bins).map(middle).collect();
+        Self { normals, middles, smoothing: (SMOOTHED * width) * (SMOOTHED * width) }
     }
 
-    /// Penetration of a journal at an offset [m] into a bearing with a radial clearance [m], worn by a profile with
+    /// Penetration of a journal at an offset [m] into a bearing with a radial clearance [m], worn by profiles with
     /// the bins of this grid; exactly that of a round bearing where the depth is even.
-    pub fn support(&self, depths: &Profile, clearance: f64, offset: [f64; 2]) -> Support<f64> {
+    pub fn support<'p>(
+        &self,
+        worn: impl Into<Surfaces<'p>>,
+        clearance: f64,
+        offset: [f64; 2],
+    ) -> Support<f64> {
+        let surfaces = worn.into();
         let round = Support::round(offset, clearance);
         let scale = self.smoothing * clearance;
         let along = |normal: &[f64; 2]| offset[0] * normal[0] + offset[1] * normal[1];
-        let unworn = self.smooth(scale, self.normals.iter().map(along));
-        let worn = self.normals.iter().zip(depths.depths()).map(|(normal, depth)| along(normal) - depth);
+        let unworn = self.smooth(scale, self.normals.iter().map(|normal| (along(normal), 0.0)));
+        let worn = self.normals.iter().zip(&self.middles).enumerate().map(|(bin, (normal, middle))| {
+            let (depth, slope) = surfaces.at(bin, *middle);
+            (along(normal) - depth, slope)
+        });
         let worn = self.smooth(scale, worn);
         let deeper = worn.largest - unworn.largest + scale * libm::log(worn.sum / unworn.sum);
         let turned = |axis: usize| round.gradient[axis] + worn.mean[axis] - unworn.mean[axis];
-        Support { penetration: round.penetration + deeper, gradient: [turned(0), turned(1)] }
+        Support {
+            penetration: round.penetration + deeper,
+            gradient: [turned(0), turned(1)],
+            turning: surfaces.journal.map(|_| worn.slope),
+        }
     }
 
     /// Distance [m] of the journal's centre from the bearing's, along a unit vector, at which the penetration is
     /// `penetration` [m].
-    pub fn distance(&self, depths: &Profile, clearance: f64, direction: [f64; 2], penetration: f64) -> f64 {
+    pub fn distance<'p>(
+        &self,
+        worn: impl Into<Surfaces<'p>>,
+        clearance: f64,
+        direction: [f64; 2],
+        penetration: f64,
+    ) -> f64 {
+        let surfaces = worn.into();
         // Newton comes from outside, where the penetration is too large: it is convex.
-        let mut distance = clearance + penetration + depths.maximum();
+        let mut distance = clearance + penetration + surfaces.maximum();
         for _ in 0..MOST_STEPS {
             let offset = direction.map(|component| distance * component);
-            let Support { penetration: found, gradient } = self.support(depths, clearance, offset);
+            let Support { penetration: found, gradient, .. } = self.support(surfaces, clearance, offset);
             let slope = gradient[0] * direction[0] + gradient[1] * direction[1];
             let step = (found - penetration) / slope;
             if !(step.is_finite() && step.abs() > f64::EPSILON * distance.abs()) {
@@ -87,18 +155,19 @@ impl Grid {
         distance
     }
 
-    fn smooth(&self, scale: f64, values: impl Iterator<Item = f64> + Clone) -> Smooth {
-        let largest = values.clone().fold(f64::NEG_INFINITY, f64::max);
-        let (mut sum, mut mean) = (0.0, [0.0; 2]);
-        for (normal, value) in self.normals.iter().zip(values) {
+    fn smooth(&self, scale: f64, values: impl Iterator<Item = (f64, f64)> + Clone) -> Smooth {
+        let largest = values.clone().fold(f64::NEG_INFINITY, |most, (value, _)| f64::max(most, value));
+        let (mut sum, mut mean, mut turning) = (0.0, [0.0; 2], 0.0);
+        for (normal, (value, slope)) in self.normals.iter().zip(values) {
             let below = (largest - value) / scale;
             if below < NOTHING {
                 let weight = libm::exp(-below);
                 sum += weight;
                 mean = [mean[0] + weight * normal[0], mean[1] + weight * normal[1]];
+                turning += weight * slope;
             }
         }
-        Smooth { largest, sum, mean: mean.map(|component| component / sum) }
+        Smooth { largest, sum, mean: mean.map(|component| component / sum), slope: turning / sum }
     }
 }
 

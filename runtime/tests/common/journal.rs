@@ -2,10 +2,10 @@
 //! of the journal, gravity in -y, a load by time. Parameters: gravity [m/s²], clearance [m].
 
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
-use linkwear_runtime::wear::Area;
+use linkwear_runtime::wear::{Area, Step};
 use linkwear_runtime::{
-    CONTACT_MOTION, CONTACT_WRENCH, Channel, ContactInfo, Description, DriverInfo, Entry, Motion,
-    ParameterInfo, Sizes, System, VariableInfo, WearInfo,
+    CONTACT_MOTION, CONTACT_WRENCH, Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, Entry,
+    JournalWear, Motion, ParameterInfo, Sizes, System, VariableInfo, WearInfo,
 };
 
 use super::others::by_others;
@@ -95,6 +95,8 @@ impl Journal {
             channels: vec![channel("R.x")].into(),
             turn_driver: None,
             contacts: vec![contact].into(),
+            journals: Vec::new().into(),
+            coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };
         Self {
@@ -126,6 +128,18 @@ impl Journal {
         description.motions.to_mut()[2] = Motion::Scalar { driver: Some(0) };
         description.drivers = vec![DriverInfo { joint: "R".into(), angular: true }].into();
         description.turn_driver = Some(0);
+        self
+    }
+
+    /// With a factor on its wear coefficient, over pressure, sliding speed and the gravity of the parameters.
+    pub fn wearing_by(mut self, steps: Vec<Step>) -> Self {
+        self.description.coefficients = vec![CoefficientFactor { contact: 0, steps: steps.into() }].into();
+        self
+    }
+
+    /// With a journal that wears, by its volume over that of the bush.
+    pub fn wearing(mut self, ratio: f64) -> Self {
+        self.description.journals = vec![JournalWear { contact: 0, ratio }].into();
         self
     }
 
@@ -216,7 +230,10 @@ impl System<f64> for Journal {
             Entry::Contacts => {
                 let (q, v, _) = state();
                 assert_eq!(output.len(), CONTACT_MOTION);
-                output.copy_from_slice(&[q[0], q[1], 0.0, v[0], v[1], 0.0, 0.0, 0.0, speed(v), clearance]);
+                let angle = self.driven.map_or_else(|| q[2], |speed| speed * t);
+                let angle = if self.description.journals.is_empty() { 0.0 } else { angle };
+                let live = if self.description.coefficients.is_empty() { 0.0 } else { gravity };
+                output.copy_from_slice(&[q[0], q[1], angle, v[0], v[1], live, 0.0, 0.0, speed(v), clearance]);
             }
         }
     }

@@ -134,6 +134,8 @@ impl<M: Model> Dense<M> {
             channels: channels.into(),
             turn_driver: (!prescribed.is_empty()).then_some(0),
             contacts: model.contacts().into(),
+            journals: Vec::new().into(),
+            coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };
         Self { model, description, layout, sizes }

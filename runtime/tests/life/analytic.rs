@@ -50,6 +50,7 @@ pub fn revolution(depth: f64, clearance: f64) -> ContactMeasure {
         touching: 1.0,
         loss: 0.0,
         deposit: None,
+        journal: None,
         observed: Some(Observed {
             pressure: 2e6,
             pressure_speed: 2.5e5,
@@ -90,6 +91,7 @@ pub fn joint(name: &str, revolutions_per_cycle: f64, gamma: f64) -> JointLife {
         wear: WearOf::Depth,
         feedback: Feedback::Scalar(ScalarFeedback::new(gamma).unwrap()),
         bins: None,
+        journal_bins: None,
         limits: Limits { hardness: 3.5e9, pressure_speed: None },
     }
 }

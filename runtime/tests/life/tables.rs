@@ -66,7 +66,7 @@ fn a_resonance_is_found_by_the_error_estimate_and_hardly_moves_the_life() {
     // Points lie ln(9)/16 apart, 0.55 C0 at 4 C0: half of them miss much of a peak of 0.2 %, all see it.
     assert!((1e-4..2e-3).contains(&estimate), "{estimate}");
     let truth = |wear: f64| {
-        let joints = [JointWear { clearance: C0 + wear, wear, profile: None }];
+        let joints = [JointWear { clearance: C0 + wear, wear, profile: None, journal: None }];
         Resonance.measure(&joints, &mut ()).unwrap()[0].depth
     };
     for i in 0..1000 {

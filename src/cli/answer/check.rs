@@ -186,8 +186,14 @@ pub struct WearAnswer<'a> {
     pub joint: &'a str,
     /// Dimensionless wear coefficient k.
     pub coefficient: f64,
+    /// Factor on it, as the file writes it; absent if there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coefficient_factor: Option<String>,
     /// Hardness of the softer side [Pa].
     pub hardness_Pa: f64,
+    /// Volume that the journal loses over that of the bush; absent if only the bush wears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub journal_ratio: Option<f64>,
     /// Wear depth at which the joint has failed [m].
     pub threshold_m: f64,
     /// Area that carries the load, as in files.

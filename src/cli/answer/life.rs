@@ -64,6 +64,9 @@ pub struct LifeAnswer<'a> {
     pub cycles: Vec<CycleAnswer>,
     /// Measure of wear of each joint that wears.
     pub wear_measures: &'a [WearMeasure],
+    /// Bushes and journals after the last cycle of the mean path, where journals wear too; absent else.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub worn: Vec<WornAnswer<'a>>,
     /// Remarks on the file and on the life.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
     pub warnings: Vec<Value>,
@@ -77,6 +80,21 @@ pub struct LifeAnswer<'a> {
     pub scatter: Option<ScatterAnswer>,
     /// How far off the mean may be.
     pub error_budget: HalfWidths,
+}
+
+/// A joint whose bush and journal are worn.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[allow(non_snake_case, reason = "units are written as they are")]
+pub struct WornAnswer<'a> {
+    /// The joint.
+    pub joint: &'a str,
+    /// Angles in the frame of bush and journal alike [rad].
+    pub angle_rad: Vec<f64>,
+    /// Depth of the bush there [m]; null where it is not kept by angle.
+    pub bush_m: Option<&'a [f64]>,
+    /// Depth of the journal there [m].
+    pub journal_m: &'a [f64],
 }
 
 /// The life in which every increment is its mean.

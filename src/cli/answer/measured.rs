@@ -17,7 +17,9 @@ impl JsonSchema for TurnColumns {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        numbers(ContactMeasure::COLUMNS.iter().map(|(column, _)| (turn_key(column), *column)))
+        let own = ContactMeasure::COLUMNS.iter().map(|(column, _)| (turn_key(column), *column));
+        let journal = ContactMeasure::JOURNAL.iter().map(|(column, _)| (turn_key(column), *column));
+        numbers(own, journal)
     }
 }
 
@@ -30,16 +32,21 @@ impl JsonSchema for CycleColumns {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        numbers(CycleJoint::columns().map(|column| (column.key(), column)))
+        numbers(CycleJoint::columns().map(|column| (column.key(), column)), std::iter::empty())
     }
 }
 
-fn numbers(columns: impl Iterator<Item = (String, Column)>) -> Schema {
-    let mut properties = Map::new();
-    for (key, Column { meaning, unit, .. }) in columns {
+/// Numbers that are always there, then those that only a journal that wears has.
+fn numbers(
+    columns: impl Iterator<Item = (String, Column)>,
+    of_journal: impl Iterator<Item = (String, Column)>,
+) -> Schema {
+    let described = |(key, Column { meaning, unit, .. }): (String, Column)| {
         let unit = if unit == "1" { String::new() } else { format!(" [{unit}]") };
-        properties.insert(key, json!({ "description": format!("{meaning}{unit}."), "type": "number" }));
-    }
+        (key, json!({ "description": format!("{meaning}{unit}."), "type": "number" }))
+    };
+    let mut properties: Map<String, Value> = columns.map(described).collect();
     let required: Vec<Value> = properties.keys().map(|key| json!(key)).collect();
+    properties.extend(of_journal.map(described));
     json_schema!({ "type": "object", "properties": properties, "required": required })
 }

@@ -105,6 +105,7 @@ impl<'a> TurnAnswer<'a> {
             let number = if column.name == "contact losses" { json!(value as u64) } else { json!(value) };
             (turn_key(column), number)
         };
-        Self { turn, joint, measured: ContactMeasure::COLUMNS.iter().map(entry).collect() }
+        let journal = if measure.journal.is_some() { &ContactMeasure::JOURNAL[..] } else { &[] };
+        Self { turn, joint, measured: ContactMeasure::COLUMNS.iter().chain(journal).map(entry).collect() }
     }
 }

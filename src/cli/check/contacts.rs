@@ -156,7 +156,9 @@ impl Contact<'_> {
         let limit = wear.pressure_speed;
         vec![
             ("coefficient", self.quantity(written.coefficient.as_ref(), wear.coefficient, "")),
+            ("factor on it", self.factor().unwrap_or_default()),
             ("hardness", self.quantity(written.hardness.as_ref(), wear.hardness, "GPa")),
+            ("journal", self.journal_line()),
             ("threshold", self.quantity(written.threshold.as_ref(), wear.threshold, "um")),
             ("area", wear.area.to_string()),
             ("measure", wear.measure.map_or_else(String::new, |measure| measure.name().to_owned())),
@@ -173,6 +175,24 @@ impl Contact<'_> {
                 }),
             ),
         ]
+    }
+
+    /// The factor on the wear coefficient as the file writes it.
+    fn factor(&self) -> Option<String> {
+        Some(match &self.worn.coefficient_factor.as_ref()?.value {
+            Literal::Number(value) => number(*value),
+            Literal::Text(text) => text.clone(),
+        })
+    }
+
+    /// What of the bush's wear the journal has.
+    fn journal_line(&self) -> String {
+        let share = self.journal().map(number);
+        share.map_or_else(String::new, |share| format!("wears too, {share} of the volume of the bush"))
+    }
+
+    fn journal(&self) -> Option<f64> {
+        self.joint.clearance.as_ref()?.journal
     }
 
     /// For machines.
@@ -204,6 +224,8 @@ impl Contact<'_> {
             joint: &self.joint.name,
             coefficient: wear.coefficient,
             hardness_Pa: wear.hardness,
+            coefficient_factor: self.factor(),
+            journal_ratio: self.journal(),
             threshold_m: wear.threshold,
             area: wear.area.name(),
             measure: wear.measure.map(|measure| measure.name()),

@@ -2,18 +2,19 @@
 
 use linkwear_gamma::life::{Contribution, CountedLives, LifeStatistics};
 use linkwear_runtime::life::{Feedback, JointLife};
+use linkwear_runtime::wear::Profile;
 use serde_json::Value;
 
 use super::super::answer::common::Ends;
 use super::super::answer::life::{
     AloneAnswer, CycleAnswer, Duration, EndedAnswer, HalfWidths, Intervals, JointSpreadAnswer, LifeAnswer,
     LongerAnswer, MeanPathAnswer, MissionAnswer, ProcessAnswer, ScatterAnswer, SegmentAnswer, Sources,
-    SpreadAnswer, StandardErrors, TimeAnswer, WearSpreadAnswer,
+    SpreadAnswer, StandardErrors, TimeAnswer, WearSpreadAnswer, WornAnswer,
 };
 use super::super::failure::remarks;
 use crate::life::{
     Coupling, JointProcess, LifeFacts, LifeNumbers, LifePaths, LifeResult, MissionResult, SegmentResult,
-    Spread,
+    Spread, WornPair,
 };
 
 /// Points of the reliability function.
@@ -63,6 +64,7 @@ pub fn told_of<'a>(
         measurements: life.measurements,
         cycles: life.cycles.iter().map(|cycle| CycleAnswer::new(&names, cycle)).collect(),
         wear_measures: &facts.wear_measures,
+        worn: life.worn.iter().map(worn_of).collect(),
         warnings: remarks(facts.warnings.clone(), "life", &life.warnings),
         time: life.seconds_per_cycle().map(|seconds| {
             let time = |cycles: f64| Duration::of(cycles * seconds);
@@ -79,6 +81,17 @@ pub fn told_of<'a>(
             half_widths_95: Sources::of(&budget, Contribution::half_width),
             total: budget.known_total(),
         },
+    }
+}
+
+/// Bush and journal by angle.
+fn worn_of(worn: &WornPair) -> WornAnswer<'_> {
+    let journal = &worn.journal;
+    WornAnswer {
+        joint: &worn.joint,
+        angle_rad: (0..journal.depths().len()).map(|bin| journal.middle(bin)).collect(),
+        bush_m: worn.bush.as_ref().map(Profile::depths),
+        journal_m: journal.depths(),
     }
 }
 

@@ -1,10 +1,10 @@
 //! Descriptions as bytes.
 
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
-use linkwear_runtime::wear::{Area, Measure};
+use linkwear_runtime::wear::{Area, Measure, Step};
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, GammaRates, InputRole, MissionInfo, Motion, ParameterInfo,
-    RowInfo, SegmentInfo, VariableInfo, WearInfo,
+    Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, GammaRates, InputRole, JournalWear,
+    MissionInfo, Motion, ParameterInfo, RowInfo, SegmentInfo, VariableInfo, WearInfo,
 };
 
 use super::{Damage, Stored};
@@ -52,9 +52,15 @@ stored!(struct ContactInfo {
     joint, ball, journal_radius, length, modulus, stiffness, law, restitution, exponent, impact_speed_floor,
     friction, wear,
 });
+stored!(struct JournalWear { contact, ratio });
+stored!(enum Step {
+    0: Number(value), 1: Given(index), 2: Neg(a), 3: Sqrt(a), 4: Sin(a), 5: Cos(a), 6: Exp(a), 7: Ln(a), 8: Floor(a), 9: Add(a, b),
+    10: Sub(a, b), 11: Mul(a, b), 12: Div(a, b), 13: Atan2(a, b), 14: Select(a, yes, no),
+});
+stored!(struct CoefficientFactor { contact, steps });
 stored!(struct SegmentInfo { name, amount, values, factors });
 stored!(struct MissionInfo { name, ordered, segments, coarser });
 stored!(struct Description {
     name, parameters, inputs, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
-    missions,
+    journals, coefficients, missions,
 });

@@ -29,5 +29,5 @@ impl Stored for Profile {
     }
 }
 
-stored!(struct ClearanceState { memory, worn, profile });
+stored!(struct ClearanceState { memory, worn, profile, journal });
 stored!(struct SimulationState { t, parameters, joints, angles, memory });

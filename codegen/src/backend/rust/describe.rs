@@ -1,7 +1,10 @@
 //! The mechanism's description as tables, and the function that makes a `Description` of them.
 //! In: [`Description`]. Out: tokens. User text becomes string literals, which quote escapes.
 
-use linkwear_runtime::{Description, InputRole, MissionInfo, Motion, SegmentInfo};
+use linkwear_runtime::wear::Step;
+use linkwear_runtime::{
+    CoefficientFactor, Description, InputRole, JournalWear, MissionInfo, Motion, SegmentInfo,
+};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -59,8 +62,33 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         table("MISSIONS", quote!(#runtime::MissionRow), missions.collect()),
         table("CHANNELS", quote!((&str, &str, bool)), channels.collect()),
     ];
+    let journals = own.journals.iter().map(|JournalWear { contact, ratio }| {
+        let (contact, ratio) = (Literal::usize_unsuffixed(*contact), number(*ratio));
+        quote!(#runtime::JournalWear { contact: #contact, ratio: #ratio })
+    });
+    // Where there are none, there is no word of them.
+    let coefficients = own.coefficients.iter().map(|CoefficientFactor { contact, steps }| {
+        let contact = Literal::usize_unsuffixed(*contact);
+        let steps = steps.iter().map(|one| step(one, runtime));
+        quote!((#contact, &[#(#steps),*]))
+    });
+    let has_more = !(own.journals.is_empty() && own.coefficients.is_empty());
+    let wearing = has_more.then_some(quote!(JOURNALS, COEFFICIENTS));
+    let more = wearing.as_ref().map(|_| {
+        let journals = table("JOURNALS", quote!(#runtime::JournalWear), journals.collect());
+        let of = quote!(#runtime::CoefficientRow);
+        let coefficients = table("COEFFICIENTS", of, coefficients.collect());
+        quote! {
+            /// Journals that wear beside their bushes.
+            pub #journals
+            /// Factors on wear coefficients.
+            pub #coefficients
+        }
+    });
+    let described = std::iter::once(quote!(TABLES)).chain(wearing);
     quote! {
         #(#tables)*
+        #more
         /// Names and units of parameters, coordinates, rows and output columns; laws of contact.
         pub static TABLES: #runtime::Tables = #runtime::Tables {
             name: #name,
@@ -77,8 +105,35 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
             contacts: &CONTACTS,
             missions: &MISSIONS,
         };
-        #runtime::describe_mechanism!(TABLES);
+        #runtime::describe_mechanism!(#(#described),*);
     }
+}
+
+/// A step of a factor on a wear coefficient.
+fn step(step: &Step, runtime: &TokenStream) -> TokenStream {
+    let at = |index: &usize| Literal::usize_unsuffixed(*index);
+    let (name, operands) = match step {
+        Step::Number(value) => {
+            let value = number(*value);
+            return quote!(#runtime::wear::Step::Number(#value));
+        }
+        Step::Given(a) => ("Given", vec![at(a)]),
+        Step::Neg(a) => ("Neg", vec![at(a)]),
+        Step::Sqrt(a) => ("Sqrt", vec![at(a)]),
+        Step::Sin(a) => ("Sin", vec![at(a)]),
+        Step::Cos(a) => ("Cos", vec![at(a)]),
+        Step::Exp(a) => ("Exp", vec![at(a)]),
+        Step::Ln(a) => ("Ln", vec![at(a)]),
+        Step::Floor(a) => ("Floor", vec![at(a)]),
+        Step::Add(a, b) => ("Add", vec![at(a), at(b)]),
+        Step::Sub(a, b) => ("Sub", vec![at(a), at(b)]),
+        Step::Mul(a, b) => ("Mul", vec![at(a), at(b)]),
+        Step::Div(a, b) => ("Div", vec![at(a), at(b)]),
+        Step::Atan2(a, b) => ("Atan2", vec![at(a), at(b)]),
+        Step::Select(a, yes, no) => ("Select", vec![at(a), at(yes), at(no)]),
+    };
+    let name = quote::format_ident!("{name}");
+    quote!(#runtime::wear::Step::#name(#(#operands),*))
 }
 
 /// A duty cycle as a row.

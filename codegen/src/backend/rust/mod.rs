@@ -161,6 +161,8 @@ mod tests {
             channels: Vec::new().into(),
             turn_driver: None,
             contacts: Vec::new().into(),
+            journals: Vec::new().into(),
+            coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         }
     }

@@ -33,6 +33,8 @@ const TAKEN: &[&str] = &[
     "MISSIONS",
     "CHANNELS",
     "TABLES",
+    "JOURNALS",
+    "COEFFICIENTS",
     // Functions that are called beside the user's names.
     "angle_over_sine",
     "log_coefficient",

@@ -2,8 +2,8 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    Channel, ContactInfo, Description, DriverInfo, InputRole, MissionInfo, Motion as MotionInfo,
-    ParameterInfo, RowInfo, SegmentInfo, Sizes, VariableInfo,
+    Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, InputRole, JournalWear, MissionInfo,
+    Motion as MotionInfo, ParameterInfo, RowInfo, SegmentInfo, Sizes, VariableInfo,
 };
 
 use super::deriver::{Deriver, Instant};
@@ -11,6 +11,7 @@ use super::names::{INPUT_RATES, variable_names};
 use crate::derive::geometry::Geometry;
 use crate::derive::linkage::Freedom;
 use crate::derive::start::StartValues;
+use crate::derive::wear_factor::steps;
 use crate::id::ParameterId;
 use crate::model::{Coordinate, Mission, Parameter, Segment};
 use crate::spec::Dimension;
@@ -78,6 +79,8 @@ impl Deriver<'_> {
             channels: channels.into(),
             turn_driver,
             contacts: self.contact_infos().into(),
+            journals: self.journals().into(),
+            coefficients: self.coefficients().into(),
             missions: missions.into(),
         }
     }
@@ -129,6 +132,27 @@ impl Deriver<'_> {
     fn contact_infos(&self) -> Vec<ContactInfo> {
         let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
         joints.filter_map(|joint| joint.clearance.as_ref()).map(|clearance| clearance.laws.clone()).collect()
+    }
+
+    /// Factors on wear coefficients, by the places of their joints there.
+    fn coefficients(&self) -> Vec<CoefficientFactor> {
+        let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
+        let clearances = joints.filter_map(|joint| joint.clearance.as_ref()).enumerate();
+        let of = |factor| steps(&self.geometry.inputs, factor).into();
+        clearances
+            .filter_map(|(contact, clearance)| {
+                Some(CoefficientFactor { contact, steps: of(clearance.factor.as_ref()?) })
+            })
+            .collect()
+    }
+
+    /// Journals that wear, by the places of their joints there.
+    fn journals(&self) -> Vec<JournalWear> {
+        let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
+        let clearances = joints.filter_map(|joint| joint.clearance.as_ref()).enumerate();
+        clearances
+            .filter_map(|(contact, clearance)| Some(JournalWear { contact, ratio: clearance.journal? }))
+            .collect()
     }
 
     /// Duty cycles, by the places of parameters and contacts here.

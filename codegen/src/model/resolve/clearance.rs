@@ -1,14 +1,14 @@
 //! Joints with clearance: which they are, and the constants of their laws of contact, friction and wear.
 
 use linkwear_runtime::contact::{IMPACT_SPEED_FLOOR, Onset, Restitution, Stiffness, Strength};
-use linkwear_runtime::wear::{Area, DEFAULT_BINS};
+use linkwear_runtime::wear::{Area, DEFAULT_BINS, MOST_LIVE};
 use linkwear_runtime::{ContactInfo, GammaRates, WearInfo};
 
 use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
-use crate::model::{Axis, Clearance, Formula, Joint};
+use crate::model::{Axis, Clearance, Formula, Joint, Term, WearFactor};
 use crate::source::Span;
 use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity, WearSpec};
 
@@ -50,6 +50,8 @@ impl Resolver<'_> {
             let radial = self.radial(name, written);
             let mut laws = self.laws(name, written, ball);
             laws.wear = wear.map(|(name, wear)| self.wear(name, wear));
+            let journal =
+                wear.zip(laws.wear).and_then(|((name, wear), law)| self.journal(name, wear, &law, ball));
             let value = self.value(&radial);
             if value >= laws.journal_radius {
                 let message = format!(
@@ -59,7 +61,8 @@ impl Resolver<'_> {
                 self.refuse(Code::BadClearance, radial.span, message)
                     .help("the clearance is the difference of the radii of bearing and journal");
             }
-            joint.clearance = Some(Box::new(Clearance { radial, laws }));
+            let factor = wear.and_then(|(name, wear)| self.wear_factor(name, wear, &laws));
+            joint.clearance = Some(Box::new(Clearance { radial, laws, journal, factor }));
         }
         for (name, _) in &file.wear.0 {
             let known = file.clearance.0.iter().any(|(other, _)| other.value == name.value);
@@ -210,6 +213,94 @@ impl Resolver<'_> {
                 .also(variation.span, "from which alpha and beta follow")
                 .help("leave out one of them; `life` tells the alpha of a `cycle_variation`");
         }
+    }
+
+    /// The factor on the wear coefficient; nothing if it is one, or wrong and reported.
+    fn wear_factor(&mut self, name: &Name, written: &At<WearSpec>, laws: &ContactInfo) -> Option<WearFactor> {
+        let written = written.value.coefficient_factor.as_ref()?;
+        let what = place("coefficient_factor", "joint", name);
+        let formula = self.formula(written, Some(Dimension::NONE), Allowed::CONTACT, &what);
+        let (mut live, mut has_time) = (Vec::new(), false);
+        formula.term.visit(&mut |term| match term {
+            Term::Parameter(id) if !live.contains(id) => {
+                let parameter = &self.parameters[id.index()];
+                if parameter.tunable || parameter.input {
+                    live.push(*id);
+                }
+            }
+            Term::Time => has_time = true,
+            _ => {}
+        });
+        if has_time {
+            let message = format!("{what} depends on the time");
+            self.refuse(Code::NotAllowedHere, written.span, message)
+                .help("let it depend on an input, which may change with time");
+        }
+        let most = if laws.ball { 0 } else { MOST_LIVE };
+        if live.len() > most {
+            let message = format!(
+                "{what} reads {} tunable parameters and inputs; a {} has room for {most}",
+                live.len(),
+                if laws.ball { "ball" } else { "journal" }
+            );
+            self.refuse(Code::BadClearance, written.span, message)
+                .help("put them together in fewer inputs, or fix parameters with `tunable = false`");
+        }
+        self.check_factor(name, (&what, &formula), laws.wear.map_or(1e9, |wear| wear.hardness));
+        Some(WearFactor { formula, live })
+    }
+
+    /// Refuses what is below zero somewhere between no pressure and the hardness, at rest or fast.
+    fn check_factor(&mut self, name: &Name, (what, formula): (&str, &Formula), hardness: f64) {
+        let pressures = [0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0].map(|part| part * hardness);
+        let speeds = [0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0];
+        let points = pressures.iter().flat_map(|pressure| speeds.map(|speed| [*pressure, speed]));
+        // Outside a table there is no number: a run tells where it needs one.
+        let below = points.into_iter().find_map(|point| {
+            let term = formula.term.with_arguments(&point);
+            let value = self.value(&Formula { term, ..formula.clone() });
+            (value < 0.0).then_some((point, value))
+        });
+        let Some(([pressure, speed], value)) = below else { return };
+        let message = format!("{what} is {value:.4} at {pressure:.4e} Pa and {speed} m/s");
+        self.refuse(Code::NotPositive, formula.span, message).label("it must not be negative").help(format!(
+            "keep `{}` from wearing backwards: `max(0, ...)`, or a table with `outside = \"hold\"`",
+            name.value
+        ));
+    }
+
+    /// Worn volume of the journal over that of the bush; nothing if no key has it wear.
+    fn journal(&mut self, name: &Name, written: &At<WearSpec>, bush: &WearInfo, ball: bool) -> Option<f64> {
+        let own = &written.value;
+        let keys = [
+            ("hardness_ratio", &own.hardness_ratio),
+            ("journal_hardness", &own.journal_hardness),
+            ("journal_coefficient", &own.journal_coefficient),
+        ];
+        let first = keys.iter().find_map(|(key, written)| Some((*key, written.as_ref()?.span)));
+        let (key, span) = first?;
+        if ball {
+            let message = format!("`{key}` of joint `{}`: a ball keeps no wear by angle", name.value);
+            self.refuse(Code::BadClearance, span, message)
+                .help("leave it out, and let `hardness` and `threshold` be those of the pair");
+        }
+        if let (Some(_), Some(hardness)) = (&own.hardness_ratio, &own.journal_hardness) {
+            let message = format!(
+                "the wear of joint `{}` has both `hardness_ratio` and `journal_hardness`",
+                name.value
+            );
+            self.refuse(Code::ConflictingKeys, hardness.span, message)
+                .also(span, "from which the hardness of the journal follows")
+                .help("leave out one of them: `hardness_ratio` is `hardness` over `journal_hardness`");
+        }
+        let mut positive = |key: &str, written: &Option<Quantity>, dimension: Dimension, default: f64| {
+            self.number(name, (key, written.as_ref()), dimension, false, default)
+        };
+        let ratio = positive("hardness_ratio", &own.hardness_ratio, Dimension::NONE, 1.0);
+        let hardness = positive("journal_hardness", &own.journal_hardness, PRESSURE, bush.hardness);
+        let coefficient =
+            positive("journal_coefficient", &own.journal_coefficient, Dimension::NONE, bush.coefficient);
+        Some(ratio * (bush.hardness / hardness) * (coefficient / bush.coefficient))
     }
 
     fn wear(&mut self, name: &Name, written: &At<WearSpec>) -> WearInfo {

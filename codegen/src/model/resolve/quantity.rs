@@ -20,15 +20,21 @@ pub(super) struct Allowed {
     pub(super) tunable: bool,
     pub(super) time: bool,
     pub(super) state: bool,
-    pub(super) place: bool,
+    /// Names that mean something here alone, with their dimensions.
+    pub(super) arguments: &'static [(&'static str, Dimension)],
 }
 
 /// Names of the coordinates of a place.
-pub(super) const PLACE: [&str; 3] = ["x", "y", "z"];
+const PLACE: &[(&str, Dimension)] =
+    &[("x", Dimension::LENGTH), ("y", Dimension::LENGTH), ("z", Dimension::LENGTH)];
+
+/// Names of what a contact is like.
+const CONTACT: &[(&str, Dimension)] =
+    &[("pressure", Dimension::of(-1, 1, -2)), ("sliding_speed", Dimension::of(1, 0, -1))];
 
 impl Allowed {
     /// Parameters fixed at generation.
-    pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false, place: false };
+    pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false, arguments: &[] };
     /// All parameters.
     pub(super) const PARAMETERS: Self = Self { tunable: true, ..Self::CONSTANTS };
     /// Parameters, inputs and t.
@@ -36,13 +42,18 @@ impl Allowed {
     /// Parameters, inputs, t, joint coordinates, points, and their speeds.
     pub(super) const STATE: Self = Self { state: true, ..Self::TIME };
     /// All parameters and the place x, y, z of a point.
-    pub(super) const PLACE: Self = Self { place: true, ..Self::PARAMETERS };
+    pub(super) const PLACE: Self = Self { arguments: PLACE, ..Self::PARAMETERS };
+    /// Parameters, inputs, pressure and sliding speed of a contact.
+    pub(super) const CONTACT: Self = Self { arguments: CONTACT, ..Self::TIME };
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
             (_, true) => "parameters, inputs, t, joint coordinates and points",
+            (true, false) if !self.arguments.is_empty() => {
+                "parameters, inputs, `pressure` and `sliding_speed`"
+            }
             (true, false) => "parameters, inputs and t",
-            (false, false) if self.place => "parameters and the place x, y, z",
+            (false, false) if !self.arguments.is_empty() => "parameters and the place x, y, z",
             (false, false) => "parameters",
         }
     }
@@ -107,7 +118,7 @@ impl Resolver<'_> {
             Literal::Number(value) => ((Term::Number(*value), Dimension::NONE), Some(*value)),
             Literal::Text(text) => {
                 let expression = match parse_expression(text, &|word| {
-                    self.names.is_name(word) || (origin.allowed.place && PLACE.contains(&word))
+                    self.names.is_name(word) || origin.allowed.arguments.iter().any(|(name, _)| *name == word)
                 }) {
                     Ok(expression) => expression,
                     Err(error) => {

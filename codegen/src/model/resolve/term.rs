@@ -1,7 +1,7 @@
 //! The pieces of a formula: names to ids, dimensions, and what may occur where.
 
 use super::names::Thing;
-use super::quantity::{Here, Origin, PLACE, Resolved};
+use super::quantity::{Here, Origin, Resolved};
 use super::resolver::{Reported, Resolver};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
@@ -75,8 +75,8 @@ impl Resolver<'_> {
             }
             return Some((Term::Time, Dimension::TIME));
         }
-        if let Some(axis) = PLACE.iter().position(|known| allowed.place && *known == name) {
-            return self.place_term(name, axis, here);
+        if let Some(at) = allowed.arguments.iter().position(|(known, _)| *known == name) {
+            return self.argument(name, (at, allowed.arguments[at].1), here);
         }
         match self.names.find(name) {
             Some((Thing::Parameter(id) | Thing::Input(id), _)) => self.parameter_term(id, here),
@@ -101,7 +101,8 @@ impl Resolver<'_> {
                 let known = self
                     .names
                     .known(|thing| matches!(thing, Thing::Parameter(_) | Thing::Input(_)))
-                    .chain(["t", "pi"]);
+                    .chain(["t", "pi"])
+                    .chain(allowed.arguments.iter().map(|(name, _)| *name));
                 let mut fault = self.unknown(name, "unknown parameter", here).did_you_mean(name, known);
                 if fault.help.is_empty() {
                     let list = allowed.list();
@@ -113,16 +114,15 @@ impl Resolver<'_> {
         }
     }
 
-    fn place_term(&mut self, name: &str, axis: usize, here: Here<'_>) -> Resolved {
+    fn argument(&mut self, name: &str, (at, dimension): (usize, Dimension), here: Here<'_>) -> Resolved {
         if let Some((thing, span)) = self.names.find(name) {
-            let message =
-                format!("`{name}` is a coordinate of the place here, and {} of this file", thing.a());
-            self.refuse_in(here, Code::ConflictingKeys, &message).also(span, "declared here").help(format!(
-                "rename that of the file: in the equation of a surface `{name}` is a coordinate of the place"
-            ));
+            let message = format!("`{name}` is {} here, and {} of this file", meaning(dimension), thing.a());
+            self.refuse_in(here, Code::ConflictingKeys, &message)
+                .also(span, "declared here")
+                .help(format!("rename that of the file: in this formula `{name}` is {}", meaning(dimension)));
             return None;
         }
-        Some((Term::Place(axis), Dimension::LENGTH))
+        Some((Term::Place(at), dimension))
     }
 
     /// A name that nothing has.
@@ -227,4 +227,9 @@ impl Resolver<'_> {
             }),
         }
     }
+}
+
+/// What an argument of a formula is, by its dimension.
+fn meaning(dimension: Dimension) -> &'static str {
+    if dimension == Dimension::LENGTH { "a coordinate of the place" } else { "a quantity of the contact" }
 }
