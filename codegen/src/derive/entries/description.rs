@@ -138,7 +138,7 @@ impl Deriver<'_> {
     fn coefficients(&self) -> Vec<CoefficientFactor> {
         let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
         let clearances = joints.filter_map(|joint| joint.clearance.as_ref()).enumerate();
-        let of = |factor| steps(&self.geometry.inputs, factor).into();
+        let of = |factor| steps(self.geometry.inputs, factor).into();
         clearances
             .filter_map(|(contact, clearance)| {
                 Some(CoefficientFactor { contact, steps: of(clearance.factor.as_ref()?) })
