@@ -82,6 +82,31 @@ fn lives_give_the_plan_of_their_law() {
     assert_eq!(told["by_age"], folder_told["by_age"]);
 }
 
+#[test]
+fn looks_find_what_has_failed_among_lives() {
+    let folder = Folder::new("plan-hidden");
+    // Quantiles of an exponential law of mean 500: what works is as good as new, and the cost has a closed form.
+    let mut table = "life [cycles]\n".to_owned();
+    for k in 0..2000 {
+        table.push_str(&format!("{}\n", -500.0 * (-(f64::from(k) + 0.5) / 2000.0).ln_1p()));
+    }
+    let file = folder.write("lives.csv", &table);
+    let looks = ["--inspection", "10", "--downtime", "3"];
+    let told = plan(&file, &looks);
+    let found = &told["by_looks"];
+    let (tau, rate) = (number(&found["interval"]), number(&found["cost_rate"]));
+    let looked = 1.0 / -(-tau / 500.0).exp_m1();
+    let expected = (10.0 * looked + 3.0 * (tau * looked - 500.0) + 900.0) / (tau * looked);
+    // The last of 2000 quantiles is at 8.3 means, and the mean a thousandth too short.
+    assert!((rate / expected - 1.0).abs() < 0.005, "{found} {expected}");
+    // d rate / d tau = 0: (3 * 500 - 900) (1 - (1 + x) exp(-x)) = 10 at x = 0.1942.
+    assert!((tau / (0.1942 * 500.0) - 1.0).abs() < 0.1, "{found}");
+    assert!(found["threshold"].is_null() && found["failures"] == "at a look", "{found}");
+    // An interval of one's own costs no less.
+    let own = plan(&file, &[&looks[..], &["--interval", "200"]].concat());
+    assert!(number(&own["by_looks"]["interval"]) == 200.0 && number(&own["by_looks"]["cost_rate"]) > rate);
+}
+
 const DATA: &str = "examples/data/sliding_wear_100g.csv";
 
 #[test]
@@ -116,6 +141,14 @@ fn a_fit_of_data_tells_what_it_leaves_open_and_its_readings_decide_how_much() {
     let band = &told["at_failure"]["cost_rate_band"];
     assert!(number(&band["lower"]) < number(&told["at_failure"]["cost_rate"]), "{told}");
     assert_eq!(told["by_age"]["pays"], 1.0);
+    // Looks: with the interval given, what is open is the threshold.
+    let looks = ["--threshold", "50", "--inspection", "30", "--interval", "500"];
+    let looked = plan(&all, &looks)["by_looks"].clone();
+    assert!(looked["interval_band"].is_null(), "{looked}");
+    for (band, value) in [("threshold_band", "threshold"), ("cost_rate_band", "cost_rate")] {
+        let (own, ends) = (number(&looked[value]), &looked[band]);
+        assert!(number(&ends["lower"]) < own && own < number(&ends["upper"]), "{looked}");
+    }
     let drawn = std::fs::read_to_string(&picture).expect("drawn");
     assert!(drawn.contains("what the fit leaves open, 95 %") && !drawn.contains("NaN"), "{drawn}");
     // Parameters that are taken as known leave nothing open, and a warning says why.
@@ -146,6 +179,9 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     let lives = folder.write("lives.csv", "life [cycles]\n3\n4\n");
     let (code, text) = refused(&[&[lives.as_str(), "--inspection", "5"], &costs[..]].concat());
     assert!(code == 2 && text.contains("lives tell nothing of the wear"), "{text}");
+    let from = ["--inspection", "5", "--downtime", "1", "--replace-from", "3"];
+    let (code, text) = refused(&[&[lives.as_str()], &from[..], &costs[..]].concat());
+    assert!(code == 2 && text.contains("--replace-from"), "{text}");
     let bad = folder.write("bad.csv", "life [cycles]\n3\n-4\n");
     let (code, text) = refused(&[&[bad.as_str()], &costs[..]].concat());
     assert!(code == 1 && text.contains("bad.csv:3"), "{text}");

@@ -76,6 +76,36 @@ fn units_alike_are_an_answer_and_one_unit_is_refused() {
 }
 
 #[test]
+fn units_differ_as_much_by_rounded_readings() {
+    let folder = Folder::new("units-rounded");
+    let text = std::fs::read_to_string("examples/data/gaas_lasers.csv").expect("shipped");
+    let row = |line: &str| {
+        let Some((start, percent)) = line.rsplit_once(',') else { return line.to_owned() };
+        percent.parse::<f64>().map_or(line.to_owned(), |percent| format!("{start},{percent:.1}"))
+    };
+    let rows: Vec<String> = text.lines().map(row).collect();
+    let file = folder.write("rounded.csv", &rows.join("\n"));
+    let out = folder.path("fit.json");
+    let columns = ["--unit", "unit", "--wear", "percent", "--exposure", "khours", "--random-effects"];
+    let options = ["--resolution", "0.1", "--compare", "--format", "json", "--out", &out];
+    let found = linkwear(&[&["fit", &file], &columns[..], &options[..]].concat()).json();
+    let exact = fit(&[]);
+    // Rounding adds a twentieth to the variance of an increment.
+    close(&found["random"]["cv"], exact["random"]["cv"].as_f64().expect("a number"), 0.05);
+    assert_eq!((&found["boundary"], &found["resolution"]), (&false.into(), &0.1.into()));
+    // The Gamma process alone takes readings as rounded: with units alike and with units that differ.
+    let rows = found["compare"].as_array().expect("rows");
+    assert_eq!(rows.iter().filter(|row| row["random"] == true).count(), 1, "{rows:?}");
+    // A laser by its readings: as by exact ones, within what a step of the gauge is of 15 %.
+    let told = |file: &str| {
+        linkwear(&["predict", file, "--threshold", "15", "--unit", "10", "--format", "json"]).json()
+    };
+    let exact_out = folder.path("exact.json");
+    fit(&["--out", &exact_out]);
+    close(&told(&out)["mean"], told(&exact_out)["mean"].as_f64().expect("a number"), 0.05);
+}
+
+#[test]
 fn a_unit_is_told_by_its_own_readings() {
     let folder = Folder::new("units-predict");
     let out = folder.path("fit.json");

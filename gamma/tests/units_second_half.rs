@@ -11,6 +11,9 @@ use linkwear_gamma::process::{Gamma, InverseGaussian, Process, Wiener};
 use linkwear_gamma::random::{StandardNormal, Stream};
 use rand::RngExt;
 
+#[path = "units_second_half/gauge.rs"]
+mod gauge;
+
 /// Parameter sets of the fits whose units are alike.
 const DRAWN: u64 = 500;
 /// Cells of the grid over wear that a CRPS is summed on.
@@ -27,9 +30,11 @@ struct Set {
     from_zero: bool,
     /// Units that shrink, which exact increments cannot.
     left_out: &'static [&'static str],
+    /// Readings with an error, so that some fall: for a Wiener process, and for a Gamma process with a gauge.
+    has_errors: bool,
 }
 
-const SETS: [Set; 3] = [
+const SETS: [Set; 4] = [
     Set {
         name: "GaAs lasers",
         table: include_str!("data/gaas_lasers.csv"),
@@ -39,6 +44,7 @@ const SETS: [Set; 3] = [
         power_law: false,
         from_zero: false,
         left_out: &[],
+        has_errors: false,
     },
     Set {
         name: "fatigue cracks",
@@ -49,6 +55,7 @@ const SETS: [Set; 3] = [
         power_law: true,
         from_zero: false,
         left_out: &[],
+        has_errors: false,
     },
     Set {
         name: "sliding wear, load as covariate",
@@ -59,10 +66,22 @@ const SETS: [Set; 3] = [
         power_law: true,
         from_zero: true,
         left_out: &["104", "105"],
+        has_errors: false,
+    },
+    Set {
+        name: "sliding wear as read, load as covariate",
+        table: include_str!("data/sliding_wear.csv"),
+        columns: [0, 2, 3],
+        covariate: Some(1),
+        scale: 1.0,
+        power_law: true,
+        from_zero: true,
+        left_out: &[],
+        has_errors: true,
     },
 ];
 
-fn observed(set: &Set) -> Observations {
+fn readings(set: &Set) -> Vec<Reading> {
     let lines = set.table.lines().enumerate().filter(|(_, line)| !line.starts_with('#')).skip(1);
     let reading = |(at, line): (usize, &str)| {
         let cells: Vec<&str> = line.split(',').collect();
@@ -76,9 +95,12 @@ fn observed(set: &Set) -> Observations {
             ..Reading::default()
         }
     };
-    let readings: Vec<Reading> =
-        lines.map(reading).filter(|one| !set.left_out.contains(&&*one.unit)).collect();
-    Observations::new(&readings, set.from_zero, Gauge::Exact).expect("growing wear")
+    lines.map(reading).filter(|one| !set.left_out.contains(&&*one.unit)).collect()
+}
+
+fn observed(set: &Set) -> Observations {
+    let gauge = if set.has_errors { Gauge::Noisy } else { Gauge::Exact };
+    Observations::new(&readings(set), set.from_zero, gauge).expect("growing wear")
 }
 
 /// One possible law of the growth: process, logarithms over exposure 1, variation of the unit's own parameter (0: known), exposure.
@@ -221,15 +243,37 @@ const MODELS: [(&dyn Process, bool); 6] = [
     (&Wiener, true),
 ];
 
+/// Name, how units are taken, and the scores of every unit, of all models that take the data.
+fn courses(set: &Set) -> Vec<(String, &'static str, Vec<[f64; 3]>)> {
+    let takes = |process: &dyn Process| !(set.has_errors && process.is_increasing());
+    let own = MODELS.into_iter().filter(|(process, _)| takes(*process));
+    let mut all: Vec<_> = own
+        .map(|(process, differ)| {
+            let how = if differ { "differ" } else { "alike" };
+            (process.title().to_owned(), how, course(set, process, differ))
+        })
+        .collect();
+    if set.has_errors {
+        let error = gauge::error_of_first_halves(set);
+        all.push((format!("Gamma, gauge error {error}"), "alike", gauge::course(set, error)));
+    }
+    all
+}
+
+/// Sets whose name has what `ONLY` says.
+fn asked() -> impl Iterator<Item = &'static Set> {
+    let only = std::env::var("ONLY").unwrap_or_default();
+    SETS.iter().filter(move |set| set.name.contains(&only))
+}
+
 /// What `benches/peers/second_half.py` compares with a peer.
 #[test]
 #[ignore = "a minute; run with --release --ignored --nocapture"]
 fn scores_of_every_unit() {
-    for set in &SETS {
-        for (process, differ) in MODELS {
-            for (unit, [below, log, crps]) in course(set, process, differ).into_iter().enumerate() {
-                let how = if differ { "differ" } else { "alike" };
-                println!("score;{};{} {how};{unit};{below};{log};{crps}", set.name, process.title());
+    for set in asked() {
+        for (process, how, rows) in courses(set) {
+            for (unit, [below, log, crps]) in rows.into_iter().enumerate() {
+                println!("score;{};{process} {how};{unit};{below};{log};{crps}", set.name);
             }
         }
     }
@@ -242,14 +286,14 @@ fn the_second_half_of_each_unit_is_told_by_its_first() {
         "| data | process | units | in 50 % | in 80 % | in 95 % | log score | CRPS | worse than the best by, in standard errors |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
-    for set in &SETS {
-        let found = MODELS.map(|(process, differ)| (process, differ, course(set, process, differ)));
+    for set in asked() {
+        let found = courses(set);
         let mean =
             |rows: &[[f64; 3]], of: usize| rows.iter().map(|row| row[of]).sum::<f64>() / rows.len() as f64;
         let best = [1, 2].map(|of: usize| {
             found.iter().min_by(|a, b| mean(&a.2, of).total_cmp(&mean(&b.2, of))).expect("models").2.clone()
         });
-        for (process, differ, rows) in &found {
+        for (process, how, rows) in &found {
             let held = |level: f64| {
                 let inside = |row: &[f64; 3]| (0.5 - 0.5 * level, 0.5 + 0.5 * level, row[0]);
                 let intervals: Vec<_> = rows.iter().map(inside).collect();
@@ -268,8 +312,8 @@ fn the_second_half_of_each_unit_is_told_by_its_first() {
             println!(
                 "| {} | {} | {} | {} | {} | {} | {:.3} | {:.4} | {}, {} |",
                 set.name,
-                process.title(),
-                if *differ { "differ" } else { "alike" },
+                process,
+                how,
                 held(0.5),
                 held(0.8),
                 held(0.95),

@@ -217,7 +217,7 @@ fn cure(error: FitError) -> &'static str {
         FitError::SizesWithinUnit => "leave --random-effects out, or fit the Gamma process",
         FitError::TooFewExact { .. } => "add readings that are no bounds",
         FitError::OneUnit => "add readings of other units, or leave --random-effects out",
-        FitError::NoRandomEffect | FitError::RoundedUnits => "leave --random-effects out",
+        FitError::NoRandomEffect => "leave --random-effects out",
         FitError::NoResolution => "leave --process or --resolution out",
         _ => "look at the data; estimate fewer parameters",
     }

@@ -8,8 +8,9 @@ use std::path::Path;
 
 use linkwear_gamma::life::{Estimate, LifeError, Lifetime, ObservedLives, OperatingState, PossibleLives};
 use linkwear_gamma::plan::{
-    AgeBands, AgePlan, ConditionPlan, Costs, Ends as PlanEnds, InUse, Looks, Monitored, PlanError,
-    PlannedLife, Spares, Worth, age_bands, best_age, best_inspection, look_band, spares, worth_of_a_look,
+    AgeBands, AgePlan, ConditionPlan, Costs, Ends as PlanEnds, HiddenPlan, InUse, LookBands, Looks,
+    Monitored, PlanError, PlannedLife, Spares, Worth, age_bands, best_age, best_hidden, best_inspection,
+    look_bands, spares, worth_of_a_look,
 };
 use linkwear_gamma::{FitFile, Prediction};
 use serde_json::{Value, json};
@@ -105,11 +106,12 @@ fn source(arguments: &PlanArguments) -> Result<Source, Failure> {
     if let Some(table) = folder.as_deref().or(is_table.then_some(file.as_path())) {
         let needs_wear = [
             ("--threshold", arguments.threshold.is_some()),
-            ("--inspection", arguments.inspection.is_some()),
+            ("--inspection", arguments.inspection.is_some() && arguments.downtime.is_none()),
+            ("--replace-from", arguments.replace_from.is_some()),
             ("--look-at", arguments.look_at.is_some()),
         ];
         if let Some((option, _)) = needs_wear.iter().find(|(_, given)| *given) {
-            let help = "lives tell nothing of the wear on the way: plan looks by a fit (`linkwear fit .. --out fit.json`)";
+            let help = "lives tell nothing of the wear on the way: plan looks at it by a fit (`linkwear fit .. --out fit.json`); with --downtime, looks find what has failed";
             return Err(Failure::usage(format!("{option} does not go with lives"), help));
         }
         return lives(table);
@@ -160,12 +162,14 @@ fn lives(file: &Path) -> Result<Source, Failure> {
 struct Plans {
     age: AgePlan,
     looks: Option<ConditionPlan>,
+    /// Looks that find what has failed.
+    hidden: Option<HiddenPlan>,
     look: Option<Worth>,
     spares: Option<(Spares, Option<Spares>)>,
     /// Lives that the fit leaves possible; none where its parameters are taken as known, and of lives.
     possible: PossibleLives,
     open: Option<AgeBands>,
-    open_of_looks: Option<PlanEnds>,
+    open_of_looks: Option<LookBands>,
 }
 
 fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Plans, PlanError> {
@@ -173,6 +177,7 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
     let mut plans = Plans {
         age,
         looks: None,
+        hidden: None,
         look: None,
         spares: None,
         possible: PossibleLives::default(),
@@ -190,8 +195,10 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
             let (interval, threshold) = (arguments.interval, arguments.replace_from);
             let best = best_inspection(&part, costs, &looks, interval, threshold)?;
             let some = plans.possible.one_of(OF_LOOKS);
+            let given = [interval.is_some(), threshold.is_some()];
+            let asked = (costs, &looks);
             plans.open_of_looks =
-                look_band(some.as_slice(), state.threshold(), (costs, &looks), &best, Prediction::LEVEL);
+                look_bands(some.as_slice(), state.threshold(), asked, (&best, given), Prediction::LEVEL);
             plans.looks = Some(best);
         }
         if let Some(at) = arguments.look_at {
@@ -200,6 +207,10 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
             let part = InUse::of(estimate, &used)?;
             plans.look = Some(worth_of_a_look(&part, costs, age.cost_rate, at)?);
         }
+    }
+    if let (Source::Lives(law, ..), Some(inspection)) = (source, arguments.inspection) {
+        let looks = Looks::new(inspection, arguments.downtime)?;
+        plans.hidden = Some(best_hidden(law, costs, &looks, arguments.interval)?);
     }
     if let (Some(parts), Some(horizon)) = (arguments.parts, arguments.horizon) {
         let of = |age: Option<f64>| {
@@ -223,9 +234,9 @@ impl Plans {
             };
             warnings.push(why.to_owned());
         }
-        if self.looks.is_some_and(|plan| plan.at_an_end) {
+        if self.looks.is_some_and(|plan| plan.at_an_end) || self.hidden.is_some_and(|plan| plan.at_an_end) {
             warnings.push(
-                "the interval is at an end of what was tried, 1/64 to 3 mean lives: looking still more often, or never, may cost less"
+                "the interval is at an end of what was tried, up to 3 mean lives: looking still more often, or never, may cost less"
                     .to_owned(),
             );
         }
@@ -246,17 +257,7 @@ impl Plans {
                 fail: age.fail,
                 mean_use: age.mean_use,
             },
-            by_looks: self.looks.map(|plan| ByLooksAnswer {
-                failures: if arguments.downtime.is_none() { "at once" } else { "at a look" },
-                interval: plan.interval,
-                threshold: plan.threshold,
-                cost_rate: plan.cost.rate,
-                cost_rate_band: self.open_of_looks.map(ends),
-                fail: plan.cost.fail,
-                looks: plan.cost.looks,
-                cycle: plan.cost.cycle,
-                unnoticed: plan.cost.unnoticed,
-            }),
+            by_looks: self.by_looks(arguments),
             look: self.look.zip(arguments.look_at).map(|(worth, at)| LookAnswer {
                 at,
                 value: worth.value(),
@@ -277,6 +278,33 @@ impl Plans {
             ),
             warnings,
         }
+    }
+}
+
+impl Plans {
+    fn by_looks(&self, arguments: &PlanArguments) -> Option<ByLooksAnswer> {
+        let of_wear = self.looks.map(|plan| (plan.interval, Some(plan.threshold), None, plan.cost));
+        let of_lives = self.hidden.map(|plan| (plan.interval, None, plan.last, plan.cost));
+        of_wear.or(of_lives).map(|(interval, threshold, last_look, cost)| ByLooksAnswer {
+            failures: if arguments.downtime.is_none() { "at once" } else { "at a look" },
+            interval,
+            threshold,
+            last_look,
+            cost_rate: cost.rate,
+            interval_band: self
+                .open_of_looks
+                .filter(|_| arguments.interval.is_none())
+                .map(|open| ends(open.interval)),
+            threshold_band: self
+                .open_of_looks
+                .filter(|_| arguments.replace_from.is_none())
+                .map(|open| ends(open.threshold)),
+            cost_rate_band: self.open_of_looks.map(|open| ends(open.cost_rate)),
+            fail: cost.fail,
+            looks: cost.looks,
+            cycle: cost.cycle,
+            unnoticed: cost.unnoticed,
+        })
     }
 }
 

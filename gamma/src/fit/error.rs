@@ -57,11 +57,6 @@ pub enum FitError {
     /// Units cannot differ in this process.
     #[error("no law is known by which units of this process differ")]
     NoRandomEffect,
-    /// Units that differ and readings that are rounded.
-    #[error(
-        "differences between units are estimated from exact readings, not from readings with a resolution"
-    )]
-    RoundedUnits,
     /// Bounds or entries, and readings that are rounded.
     #[error("bounds of wear, and limits that units entered below, are taken of exact readings only")]
     RoundedBounds,

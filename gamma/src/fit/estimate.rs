@@ -4,7 +4,7 @@
 use super::error::FitError;
 use super::maximise::{maximise, start, unbounded};
 use super::model::{Model, units};
-use super::rounded::{Laws, windows};
+use super::rounded::{Differing, Laws, windows};
 use crate::data::{Increment, Known, Observations, Rounding};
 use crate::matrix::Factor;
 use crate::special::gamma_q;
@@ -103,10 +103,11 @@ fn takes(model: &Model, increments: &[Increment]) -> Result<(), FitError> {
 }
 
 /// Refuses more rounded readings than can be followed.
-fn follows(model: &Model, increments: &[Increment], phi: &[f64]) -> Result<(), FitError> {
+pub(super) fn follows(model: &Model, increments: &[Increment], phi: &[f64]) -> Result<(), FitError> {
     let Some(rounding) = model.resolution else { return Ok(()) };
     let logs = |one: &Increment| model.logs(phi, one);
-    let windows = windows(Laws { process: model.process, logs: &logs }, increments, rounding);
+    let places = if model.units_differ { Differing::COST } else { 1 };
+    let windows = windows(Laws { process: model.process, logs: &logs }, increments, rounding, places);
     match windows.count > windows.most {
         true => Err(FitError::TooManyWindows { readings: windows.count, most: windows.most }),
         false => Ok(()),

@@ -3,7 +3,7 @@
 
 use super::estimate::Fit;
 use super::model::units;
-use super::rounded::{Laws, transforms};
+use super::rounded::{Differing, Laws, transforms};
 use crate::data::{Increment, Known};
 use crate::process::{Process, RandomEffect};
 use crate::random::Stream;
@@ -61,6 +61,10 @@ pub fn goodness(fit: &Fit, increments: &[Increment], seed: u64) -> Goodness {
     let mut stream = Stream::new(seed, u64::MAX, 0);
     let seen = of_units(fit, increments);
     let transforms = match fit.model.resolution {
+        Some(rounding) if fit.model.units_differ => {
+            let units = Differing::new(&fit.model, &fit.phi, increments, rounding);
+            units.map_or_else(Vec::new, |mut units| units.transforms(increments, rounding, &mut stream))
+        }
         Some(rounding) => {
             let logs = |one: &Increment| fit.model.logs(&fit.phi, one);
             transforms(Laws { process, logs: &logs }, increments, rounding, &mut stream)

@@ -2,7 +2,7 @@
 //! not, and a test. That no difference is found is an answer: the largest likelihood is then that of the plain process.
 
 use super::error::FitError;
-use super::estimate::{Fit, estimate_increments};
+use super::estimate::{Fit, estimate_increments, follows};
 use super::interval::Interval;
 use super::maximise::{LARGEST_CV, maximise};
 use super::model::Model;
@@ -57,16 +57,13 @@ pub fn estimate(observations: &Observations, model: &Model) -> Result<Fit, FitEr
     }
 }
 
-/// The maximum-likelihood fit with units that differ, of exact readings of two units or more. `model` says all but that.
+/// The maximum-likelihood fit with units that differ, of readings of two units or more. `model` says all but that.
 ///
 /// # Errors
 /// [`FitError`].
 pub fn estimate_units(observations: &Observations, model: &Model) -> Result<Heterogeneity, FitError> {
     let units = observations.units.len();
     let effect = model.process.random_effect().ok_or(FitError::NoRandomEffect)?;
-    if model.resolution.is_some() {
-        return Err(FitError::RoundedUnits);
-    }
     if units < 2 {
         return Err(FitError::OneUnit);
     }
@@ -75,6 +72,9 @@ pub fn estimate_units(observations: &Observations, model: &Model) -> Result<Hete
     if plain.increments <= wide.parameters() {
         return Err(FitError::TooFew { increments: plain.increments, parameters: wide.parameters() });
     }
+    let mut start = plain.phi.clone();
+    start.push(libm::log(START_CV));
+    follows(&wide, &observations.increments, &start)?;
     let found = climb(observations, &wide, &plain)?;
     let boundary = found.is_none();
     let fit = found.unwrap_or_else(|| plain.clone());
@@ -97,7 +97,11 @@ fn climb(observations: &Observations, wide: &Model, plain: &Fit) -> Result<Optio
         phi
     };
     let starts = (0..DOUBLINGS).map(|power| LEAST_CV * libm::exp2(power.into()));
-    let rated = starts.map(|cv| (wide.of_units(&from(cv), &observations.increments), cv));
+    let gain = |cv: f64| match wide.resolution {
+        Some(_) => wide.value(&from(cv), &observations.increments) - plain.log_likelihood,
+        None => wide.of_units(&from(cv), &observations.increments),
+    };
+    let rated = starts.map(|cv| (gain(cv), cv));
     let best = rated.filter(|(gain, _)| *gain > GAIN).max_by(|a, b| a.0.total_cmp(&b.0));
     let start = from(best.map_or(START_CV, |(_, cv)| cv));
     let climbed = maximise(wide, &observations.increments, &start, None);

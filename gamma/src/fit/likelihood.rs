@@ -4,7 +4,7 @@
 use super::bounds::of_bounds;
 use super::model::{Model, Seen, units};
 use super::point::{Point, WIDTH};
-use super::rounded::{Laws, least_variance, ln_likelihood};
+use super::rounded::{Differing, Laws, least_variance, ln_likelihood};
 use super::units::{Added, Total, added, value};
 use crate::data::Increment;
 use crate::process::Term;
@@ -13,6 +13,10 @@ impl Model {
     /// Log-likelihood alone.
     pub fn value(&self, phi: &[f64], increments: &[Increment]) -> f64 {
         if let Some(rounding) = self.resolution {
+            if self.units_differ {
+                let units = Differing::new(self, phi, increments, rounding);
+                return units.map_or(f64::NAN, |mut units| units.ln_likelihood(increments, rounding));
+            }
             let logs = |one: &Increment| self.logs(phi, one);
             return ln_likelihood(Laws { process: self.process, logs: &logs }, increments, rounding);
         }

@@ -21,7 +21,7 @@ pub struct Model {
     pub sizes: usize,
     /// How the gauge rounds, if it does.
     pub resolution: Option<Rounding>,
-    /// Whether units differ, as [`Process::random_effect`] has it; not with a resolution.
+    /// Whether units differ, as [`Process::random_effect`] has it.
     pub units_differ: bool,
 }
 

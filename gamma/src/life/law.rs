@@ -16,6 +16,8 @@ pub struct Law {
 const STEP: f64 = 1e-5;
 /// Exposure, in those that wear takes in the mean, after which a unit that has not failed never does.
 const FOREVER: f64 = 1e12;
+/// Places of a unit's parameter on either side at most; ten are usual.
+const MOST_PLACES: i32 = 1000;
 
 impl Law {
     /// The parameters in the order of [`Process::parameters`].
@@ -93,6 +95,26 @@ impl Law {
     /// Whether a unit has a parameter of its own, of which wear tells.
     pub(crate) fn units_differ(&self) -> bool {
         self.cv > 0.0
+    }
+
+    /// Laws of single units with their probabilities, evenly apart over what differs between them: by `spacing`, in standard deviations
+    /// and in the logarithm of a parameter, as far as ln of the density is within `depth` of the top. Itself where units are alike.
+    pub(crate) fn units(&self, spacing: (f64, f64), depth: f64) -> Vec<(f64, Self)> {
+        let Some(effect) = self.effect() else { return vec![(1.0, *self)] };
+        let step = spacing.0.min(spacing.1 / self.cv);
+        let place = |at: i32| effect.place(self.logs, self.cv, step * f64::from(at));
+        let top = place(0).map_or(0.0, |(_, ln)| ln);
+        let counts = |found: &([f64; 2], f64)| found.1 > top - depth;
+        let side = |sign: i32| (1..MOST_PLACES).map_while(move |at| place(sign * at).filter(counts));
+        let middle = place(0).into_iter();
+        let mut units: Vec<(f64, Self)> = middle
+            .chain(side(1))
+            .chain(side(-1))
+            .map(|(logs, ln)| (libm::exp(ln - top), Self { logs, cv: 0.0, ..*self }))
+            .collect();
+        let all: f64 = units.iter().map(|(part, _)| part).sum();
+        units.iter_mut().for_each(|(part, _)| *part /= all);
+        units
     }
 
     /// Wear of units that are alike after an exposure > 0, which is not exceeded with probability `p`.

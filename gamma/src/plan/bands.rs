@@ -2,7 +2,8 @@
 //! intervals. Never knows where the lives are from.
 
 use super::age::{AgePlan, age_cost_rate, best_age};
-use super::condition::{ConditionPlan, Monitored};
+use super::condition::Monitored;
+use super::condition_search::{ConditionPlan, nearby};
 use super::costs::{Costs, Looks};
 use super::error::PlanError;
 use crate::life::{FirstPassage, Lifetime};
@@ -34,7 +35,7 @@ pub fn age_bands(lives: &[FirstPassage], costs: &Costs, plan: &AgePlan, level: f
         let own = plan.age.map_or(Ok(best.failure_only), |age| age_cost_rate(life, costs, age))?;
         Ok([best.age.unwrap_or(f64::INFINITY), own, best.failure_only])
     };
-    let [ages, rates, waiting] = all(lives, &one)?;
+    let [ages, rates, waiting] = all(lives, 0, &one)?;
     let pays = ages.iter().filter(|age| age.is_finite()).count() as f64 / ages.len() as f64;
     Some(AgeBands {
         age: ends(&ages, level),
@@ -44,21 +45,53 @@ pub fn age_bands(lives: &[FirstPassage], costs: &Costs, plan: &AgePlan, level: f
     })
 }
 
-/// The interval of probability `level` of what a plan of looks costs per unit of time, at the interval and threshold that it says;
-/// parts fail at wear `failure`. None as in [`age_bands`].
-pub fn look_band(
+/// What is open of a plan of looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LookBands {
+    /// Of the interval of least cost; the plan's own where that is given.
+    pub interval: Ends,
+    /// Of the threshold of least cost, likewise.
+    pub threshold: Ends,
+    /// Of what the plan costs per unit of time, at the interval and threshold that it says.
+    pub cost_rate: Ends,
+}
+
+/// Intervals of probability `level` around a plan of looks; parts fail at wear `failure`. What is given of the plan is kept: interval,
+/// threshold. The cheapest plan of each life is looked for from this one on, its interval in the ratio of the mean lives. None as in
+/// [`age_bands`].
+pub fn look_bands(
     lives: &[FirstPassage],
     failure: f64,
     (costs, looks): (&Costs, &Looks),
-    plan: &ConditionPlan,
+    (plan, is_given): (&ConditionPlan, [bool; 2]),
     level: f64,
-) -> Option<Ends> {
-    let one = |life: &FirstPassage| -> Result<[f64; 1], PlanError> {
-        let part = Monitored::new(*life.law(), life.clock().clone(), failure)?;
-        Ok([part.cost(costs, looks, plan.interval, plan.threshold)?.rate])
+) -> Option<LookBands> {
+    let parts: Vec<Monitored> = lives
+        .iter()
+        .filter_map(|life| Monitored::new(*life.law(), life.clock().clone(), failure).ok())
+        .collect();
+    let typical = |part: &Monitored| part.life().ok().and_then(|life| life.quantile(0.5).ok());
+    let mut lengths: Vec<f64> = parts.iter().filter_map(typical).collect();
+    if lengths.is_empty() {
+        return None;
+    }
+    lengths.sort_by(f64::total_cmp);
+    let middle = sorted_quantile(&lengths, 0.5);
+    let is_free = is_given.map(|given| !given);
+    let one = |part: &Monitored| -> Result<[f64; 3], PlanError> {
+        let own = part.cost(costs, looks, plan.interval, plan.threshold)?.rate;
+        let length = typical(part).unwrap_or(middle);
+        let start = if is_free[0] { plan.interval * length / middle } else { plan.interval };
+        let (interval, threshold) = nearby(part, (costs, looks), (start, plan.threshold), is_free);
+        Ok([interval, threshold, own])
     };
-    let [rates] = all(lives, &one)?;
-    Some(ends(&rates, level))
+    let left_out = lives.len() - parts.len();
+    let [intervals, thresholds, rates] = all(&parts, left_out, &one)?;
+    Some(LookBands {
+        interval: ends(&intervals, level),
+        threshold: ends(&thresholds, level),
+        cost_rate: ends(&rates, level),
+    })
 }
 
 /// Cost per unit of time by the age of replacement: age, cost by the estimate, what the lives leave open of it.
@@ -76,20 +109,22 @@ pub fn age_course(
 ) -> Result<Course, PlanError> {
     let one = |age: f64| {
         let of = |life: &FirstPassage| Ok([age_cost_rate(life, costs, age)?]);
-        let band = all(lives, &of).map(|[rates]| ends(&rates, level));
+        let band = all(lives, 0, &of).map(|[rates]| ends(&rates, level));
         Ok((age, age_cost_rate(life, costs, age)?, band))
     };
     ages.iter().copied().map(one).collect()
 }
 
-/// What `one` says of each life, ascending.
-fn all<const N: usize>(
-    lives: &[FirstPassage],
-    one: &dyn Fn(&FirstPassage) -> Result<[f64; N], PlanError>,
+/// What `one` says of each life, ascending; so many have been left out before.
+fn all<T, const N: usize>(
+    lives: &[T],
+    left_out: usize,
+    one: &dyn Fn(&T) -> Result<[f64; N], PlanError>,
 ) -> Option<[Vec<f64>; N]> {
     let found: Vec<[f64; N]> = lives.iter().filter_map(|life| one(life).ok()).collect();
-    let missing = (lives.len() - found.len()) as f64;
-    if found.is_empty() || missing > LEFT_OUT * lives.len() as f64 {
+    let count = lives.len() + left_out;
+    let missing = (count - found.len()) as f64;
+    if found.is_empty() || missing > LEFT_OUT * count as f64 {
         return None;
     }
     Some(std::array::from_fn(|at| {

@@ -10,15 +10,17 @@
 //! D   = sum_k int over interval k of P(X_(k-1) < M, X(t) >= L) dt           time in use after failure
 //! ```
 //!
+//! Where units differ, each of these is its mean over the law of the unit's own parameter: the cost of a cycle over its length is that
+//! of both means. The threshold is the same for all units; what looks tell of the rate of one is not used.
+//!
 //! The same policy is that of K. S. Park, Optimal wear-limit replacement with wear-dependent failures, IEEE Trans. Reliab. 37
 //! (1988) 293-294, and of section 5 of J. M. van Noortwijk, A survey of the application of gamma processes in maintenance,
 //! Reliab. Eng. Syst. Saf. 94 (2009) 2-21.
 
 use super::costs::{Costs, Looks};
 use super::error::PlanError;
-use super::search::least;
 use crate::error::{LifeError, positive};
-use crate::life::{Clock, FirstPassage, Law, Lifetime};
+use crate::life::{Clock, FirstPassage, Law};
 use crate::quadrature::integrate;
 
 /// Parts that are still in use after so many looks are too few to count.
@@ -27,14 +29,14 @@ const GONE: f64 = 1e-10;
 const MOST: usize = 20_000;
 /// Accuracy of a probability: costs of failures are some ten times those of looks, and plans are told to four digits.
 const ACCURACY: f64 = 1e-7;
-/// The interval is looked for between the mean life over the first and times the second.
-const INTERVALS: (f64, f64) = (64.0, 3.0);
-/// Points of the first search along the interval and along the threshold.
-const TRIED: (usize, usize) = (14, 9);
-/// Turns of the search along both; each at least halves what is left to gain.
-const TURNS: usize = 4;
-/// Wear below the threshold of failure at which replacements are tried, as parts of it.
-const THRESHOLDS: (f64, f64) = (0.02, 1.0);
+/// Failures between two looks that are passed over: a thousandth of what is told, over a hundred looks.
+const SKIPPED: f64 = 1e-9;
+/// From place to place of what differs between units, in standard deviations and in its logarithm, where its law is summed over; ln
+/// of its density below which no place counts: good to 1e-5 of a probability, and costs are told to four digits.
+const SPACING: (f64, f64) = (1.0, 0.5);
+const DEPTH: f64 = 12.0;
+/// The same while the best plan is looked for: near it all cost the same.
+const COARSE: (f64, f64, f64) = (1.4, 0.8, 8.0);
 
 /// Wear of a part from new to failure.
 #[derive(Clone, Debug)]
@@ -42,19 +44,10 @@ pub struct Monitored {
     law: Law,
     clock: Clock,
     failure: f64,
-}
-
-/// A plan of looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ConditionPlan {
-    /// Time from look to look.
-    pub interval: f64,
-    /// Wear from which a part is replaced \[unit of wear\].
-    pub threshold: f64,
-    /// What it costs.
-    pub cost: ConditionCost,
-    /// Whether the interval is at an end of the range that was searched: the cheapest plan looks still more often, or never.
-    pub at_an_end: bool,
+    /// Laws of units with the probabilities of each; one where units are alike.
+    units: Vec<(f64, Law)>,
+    /// The same, fewer.
+    few: Vec<(f64, Law)>,
 }
 
 /// What a plan of looks costs and brings.
@@ -72,6 +65,15 @@ pub struct ConditionCost {
     pub unnoticed: f64,
 }
 
+/// Sums over a cycle: time in use, time with a failure that nobody has noticed, looks, failures.
+#[derive(Clone, Copy, Default)]
+struct Cycle {
+    used: f64,
+    unnoticed: f64,
+    looked: f64,
+    fail: f64,
+}
+
 /// Refuses a law by which the wear at a look does not say all that there is to know of a part.
 pub(super) fn known_by_its_wear(law: &Law) -> Result<(), PlanError> {
     match (law.is_increasing(), law.units_differ()) {
@@ -85,11 +87,20 @@ impl Monitored {
     /// A new part that fails at wear `failure`.
     ///
     /// # Errors
-    /// [`PlanError::FallingWear`], [`PlanError::UnitsDiffer`], [`PlanError::Life`] for a threshold that is not positive.
+    /// [`PlanError::FallingWear`], [`PlanError::Life`] for a threshold that is not positive.
     pub fn new(law: Law, clock: Clock, failure: f64) -> Result<Self, PlanError> {
         positive("the threshold", failure)?;
-        known_by_its_wear(&law)?;
-        Ok(Self { law, clock, failure })
+        if !law.is_increasing() {
+            return Err(PlanError::FallingWear);
+        }
+        let units = law.units(SPACING, DEPTH);
+        let few = law.units((COARSE.0, COARSE.1), COARSE.2);
+        Ok(Self { law, clock, failure, units, few })
+    }
+
+    /// Wear at failure.
+    pub(super) fn failure(&self) -> f64 {
+        self.failure
     }
 
     /// Its life if nobody looks.
@@ -119,28 +130,33 @@ impl Monitored {
         if self.law.survival(self.clock.exposure(interval * MOST as f64), threshold) >= GONE {
             return Err(PlanError::TooOften { interval, looks: MOST });
         }
-        Ok(self.cycle(costs, looks, interval, threshold))
+        Ok(self.mean_cycle(&self.units, (costs, looks), interval, threshold))
     }
 
-    fn cycle(&self, costs: &Costs, looks: &Looks, interval: f64, threshold: f64) -> ConditionCost {
-        let (mut use_time, mut unnoticed, mut looked, mut fail) = (0.0, 0.0, 0.0, 0.0);
-        let mut alive = 1.0;
-        for k in 0..MOST {
-            let start = interval * k as f64;
-            let (failed, late) = self.within(start, interval, threshold, alive);
-            use_time += interval * alive - late;
-            unnoticed += late;
-            fail += failed;
-            // What has failed at once is not looked at any more.
-            looked += if looks.downtime.is_none() { alive - failed } else { alive };
-            alive = self.law.survival(self.clock.exposure(start + interval), threshold);
-            if alive < GONE {
-                break;
-            }
+    /// What a plan costs per unit of time, fast.
+    pub(super) fn rate(&self, asked: (&Costs, &Looks), interval: f64, threshold: f64) -> f64 {
+        self.mean_cycle(&self.few, asked, interval, threshold).rate
+    }
+
+    fn mean_cycle(
+        &self,
+        units: &[(f64, Law)],
+        (costs, looks): (&Costs, &Looks),
+        interval: f64,
+        threshold: f64,
+    ) -> ConditionCost {
+        let mut mean = Cycle::default();
+        for (part, law) in units {
+            let own = self.cycle(law, looks, interval, threshold);
+            mean.used += part * own.used;
+            mean.unnoticed += part * own.unnoticed;
+            mean.looked += part * own.looked;
+            mean.fail += part * own.fail;
         }
+        let Cycle { used, mut unnoticed, looked, fail } = mean;
         let preventive = 1.0 - fail;
         let mut cost = looks.inspection * looked + costs.preventive * preventive + costs.failure * fail;
-        let mut cycle = use_time + costs.preventive_time * preventive + costs.failure_time * fail;
+        let mut cycle = used + costs.preventive_time * preventive + costs.failure_time * fail;
         match looks.downtime {
             Some(downtime) => {
                 cost += downtime * unnoticed;
@@ -151,21 +167,47 @@ impl Monitored {
         ConditionCost { rate: cost / cycle, cycle, looks: looked, fail, unnoticed }
     }
 
+    /// Of units of one law.
+    fn cycle(&self, law: &Law, looks: &Looks, interval: f64, threshold: f64) -> Cycle {
+        let mut sums = Cycle::default();
+        let mut alive = 1.0;
+        for k in 0..MOST {
+            let start = interval * k as f64;
+            let (failed, late) = self.within(law, start, interval, (threshold, alive));
+            sums.used += interval * alive - late;
+            sums.unnoticed += late;
+            sums.fail += failed;
+            // What has failed at once is not looked at any more.
+            sums.looked += if looks.downtime.is_none() { alive - failed } else { alive };
+            alive = law.survival(self.clock.exposure(start + interval), threshold);
+            if alive < GONE {
+                break;
+            }
+        }
+        sums
+    }
+
     /// Probability to be below `threshold` at `start` (which is `alive`) and beyond failure one interval later, and the mean
     /// time beyond failure within it.
-    fn within(&self, start: f64, interval: f64, threshold: f64, alive: f64) -> (f64, f64) {
+    fn within(&self, law: &Law, start: f64, interval: f64, (threshold, alive): (f64, f64)) -> (f64, f64) {
         let before = self.clock.exposure(start);
         let gained = |t: f64| (self.clock.exposure(start + t) - before).max(0.0);
         let whole = gained(interval);
+        // No more fail than have failed by then, nor than would if all were worn to the threshold.
+        let most = law.failure(before + whole, self.failure);
+        let most = most.min(alive * law.failure(whole, (self.failure - threshold).max(0.0)));
+        if most < SKIPPED {
+            return (0.0, 0.0);
+        }
         let from = |worn: f64| {
             let left = self.failure - worn;
-            let failed = self.law.failure(whole, left);
+            let failed = law.failure(whole, left);
             // What grows is never beyond its value at the end.
             if failed < ACCURACY {
                 return [failed, 0.0];
             }
             let tolerance = [ACCURACY * interval];
-            [failed, integrate(&|t| [self.law.failure(gained(t), left)], &[0.0, interval], tolerance).0[0]]
+            [failed, integrate(&|t| [law.failure(gained(t), left)], &[0.0, interval], tolerance).0[0]]
         };
         if before <= 0.0 {
             let [failed, late] = from(0.0);
@@ -173,84 +215,8 @@ impl Monitored {
         }
         // Over probability, where the wear at the look is evenly spread; most that fail were near the threshold.
         let limits = [0.0, 0.5 * alive, 0.9 * alive, 0.99 * alive, alive];
-        let at = |p: f64| from(self.law.quantile(before, p).clamp(0.0, threshold));
+        let at = |p: f64| from(law.quantile(before, p).clamp(0.0, threshold));
         let ([failed, late], _) = integrate(&at, &limits, [ACCURACY, ACCURACY * interval]);
         (failed, late)
     }
-}
-
-/// The cheapest interval and threshold; `interval` or `threshold` may be given.
-///
-/// # Errors
-/// [`PlanError`]; a look that costs nothing is refused, because looking without end would be best.
-pub fn best_inspection(
-    part: &Monitored,
-    costs: &Costs,
-    looks: &Looks,
-    interval: Option<f64>,
-    threshold: Option<f64>,
-) -> Result<ConditionPlan, PlanError> {
-    positive("the cost of an inspection", looks.inspection)?;
-    let mean = part.life()?.moments()?.mean;
-    let ends = (mean / INTERVALS.0, mean * INTERVALS.1);
-    let even = |(low, high): (f64, f64), count: usize| -> Vec<f64> {
-        (0..count).map(|i| low + (high - low) * i as f64 / (count - 1) as f64).collect()
-    };
-    // Intervals in even ratios.
-    let logs = interval.map_or_else(
-        || even((libm::log(ends.0), libm::log(ends.1)), TRIED.0),
-        |interval| vec![libm::log(interval)],
-    );
-    let levels = threshold.map_or_else(
-        || even((THRESHOLDS.0 * part.failure, THRESHOLDS.1 * part.failure), TRIED.1),
-        |threshold| vec![threshold],
-    );
-    // The most looks that a life can have: if they can be counted, all can.
-    part.cost(costs, looks, libm::exp(logs[0]), levels[levels.len() - 1])?;
-    let rate = |log: f64, level: f64| part.cycle(costs, looks, libm::exp(log), level).rate;
-    let mut best = (f64::INFINITY, logs[0], levels[0]);
-    for log in &logs {
-        for level in &levels {
-            let found = rate(*log, *level);
-            if found < best.0 {
-                best = (found, *log, *level);
-            }
-        }
-    }
-    for _ in 0..TURNS {
-        let before = best.0;
-        if interval.is_none() {
-            let (log, found) = least(&around(&logs, best.1), &mut |log| rate(log, best.2));
-            if found < best.0 {
-                best = (found, log, best.2);
-            }
-        }
-        if threshold.is_none() {
-            let (level, found) = least(&around(&levels, best.2), &mut |level| rate(best.1, level));
-            if found < best.0 {
-                best = (found, best.1, level);
-            }
-        }
-        if before - best.0 <= ACCURACY * before {
-            break;
-        }
-    }
-    let (_, log, threshold) = best;
-    let near = |end: f64| (libm::exp(log) / end - 1.0).abs() < 1e-3;
-    let chosen = libm::exp(log);
-    Ok(ConditionPlan {
-        interval: chosen,
-        threshold,
-        cost: part.cycle(costs, looks, chosen, threshold),
-        at_an_end: interval.is_none() && (near(ends.0) || near(ends.1)),
-    })
-}
-
-/// The point and its neighbours on the grid.
-fn around(grid: &[f64], at: f64) -> Vec<f64> {
-    let above = grid.partition_point(|x| *x <= at).min(grid.len() - 1);
-    let below = grid.partition_point(|x| *x < at).saturating_sub(1);
-    let mut near = vec![grid[below], at, grid[above]];
-    near.dedup();
-    near
 }

@@ -25,6 +25,11 @@ pub enum PlanError {
         "a failure that only a look finds must cost something while it lasts: give --downtime a cost per unit of time"
     )]
     FreeDowntime,
+    /// Looks that could find nothing.
+    #[error(
+        "a look tells lives nothing but that a part has failed, and these failures show at once: give --downtime the cost of a unit of time with a failure that nobody has noticed"
+    )]
+    ShowsAtOnce,
     /// Wear that falls now and then.
     #[error(
         "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"
@@ -40,7 +45,7 @@ pub enum PlanError {
     },
     /// Units with rates of their own, which a look tells of.
     #[error(
-        "units differ in this fit, and a look at one tells of its own rate too: that is not planned with; plan by age, or fit without --random-effects and plan as if units were alike"
+        "units differ in this fit, and one look tells of a unit's own rate too: what that is worth is not computed; leave --look-at out, or fit without --random-effects as if units were alike"
     )]
     UnitsDiffer,
     /// Too many parts or replacements to count.

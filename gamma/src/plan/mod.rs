@@ -8,20 +8,28 @@
 mod age;
 mod bands;
 mod condition;
+mod condition_search;
 mod costs;
 mod error;
+mod hidden;
 mod mean_use;
 mod search;
 mod spares;
 mod worth;
 
 pub use age::{AgePlan, PlannedLife, age_cost_rate, best_age};
-pub use bands::{AgeBands, Course, Ends, age_bands, age_course, look_band};
-pub use condition::{ConditionCost, ConditionPlan, Monitored, best_inspection};
+pub use bands::{AgeBands, Course, Ends, LookBands, age_bands, age_course, look_bands};
+pub use condition::{ConditionCost, Monitored};
+pub use condition_search::{ConditionPlan, best_inspection};
 pub use costs::{Costs, Looks};
 pub use error::PlanError;
+pub use hidden::{HiddenPlan, best_hidden, hidden_cost};
 pub use spares::{Spares, spares};
 pub use worth::{InUse, Worth, worth_of_a_look};
 
+#[cfg(test)]
+mod hidden_tests;
+#[cfg(test)]
+mod looks_tests;
 #[cfg(test)]
 mod tests;

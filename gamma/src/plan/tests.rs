@@ -84,6 +84,14 @@ fn alive_cost(life: &dyn Lifetime) -> f64 {
     life.reliability(6.0) + 4.0 * life.failed(6.0)
 }
 
+fn differing(process: &'static dyn Process, parameters: [f64; 2], exponent: f64, cv: f64) -> Monitored {
+    if cv == 0.0 {
+        return part(process, parameters, exponent);
+    }
+    let law = Law::of_units(process, parameters.map(f64::ln), cv).expect("valid");
+    Monitored::new(law, Clock::power(1.0, exponent).expect("valid"), 10.0).expect("valid")
+}
+
 fn part(process: &'static dyn Process, parameters: [f64; 2], exponent: f64) -> Monitored {
     let clock = Clock::power(1.0, exponent).expect("valid");
     Monitored::new(Law::new(process, parameters).expect("valid"), clock, 10.0).expect("valid")
@@ -91,7 +99,7 @@ fn part(process: &'static dyn Process, parameters: [f64; 2], exponent: f64) -> M
 
 /// Cost and length of cycles by drawing the wear at even small steps of the clock.
 fn simulated(
-    (process, parameters, exponent): (&'static dyn Process, [f64; 2], f64),
+    (process, parameters, exponent, cv): (&'static dyn Process, [f64; 2], f64, f64),
     (costs, looks): (&Costs, &Looks),
     (interval, threshold): (f64, f64),
     cycles: u32,
@@ -104,6 +112,8 @@ fn simulated(
     for _ in 0..cycles {
         let (mut wear, mut k, mut spent) = (0.0, 0, 0.0);
         let mut failed_at = None;
+        let effect = process.random_effect().filter(|_| cv > 0.0);
+        let logs = effect.map_or(logs, |effect| effect.draw(logs, cv, &mut stream));
         let took = loop {
             for i in 0..FINE {
                 let t = |i: usize| interval * (k as f64 + i as f64 / FINE as f64);
@@ -147,14 +157,21 @@ fn simulated(
 #[test]
 fn looking_at_even_intervals_costs_what_simulated_cycles_cost() {
     let costs = Costs::new(10.0, 50.0).expect("valid").taking(0.1, 0.4).expect("valid");
-    let models: [(&'static dyn Process, [f64; 2], f64); 3] =
-        [(&Gamma, [2.0, 1.0], 1.0), (&InverseGaussian, [1.5, 3.0], 1.0), (&Gamma, [3.0, 2.0], 1.4)];
+    let models: [(&'static dyn Process, [f64; 2], f64, f64); 5] = [
+        (&Gamma, [2.0, 1.0], 1.0, 0.0),
+        (&InverseGaussian, [1.5, 3.0], 1.0, 0.0),
+        (&Gamma, [3.0, 2.0], 1.4, 0.0),
+        // Units that differ.
+        (&Gamma, [2.0, 1.0], 1.0, 0.4),
+        (&InverseGaussian, [1.5, 3.0], 1.4, 0.2),
+    ];
     for model in models {
         for downtime in [None, Some(20.0)] {
             let looks = Looks::new(1.0, downtime).expect("valid");
             for (interval, threshold) in [(1.0, 6.0), (2.5, 8.5)] {
-                let found =
-                    part(model.0, model.1, model.2).cost(&costs, &looks, interval, threshold).expect("valid");
+                let found = differing(model.0, model.1, model.2, model.3)
+                    .cost(&costs, &looks, interval, threshold)
+                    .expect("valid");
                 let (rate, error) = simulated(model, (&costs, &looks), (interval, threshold), 8000);
                 // Four standard errors, 1 % of a fine step.
                 assert!(

@@ -43,6 +43,11 @@ pub trait RandomEffect: Debug + Sync {
         None
     }
 
+    /// Where [`Self::place`] has those logarithms.
+    fn place_of(&self, _logs: [f64; 2], _cv: f64, _own: [f64; 2]) -> f64 {
+        0.0
+    }
+
     /// Parameters of one unit, drawn.
     fn draw(&self, logs: [f64; 2], cv: f64, stream: &mut Stream) -> [f64; 2];
 

@@ -58,7 +58,7 @@ pub struct ByAgeAnswer {
     pub mean_use: f64,
 }
 
-/// Parts are looked at in even intervals, and replaced from a wear on.
+/// Parts are looked at in even intervals, and replaced from a wear on; of lives, when a look finds that they have failed.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 pub struct ByLooksAnswer {
@@ -66,8 +66,15 @@ pub struct ByLooksAnswer {
     pub failures: &'static str,
     /// Time from look to look [time].
     pub interval: f64,
-    /// Wear from which a part is replaced [unit of wear].
-    pub threshold: f64,
+    /// What the fit leaves open of the interval of least cost, 95 % [time]; null where it is given, where parameters are taken as known,
+    /// and of lives.
+    pub interval_band: Option<Ends>,
+    /// Wear from which a part is replaced [unit of wear]; null of lives, where a look finds what has failed.
+    pub threshold: Option<f64>,
+    /// What the fit leaves open of the threshold of least cost, 95 % [unit of wear]; null likewise.
+    pub threshold_band: Option<Ends>,
+    /// The look at which a part is replaced that still works, of lives; null where that is never, and of fits.
+    pub last_look: Option<usize>,
     /// Cost per unit of time in the long run [cost/time].
     pub cost_rate: f64,
     /// What the fit leaves open of the cost at this very interval and threshold, 95 % [cost/time]; null where parameters are taken as

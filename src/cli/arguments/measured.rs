@@ -110,7 +110,7 @@ pub struct PlanArguments {
     /// How long the standstill after a failure takes.
     #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0")]
     pub failure_time: f64,
-    /// Cost of a look at the wear: plan looks too.
+    /// Cost of a look at the wear: plan looks too. Of lives, with --downtime: of a look that finds whether a part has failed.
     #[arg(long, value_name = "COST", value_parser = positive)]
     pub inspection: Option<f64>,
     /// Only a look finds a failure, and until then each unit of time costs this; without it a failure shows at once.
@@ -201,7 +201,7 @@ pub struct FitArguments {
     #[arg(long)]
     pub one_unit: bool,
     /// Let units differ: rates of the Gamma process by a Gamma law, drifts of the others by a normal one; says whether they do.
-    #[arg(long, conflicts_with_all = ["resolution", "one_unit"])]
+    #[arg(long, conflicts_with = "one_unit")]
     pub random_effects: bool,
     /// Compare with the other processes, each with units alike and with units that differ.
     #[arg(long)]

@@ -135,10 +135,11 @@ impl Analysis {
     }
 }
 
-/// Every process with units alike, and, of exact readings of several units, with units that differ.
+/// Every process with units alike, and, of several units, with units that differ; readings with a gauge's step by the process at hand.
 fn compared(data: &Observations, model: &Model) -> Vec<Compared> {
     let rows = PROCESSES.into_iter().flat_map(|process| [(process, false), (process, true)]);
-    let rows = rows.filter(|(_, random)| !random || (data.units.len() > 1 && model.resolution.is_none()));
+    let takes = |process| model.resolution.is_none() || process == model.process;
+    let rows = rows.filter(|(process, random)| !random || (data.units.len() > 1 && takes(*process)));
     let row = |(process, random): (&'static dyn Process, bool)| {
         // The process at hand alone takes readings as rounded.
         let resolution = model.resolution.filter(|_| process == model.process);

@@ -82,7 +82,7 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
         if arguments.covariates().next().is_none() && arguments.groups.is_none() {
             cures.push("units that ran under different loads: --covariate COL or --groups COL");
         }
-        if own.units.is_none() && !one && arguments.resolution.is_none() {
+        if own.units.is_none() && !one {
             cures.push("units that differ: --random-effects");
         }
         if own.alternatives.is_empty() {

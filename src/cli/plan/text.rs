@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::super::answer::common::Ends;
-use super::super::answer::plan::{CountAnswer, PlanAnswer};
+use super::super::answer::plan::{ByLooksAnswer, CountAnswer, PlanAnswer};
 use super::super::arguments::PlanArguments;
 use super::super::table::table;
 use crate::number::number;
@@ -30,8 +30,12 @@ pub fn text(arguments: &PlanArguments, told: &PlanAnswer) -> String {
         ]),
     }
     if let Some(looks) = &told.by_looks {
-        let plan =
-            format!("look every {}, replace from wear {}", number(looks.interval), number(looks.threshold));
+        let replaced = match (looks.threshold, looks.last_look) {
+            (Some(wear), _) => format!("replace from wear {}", number(wear)),
+            (None, Some(last)) => format!("replace what has failed, and all at look {last}"),
+            (None, None) => "replace what has failed".to_owned(),
+        };
+        let plan = format!("look every {}, {replaced}", number(looks.interval));
         rows.push(row(plan, looks.cost_rate, looks.fail));
     }
     text.push_str(&table(&["plan", "cost", "saved", "fail in use"], &rows));
@@ -97,12 +101,18 @@ fn bands(text: &mut String, told: &PlanAnswer) {
         add("replace at that age", span(best), of);
     }
     let looks = told.by_looks.as_ref();
-    add("look as above", String::new(), looks.and_then(|looks| looks.cost_rate_band.as_ref()));
+    let best = |looks: &ByLooksAnswer| {
+        let every = looks.interval_band.as_ref().map(|ends| format!("every {}", span(ends)));
+        let from = looks.threshold_band.as_ref().map(|ends| format!("from wear {}", span(ends)));
+        every.into_iter().chain(from).collect::<Vec<_>>().join(", ")
+    };
+    let cost = looks.and_then(|looks| looks.cost_rate_band.as_ref());
+    add("look as above", looks.map(best).unwrap_or_default(), cost);
     if rows.is_empty() {
         return;
     }
     text.push_str("\nwhat the fit leaves open, 95 %\n\n");
-    text.push_str(&table(&["plan", "best age", "cost"], &rows));
+    text.push_str(&table(&["plan", "best", "cost"], &rows));
     if let Some(pays) = age.pays.filter(|pays| *pays < 1.0) {
         let _ = writeln!(text, "\nreplacement at an age pays with a probability of {:.0} %", 100.0 * pays);
     }

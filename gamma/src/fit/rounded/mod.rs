@@ -11,21 +11,25 @@
 //! Where the density hardly changes over the windows, their parts are not needed: it tilts the wear within a window by an
 //! exponential, and the mean of an exponential over a window is known.
 
+mod chain;
 mod kernel;
+mod units;
 mod window;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use rand::RngExt;
 use rand::distr::Open01;
 
-use crate::data::{self, Increment, Rounding};
+use crate::data::{Increment, Rounding};
 use crate::random::Stream;
 
+use self::chain::Chain;
+use self::kernel::Kernel;
 pub use self::kernel::Laws;
-use self::kernel::{Kernel, Known};
+pub use self::units::Differing;
+use self::window::Window;
 pub use self::window::least_variance;
-use self::window::{Place, Window};
 
 /// Products of a mass and a chance that an integral of the law costs as much as: some 0.3 us.
 const INTEGRAL: usize = 600;
@@ -35,9 +39,7 @@ const MOST_PRODUCTS: usize = 300_000_000;
 
 /// Log-likelihood of the readings, per unit of wear as that of exact ones: probabilities over steps.
 pub fn ln_likelihood(laws: Laws<'_>, increments: &[Increment], rounding: Rounding) -> f64 {
-    let mut sum = 0.0;
-    follow(laws, increments, rounding, &mut |chance, _| sum += libm::log(chance / rounding.step));
-    sum
+    Chain::new(rounding).ln_likelihood(laws, increments)
 }
 
 /// Probability integral transforms of the readings, each given those before it, spread evenly over its step.
@@ -48,7 +50,7 @@ pub fn transforms(
     stream: &mut Stream,
 ) -> Vec<f64> {
     let mut transforms = Vec::with_capacity(increments.len());
-    follow(laws, increments, rounding, &mut |chance, below| {
+    Chain::new(rounding).follow(laws, increments, &mut |chance, below| {
         transforms.push(below() + chance * stream.sample::<f64, _>(Open01));
     });
     transforms
@@ -62,8 +64,8 @@ pub struct Windows {
     pub most: usize,
 }
 
-/// Readings over whose windows the law is not even.
-pub fn windows(laws: Laws<'_>, increments: &[Increment], rounding: Rounding) -> Windows {
+/// Readings over whose windows the law is not even; each is followed for so many parameters of its unit.
+pub fn windows(laws: Laws<'_>, increments: &[Increment], rounding: Rounding, places: usize) -> Windows {
     let window = Window::new(rounding);
     let (mut count, mut known) = (0, HashSet::new());
     for increment in increments {
@@ -73,84 +75,12 @@ pub fn windows(laws: Laws<'_>, increments: &[Increment], rounding: Rounding) -> 
             known.insert(kernel.key());
         }
     }
-    let all = count * window.parts * window.parts + known.len() * window.parts * INTEGRAL;
+    let all = places * (count * window.parts * window.parts + known.len() * window.parts * INTEGRAL);
     // Of the same mixture of equal and different ones.
     let most =
         if all > MOST_PRODUCTS { count as f64 * (MOST_PRODUCTS as f64 / all as f64) } else { f64::MAX };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     Windows { count, most: most as usize }
-}
-
-/// Goes along the units; `seen` gets the chance of each reading given those before it, and that of a smaller one.
-fn follow(
-    laws: Laws<'_>,
-    increments: &[Increment],
-    rounding: Rounding,
-    seen: &mut dyn FnMut(f64, &dyn Fn() -> f64),
-) {
-    let window = Window::new(rounding);
-    let (step, part, parts) = (rounding.step, window.part, window.parts);
-    let mut place = Place::Exact;
-    let mut before: Option<&Increment> = None;
-    let mut followed: HashMap<[u64; 3], Vec<f64>> = HashMap::new();
-    let mut known_laws: HashMap<[u64; 2], Known> = HashMap::new();
-    for increment in increments {
-        if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
-            place = if increment.from > 0.0 { Place::Tilted(0.0) } else { Place::Exact };
-        }
-        match increment.known {
-            data::Known::FromLevel => place = Place::Exact,
-            data::Known::Anew => place = Place::Tilted(0.0),
-            _ => {}
-        }
-        before = Some(increment);
-        let kernel = Kernel::new(laws, increment, rounding, &window);
-        if let Some(even) = kernel.even() {
-            let (chance, next) = even.follow(&place, &window);
-            // The distribution function is as straight as the density is even.
-            seen(step * chance, &|| kernel.below(kernel.middle - 0.5 * step));
-            place = next;
-            continue;
-        }
-        let masses = match place {
-            Place::Exact => None,
-            Place::Tilted(tilt) => Some(window.tilted(tilt)),
-            Place::Parts(masses) => Some(masses),
-        };
-        let known = known_laws.entry(kernel.law()).or_default();
-        let next: Vec<f64> = match &masses {
-            None => kernel.after_exact(known),
-            Some(masses) => {
-                let chances = followed.entry(kernel.key()).or_insert_with(|| kernel.chances(known));
-                // Part by part of the window before: sums side by side, each in the order of the parts.
-                let mut next = vec![0.0; parts];
-                for (i, mass) in masses.iter().enumerate() {
-                    for (into, chance) in next.iter_mut().zip(&chances[parts - 1 - i..]) {
-                        *into += mass * chance;
-                    }
-                }
-                next
-            }
-        };
-        let weighed: Vec<f64> =
-            next.iter().zip(&window.chances).map(|(mass, [here, _])| mass * here).collect();
-        let chance: f64 = weighed.iter().sum();
-        let below = || {
-            let under: f64 = match &masses {
-                None => kernel.below(kernel.wear(0) - 0.5 * parts as f64 * part),
-                Some(masses) => {
-                    let one = |(i, mass): (usize, &f64)| {
-                        let k = -(i as isize);
-                        mass * (kernel.shortfall(k) - kernel.shortfall(k - 1)) / part
-                    };
-                    masses.iter().enumerate().map(one).sum()
-                }
-            };
-            under + next.iter().zip(&window.chances).map(|(mass, [_, smaller])| mass * smaller).sum::<f64>()
-        };
-        seen(chance, &below);
-        place = Place::Parts(weighed.into_iter().map(|mass| mass / chance).collect());
-    }
 }
 
 #[cfg(test)]

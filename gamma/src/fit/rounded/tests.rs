@@ -162,12 +162,12 @@ fn a_few_equal_readings_are_followed_however_many_and_different_ones_are_limited
         (0..60_000).map(one).collect()
     };
     for (spans, error, is_followed) in [(7, 0.0, true), (60_000, 0.0, false), (7, 0.4, false)] {
-        let found = windows(laws(&logs), &many(spans), Rounding { step: 0.5, error });
+        let found = windows(laws(&logs), &many(spans), Rounding { step: 0.5, error }, 1);
         assert_eq!(found.count, 60_000);
         assert_eq!(found.count <= found.most, is_followed, "{spans} {error}: {}", found.most);
     }
     // Even over the windows of a fine gauge: as many as there are.
-    assert_eq!(windows(laws(&logs), &many(60_000)[1..9], Rounding::to(1e-6)).count, 0);
+    assert_eq!(windows(laws(&logs), &many(60_000)[1..9], Rounding::to(1e-6), 1).count, 0);
 }
 
 #[test]

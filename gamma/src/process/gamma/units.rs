@@ -59,6 +59,10 @@ impl RandomEffect for GammaRate {
         Some(([logs[0], logs[1] + ln], constant + shape * (ln - libm::expm1(ln))))
     }
 
+    fn place_of(&self, logs: [f64; 2], cv: f64, own: [f64; 2]) -> f64 {
+        (own[1] - logs[1]) / cv
+    }
+
     /// The score is [(r - a)² - a] / 2, r = beta times wear of shape a; less its part along r - a it has the variance (a² + a) / 2.
     fn excess(&self, logs: [f64; 2]) -> f64 {
         libm::exp(-logs[0])

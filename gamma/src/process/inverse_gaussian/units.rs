@@ -121,6 +121,10 @@ impl RandomEffect for NormalSlowness {
         })
     }
 
+    fn place_of(&self, logs: [f64; 2], cv: f64, own: [f64; 2]) -> f64 {
+        libm::expm1(logs[0] - own[0]) / cv
+    }
+
     /// The score is [(a y)² - a (1 + y)] / 2, wear 1 + y of its mean, a = spread / drift; less its part along y it has the variance
     /// (a² + 3 a) / 2.
     fn excess(&self, logs: [f64; 2]) -> f64 {

@@ -1,0 +1,108 @@
+//! Along the readings of a unit, window by window. In: laws of increments, readings. Out: the chance of each reading given those
+//! before it. Never knows where laws are from.
+
+use std::collections::HashMap;
+
+use super::kernel::{Kernel, Known, Laws};
+use super::window::{Place, Window};
+use crate::data::{self, Increment, Rounding};
+
+/// What is known of laws is kept for all readings that share them, of whichever unit.
+pub struct Chain {
+    rounding: Rounding,
+    window: Window,
+    /// Chances to go from a part to a part, by law and difference of readings.
+    followed: HashMap<[u64; 3], Vec<f64>>,
+    known_laws: HashMap<[u64; 2], Known>,
+}
+
+impl Chain {
+    pub fn new(rounding: Rounding) -> Self {
+        let window = Window::new(rounding);
+        Self { rounding, window, followed: HashMap::new(), known_laws: HashMap::new() }
+    }
+
+    /// The gauge's step.
+    pub fn step(&self) -> f64 {
+        self.rounding.step
+    }
+
+    /// Log-likelihood of the readings, per unit of wear.
+    pub fn ln_likelihood(&mut self, laws: Laws<'_>, increments: &[Increment]) -> f64 {
+        let (mut sum, step) = (0.0, self.rounding.step);
+        self.follow(laws, increments, &mut |chance, _| sum += libm::log(chance / step));
+        sum
+    }
+
+    /// Goes along the units; `seen` gets the chance of each reading given those before it, and that of a smaller one.
+    pub fn follow(
+        &mut self,
+        laws: Laws<'_>,
+        increments: &[Increment],
+        seen: &mut dyn FnMut(f64, &dyn Fn() -> f64),
+    ) {
+        let Self { rounding, window, followed, known_laws } = self;
+        let (rounding, window) = (*rounding, &*window);
+        let (step, part, parts) = (rounding.step, window.part, window.parts);
+        let mut place = Place::Exact;
+        let mut before: Option<&Increment> = None;
+        for increment in increments {
+            if before.is_none_or(|last| last.unit != increment.unit || last.to != increment.from) {
+                place = if increment.from > 0.0 { Place::Tilted(0.0) } else { Place::Exact };
+            }
+            match increment.known {
+                data::Known::FromLevel => place = Place::Exact,
+                data::Known::Anew => place = Place::Tilted(0.0),
+                _ => {}
+            }
+            before = Some(increment);
+            let kernel = Kernel::new(laws, increment, rounding, window);
+            if let Some(even) = kernel.even() {
+                let (chance, next) = even.follow(&place, window);
+                // The distribution function is as straight as the density is even.
+                seen(step * chance, &|| kernel.below(kernel.middle - 0.5 * step));
+                place = next;
+                continue;
+            }
+            let masses = match place {
+                Place::Exact => None,
+                Place::Tilted(tilt) => Some(window.tilted(tilt)),
+                Place::Parts(masses) => Some(masses),
+            };
+            let known = known_laws.entry(kernel.law()).or_default();
+            let next: Vec<f64> = match &masses {
+                None => kernel.after_exact(known),
+                Some(masses) => {
+                    let chances = followed.entry(kernel.key()).or_insert_with(|| kernel.chances(known));
+                    // Part by part of the window before: sums side by side, each in the order of the parts.
+                    let mut next = vec![0.0; parts];
+                    for (i, mass) in masses.iter().enumerate() {
+                        for (into, chance) in next.iter_mut().zip(&chances[parts - 1 - i..]) {
+                            *into += mass * chance;
+                        }
+                    }
+                    next
+                }
+            };
+            let weighed: Vec<f64> =
+                next.iter().zip(&window.chances).map(|(mass, [here, _])| mass * here).collect();
+            let chance: f64 = weighed.iter().sum();
+            let below = || {
+                let under: f64 = match &masses {
+                    None => kernel.below(kernel.wear(0) - 0.5 * parts as f64 * part),
+                    Some(masses) => {
+                        let one = |(i, mass): (usize, &f64)| {
+                            let k = -(i as isize);
+                            mass * (kernel.shortfall(k) - kernel.shortfall(k - 1)) / part
+                        };
+                        masses.iter().enumerate().map(one).sum()
+                    }
+                };
+                under
+                    + next.iter().zip(&window.chances).map(|(mass, [_, smaller])| mass * smaller).sum::<f64>()
+            };
+            seen(chance, &below);
+            place = Place::Parts(weighed.into_iter().map(|mass| mass / chance).collect());
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Looks that find failures, against published examples and closed forms.
+
+use super::*;
+use crate::life::{Lifetime, Weibull};
+
+/// A normal law of lives.
+struct Normal {
+    mean: f64,
+    std: f64,
+}
+
+impl Lifetime for Normal {
+    fn reliability(&self, t: f64) -> f64 {
+        0.5 * libm::erfc((t - self.mean) / (self.std * 2.0_f64.sqrt()))
+    }
+    fn typical(&self) -> f64 {
+        self.mean
+    }
+}
+
+/// Equipment for emergencies (Jardine and Tsang, Maintenance, Replacement and Reliability, chapter 3, availability maximisation): lives
+/// normal with mean 5 months and standard deviation 1 month, an inspection that makes the equipment as new takes 0.25 month, a repair
+/// 0.5 month more. Printed availabilities of intervals of whole months, and 3 months as the best of them.
+#[test]
+fn availabilities_and_the_inspection_interval_of_a_published_example() {
+    let life = Normal { mean: 5.0, std: 1.0 };
+    // What costs is time: the rate of cost is the part of time that the equipment cannot be called on.
+    let costs = Costs::new(0.25, 0.75).expect("valid").taking(0.25, 0.75).expect("valid");
+    let looks = Looks::new(0.0, Some(1.0)).expect("valid");
+    let availability =
+        |interval: f64| 1.0 - hidden_cost(&life, &costs, &looks, interval, Some(1)).expect("valid").rate;
+    for (interval, printed) in [(1.0, 0.8000), (3.0, 0.9173), (4.0, 0.9047), (5.0, 0.8366), (6.0, 0.7371)] {
+        let found = availability(interval);
+        // Printed digits.
+        assert!((found - printed).abs() < 5e-5, "{interval}: {found}");
+    }
+    let best = (1..=6).map(f64::from).max_by(|a, b| availability(*a).total_cmp(&availability(*b)));
+    assert_eq!(best, Some(3.0));
+}
+
+/// Intervals of failure finding as parts of the mean life, for an availability (J. Moubray, Reliability-centred Maintenance, 2nd ed.
+/// 1997, chapter 8): exponential lives, looks that take no time.
+#[test]
+fn availabilities_of_a_published_table_of_failure_finding() {
+    let life = Weibull { scale: 1.0, shape: 1.0 };
+    let costs = Costs::new(0.5, 1.0).expect("valid");
+    let looks = Looks::new(0.0, Some(1.0)).expect("valid");
+    for (interval, printed, digit) in
+        [(0.002, 99.9, 0.1), (0.01, 99.5, 0.1), (0.02, 99.0, 1.0), (0.04, 98.0, 1.0), (0.1, 95.0, 1.0)]
+    {
+        let found = hidden_cost(&life, &costs, &looks, interval, None).expect("valid");
+        let availability = 100.0 * (1.0 - found.unnoticed / found.cycle);
+        assert!((availability - printed).abs() < 0.5 * digit, "{interval}: {availability}");
+    }
+}
+
+/// Barlow and Proschan's model with lives that know no age: all sums are geometric.
+#[test]
+fn looks_at_exponential_lives_cost_what_the_closed_form_says() {
+    let (mean, inspection, downtime, failure) = (500.0, 10.0, 1.0, 40.0);
+    let life = Weibull { scale: mean, shape: 1.0 };
+    let costs = Costs::new(20.0, failure).expect("valid");
+    let looks = Looks::new(inspection, Some(downtime)).expect("valid");
+    let rate = |tau: f64| {
+        let looked = 1.0 / -(-tau / mean).exp_m1();
+        (inspection * looked + downtime * (tau * looked - mean) + failure) / (tau * looked)
+    };
+    for tau in [20.0, 97.0, 400.0] {
+        let found = hidden_cost(&life, &costs, &looks, tau, None).expect("valid");
+        assert!((found.rate / rate(tau) - 1.0).abs() < 1e-7, "{tau}: {found:?} {}", rate(tau));
+        assert!((found.looks * -(-tau / mean).exp_m1() - 1.0).abs() < 1e-7);
+        // What works is as good as new: replacing it costs, and saves nothing.
+        assert!(hidden_cost(&life, &costs, &looks, tau, Some(3)).expect("valid").rate > found.rate);
+    }
+    let plan = best_hidden(&life, &costs, &looks, None).expect("a plan");
+    assert_eq!((plan.last, plan.at_an_end), (None, false));
+    // d rate / d tau = 0: (c_d mean - c_f) (1 - (1 + x) exp(-x)) = c_i, x = tau / mean, by bisection.
+    let slope = |x: f64| (downtime * mean - failure) * (1.0 - (1.0 + x) * (-x).exp()) - inspection;
+    let (mut low, mut high) = (0.0, 3.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if slope(middle) < 0.0 { low = middle } else { high = middle }
+    }
+    // The minimum is flat: values good to 1e-8 tell its place to some 1e-4.
+    assert!((plan.interval / (low * mean) - 1.0).abs() < 1e-3, "{plan:?} {}", low * mean);
+}
+
+#[test]
+fn parts_that_age_are_replaced_at_some_look() {
+    let life = Weibull { scale: 100.0, shape: 4.0 };
+    let costs = Costs::new(5.0, 100.0).expect("valid");
+    let looks = Looks::new(0.5, Some(10.0)).expect("valid");
+    let plan = best_hidden(&life, &costs, &looks, None).expect("a plan");
+    let last = plan.last.expect("parts age");
+    // Neighbours cost no less.
+    for (factor, last) in [(0.9, Some(last)), (1.1, Some(last)), (1.0, Some(last + 1)), (1.0, None)] {
+        let other = hidden_cost(&life, &costs, &looks, factor * plan.interval, last).expect("valid");
+        assert!(other.rate >= plan.cost.rate * (1.0 - 1e-9), "{plan:?} {factor} {last:?} {other:?}");
+    }
+    // To look once, at the end, is to replace at an age; a failure costs more by its mean time unnoticed.
+    let one = hidden_cost(&life, &costs, &looks, 60.0, Some(1)).expect("valid");
+    let dearer = Costs::new(5.5, 100.5 + 10.0 * one.unnoticed / one.fail).expect("valid");
+    let by_age = age_cost_rate(&life, &dearer, 60.0).expect("valid");
+    // The cycle is as long as the interval, whether the part failed or not.
+    let used = 60.0 - one.unnoticed;
+    assert!((one.rate * 60.0 / (by_age * used) - 1.0).abs() < 1e-7, "{one:?} {by_age}");
+    let at_once = Looks::new(0.5, None).expect("valid");
+    assert_eq!(hidden_cost(&life, &costs, &at_once, 3.0, None), Err(PlanError::ShowsAtOnce));
+    let often = hidden_cost(&life, &costs, &looks, 1e-3, None);
+    assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
+}
