@@ -32,9 +32,9 @@ pub const BODIES: Limit =
 pub const SPEEDS: Limit =
     Limit { what: "generalised speeds", most: 600, help: "split the mechanism, or keep fewer modes" };
 
-/// Points, joints, couplings and forces each.
+/// Points, joints, couplings, stops and forces each.
 pub const ELEMENTS: Limit = Limit {
-    what: "points, joints, couplings or forces",
+    what: "points, joints, couplings, stops or forces",
     most: 4_000,
     help: "split the mechanism, or repeat a group less often",
 };

@@ -119,7 +119,7 @@ fn passive_elements_and_drives_belong_to_coordinates() {
     assert_eq!(damping("R"), [(0, 2.0), (0, 1.0)]);
     assert_eq!(damping("C"), [(0, 2.0), (1, 3.0)]);
     assert_eq!(damping("S"), [(0, 1e-4)]);
-    let Passive::Spring { coordinate: 0, stiffness, rest } = &joint(&m, "R").passive[2] else { panic!() };
+    let Passive::Spring { coordinate: 0, stiffness, rest, .. } = &joint(&m, "R").passive[2] else { panic!() };
     assert!(stiffness.depends_on(&|id| m.parameter(id).tunable));
     assert_eq!(rest.value(&values), Some(10.0 * std::f64::consts::PI / 180.0));
     assert!(matches!(&joint(&m, "Y").passive[0], Passive::Spring { coordinate: 1, .. }));

@@ -54,7 +54,7 @@ fn of_joint(joint: &Joint) -> Vec<&Formula> {
     for passive in &joint.passive {
         match passive {
             Passive::Damping { coefficient, .. } => formulas.push(coefficient),
-            Passive::Spring { stiffness, rest, .. } => formulas.extend([stiffness, rest]),
+            Passive::Spring { stiffness, rest, preload, .. } => formulas.extend([stiffness, rest, preload]),
             Passive::Actuator { .. } => {}
         }
     }

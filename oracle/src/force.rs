@@ -3,7 +3,7 @@
 
 use linkwear_codegen::id::{JointId, PointId};
 use linkwear_codegen::model::{Carrier, Force, Formula, Passive};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 
 use crate::frame::{BodyState, Load};
 use crate::model::{Frames, Oracle};
@@ -82,11 +82,12 @@ impl Oracle {
                     applied.power_dissipated -= force * row.rate;
                     (row, force)
                 }
-                Passive::Spring { coordinate, stiffness, rest } => {
+                Passive::Spring { coordinate, stiffness, rest, preload } => {
                     let row = geometry.coordinate(*coordinate, &pair);
                     let (k, stretch) = (self.number(stiffness), row.residual - self.number(rest));
-                    applied.potential += 0.5 * k * stretch * stretch;
-                    (row, -k * stretch)
+                    let preload = self.number(preload);
+                    applied.potential += 0.5 * k * stretch * stretch + preload * stretch;
+                    (row, -k * stretch - preload)
                 }
                 Passive::Actuator { coordinate, force } => {
                     let row = geometry.coordinate(*coordinate, &pair);
@@ -124,6 +125,21 @@ impl Oracle {
                 applied.potential += 0.5 * k * stretch * stretch + p * length;
                 applied.power_dissipated += c * rate * rate;
             }
+            "cable" => {
+                let ends = [0, 1].map(|k| self.end(bodies[k], at[k], frames));
+                let apart = ends[1].position - ends[0].position;
+                let line = apart.normalize();
+                let rate = line.dot(&(ends[1].velocity - ends[0].velocity));
+                let [k, rest, c, p] = force.numbers().map(|f| self.number(f));
+                let elastic = k * (apart.norm() - rest) + p;
+                if elastic > 0.0 {
+                    let pull = (elastic + c * rate).max(0.0);
+                    applied.load(bodies[0], 1.0, &Load::at(&ends[0].arm, &(pull * line)));
+                    applied.load(bodies[1], -1.0, &Load::at(&ends[1].arm, &(pull * line)));
+                    applied.potential += elastic * elastic / (2.0 * k);
+                    applied.power_dissipated += (pull - elastic) * rate;
+                }
+            }
             "bushing" => self.add_bushing(force, frames, applied),
             "force" => {
                 let push = vector();
@@ -149,18 +165,25 @@ impl Oracle {
     /// Force along the first body's axes and moment `-dV/d(turn)` of the energy of the rotation vector, whose rate is
     /// `(1 - [phi]/2 + (1/t² - (1 + cos t)/(2 t sin t)) [phi]²) omega` in the first body's axes, t = |phi|.
     fn add_bushing(&self, bushing: &Force, frames: &Frames<'_>, applied: &mut Applied) {
-        let Force { bodies, at: [at, _], directions, .. } = bushing;
-        let [stiffness, damping, turning_stiffness, turning_damping] = bushing.triples();
-        let numbers = |list: &[Formula; 3]| Vector3::from(list.each_ref().map(|f| self.number(f)));
+        let Force { bodies, at, directions, .. } = bushing;
+        let [k, c, kr, cr, p, pr] =
+            bushing.triples().map(|list: &[Formula; 3]| list.each_ref().map(|f| self.number(f)));
+        let full = |first: usize| {
+            let entries = bushing.formulas[first..first + 36].iter().map(|f| self.number(f));
+            Matrix6::from_row_iterator(entries)
+        };
+        let diagonal = |a: [f64; 3], b: [f64; 3]| {
+            Matrix6::from_diagonal(&Vector6::from_iterator(a.into_iter().chain(b)))
+        };
+        let (stiffness, damping) = (diagonal(k, kr) + full(18), diagonal(c, cr) + full(54));
+        let preload = Vector6::from_iterator(p.into_iter().chain(pr));
         let [a, b] = bodies.map(|body| frames.of(body));
-        let ends = bodies.map(|body| self.end(body, *at, frames));
+        let ends = [0, 1].map(|i| self.end(bodies[i], at[i], frames));
         let directions = Matrix3::from_columns(&directions.map(Vector3::from));
         let [first, second] = [a, b].map(|frame| frame.state.rotation * directions);
         let apart = ends[1].position - ends[0].position;
         let slip = ends[1].velocity - a.velocity_at(&ends[1].position);
         let (d, rate) = (first.transpose() * apart, first.transpose() * slip);
-        let (k, c) = (numbers(stiffness), numbers(damping));
-        let force = -first * (k.component_mul(&d) + c.component_mul(&rate));
         let turned = Rotation3::from_matrix_unchecked(first.transpose() * second);
         // By the quaternion: an arc cosine of the trace is no number where rounding takes it past 1.
         let phi = UnitQuaternion::from_rotation_matrix(&turned).scaled_axis();
@@ -173,17 +196,22 @@ impl Oracle {
         };
         let skew = phi.cross_matrix();
         let jacobian = Matrix3::identity() - 0.5 * skew + b2 * skew * skew;
-        let omega = b.state.omega - a.state.omega;
-        let (kr, cr) = (numbers(turning_stiffness), numbers(turning_damping));
-        let own_rate = second.transpose() * omega;
-        let moment =
-            -first * jacobian.transpose() * kr.component_mul(&phi) - second * cr.component_mul(&own_rate);
+        let own_rate = second.transpose() * (b.state.omega - a.state.omega);
+        let join = |one: Vector3<f64>, other: Vector3<f64>| {
+            Vector6::new(one.x, one.y, one.z, other.x, other.y, other.z)
+        };
+        let split =
+            |both: Vector6<f64>| [both.fixed_rows::<3>(0).into_owned(), both.fixed_rows::<3>(3).into_owned()];
+        let (x, rates) = (join(d, phi), join(rate, own_rate));
+        let [elastic, turning] = split(stiffness * x + preload);
+        let [viscous, drag] = split(damping * rates);
+        let force = -first * (elastic + viscous);
+        let moment = -first * jacobian.transpose() * turning - second * drag;
         applied.load(bodies[1], 1.0, &Load { force, torque: ends[1].arm.cross(&force) + moment });
         let arm = ends[1].position - a.state.centre;
         applied.load(bodies[0], -1.0, &Load { force, torque: arm.cross(&force) + moment });
-        applied.potential += 0.5 * (k.dot(&d.component_mul(&d)) + kr.dot(&phi.component_mul(&phi)));
-        applied.power_dissipated +=
-            c.dot(&rate.component_mul(&rate)) + cr.dot(&own_rate.component_mul(&own_rate));
+        applied.potential += 0.5 * x.dot(&(stiffness * x)) + preload.dot(&x);
+        applied.power_dissipated += rates.dot(&(damping * rates));
     }
 
     fn end(&self, body: Carrier, point: PointId, frames: &Frames<'_>) -> crate::frame::MovingPoint {

@@ -40,7 +40,10 @@ fn two_bodies(model: JointModel) -> Oracle {
         let k64 = k as f64;
         s.passive(joint, Passive::Damping { coordinate: k, coefficient: number(0.1 + 0.02 * k64) });
         let rest = number(0.1 * k64);
-        s.passive(joint, Passive::Spring { coordinate: k, stiffness: number(3.0 + k64), rest });
+        s.passive(
+            joint,
+            Passive::Spring { coordinate: k, stiffness: number(3.0 + k64), rest, preload: number(0.3) },
+        );
         s.passive(joint, Passive::Actuator { coordinate: k, force: law(0.2, 0.1, 0.3) });
     }
     if round {

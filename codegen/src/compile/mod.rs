@@ -44,8 +44,13 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
     let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides, options.reach)?;
-    let counts =
-        [mechanism.points.len(), mechanism.joints.len(), mechanism.couplings.len(), mechanism.forces.len()];
+    let counts = [
+        mechanism.points.len(),
+        mechanism.joints.len(),
+        mechanism.couplings.len(),
+        mechanism.stops.len(),
+        mechanism.forces.len(),
+    ];
     within(source, [(limits::BODIES, mechanism.bodies.len())])?;
     within(source, counts.map(|count| (limits::ELEMENTS, count)))?;
     let closure_in_file = mechanism.closure;

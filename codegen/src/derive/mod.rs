@@ -45,6 +45,7 @@ mod rows;
 mod shortest_way;
 mod solve;
 mod start;
+mod stops;
 mod surface_row;
 #[cfg(test)]
 mod tests;

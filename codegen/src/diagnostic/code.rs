@@ -143,6 +143,10 @@ codes! {
     BadMission = "E0416",
     /// A coupling whose wheels do not fit together.
     BadCoupling = "E0417",
+    /// An end stop that cannot be.
+    BadStop = "E0418",
+    /// A stiffness or damping matrix that cannot be.
+    BadMatrix = "E0419",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",

@@ -20,6 +20,7 @@ mod joint_kind;
 mod mission;
 mod piecewise;
 mod resolve;
+mod stop;
 mod table;
 pub mod topology;
 pub use crate::spec::Closure;
@@ -36,6 +37,7 @@ pub use joint_kind::{
 pub use mission::{Mission, Segment};
 pub use piecewise::{Piecewise, Value};
 pub use resolve::{OverrideError, Overrides, resolve};
+pub use stop::{Stop, StopLoss};
 pub use table::DataTable;
 
 /// A body or the ground.
@@ -64,6 +66,8 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// Couplings in file order.
     pub couplings: Vec<Coupling>,
+    /// End stops in file order.
+    pub stops: Vec<Stop>,
     /// Force elements in file order.
     pub forces: Vec<Force>,
     /// Duty cycles in file order.
@@ -215,7 +219,7 @@ pub enum Passive {
         /// [N m s/rad] or [N s/m].
         coefficient: Formula,
     },
-    /// `-stiffness * (q - rest)`.
+    /// `-stiffness * (q - rest) - preload`.
     Spring {
         /// Which coordinate.
         coordinate: usize,
@@ -223,6 +227,8 @@ pub enum Passive {
         stiffness: Formula,
         /// Unloaded position [rad] or [m].
         rest: Formula,
+        /// Against the coordinate [N m] or [N].
+        preload: Formula,
     },
     /// A force by expression over coordinates, speeds and t.
     Actuator {
@@ -330,6 +336,7 @@ impl Mechanism {
     pub fn with_clearances_closed(&self) -> Self {
         let mut closed = self.clone();
         closed.forces.clear();
+        closed.stops.clear();
         for joint in &mut closed.joints {
             joint.model.clearance = false;
             joint.clearance = None;

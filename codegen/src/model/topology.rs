@@ -1,7 +1,7 @@
 //! Which joints carry the bodies (the spanning tree) and which close loops (the cuts).
 //! In: [`Mechanism`]. Out: [`Topology`]. Never knows equations.
 //!
-//! The tree grows from the ground by the best joint at its rim: driven and coupled joints and those with clearance first (their
+//! The tree grows from the ground by the best joint at its rim: driven, coupled and stopped joints and those with clearance first (their
 //! coordinates are asked for, so they must be coordinates), then joints with start values, then those with more constraint
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
@@ -36,6 +36,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     if faults.is_empty() {
         faults.extend(driven_loops(mechanism, &topology));
         faults.extend(coupled_cuts(mechanism, &topology));
+        faults.extend(stopped_cuts(mechanism, &topology));
         faults.extend(starts_on_cuts(mechanism, &topology));
     }
     if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
@@ -90,11 +91,12 @@ fn classes(mechanism: &Mechanism) -> Vec<Class> {
     mechanism.joints.iter().enumerate().map(class).collect()
 }
 
-/// Joints whose coordinates occur in couplings.
+/// Joints whose coordinates occur in couplings or are stopped.
 fn coupled(mechanism: &Mechanism) -> Vec<bool> {
     let mut coupled = vec![false; mechanism.joints.len()];
     let terms = mechanism.couplings.iter().flat_map(|coupling| &coupling.terms);
     terms.for_each(|term| coupled[term.joint.index()] = true);
+    mechanism.stops.iter().for_each(|stop| coupled[stop.joint.index()] = true);
     coupled
 }
 
@@ -227,6 +229,25 @@ fn coupled_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
         );
     }
     faults
+}
+
+/// An angle across a cut jumps at half a turn: so would the force of a stop.
+fn stopped_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
+    let cut = mechanism.stops.iter().filter(|stop| stop.angular && topology.cuts.contains(&stop.joint));
+    cut.map(|stop| {
+        let joint = mechanism.joint(stop.joint);
+        let why = if must_cut(mechanism, joint) {
+            why_cut(mechanism, joint)
+        } else {
+            "all joints of its loop are driven, coupled, stopped or have clearance"
+        };
+        let message = format!("the angle of joint `{}` is stopped, but it is cut: {why}", joint.name);
+        Diagnostic::new(Code::BadStop, message)
+            .at(stop.span, "")
+            .also(joint.span, "cut here")
+            .help("open the loop at a joint that has no stop: write `cut = true` there")
+    })
+    .collect()
 }
 
 impl Topology {

@@ -15,6 +15,7 @@ use super::joint::JointSpec;
 use super::mission::MissionSpec;
 use super::point::PointSpec;
 use super::start::StartSpec;
+use super::stop::StopSpec;
 use super::table::TableSpec;
 use super::texts::{tables, texts_of, without_texts};
 use super::written::{At, Name, Quantity, Table, Triple};
@@ -58,6 +59,9 @@ pub struct File {
     /// Gears, belts and other relations between joint coordinates.
     /// [table]
     pub couplings: Table<CouplingSpec>,
+    /// End stops of joint coordinates.
+    /// [table]
+    pub stops: Table<StopSpec>,
     /// Springs, forces and torques.
     /// [table]
     pub forces: Table<ForceSpec>,
@@ -324,6 +328,9 @@ tables! {
         /// Couplings of a cell.
         /// [table]
         pub couplings: Table<CouplingSpec>,
+        /// End stops of a cell.
+        /// [table]
+        pub stops: Table<StopSpec>,
         /// Forces of a cell.
         /// [table]
         pub forces: Table<ForceSpec>,

@@ -12,9 +12,9 @@ use super::written::{At, Name, Pair, Quantity, Triple};
 use crate::source::Span;
 
 tables! {
-    /// A force element: exactly one of `spring`, `bushing`, `force`, `torque`.
+    /// A force element: exactly one of `spring`, `cable`, `bushing`, `force`, `torque`.
     #[cfg_attr(test, schemars(extend("oneOf" = [
-        { "required": ["spring", "at"] }, { "required": ["bushing", "at"] },
+        { "required": ["spring", "at"] }, { "required": ["cable", "at", "stiffness"] }, { "required": ["bushing", "at"] },
         { "required": ["force", "at", "components"] },
         { "required": ["torque", "components"] }
     ])))]
@@ -22,6 +22,9 @@ tables! {
         /// Spring and damper between two bodies.
         /// [two bodies; e.g. ["ground", "rocker"]]
         pub spring: Option<Pair>,
+        /// Rope, chain or belt between two bodies, which pulls and never pushes.
+        /// [two bodies; e.g. ["ground", "load"]]
+        pub cable: Option<Pair>,
         /// Elastic mount between two bodies.
         /// [two bodies; e.g. ["ground", "engine"]]
         pub bushing: Option<Pair>,
@@ -31,19 +34,19 @@ tables! {
         /// Body that is turned.
         /// [body; e.g. "crank"]
         pub torque: Option<Name>,
-        /// Point of a force or bushing, or the two points of a spring.
+        /// Point of a force or bushing, or the two points of a spring or cable.
         /// [points; required but of a torque; e.g. ["P", "Q"]]
         pub at: Option<Places>,
-        /// Stiffness of a spring.
-        /// [N/m; any; default 0; e.g. "500 N/m"]
+        /// Stiffness of a spring or cable; of a cable above 0.
+        /// [N/m; any; default 0, required of a cable; e.g. "500 N/m"]
         pub stiffness: Option<Quantity>,
-        /// Unloaded length of a spring.
-        /// [m; from 0; required with `stiffness`; e.g. "100 mm"]
+        /// Unloaded length of a spring or cable.
+        /// [m; from 0; required with `stiffness`, of a cable default as drawn; e.g. "100 mm"]
         pub length: Option<Quantity>,
-        /// Damping of a spring along its line.
+        /// Damping of a spring or cable along its line.
         /// [N s/m; from 0; default 0; e.g. "20 N s/m"]
         pub damping: Option<Quantity>,
-        /// Constant pull of a spring.
+        /// Constant pull of a spring; pull of a cable at its `length`.
         /// [N; any; default 0; e.g. "50 N"]
         pub preload: Option<Quantity>,
         /// Stiffness and damping of a bushing along its axes.
@@ -52,6 +55,12 @@ tables! {
         /// Stiffness and damping of a bushing about its axes.
         /// [table of N m and N m s; default 0]
         pub rotation: Option<At<ByAxis>>,
+        /// Full stiffness matrix of a bushing, by displacements along and rotations about its axes: symmetric, six rows.
+        /// [six rows of N/m, N and N m; symmetric, positive semidefinite; default none]
+        pub stiffness_matrix: Option<At<Vec<SixNumbers>>>,
+        /// Full damping matrix of a bushing, likewise.
+        /// [six rows of N s/m, N s and N m s; symmetric, positive semidefinite; default none]
+        pub damping_matrix: Option<At<Vec<SixNumbers>>>,
         /// Axes of a bushing at the reference pose: two or three directions at right angles.
         /// [directions; at right angles; default those of the ground; e.g. [[1, 0, 0], [0, 1, 0]]]
         pub directions: Option<At<Vec<Triple>>>,
@@ -80,8 +89,19 @@ tables! {
         /// Damping.
         /// [N s/m or N m s; from 0; default 0; e.g. ["10 N s/m", "10 N s/m", "20 N s/m"]]
         pub damping: Option<Triple>,
+        /// Force or moment in the reference pose, against a displacement or rotation along its axes.
+        /// [N or N m; any; default 0; e.g. [0, 0, "500 N"]]
+        pub preload: Option<Triple>,
     }
 }
+
+/// A row of a matrix of a bushing.
+// The count is checked later, so that the message can teach.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(extend("minItems" = 6, "maxItems" = 6)))]
+pub struct SixNumbers(pub At<Vec<Quantity>>);
+
+texts_of! { struct SixNumbers { 0 } }
 
 /// One point or several.
 #[derive(Clone, Debug, Deserialize)]
@@ -150,8 +170,23 @@ pub struct ForceValue {
     pub dimension: Dimension,
     /// Whether it may be negative.
     pub signed: bool,
+    /// Whether it may be zero.
+    pub zero: bool,
+    /// Whether it is the distance of both points at the reference pose where nothing is written.
+    pub drawn: bool,
     /// What is written.
     pub written: Written,
+}
+
+impl ForceValue {
+    /// Whether nothing is written.
+    pub fn is_missing(&self, spec: &ForceSpec) -> bool {
+        match self.written {
+            Written::One(of) => of(spec).is_none(),
+            Written::Three(of) => of(spec).is_none(),
+            Written::Matrix(of, _) => of(spec).is_none(),
+        }
+    }
 }
 
 /// How to find a value.
@@ -161,6 +196,8 @@ pub enum Written {
     One(fn(&ForceSpec) -> Option<&Quantity>),
     /// Three by axis.
     Three(fn(&ForceSpec) -> Option<&Triple>),
+    /// Six rows of six; displacements come first. Dimensions of the blocks beside the first: one of each kind, rotations.
+    Matrix(fn(&ForceSpec) -> Option<&At<Vec<SixNumbers>>>, [Dimension; 2]),
 }
 
 const fn one(
@@ -169,7 +206,7 @@ const fn one(
     signed: bool,
     of: fn(&ForceSpec) -> Option<&Quantity>,
 ) -> ForceValue {
-    ForceValue { key, dimension, signed, written: Written::One(of) }
+    ForceValue { key, dimension, signed, zero: true, drawn: false, written: Written::One(of) }
 }
 
 const fn three(
@@ -178,12 +215,31 @@ const fn three(
     signed: bool,
     of: fn(&ForceSpec) -> Option<&Triple>,
 ) -> ForceValue {
-    ForceValue { key, dimension, signed, written: Written::Three(of) }
+    ForceValue { key, dimension, signed, zero: true, drawn: false, written: Written::Three(of) }
+}
+
+const fn matrix(
+    key: &'static str,
+    [first, mixed, last]: [Dimension; 3],
+    of: fn(&ForceSpec) -> Option<&At<Vec<SixNumbers>>>,
+) -> ForceValue {
+    ForceValue {
+        key,
+        dimension: first,
+        signed: true,
+        zero: true,
+        drawn: false,
+        written: Written::Matrix(of, [mixed, last]),
+    }
 }
 
 const STIFFNESS: Dimension = Dimension::of(0, 1, -2);
 const DAMPING: Dimension = Dimension::of(0, 1, -1);
+const MIXED_DAMPING: Dimension = Dimension::of(1, 1, -1);
 const TURNING_DAMPING: Dimension = Dimension::of(2, 1, -1);
+
+/// The kind that springs of spherical joints are of.
+pub const ELASTIC: &str = "bushing";
 
 /// Every kind of force element.
 pub static FORCE_KINDS: &[ForceKind] = &[
@@ -214,12 +270,34 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         ],
     },
     ForceKind {
-        name: "bushing",
+        name: "cable",
+        example: r#"cable = ["ground", "load"]"#,
+        bodies: Bodies::Two(|spec| spec.cable.as_ref()),
+        points: 2,
+        turns: false,
+        keys: &["at", "stiffness", "length", "damping", "preload"],
+        values: &[
+            ForceValue { zero: false, ..one("stiffness", STIFFNESS, false, |spec| spec.stiffness.as_ref()) },
+            ForceValue {
+                drawn: true,
+                ..one("length", Dimension::LENGTH, false, |spec| spec.length.as_ref())
+            },
+            one("damping", DAMPING, false, |spec| spec.damping.as_ref()),
+            one("preload", Dimension::FORCE, true, |spec| spec.preload.as_ref()),
+        ],
+        needs: &[(
+            |spec| spec.stiffness.is_none(),
+            "has no `stiffness`",
+            r#"add `stiffness = "50 kN/m"`: modulus times cross-section over length"#,
+        )],
+    },
+    ForceKind {
+        name: ELASTIC,
         example: r#"bushing = ["ground", "engine"]"#,
         bodies: Bodies::Two(|spec| spec.bushing.as_ref()),
         points: 1,
         turns: true,
-        keys: &["at", "translation", "rotation", "directions"],
+        keys: &["at", "translation", "rotation", "stiffness_matrix", "damping_matrix", "directions"],
         values: &[
             three("stiffness", STIFFNESS, false, |spec| spec.translation.as_ref()?.value.stiffness.as_ref()),
             three("damping", DAMPING, false, |spec| spec.translation.as_ref()?.value.damping.as_ref()),
@@ -227,9 +305,24 @@ pub static FORCE_KINDS: &[ForceKind] = &[
                 spec.rotation.as_ref()?.value.stiffness.as_ref()
             }),
             three("damping", TURNING_DAMPING, false, |spec| spec.rotation.as_ref()?.value.damping.as_ref()),
+            three("preload", Dimension::FORCE, true, |spec| {
+                spec.translation.as_ref()?.value.preload.as_ref()
+            }),
+            three("preload", Dimension::TORQUE, true, |spec| spec.rotation.as_ref()?.value.preload.as_ref()),
+            matrix("stiffness_matrix", [STIFFNESS, Dimension::FORCE, Dimension::TORQUE], |spec| {
+                spec.stiffness_matrix.as_ref()
+            }),
+            matrix("damping_matrix", [DAMPING, MIXED_DAMPING, TURNING_DAMPING], |spec| {
+                spec.damping_matrix.as_ref()
+            }),
         ],
         needs: &[(
-            |spec| spec.translation.is_none() && spec.rotation.is_none(),
+            |spec| {
+                let matrices = [&spec.stiffness_matrix, &spec.damping_matrix];
+                spec.translation.is_none()
+                    && spec.rotation.is_none()
+                    && matrices.iter().all(|one| one.is_none())
+            },
             "has neither stiffness nor damping",
             r#"add for example `translation = { stiffness = ["1 kN/mm", "1 kN/mm", "2 kN/mm"] }`"#,
         )],

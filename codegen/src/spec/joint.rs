@@ -135,6 +135,9 @@ tables! {
         /// Unloaded position.
         /// [rad or m; any; default 0; e.g. "10 deg"]
         pub rest: Option<Quantity>,
+        /// Force or torque at `rest`, against the coordinate.
+        /// [N m or N; any; default 0; e.g. "2 N m"]
+        pub preload: Option<Quantity>,
         /// The only coordinate.
         /// [table]
         pub q: Option<At<SpringPart>>,
@@ -158,6 +161,9 @@ tables! {
         /// Unloaded position.
         /// [rad or m; any; default 0; e.g. "10 deg"]
         pub rest: Option<Quantity>,
+        /// Force or torque at `rest`, against the coordinate.
+        /// [N m or N; any; default 0; e.g. "2 N m"]
+        pub preload: Option<Quantity>,
     }
 }
 

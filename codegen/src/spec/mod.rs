@@ -18,6 +18,7 @@ mod rockwell;
 #[cfg(test)]
 mod schema;
 mod start;
+mod stop;
 mod syntax;
 mod table;
 mod texts;
@@ -34,13 +35,16 @@ pub use file::{
     CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable, RepeatSpec,
     WearSpec,
 };
-pub use force::{Bodies, ByAxis, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, Written};
+pub use force::{
+    Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Written,
+};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use mission::{MissionSpec, SegmentJointSpec, SegmentSpec};
 pub use parse::{Spec, parse};
 pub use point::PointSpec;
 pub use repeat::{expand, group_spans};
 pub use start::{StartSpec, StartTable};
+pub use stop::StopSpec;
 pub use syntax::{Expression, Form, Operator, Relation, SyntaxError, as_written, parse_expression};
 pub use table::{Interpolation, Outside, TableSpec};
 pub use turning::Turning;

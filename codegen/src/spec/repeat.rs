@@ -23,6 +23,7 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
             (limits::ELEMENTS, group.value.points.0.len()),
             (limits::ELEMENTS, group.value.joints.0.len()),
             (limits::ELEMENTS, group.value.couplings.0.len()),
+            (limits::ELEMENTS, group.value.stops.0.len()),
             (limits::ELEMENTS, group.value.forces.0.len()),
         ];
         let times = usize::try_from(count).unwrap_or(usize::MAX);
@@ -45,6 +46,7 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
             made.append(&mut whole.bodies, copy.bodies, cell, "body");
             made.append(&mut whole.joints, copy.joints, cell, "joint");
             made.append(&mut whole.couplings, copy.couplings, cell, "coupling");
+            made.append(&mut whole.stops, copy.stops, cell, "stop");
             made.append(&mut whole.forces, copy.forces, cell, "force");
             made.append(&mut whole.assembly, copy.assembly, cell, "guess");
             made.append(&mut whole.initial, copy.initial, cell, "start value");

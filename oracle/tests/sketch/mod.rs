@@ -46,6 +46,7 @@ impl Sketch {
             points: Vec::new(),
             joints: Vec::new(),
             couplings: Vec::new(),
+            stops: Vec::new(),
             forces: Vec::new(),
             closure: Closure::Joint,
             allowed: Vec::new(),

@@ -1,96 +1,141 @@
 //! Force elements between bodies: the equations of every kind.
 
+use super::mount::mount;
 use crate::derive::element::Element;
-use crate::derive::frame::Frame;
 use crate::derive::joint_state::JointStates;
 use crate::derive::linkage::LinkIndex;
 use crate::derive::loads::Loads;
-use crate::derive::log_closure::Logarithm;
-use crate::derive::relative_motion::{Marker, Place, RelativeMotion, Side, Sums};
 use crate::derive::wrench::Wrench;
-use crate::expr::{Scope, Vec3};
+use crate::expr::{Expr, Scope, Vec3};
 use crate::model::Force;
+use crate::spec::ForceKind;
 
 /// What the elements of a kind add to the loads.
 type Equations = for<'g> fn(&Force, &mut Loads<'g>, &'g Scope, &JointStates<'g>);
 
-/// The equations of every kind.
-const EQUATIONS: &[(&str, Equations)] =
-    &[("spring", spring), ("bushing", bushing), ("force", push), ("torque", turn)];
+/// Output columns of the elements of a kind: name, unit, value.
+type Columns = for<'g> fn(&Force, &'g Scope, &JointStates<'g>) -> Vec<(&'static str, &'static str, Expr<'g>)>;
+
+/// The equations of every kind, and what it tells of itself.
+const EQUATIONS: &[(&str, Equations, Option<Columns>)] = &[
+    ("spring", spring, None),
+    ("cable", pull, Some(pull_columns)),
+    ("bushing", mount, None),
+    ("force", push, None),
+    ("torque", turn, None),
+];
+
+fn own(kind: &ForceKind) -> (Equations, Option<Columns>) {
+    let own = EQUATIONS.iter().find(|(known, ..)| *known == kind.name);
+    #[expect(clippy::expect_used, reason = "a test looks for the equations of every kind")]
+    let (_, equations, columns) = own.expect("every kind has equations");
+    (*equations, *columns)
+}
+
+/// Output columns of an element: name behind its own, unit, value.
+pub fn force_columns<'g>(
+    element: &Force,
+    g: &'g Scope,
+    state: &JointStates<'g>,
+) -> Vec<(&'static str, &'static str, Expr<'g>)> {
+    let Some(columns) = own(element.kind).1 else { return Vec::new() };
+    g.begin_section(format!("force {}", element.name));
+    columns(element, g, state)
+}
 
 impl<'g> Element<'g> for Force {
     fn add_to(&self, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>) {
-        let own = EQUATIONS.iter().find(|(kind, _)| *kind == self.kind.name);
-        #[expect(clippy::expect_used, reason = "a test looks for the equations of every kind")]
-        let (_, equations) = own.expect("every kind has equations");
-        equations(self, loads, g, state);
+        own(self.kind).0(self, loads, g, state);
     }
 }
 
 /// Spring and damper: pull `k (l - rest) + c l̇ + preload` along the line between two points.
 fn spring<'g>(element: &Force, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>) {
     let [stiffness, rest, damping, preload] = element.numbers().map(|formula| state.lower(g, formula));
-    let (geometry, motion) = (&state.geometry, &state.motion);
-    let links = [0, 1].map(|i| geometry.linkage.link_at(element.bodies[i], element.at[i], false));
-    let points = [0, 1].map(|i| geometry.local(links[i], element.at[i]));
-    let places = [0, 1].map(|i| motion.poses.position(links[i], points[i]));
-    let velocities = [0, 1].map(|i| motion.velocity_in_ground(links[i], points[i]));
-    let (apart, rate) = (places[1] - places[0], velocities[1] - velocities[0]);
-    let length = apart.dot(apart).sqrt();
-    let direction = length.recip() * apart;
-    let speed = direction.dot(rate);
-    let stretch = length - rest;
-    let (elastic, viscous) = (stiffness * stretch, damping * speed);
-    loads.potential += 0.5 * (elastic * stretch) + preload * length;
-    loads.dissipated += viscous * speed;
-    // On the first body towards the second, and the reverse.
-    let force = (elastic + viscous + preload) * direction;
-    for i in 0..2 {
-        let pull = if i == 0 { force } else { -force };
-        let force = motion.poses.world_of(g, links[i]).rotation.transpose() * pull;
-        loads.push(links[i], Wrench { moment: points[i].cross(force), force });
+    let line = Line::new(element, state);
+    let stretch = line.length - rest;
+    let (elastic, viscous) = (stiffness * stretch, damping * line.speed);
+    loads.potential += 0.5 * (elastic * stretch) + preload * line.length;
+    loads.dissipated += viscous * line.speed;
+    line.pull(loads, g, state, elastic + viscous + preload);
+}
+
+/// The line between the two points of an element.
+struct Line<'g> {
+    links: [LinkIndex; 2],
+    /// In the frames of the links.
+    points: [Vec3<'g>; 2],
+    /// From the first to the second, in W.
+    direction: Vec3<'g>,
+    length: Expr<'g>,
+    /// Rate of the length.
+    speed: Expr<'g>,
+}
+
+impl<'g> Line<'g> {
+    fn new(element: &Force, state: &JointStates<'g>) -> Self {
+        let (geometry, motion) = (&state.geometry, &state.motion);
+        let links = [0, 1].map(|i| geometry.linkage.link_at(element.bodies[i], element.at[i], false));
+        let points = [0, 1].map(|i| geometry.local(links[i], element.at[i]));
+        let places = [0, 1].map(|i| motion.poses.position(links[i], points[i]));
+        let velocities = [0, 1].map(|i| motion.velocity_in_ground(links[i], points[i]));
+        let (apart, rate) = (places[1] - places[0], velocities[1] - velocities[0]);
+        let length = apart.dot(apart).sqrt();
+        let direction = length.recip() * apart;
+        Self { links, points, direction, length, speed: direction.dot(rate) }
+    }
+
+    /// Pulls both bodies towards each other.
+    fn pull(&self, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>, force: Expr<'g>) {
+        // On the first body towards the second, and the reverse.
+        let force = force * self.direction;
+        for i in 0..2 {
+            let pull = if i == 0 { force } else { -force };
+            let force = state.motion.poses.world_of(g, self.links[i]).rotation.transpose() * pull;
+            loads.push(self.links[i], Wrench { moment: self.points[i].cross(force), force });
+        }
     }
 }
 
-/// Elastic mount between two bodies, stiff and damped along and about three axes, at rest in the reference pose.
-///
-/// With d the second body's marker from the first's, along the first's axes, and phi the rotation vector between
-/// both: `V = sum k_j d_j² / 2 + sum kr_j phi_j² / 2`, a force `-(k_j d_j + c_j d_j')` along the first's axes, a
-/// moment `-A^T (kr phi) - cr omega` along the second's, where `phi' = A omega`, A as for closure `log`.
-fn bushing<'g>(element: &Force, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>) {
-    let (geometry, linkage) = (&state.geometry, state.geometry.linkage);
-    let ([x, y, z], [at, _]) = (element.directions, element.at);
-    let axes = Frame::from_axes(x, y, z);
-    let markers = element.bodies.map(|body| {
-        let link = linkage.link_at(body, at, true);
-        let outer = link.map_or(Frame::IDENTITY, |at| linkage.links[at].frame);
-        let frame = outer.transposed().times(&axes).snapped();
-        Marker { link, point: geometry.local(link, at), frame }
-    });
-    let motion = RelativeMotion::between(&state.motion, markers, Side::Child, (Place::Child, Sums::Links));
-    let rotation = motion.rotation();
-    let logarithm = Logarithm::new(g, rotation, motion.distance);
-    let [stiffness, damping, turning_stiffness, turning_damping] =
-        element.triples().map(|list| Vec3::from_fn(|j| state.lower(g, &list[j])));
-    let (mut force, mut elastic, mut moment) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
-    for j in 0..3 {
-        let axis = motion.parent_axis(j);
-        let (displacement, speed) = (axis.dot(motion.distance), axis.dot(motion.slide));
-        let (spring, damper) = (stiffness[j] * displacement, damping[j] * speed);
-        force -= (spring + damper) * axis;
-        elastic[j] = turning_stiffness[j] * logarithm.phi[j];
-        loads.potential += 0.5 * (spring * displacement + elastic[j] * logarithm.phi[j]);
-        loads.dissipated += damper * speed;
+/// Pull of a rope: with `s = k (l - rest) + preload`, `max(0, s + c l̇)` where s is above zero, else nothing. It stores `s²/2k`.
+struct Taut<'g> {
+    force: Expr<'g>,
+    stored: Expr<'g>,
+    dissipated: Expr<'g>,
+}
+
+impl<'g> Taut<'g> {
+    fn new(element: &Force, g: &'g Scope, state: &JointStates<'g>, line: &Line<'g>) -> Self {
+        let [stiffness, rest, damping, preload] = element.numbers().map(|formula| state.lower(g, formula));
+        let strain = stiffness * (line.length - rest) + preload;
+        let slack = -strain;
+        let elastic = slack.below_zero(strain, g.zero());
+        let stored = 0.5 * (elastic.square() / stiffness);
+        if damping.is_zero() {
+            return Self { force: elastic, stored, dissipated: g.zero() };
+        }
+        let pull = slack.below_zero(strain + damping * line.speed, g.zero());
+        let force = pull.below_zero(g.zero(), pull);
+        Self { force, stored, dissipated: (force - elastic) * line.speed }
     }
-    let elastic = logarithm.half_jacobian(g).transpose() * elastic;
-    for j in 0..3 {
-        let axis = motion.child_axis(j);
-        let rate = axis.dot(motion.omega);
-        let damper = turning_damping[j] * rate;
-        moment -= (elastic[j] + damper) * axis;
-        loads.dissipated += damper * rate;
-    }
-    loads.between(&motion, moment, force);
+}
+
+fn pull<'g>(element: &Force, loads: &mut Loads<'g>, g: &'g Scope, state: &JointStates<'g>) {
+    let line = Line::new(element, state);
+    let taut = Taut::new(element, g, state, &line);
+    loads.potential += taut.stored;
+    loads.dissipated += taut.dissipated;
+    line.pull(loads, g, state, taut.force);
+}
+
+fn pull_columns<'g>(
+    element: &Force,
+    g: &'g Scope,
+    state: &JointStates<'g>,
+) -> Vec<(&'static str, &'static str, Expr<'g>)> {
+    let line = Line::new(element, state);
+    let taut = Taut::new(element, g, state, &line);
+    vec![("F", "N", taut.force), ("length", "m", line.length)]
 }
 
 /// Force by formula at a point of a body, with its opposite on another at the same place.
@@ -151,6 +196,6 @@ mod tests {
     #[test]
     fn every_kind_has_equations() {
         let kinds = FORCE_KINDS.iter().map(|kind| kind.name);
-        assert!(kinds.eq(EQUATIONS.iter().map(|(kind, _)| *kind)));
+        assert!(kinds.eq(EQUATIONS.iter().map(|(kind, ..)| *kind)));
     }
 }

@@ -2,9 +2,10 @@
 
 use super::ball_damper::BallDamper;
 use crate::derive::element::Element;
+use crate::derive::joint_coordinates::JointCoordinates;
 use crate::derive::joint_state::JointStates;
 use crate::derive::loads::Loads;
-use crate::expr::Scope;
+use crate::expr::{Expr, Scope};
 use crate::id::JointId;
 use crate::model::Passive;
 
@@ -31,12 +32,13 @@ impl<'g> Element<'g> for JointElement<'_> {
                 loads.dissipated += force * speed;
                 (*coordinate, -force)
             }
-            Passive::Spring { coordinate, stiffness, rest } => {
+            Passive::Spring { coordinate, stiffness, rest, preload } => {
                 let (stiffness, rest) = (state.lower(g, stiffness), state.lower(g, rest));
                 let stretch = coordinates.position[*coordinate] - rest;
                 let force = stiffness * stretch;
-                loads.potential += 0.5 * (force * stretch);
-                (*coordinate, -force)
+                let preload = state.lower(g, preload);
+                loads.potential += 0.5 * (force * stretch) + preload * stretch;
+                (*coordinate, -(force + preload))
             }
             Passive::Actuator { coordinate, force } => {
                 let force = state.lower(g, force);
@@ -44,13 +46,24 @@ impl<'g> Element<'g> for JointElement<'_> {
                 (*coordinate, force)
             }
         };
-        let linkage = state.geometry.linkage;
-        if let Some(link) = linkage.link_of_coordinate(joint, coordinate) {
-            loads.joint[linkage.links[link].first_speed] += force;
-        } else {
-            let (moment, direction) = coordinates.duals[coordinate];
-            let motion = state.relative_motion(joint);
-            loads.pair(joint, &motion, force * moment, force * direction);
-        }
+        push_along(loads, state, (joint, coordinate), &coordinates, force);
+    }
+}
+
+/// A force along a coordinate of a joint, on the child, with its opposite on the parent.
+pub fn push_along<'g>(
+    loads: &mut Loads<'g>,
+    state: &JointStates<'g>,
+    (joint, coordinate): (JointId, usize),
+    coordinates: &JointCoordinates<'g>,
+    force: Expr<'g>,
+) {
+    let linkage = state.geometry.linkage;
+    if let Some(link) = linkage.link_of_coordinate(joint, coordinate) {
+        loads.joint[linkage.links[link].first_speed] += force;
+    } else {
+        let (moment, direction) = coordinates.duals[coordinate];
+        let motion = state.relative_motion(joint);
+        loads.pair(joint, &motion, force * moment, force * direction);
     }
 }

@@ -14,6 +14,10 @@ mod coupling;
 mod elasticity;
 mod forces;
 mod joint;
+mod mount;
+mod stop;
+
+pub use forces::force_columns;
 
 /// Collects all loads.
 pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrench<'g>]) -> Loads<'g> {
@@ -37,6 +41,10 @@ pub fn loads<'g>(g: &'g Scope, state: &JointStates<'g>, contacts: &[ContactWrenc
     for coupling in mechanism.couplings.iter().filter(|coupling| coupling.compliance.is_some()) {
         g.begin_section(format!("coupling {}", coupling.name));
         coupling.add_to(&mut loads, g, state);
+    }
+    for stop in &mechanism.stops {
+        g.begin_section(format!("stop {}", stop.name));
+        stop.add_to(&mut loads, g, state);
     }
     for force in &mechanism.forces {
         g.begin_section(format!("force {}", force.name));

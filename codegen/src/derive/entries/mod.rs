@@ -4,6 +4,7 @@
 
 mod deriver;
 mod description;
+mod element_columns;
 mod functions;
 mod names;
 mod observe;

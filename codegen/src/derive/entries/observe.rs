@@ -24,9 +24,9 @@ use crate::model::{Carrier, Coordinate, Flexible};
 /// The columns so far, and what they are made from.
 pub(super) struct Channels<'a, 'g> {
     /// Multipliers, drive forces, and which rows are kept.
-    deriver: &'a Deriver<'g>,
+    pub(super) deriver: &'a Deriver<'g>,
     /// Motion with the true accelerations.
-    instant: &'a Instant<'g>,
+    pub(super) instant: &'a Instant<'g>,
     /// Names, units.
     pub channels: Vec<Channel>,
     /// Values.
@@ -58,6 +58,7 @@ impl<'a, 'g> Channels<'a, 'g> {
             list.vector(&point.name, "v", "m/s", velocity);
         }
         list.wrenches(masses);
+        list.elements();
         for (driver, force) in deriver.drivers.iter().zip(&deriver.drive) {
             let data = mechanism.joint(driver.joint);
             let coordinates = data.model.coordinates();
@@ -75,7 +76,7 @@ impl<'a, 'g> Channels<'a, 'g> {
         list
     }
 
-    fn push(&mut self, name: String, unit: impl Into<Text>, value: Expr<'g>) {
+    pub(super) fn push(&mut self, name: String, unit: impl Into<Text>, value: Expr<'g>) {
         self.channels.push(Channel { name: name.into(), unit: unit.into(), wraps: false });
         self.values.push(value);
     }

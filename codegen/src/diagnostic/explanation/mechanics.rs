@@ -210,4 +210,42 @@ R2 = { revolute = ["ground", "wheel"], at = "B", axis = [0, 0, 1] }
 [couplings]
 mesh = { gears = ["pinion", "wheel"], teeth = [20, 60], module = "2 mm" }"#,
     },
+    Explanation {
+        code: Code::BadStop,
+        file: File::Swing,
+        text: "An end stop that cannot be: limits that leave nothing free between them, a start beyond a limit, a restitution \
+               that its law does not have, an angle of a joint that is cut. `docs/stops-and-compliance.md` has the laws.",
+        wrong: r#"[stops]
+bump = { joint = "hinge", lower = "30 deg", upper = "-30 deg", stiffness = "1e4 N m/rad" }"#,
+        right: r#"[stops]
+bump = { joint = "hinge", lower = "-30 deg", upper = "30 deg", stiffness = "1e4 N m/rad" }"#,
+    },
+    Explanation {
+        code: Code::BadMatrix,
+        file: File::Swing,
+        text: "A stiffness or damping matrix of a bushing that is not symmetric, or that would give energy: an eigenvalue is \
+               below zero. The order is displacements along x, y, z, then rotations about them, along the bushing's axes.",
+        wrong: r#"[forces.mount]
+bushing = ["ground", "bar"]
+at = "O"
+stiffness_matrix = [
+  ["8e5 N/m", 0, 0, 0, 0, 0],
+  [0, "8e5 N/m", 0, 0, 0, "9 kN"],
+  [0, 0, "3e5 N/m", 0, 0, 0],
+  [0, 0, 0, "20 N m/rad", 0, 0],
+  [0, 0, 0, 0, "20 N m/rad", 0],
+  [0, "9 kN", 0, 0, 0, "50 N m/rad"],
+]"#,
+        right: r#"[forces.mount]
+bushing = ["ground", "bar"]
+at = "O"
+stiffness_matrix = [
+  ["8e5 N/m", 0, 0, 0, 0, 0],
+  [0, "8e5 N/m", 0, 0, 0, "2 kN"],
+  [0, 0, "3e5 N/m", 0, 0, 0],
+  [0, 0, 0, "20 N m/rad", 0, 0],
+  [0, 0, 0, 0, "20 N m/rad", 0],
+  [0, "2 kN", 0, 0, 0, "50 N m/rad"],
+]"#,
+    },
 ];

@@ -7,7 +7,9 @@ use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::PointId;
 use crate::model::{Carrier, Force, Formula};
-use crate::spec::{At, Bodies, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Name, Pair, Table, Written};
+use crate::spec::{
+    At, Bodies, Dimension, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Name, Pair, Table, Written,
+};
 
 /// A body with the name by which the file calls it.
 type Side<'n> = Option<(Carrier, &'n Name)>;
@@ -57,8 +59,12 @@ impl Resolver<'_> {
             let message = format!("{called} {lack}");
             self.missing(force.span, name.span, Code::MissingKey, message).help(*help);
         }
-        let formulas =
-            kind.values.iter().flat_map(|value| self.force_value(kind, name, spec, value)).collect();
+        let mut formulas: Vec<Formula> = Vec::new();
+        for value in kind.values {
+            let written = self.force_value(kind, name, spec, value);
+            formulas.extend(written);
+        }
+        self.check_one_matrix(name, spec);
         let takes = |key| kind.keys.contains(&key);
         let directions = match spec.directions.as_ref().filter(|_| takes("directions")) {
             Some(written) => self.right_handed(written, &place("directions", "force", name)),
@@ -67,7 +73,11 @@ impl Resolver<'_> {
         let axes = self.body_or_ground("axes", name, spec.axes.as_ref().filter(|_| takes("axes")));
         let (bodies, at) = ([sides[0]?.0, sides[1]?.0], at?);
         if kind.points == 2 {
-            self.warn_no_direction(kind, name, bodies, at);
+            let drawn = self.drawn_length(kind, name, bodies, at);
+            let of_values = kind.values.iter().zip(&mut formulas);
+            for (_, formula) in of_values.filter(|(value, _)| value.drawn && value.is_missing(spec)) {
+                *formula = Formula { span: name.span, ..Formula::number(drawn, Dimension::LENGTH) };
+            }
         }
         Some(Force {
             name: name.value.clone(),
@@ -175,21 +185,28 @@ impl Resolver<'_> {
                 Some(written) => self.triple(written, value.dimension, allowed, &what).to_vec(),
                 None => vec![zero(), zero(), zero()],
             },
+            Written::Matrix(written, blocks) => {
+                let [mixed, last] = blocks;
+                return self.matrix(name, value.key, written(spec), [value.dimension, mixed, last]);
+            }
         };
-        for formula in formulas.iter().filter(|_| !value.signed) {
-            self.check_positive(formula, true, &what);
+        for formula in formulas.iter().filter(|_| !value.signed && !value.is_missing(spec)) {
+            self.check_positive(formula, value.zero, &what);
         }
         formulas
     }
 
-    fn warn_no_direction(&mut self, kind: &ForceKind, name: &Name, bodies: [Carrier; 2], at: [PointId; 2]) {
+    /// Distance of the two points at the reference pose [m]; a warning if they coincide.
+    fn drawn_length(&mut self, kind: &ForceKind, name: &Name, bodies: [Carrier; 2], at: [PointId; 2]) -> f64 {
         let ends = [0, 1].map(|side| self.position_value(at[side], bodies[side]));
-        if inertia::distance(ends[0], ends[1]) == 0.0 {
+        let length = inertia::distance(ends[0], ends[1]);
+        if length == 0.0 {
             let message =
                 format!("the ends of the {} `{}` coincide at the reference pose", kind.name, name.value);
             let help = "while they do, its force has no direction and the equations give no numbers";
             self.refuse(Code::SpringWithoutDirection, name.span, message).help(help);
         }
+        length
     }
 }
 

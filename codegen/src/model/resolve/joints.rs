@@ -6,7 +6,7 @@ use crate::diagnostic::Code;
 use crate::id::PointId;
 use crate::model::{Carrier, Coordinate, Drive, Formula, Joint, JointModel, Passive, Term};
 use crate::source::Span;
-use crate::spec::{At, ByCoordinate, JointSpec, Name, Pair, Quantity, SpringSpec, Table};
+use crate::spec::{At, ByCoordinate, JointSpec, Name, Pair, Quantity, SpringPart, SpringSpec, Table};
 
 impl Resolver<'_> {
     pub(super) fn resolve_joints(&mut self, table: &Table<JointSpec>) -> Vec<Joint> {
@@ -120,7 +120,8 @@ impl Resolver<'_> {
                 passive.push(self.damping(coordinate, model.coordinates()[coordinate], quantity, &what));
             }
         }
-        if let Some(spring) = &spec.spring {
+        // Those of a spherical joint are force elements.
+        if let (Some(spring), false) = (&spec.spring, model.is_ball()) {
             self.springs(name, spring, model, &mut passive);
         }
         let what = place("force", "joint", name);
@@ -141,13 +142,18 @@ impl Resolver<'_> {
     fn springs(&mut self, name: &Name, spring: &SpringSpec, model: &JointModel, passive: &mut Vec<Passive>) {
         let what = place("spring", "joint", name);
         let parts = by_key([&spring.q, &spring.q1, &spring.q2, &spring.q3]);
-        let mut written: Vec<(&str, &Option<Quantity>, &Option<Quantity>, Span)> =
-            parts.map(|(key, part)| (key, &part.value.stiffness, &part.value.rest, part.span)).collect();
-        if spring.stiffness.is_some() || spring.rest.is_some() || written.is_empty() {
-            let span = spring.stiffness.as_ref().or(spring.rest.as_ref()).map_or(name.span, |q| q.span);
-            written.insert(0, ("", &spring.stiffness, &spring.rest, span));
+        let mut written: Vec<(&str, [&Option<Quantity>; 3], Span)> = parts
+            .map(|(key, part)| {
+                let SpringPart { stiffness, rest, preload } = &part.value;
+                (key, [stiffness, rest, preload], part.span)
+            })
+            .collect();
+        let own = [&spring.stiffness, &spring.rest, &spring.preload];
+        let first = own.into_iter().flatten().next();
+        if first.is_some() || written.is_empty() {
+            written.insert(0, ("", own, first.map_or(name.span, |quantity| quantity.span)));
         }
-        for (key, stiffness, rest, span) in written {
+        for (key, [stiffness, rest, preload], span) in written {
             let Some(coordinate) = self.coordinate(key, model, span, &what) else { continue };
             let is = model.coordinates()[coordinate];
             let Some(stiffness) = stiffness else {
@@ -163,7 +169,11 @@ impl Resolver<'_> {
                 }
                 None => Formula::number(0.0, is.dimension()),
             };
-            passive.push(Passive::Spring { coordinate, stiffness, rest });
+            let preload = match preload {
+                Some(preload) => self.formula(preload, Some(is.force()), Allowed::PARAMETERS, &what),
+                None => Formula::number(0.0, is.force()),
+            };
+            passive.push(Passive::Spring { coordinate, stiffness, rest, preload });
         }
     }
 
@@ -218,7 +228,7 @@ impl Resolver<'_> {
             (0, _) => (
                 format!("{what}: a {kind_name} joint has no coordinate for it"),
                 if model.is_ball() {
-                    "a spherical joint can have `damping`, one value; other torques go into [forces]"
+                    "a spherical joint can have `damping`, one value, and a `spring`; other torques go into [forces]"
                 } else {
                     "forces between the bodies go into [forces]"
                 }
@@ -246,7 +256,7 @@ impl Resolver<'_> {
 }
 
 /// What is written for coordinates, with the key of each.
-fn by_key<T>(parts: [&Option<T>; 4]) -> impl Iterator<Item = (&'static str, &T)> {
+pub(super) fn by_key<T>(parts: [&Option<T>; 4]) -> impl Iterator<Item = (&'static str, &T)> {
     let named = ["q", "q1", "q2", "q3"].into_iter().zip(parts);
     named.filter_map(|(key, part)| Some((key, part.as_ref()?)))
 }

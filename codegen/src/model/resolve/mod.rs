@@ -5,6 +5,7 @@
 //! the rest of the file is still checked; with any error the mechanism is thrown away.
 
 mod advice;
+mod ball_springs;
 mod beam;
 mod belt;
 mod bodies;
@@ -21,6 +22,7 @@ mod inputs;
 mod joint_model;
 mod joints;
 mod lookup;
+mod matrices;
 mod mesh;
 mod missions;
 mod modal_start;
@@ -33,6 +35,7 @@ mod resolver;
 mod section;
 mod series;
 mod starts;
+mod stops;
 mod surface;
 mod tabled;
 mod tables;
@@ -112,8 +115,10 @@ impl Resolver<'_> {
         self.resolve_clearances(&file, &mut joints);
         let missions = self.resolve_missions(&file, &joints);
         let couplings = self.resolve_couplings(&file, &joints);
-        let forces = self.resolve_forces(&file.forces);
+        let mut forces = self.resolve_forces(&file.forces);
+        forces.extend(self.ball_springs(&file.joints, &joints));
         let starts = self.resolve_starts(&file, &joints);
+        let stops = self.resolve_stops(&file.stops, &joints, &starts);
         self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
         self.resolve_flexible(&file, &mut bodies, &joints, &forces);
         self.check_connected(&file, &joints);
@@ -126,6 +131,7 @@ impl Resolver<'_> {
             points: std::mem::take(&mut self.points),
             joints,
             couplings,
+            stops,
             forces,
             missions,
             closure: file.closure.unwrap_or_default(),

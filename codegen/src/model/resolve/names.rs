@@ -25,6 +25,7 @@ pub(super) enum Thing {
     Body(BodyId),
     Joint(JointId),
     Coupling,
+    Stop,
     Force,
 }
 
@@ -37,6 +38,7 @@ impl Thing {
             Self::Body(_) => "body",
             Self::Joint(_) => "joint",
             Self::Coupling => "coupling",
+            Self::Stop => "stop",
             Self::Force => "force",
         }
     }
@@ -90,6 +92,7 @@ impl Names {
         self.declare_table(&file.bodies, |at| Thing::Body(BodyId::new(at)), faults);
         self.declare_table(&file.joints, |at| Thing::Joint(JointId::new(at)), faults);
         self.declare_table(&file.couplings, |_| Thing::Coupling, faults);
+        self.declare_table(&file.stops, |_| Thing::Stop, faults);
         self.declare_table(&file.forces, |_| Thing::Force, faults);
         self.foreseen.clear();
     }
@@ -125,7 +128,7 @@ impl Names {
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, inputs, points, bodies, joints, couplings and forces share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints, couplings, stops and forces share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;

@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 23] = [
+const TABLES: [(&str, &str); 24] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -32,6 +32,7 @@ const TABLES: [(&str, &str); 23] = [
     ("SpringSpec", "`spring` of a joint"),
     ("SpringPart", "`spring` of one coordinate"),
     ("CouplingSpec", "A coupling"),
+    ("StopSpec", "A stop"),
     ("ForceSpec", "A force"),
     ("ByAxis", "`translation` and `rotation` of a bushing"),
     ("StartTable", "Start values in `[assembly]` and `[initial]`, where they are a table"),
