@@ -45,6 +45,14 @@ const KNOWN: &[(usize, Reset)] = &[(2, Reset::Reground(Some(0.25))), (4, Reset::
 const UNKNOWN: &[(usize, Reset)] = &[(2, Reset::Reground(None)), (4, Reset::Reground(None))];
 const EXPONENT: f64 = 1.3;
 
+/// Per cent of intervals that hold each parameter, and of samples that give them.
+fn parts(found: &[Vec<bool>], runs: u64) -> (Vec<f64>, f64) {
+    let count = found.len() as f64;
+    let size = found.first().map_or(0, Vec::len);
+    let of = |at: usize| 100.0 * found.iter().filter(|all| all[at]).count() as f64 / count;
+    ((0..size).map(of).collect(), 100.0 * count / runs as f64)
+}
+
 impl Field {
     fn logs(&self) -> [f64; 2] {
         [self.shape.ln(), self.shape.ln()]
@@ -140,11 +148,16 @@ impl Field {
 
     /// Per cent of intervals that hold each parameter, and of samples that give them.
     fn coverage(&self, runs: u64, mends: bool) -> (Vec<f64>, f64) {
-        let found: Vec<Vec<bool>> = (0..runs).filter_map(|run| self.covered(run, mends)).collect();
-        let count = found.len() as f64;
-        let size = found.first().map_or(0, Vec::len);
-        let of = |at: usize| 100.0 * found.iter().filter(|all| all[at]).count() as f64 / count;
-        ((0..size).map(of).collect(), 100.0 * count / runs as f64)
+        let mut found: Vec<Vec<bool>> = Vec::new();
+        for run in 0..runs {
+            found.extend(self.covered(run, mends));
+            // A long study that is broken off has counted something.
+            if (run + 1) % 200 == 0 && run + 1 < runs {
+                let (held, fitted) = parts(&found, run + 1);
+                eprintln!("{}: {held:.1?} of {} samples, {fitted:.1} with intervals", self.name, run + 1);
+            }
+        }
+        parts(&found, runs)
     }
 }
 
