@@ -154,7 +154,7 @@ fn compiled_in(mechanism: &Compiled, options: &Options) -> Result<&'static Shipp
     if options.pictured {
         return Err("it is compiled without columns of where its bodies are".to_owned());
     }
-    let hash = mechanism.source.sha256();
+    let hash = mechanism.sha256();
     let shipped = SHIPPED
         .iter()
         .find(|shipped| shipped.source_sha256 == hash)

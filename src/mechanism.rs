@@ -97,7 +97,7 @@ impl Mechanism {
         let tapes = Some(Arc::new(compiled.tapes().to_vec()));
         let source = &compiled.source;
         let origin = Origin {
-            file: source.sha256(),
+            file: compiled.sha256(),
             options: told(options),
             text: source.text.as_str().into(),
             place: PathBuf::from(&source.name),
@@ -220,5 +220,5 @@ pub fn read_source(file: &Path) -> Result<SourceFile, LoadError> {
 
 /// Remarks on a compiled file, with their places in its text.
 pub fn located_warnings(mechanism: &Compiled) -> Diagnostics {
-    Diagnostics::from_list(mechanism.warnings.clone()).located(&mechanism.source)
+    mechanism.located_warnings()
 }

@@ -189,7 +189,7 @@ impl Builder {
         written.read.push(path.to_path_buf());
         let source = SourceFile { name: shown_name(path), text };
         let compiled = compile(&source, &self.options).map_err(BuildError::Mechanism)?;
-        let warnings = Diagnostics::from_list(compiled.warnings.clone()).located(&source);
+        let warnings = compiled.located_warnings();
         for warning in warnings.entries() {
             let place = format!("{}:{}:{}", warning.file, warning.line, warning.column);
             written.warnings.push(format!("{place}: {} ({})", warning.message, warning.code));

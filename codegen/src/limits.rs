@@ -32,6 +32,10 @@ pub const BODIES: Limit =
 pub const SPEEDS: Limit =
     Limit { what: "generalised speeds", most: 600, help: "split the mechanism, or keep fewer modes" };
 
+/// Files that a mechanism is put together of, each as often as it is included.
+pub const PARTS: Limit =
+    Limit { what: "included files", most: 200, help: "include fewer parts, or repeat a group within one" };
+
 /// Points, joints, couplings, stops and forces each.
 pub const ELEMENTS: Limit = Limit {
     what: "points, joints, couplings, stops or forces",

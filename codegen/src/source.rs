@@ -42,9 +42,74 @@ impl SourceFile {
     }
 }
 
+/// A file and, behind its text, those of the files that it includes: one text for all places.
+#[derive(Clone, Debug)]
+pub struct Sources {
+    whole: SourceFile,
+    /// Where each included text begins, and its file.
+    parts: Vec<(usize, String)>,
+}
+
+impl Default for Sources {
+    fn default() -> Self {
+        Self::new(SourceFile { name: String::new(), text: String::new() })
+    }
+}
+
+impl Sources {
+    /// A file alone.
+    pub fn new(file: SourceFile) -> Self {
+        Self { whole: file, parts: Vec::new() }
+    }
+
+    /// Adds an included file; gives where its text begins.
+    pub fn add(&mut self, name: String, text: &str) -> usize {
+        self.whole.text.push('\n');
+        let start = self.whole.text.len();
+        self.whole.text.push_str(text);
+        self.parts.push((start, name));
+        start
+    }
+
+    /// All texts, one behind the other.
+    pub fn whole(&self) -> &SourceFile {
+        &self.whole
+    }
+
+    /// Whether there is more than the file itself.
+    pub fn has_parts(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// The file that a place is in, and where its text begins.
+    pub fn file_at(&self, offset: usize) -> (SourceFile, usize) {
+        let next = self.parts.iter().position(|(start, _)| *start > offset).unwrap_or(self.parts.len());
+        let end = self.parts.get(next).map_or(self.whole.text.len(), |(start, _)| start - 1);
+        let (start, name) = match next.checked_sub(1) {
+            Some(at) => (self.parts[at].0, &self.parts[at].1),
+            None => (0, &self.whole.name),
+        };
+        (SourceFile { name: name.clone(), text: self.whole.text[start..end].to_owned() }, start)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_place_is_in_the_file_that_it_comes_from() {
+        let mut sources = Sources::new(SourceFile { name: "host".into(), text: "ab\n".into() });
+        assert_eq!(sources.add("part".into(), "cd"), 4);
+        assert_eq!(sources.add("other".into(), ""), 7);
+        let found = |at: usize| {
+            let (file, start) = sources.file_at(at);
+            (file.name, file.text, start)
+        };
+        assert_eq!(found(1), ("host".into(), "ab\n".into(), 0));
+        assert_eq!(found(4), ("part".into(), "cd".into(), 4));
+        assert_eq!(found(7), ("other".into(), String::new(), 7));
+    }
 
     #[test]
     fn the_hash_is_the_published_one() {

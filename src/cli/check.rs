@@ -36,7 +36,7 @@ pub fn run(input: &Input) -> Result<Answer, Failure> {
 pub fn answer(compiled: &Compiled, options: &Options, warnings: &[Value]) -> Answer {
     let assemblies = compiled.assemblies();
     let description = compiled.description();
-    let mut provenance = Provenance::new(compiled.source.sha256(), None, Value::Null);
+    let mut provenance = Provenance::new(compiled.sha256(), None, Value::Null);
     provenance.options = told(options);
     let parameters = description.parameters.iter();
     provenance.parameters = parameters.map(|known| (known.name.to_string(), json!(known.default))).collect();
@@ -273,7 +273,7 @@ fn redundant_by_joint(analysis: &Analysis) -> Vec<(&str, Vec<Vec<String>>)> {
 fn non_unique_by_joint(analysis: &Analysis) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for name in &analysis.non_unique {
-        let (joint, component) = name.split_once('.').unwrap_or((name, ""));
+        let (joint, component) = name.rsplit_once('.').unwrap_or((name, ""));
         add_to_joint(&mut rows, joint, component, " ");
     }
     rows

@@ -190,7 +190,8 @@ fn fits(form: &str, name: &str) -> bool {
         "n" => !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit()),
         // As `--of` has it: `peak.R1.F`.
         "result" => part.split('.').all(is_word),
-        _ => is_word(part),
+        // Names of parts have those of the files that include them before them: `left.R1`.
+        _ => part.split('.').all(is_word),
     };
     let ends = name.char_indices().map(|(at, _)| at).chain([name.len()]);
     ends.map(|end| name.split_at(end)).any(|(part, rest)| is_one(part) && fits(after, rest))
@@ -208,6 +209,7 @@ mod tests {
         };
         assert_eq!(names("t [s]"), ["t"]);
         assert_eq!(names("R4.q [rad]"), ["<joint>.q"]);
+        assert_eq!(names("left.knee.R4.q [rad]"), ["<joint>.q"]);
         assert_eq!(names("S2.q3 [1]"), ["<joint>.q<n>"]);
         assert_eq!(names("coupler.uy_1 [m]"), ["<body>.u<axis>_<station>"]);
         assert_eq!(names("coupler.stress_z [Pa]"), ["<body>.stress_<axis>"]);

@@ -10,7 +10,7 @@ use crate::backend::c::{self, CFiles, CInput, Start};
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Closure, Mechanism, Topology};
 use crate::preflight::{self, Analysis, Assemblies};
 use crate::render::{self, OutputInfo, TextFormat};
@@ -55,6 +55,16 @@ pub struct FunctionCount {
 }
 
 impl Compiled {
+    /// SHA-256 of the file and those that it includes, in hexadecimal.
+    pub fn sha256(&self) -> String {
+        self.mechanism.sources.whole().sha256()
+    }
+
+    /// The warnings with their places.
+    pub fn located_warnings(&self) -> Diagnostics {
+        Diagnostics::from_list(self.warnings.clone()).located_in(&self.mechanism.sources)
+    }
+
     /// One tape per function, in as few operations as are found.
     pub fn tapes(&self) -> &[Tape] {
         self.tapes.get_or_init(|| tape::lower_short(&self.equations))
@@ -121,7 +131,7 @@ impl Compiled {
     pub fn rust_source_for(&self, runtime_path: &str) -> String {
         emit(&EmitInput {
             source_name: self.file_name(),
-            source_sha256: &self.source.sha256(),
+            source_sha256: &self.sha256(),
             tapes: self.tapes(),
             description: &self.description,
             sizes: self.sizes(),
@@ -155,7 +165,7 @@ impl Compiled {
             });
         emit(&CInput {
             source_name: self.file_name(),
-            source_sha256: &self.source.sha256(),
+            source_sha256: &self.sha256(),
             header_name,
             tapes: self.tapes(),
             description: &self.description,

@@ -43,7 +43,20 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     within(source, [(limits::FILE_BYTES, source.text.len())])?;
     let spec = spec::parse(source)?;
     let overrides = Overrides::from_pairs(&options.overrides);
-    let (mut mechanism, mut warnings) = model::resolve(&spec, &overrides, options.reach)?;
+    let (mechanism, warnings) = model::resolve(&spec, &overrides, options.reach)?;
+    let sources = mechanism.sources.clone();
+    let compiled = understood(mechanism, warnings, source, sources.whole(), options);
+    compiled.map_err(|errors| errors.located_in(&sources))
+}
+
+/// All that follows from a mechanism; `source`: with the texts of its parts.
+fn understood(
+    mut mechanism: Mechanism,
+    mut warnings: Vec<Diagnostic>,
+    file: &SourceFile,
+    source: &SourceFile,
+    options: &Options,
+) -> Result<Compiled, Diagnostics> {
     let counts = [
         mechanism.points.len(),
         mechanism.joints.len(),
@@ -74,7 +87,7 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
     let purpose = if options.pictured { Purpose::Picture } else { Purpose::Everything };
     let derived = derived(source, &mechanism, &topology, Some(&guide), purpose)?;
     let mut compiled = Compiled {
-        source: source.clone(),
+        source: file.clone(),
         mechanism,
         closure_in_file,
         topology,
@@ -94,7 +107,8 @@ pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagn
 
 /// What a mechanism shows as it runs, with drivers and clearances.
 fn try_out(compiled: &Compiled, waypoints: &[Waypoint]) -> Result<Vec<Diagnostic>, Diagnostics> {
-    let Compiled { source, mechanism, description, .. } = compiled;
+    let Compiled { mechanism, description, .. } = compiled;
+    let source = mechanism.sources.whole();
     if description.drivers.is_empty() && description.contacts.is_empty() {
         return Ok(Vec::new());
     }

@@ -89,6 +89,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
         allowed: Vec::new(),
         starts: vec![start],
         attached: Vec::new(),
+        sources: crate::source::Sources::default(),
     };
     let tree = |joint: usize, inboard, outboard| TreeJoint {
         joint: JointId::new(joint),
@@ -238,6 +239,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         allowed: Vec::new(),
         starts: Vec::new(),
         attached: Vec::new(),
+        sources: crate::source::Sources::default(),
     };
     (mechanism, Topology { tree, cuts, rows_in_ground: false })
 }

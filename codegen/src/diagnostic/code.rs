@@ -66,6 +66,8 @@ codes! {
     EmptyMechanism = "E0111",
     /// More of something than can be compiled.
     TooLarge = "E0112",
+    /// A file that cannot be a part of this one.
+    BadInclude = "E0113",
 
     /// A name with other characters than letters, digits and `_`, or not starting with a letter.
     BadName = "E0201",

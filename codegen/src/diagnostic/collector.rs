@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::brief::bounded;
 use super::code::Severity;
 use super::render;
-use crate::diagnostic::Diagnostic;
-use crate::source::SourceFile;
+use crate::diagnostic::{Diagnostic, Label};
+use crate::source::{SourceFile, Sources, Span};
 
 /// Faults that are shown as text: more than anybody reads.
 const SHOWN: usize = 100;
@@ -22,6 +22,8 @@ const LISTED: usize = 1_000;
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     source: Option<SourceFile>,
+    /// With the files that it includes, if it does.
+    sources: Option<Box<Sources>>,
 }
 
 /// One diagnostic as machines read it.
@@ -49,7 +51,7 @@ impl Diagnostics {
 
     /// A collector that holds `list`.
     pub fn from_list(list: Vec<Diagnostic>) -> Self {
-        Self { list, source: None }
+        Self { list, source: None, sources: None }
     }
 
     /// Adds one.
@@ -62,6 +64,35 @@ impl Diagnostics {
         self.source = Some(source.clone());
         self.list.sort_by_key(|diagnostic| diagnostic.span().map_or(usize::MAX, |span| span.start));
         self
+    }
+
+    /// As [`Self::located`], where the places are in a file and those that it includes.
+    pub fn located_in(mut self, sources: &Sources) -> Self {
+        self.sources = sources.has_parts().then(|| Box::new(sources.clone()));
+        self.located(sources.whole())
+    }
+
+    /// The diagnostic in the file that it is about; what it says of other files is advice there.
+    fn in_its_file(&self, diagnostic: &Diagnostic) -> (Diagnostic, Option<SourceFile>) {
+        let Some(sources) = &self.sources else { return (diagnostic.clone(), self.source.clone()) };
+        let (file, start) = sources.file_at(diagnostic.span().map_or(0, |span| span.start));
+        let mut own = Diagnostic { labels: Vec::new(), ..diagnostic.clone() };
+        for label in &diagnostic.labels {
+            let (other, begin) = sources.file_at(label.span.start);
+            if begin == start {
+                let span =
+                    Span { start: label.span.start - start, end: label.span.end.saturating_sub(start) };
+                own.labels.push(Label { span, ..label.clone() });
+            } else {
+                let (line, _) = other.line_column(label.span.start - begin);
+                own.help.push(format!(
+                    "{}:{line}: {}",
+                    other.name,
+                    if label.text.is_empty() { "see here" } else { &label.text }
+                ));
+            }
+        }
+        (own, Some(file))
     }
 
     /// The diagnostics.
@@ -82,13 +113,14 @@ impl Diagnostics {
     /// The first thousand as data, for `--format json`. A fault without a place is put at line 1, column 1.
     pub fn entries(&self) -> Vec<Entry> {
         let entry = |diagnostic: &Diagnostic| {
+            let (diagnostic, source) = self.in_its_file(diagnostic);
             let start = diagnostic.span().map_or(0, |span| span.start);
             let label = diagnostic.labels.first().map_or("", |label| &label.text);
             let help = if diagnostic.help.is_empty() { label.to_owned() } else { diagnostic.help.join("; ") };
-            let (line, column) = self.source.as_ref().map_or((1, 1), |source| source.line_column(start));
+            let (line, column) = source.as_ref().map_or((1, 1), |source| source.line_column(start));
             Entry {
                 code: diagnostic.code.as_str(),
-                file: self.source.as_ref().map_or(String::new(), |source| source.name.clone()),
+                file: source.map_or(String::new(), |source| source.name),
                 line,
                 column,
                 message: bounded(&diagnostic.message),
@@ -107,7 +139,10 @@ impl Diagnostics {
 
     fn text(&self, renderer: &Renderer) -> String {
         let shown = self.list.iter().take(SHOWN);
-        let texts = shown.map(|diagnostic| render::text(diagnostic, self.source.as_ref(), renderer));
+        let texts = shown.map(|diagnostic| {
+            let (diagnostic, source) = self.in_its_file(diagnostic);
+            render::text(&diagnostic, source.as_ref(), renderer)
+        });
         let text = texts.collect::<Vec<_>>().join("\n\n");
         match self.list.len().saturating_sub(SHOWN) {
             0 => text,
@@ -128,7 +163,6 @@ impl std::error::Error for Diagnostics {}
 mod tests {
     use super::*;
     use crate::diagnostic::Code;
-    use crate::source::Span;
 
     #[test]
     fn entries_count_lines_and_characters_from_one() {

@@ -8,7 +8,7 @@ use linkwear_runtime::ContactInfo;
 
 use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId, ParameterId, PointId};
-use crate::source::Span;
+use crate::source::{Sources, Span};
 use crate::spec::Dimension;
 
 mod body;
@@ -78,8 +78,10 @@ pub struct Mechanism {
     pub allowed: Vec<Code>,
     /// Start values by joint coordinate.
     pub starts: Vec<Start>,
-    /// Files that were read besides the mechanism's own: modal data.
+    /// Files that were read besides the mechanism's own: parts, modal data.
     pub attached: Vec<std::path::PathBuf>,
+    /// The texts that all places are in.
+    pub sources: Sources,
 }
 
 /// A named quantity.

@@ -72,7 +72,7 @@ fn warning(mechanism: &Mechanism, course: &Course<'_>, angle: &str, t: f64) -> D
         places.join(", ")
     );
     let joint =
-        angle.split('.').next().and_then(|name| mechanism.joints.iter().find(|joint| joint.name == name));
+        angle.rsplit_once('.').and_then(|(name, _)| mechanism.joints.iter().find(|joint| joint.name == name));
     Diagnostic::new(Code::AngleJumps, message).at_each(joint.map(|joint| joint.span), "closes a loop").help(
         "the angle of a joint that closes a loop is known only up to whole turns; write `cut = true` to another joint of \
          that loop",

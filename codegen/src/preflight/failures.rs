@@ -80,7 +80,9 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
             let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
                 .help("check the points, start values and parameters of this joint");
             // `what` ends with the joint, or one of its variables.
-            let joint = what.rsplit(' ').next().and_then(|name| name.split('.').next()).unwrap_or_default();
+            let name = what.rsplit(' ').next().unwrap_or_default();
+            let of_variable = name.rsplit_once('.').map_or(name, |(joint, _)| joint);
+            let joint = if named(mechanism, name).is_some() { name } else { of_variable };
             at_joint(diagnostic, mechanism, joint, "this joint")
         }
         AssemblyError::Setup(error) => Diagnostic::new(Code::StartNotFinite, error.to_string()),
@@ -109,9 +111,9 @@ fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &s
 
 /// Whether a variable of the joint is among `names`, each of which begins with `` `joint.q` ``.
 fn among(names: &[String], joint: &Joint) -> bool {
-    names
-        .iter()
-        .any(|name| name.strip_prefix('`').and_then(|rest| rest.split('.').next()) == Some(&joint.name))
+    names.iter().any(|name| {
+        name.strip_prefix('`').and_then(|rest| rest.strip_prefix(&*joint.name)?.strip_prefix('.')).is_some()
+    })
 }
 
 /// `names`: variables as assembly lists them.

@@ -11,6 +11,7 @@ use super::body::BodySpec;
 use super::coupling::CouplingSpec;
 use super::doc::Doc;
 use super::force::ForceSpec;
+use super::include::IncludeSpec;
 use super::joint::JointSpec;
 use super::mission::MissionSpec;
 use super::point::PointSpec;
@@ -86,6 +87,9 @@ pub struct File {
     /// Groups of points, bodies and joints made several times.
     /// [table]
     pub repeat: Table<RepeatSpec>,
+    /// Mechanism files as parts of this one.
+    /// [table]
+    pub include: Table<IncludeSpec>,
     /// What `check` and every run leave unsaid.
     /// [table]
     pub check: CheckSpec,
@@ -213,6 +217,19 @@ tables! {
     }
 }
 
+/// Quantities of the cells of a group.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+#[cfg_attr(test, derive(JsonSchema), schemars(rename = "CellValues", untagged))]
+pub enum CellValues {
+    /// One text for all, with the index in braces.
+    #[serde(rename = "scalar", alias = "table")]
+    Shared(Quantity),
+    /// One for each cell.
+    #[serde(rename = "list")]
+    Each(At<Vec<Quantity>>),
+}
+
 /// How loops are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
@@ -316,6 +333,9 @@ tables! {
         /// Value of the index in the first cell.
         /// [1; whole; default 1; e.g. 0]
         pub first: Option<At<i64>>,
+        /// Quantities that differ from cell to cell: one for each cell, or a formula with braces. `{name}` stands for that of the cell.
+        /// [table of quantities or lists; any; default none; e.g. { L = ["80 mm", "60 mm", "45 mm"] }]
+        pub values: Table<CellValues>,
         /// Points of a cell.
         /// [table]
         pub points: Table<PointSpec>,
@@ -344,3 +364,9 @@ tables! {
 }
 
 without_texts!(Restitution, Area, Measure);
+
+texts_of! {
+    enum Parameter { Plain, Marked }
+    enum Input { Plain, Table }
+    enum CellValues { Shared, Each }
+}

@@ -2,21 +2,25 @@
 //! In: a [`crate::source::SourceFile`]. Out: [`Spec`]. Never knows mechanics or ids.
 
 mod body;
+mod compose;
 mod coupling;
 mod dimension;
 mod doc;
 mod failure;
 mod file;
 mod force;
+mod include;
 mod joint;
 mod mission;
 mod parse;
+mod placed;
 mod point;
 mod read;
 mod repeat;
 mod rockwell;
 #[cfg(test)]
 mod schema;
+mod scope;
 mod start;
 mod stop;
 mod syntax;
@@ -29,15 +33,17 @@ mod written;
 pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
+pub use compose::{Composed, composed};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
 pub use file::{
-    CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable, RepeatSpec,
-    WearSpec,
+    CellValues, CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable,
+    RepeatSpec, WearSpec,
 };
 pub use force::{
     Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Written,
 };
+pub use include::{IncludeSpec, RotationSpec};
 pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use mission::{MissionSpec, SegmentJointSpec, SegmentSpec};
 pub use parse::{Spec, parse};

@@ -37,7 +37,7 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
     }
     let says_version = document.get_ref().iter().any(|(key, _)| key.get_ref() == "spec");
     let (file, notes) = read::read::<File>(document);
-    if let Some(problem) = version_problem(&file, says_version) {
+    if let Some(problem) = version_problem(&file, says_version, Span::default()) {
         return Err(Diagnostics::from_list(vec![problem]).located(source));
     }
     Ok(Spec {
@@ -50,7 +50,7 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
 }
 
 /// At most one error a line: what follows in a line is usually caused by the first.
-fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
+pub(super) fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
     let mut seen = Vec::new();
     let mut list = Vec::new();
     for error in errors {
@@ -80,8 +80,8 @@ fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnos
     list
 }
 
-/// A `spec` that is no number is among the problems already.
-fn version_problem(file: &File, written: bool) -> Option<Diagnostic> {
+/// A `spec` that is no number is among the problems already. `begin`: of the file.
+pub(super) fn version_problem(file: &File, written: bool, begin: Span) -> Option<Diagnostic> {
     let wrong = |message: String| Diagnostic::new(Code::SpecVersion, message);
     match &file.spec {
         Some(version) if version.value == VERSION => None,
@@ -93,7 +93,7 @@ fn version_problem(file: &File, written: bool) -> Option<Diagnostic> {
         None if written => None,
         None => Some(
             wrong("the file does not say which format it is in".into())
-                .at(Span::default(), "")
+                .at(begin, "")
                 .help("put `spec = 1` in the first line"),
         ),
     }

@@ -4,10 +4,10 @@
 
 use std::collections::HashMap;
 
-use super::file::{File, RepeatSpec};
+use super::file::{CellValues, File, RepeatSpec};
 use super::syntax::{Form, Operator, parse_expression};
 use super::texts::Texts as _;
-use super::written::{Name, Quantity, Table};
+use super::written::{At, Literal, Name, Quantity, Table};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::limits;
 use crate::source::Span;
@@ -33,12 +33,18 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
             continue;
         }
         let index = group.value.index.clone().map_or("i".to_owned(), |index| index.value);
+        if !values_fit(&name.value, &group.value.values, &index, times, &mut problems) {
+            continue;
+        }
         let first = group.value.first.as_ref().map_or(1, |first| first.value);
         let mut made = Made { group: &name.value, by_name: HashMap::new(), problems: &mut problems };
         for cell in first..first.saturating_add(count) {
             let before = made.problems.len();
             let mut copy = group.value.clone();
-            copy.each(Span::default(), &mut |text, span| substitute(text, span, &index, cell, made.problems));
+            let at = usize::try_from(cell - first).unwrap_or_default();
+            let mut at = Cell { index: &index, number: cell, values: Vec::new(), at };
+            at.take_values(std::mem::take(&mut copy.values), made.problems);
+            copy.each(Span::default(), &mut |text, span| at.substitute(text, span, made.problems));
             if made.problems.len() > before {
                 break;
             }
@@ -131,27 +137,98 @@ fn collision(group: &str, what: &str, name: &Name, earlier: i64, cell: i64) -> D
     )
 }
 
-/// Replaces `{...}` in `text` by numbers.
-fn substitute(text: &mut String, span: Span, index: &str, cell: i64, problems: &mut Vec<Diagnostic>) {
-    let mut result = String::with_capacity(text.len());
-    let mut rest = text.as_str();
-    while let Some((before, after)) = rest.split_once('{') {
-        let value =
-            after.split_once('}').and_then(|(inner, after)| Some((number(inner, index, cell)?, after)));
-        let Some((value, after)) = value else {
-            problems.push(
-                Diagnostic::new(Code::BadRepeat, format!("the braces in \"{text}\" hold no whole number"))
-                    .at(span, "")
-                    .help(format!("braces hold the index and whole numbers, for example `{{{index}}}` or `{{{index}+1}}`")),
-            );
-            return;
-        };
-        result.push_str(before);
-        result.push_str(&value.to_string());
-        rest = after;
+/// What braces stand for in one cell.
+struct Cell<'a> {
+    index: &'a str,
+    number: i64,
+    /// Names and texts of the cell's own quantities.
+    values: Vec<(String, String)>,
+    /// Which cell it is, from 0.
+    at: usize,
+}
+
+impl Cell<'_> {
+    /// The cell's own quantities; in a formula for all cells braces hold the index.
+    fn take_values(&mut self, values: Table<CellValues>, problems: &mut Vec<Diagnostic>) {
+        for (name, At { value, .. }) in values.0 {
+            let mut found = match value {
+                CellValues::Shared(quantity) => quantity,
+                CellValues::Each(list) => list.value[self.at].clone(),
+            };
+            found.value.each(found.span, &mut |text, span| self.substitute(text, span, problems));
+            let text = match found.value {
+                Literal::Number(value) => format!("{value:?}"),
+                Literal::Text(text) => text,
+            };
+            self.values.push((name.value, text));
+        }
     }
-    result.push_str(rest);
-    *text = result;
+
+    /// Replaces `{...}` in `text` by numbers and by the cell's own quantities.
+    fn substitute(&self, text: &mut String, span: Span, problems: &mut Vec<Diagnostic>) {
+        let mut result = String::with_capacity(text.len());
+        let mut rest = text.as_str();
+        while let Some((before, after)) = rest.split_once('{') {
+            let found = after.split_once('}').and_then(|(inner, after)| Some((self.meaning(inner)?, after)));
+            let Some((value, after)) = found else {
+                let message =
+                    format!("the braces in \"{text}\" hold no whole number and no value of the group");
+                let known = self.values.iter().map(|(name, _)| format!("`{{{name}}}`"));
+                let known: Vec<String> =
+                    [format!("`{{{0}}}` or `{{{0}+1}}`", self.index)].into_iter().chain(known).collect();
+                problems.push(Diagnostic::new(Code::BadRepeat, message).at(span, "").help(format!(
+                    "braces hold the index and whole numbers, or one of `values`; for example {}",
+                    known.join(", ")
+                )));
+                return;
+            };
+            // Alone it is the quantity itself, within a formula a factor or a summand.
+            let is_alone = before.is_empty() && after.is_empty() && result.is_empty();
+            result.push_str(before);
+            match value {
+                Ok(number) => result.push_str(&number.to_string()),
+                Err(quantity) if is_alone => result.push_str(quantity),
+                Err(quantity) => result.push_str(&format!("({quantity})")),
+            }
+            rest = after;
+        }
+        result.push_str(rest);
+        *text = result;
+    }
+
+    /// A whole number, or the text of a quantity.
+    fn meaning(&self, inner: &str) -> Option<Result<i64, &str>> {
+        let own = self.values.iter().find(|(name, _)| name == inner.trim());
+        own.map(|(_, text)| Err(text.as_str())).or_else(|| number(inner, self.index, self.number).map(Ok))
+    }
+}
+
+/// Whether every list of values has one for each cell, under a name of its own.
+fn values_fit(
+    group: &str,
+    values: &Table<CellValues>,
+    index: &str,
+    count: usize,
+    problems: &mut Vec<Diagnostic>,
+) -> bool {
+    let before = problems.len();
+    for (name, value) in &values.0 {
+        if name.value == index {
+            let message = format!("the value `{index}` of group `{group}` has the name of the index");
+            let fault = Diagnostic::new(Code::BadRepeat, message).at(name.span, "");
+            problems.push(fault.help("give it another name, or the index: `index = \"k\"`"));
+        }
+        let CellValues::Each(list) = &value.value else { continue };
+        if list.value.len() != count {
+            let found = list.value.len();
+            let message = format!("`{}` of group `{group}` has {found} values for {count} cells", name.value);
+            let fault = Diagnostic::new(Code::BadRepeat, message).at(list.span, "");
+            problems.push(
+                fault.help("give one for each cell, or one formula with the index, such as \"{i}*10 mm\""),
+            );
+        }
+    }
+    problems.len() == before
 }
 
 fn number(inner: &str, index: &str, cell: i64) -> Option<i64> {
@@ -194,8 +271,14 @@ mod tests {
 
     #[test]
     fn several_braces_in_one_text_are_all_replaced() {
-        let mut text = "B{i}.x - B{i-1}.x".to_owned();
-        substitute(&mut text, Span::default(), "i", 3, &mut Vec::new());
-        assert_eq!(text, "B3.x - B2.x");
+        let values = vec![("L".to_owned(), "2 m - d".to_owned())];
+        let cell = Cell { index: "i", number: 3, values, at: 0 };
+        for (text, made) in
+            [("B{i}.x - B{i-1}.x", "B3.x - B2.x"), ("{L}", "2 m - d"), ("2*{L}", "2*(2 m - d)")]
+        {
+            let mut found = text.to_owned();
+            cell.substitute(&mut found, Span::default(), &mut Vec::new());
+            assert_eq!(found, made);
+        }
     }
 }

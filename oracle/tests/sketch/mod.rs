@@ -53,6 +53,7 @@ impl Sketch {
             starts: Vec::new(),
             missions: Vec::new(),
             attached: Vec::new(),
+            sources: linkwear_codegen::source::Sources::default(),
         })
     }
 

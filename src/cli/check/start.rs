@@ -26,7 +26,7 @@ impl Start {
         let mut run = Simulation::start(&system, description, &compiled.parameters(), &settings).ok()?;
         let joints = &compiled.mechanism.joints;
         let is_position = |column: &str| {
-            column.split_once('.').is_some_and(|(joint, member)| {
+            column.rsplit_once('.').is_some_and(|(joint, member)| {
                 let number = member.strip_prefix('q');
                 let is_q = number.is_some_and(|digits| digits.bytes().all(|byte| byte.is_ascii_digit()));
                 is_q && joints.iter().any(|known| known.name == joint)
@@ -51,7 +51,7 @@ impl Start {
             .positions
             .iter()
             .filter_map(|(column, unit, value)| {
-                let (of, member) = column.split_once('.')?;
+                let (of, member) = column.rsplit_once('.')?;
                 (of == joint).then_some((member, unit.as_str(), *value))
             })
             .collect();

@@ -135,4 +135,14 @@ points = { "H{i}" = { at = [0, 0, 0], on = "bar" } }"#,
 count = 50
 points = { "H{i}" = { at = [0, 0, 0], on = "bar" } }"#,
     },
+    Explanation {
+        code: Code::BadInclude,
+        file: File::Swing,
+        text: "A file that cannot be a part of this one: it cannot be read, lies outside the folder of the file that includes it, \
+               includes itself, or is moved or turned although something in it is written along the axes of its own drawing.",
+        wrong: r#"[include]
+left = { file = "no_such_leg.toml", origin = ["1 m", 0, 0] }"#,
+        right: r#"[include]
+# left = { file = "no_such_leg.toml", origin = ["1 m", 0, 0] }"#,
+    },
 ];

@@ -66,7 +66,9 @@ impl Resolver<'_> {
         let mut terms: Vec<CoupledCoordinate> = Vec::new();
         let mut sum: Option<Dimension> = None;
         for (key, quantity) in &table.0 {
-            let (joint, coordinate) = key.value.split_once('.').unwrap_or((&key.value, ""));
+            let is_joint = self.names.find(&key.value).is_some();
+            let parts = key.value.rsplit_once('.').filter(|_| !is_joint);
+            let (joint, coordinate) = parts.unwrap_or((&key.value, ""));
             let name = Name { span: key.span, value: joint.to_owned() };
             let joint = self.joint_named(&name, &what)?;
             let model = self.joint_models.get(joint.index())?.clone();

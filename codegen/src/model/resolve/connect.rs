@@ -12,9 +12,10 @@ use crate::spec::File;
 impl Resolver<'_> {
     pub(super) fn check_connected(&mut self, file: &File, joints: &[Joint]) {
         let bodies = &file.bodies.0;
-        // Cells that could not be made may be all the bodies there are.
-        let no_cells = |fault: &Diagnostic| matches!(fault.code, Code::BadRepeat | Code::TooLarge);
-        if bodies.is_empty() && !self.diagnostics.iter().any(no_cells) {
+        // Cells that could not be made, or a part that could not be read, may be all the bodies there are.
+        let not_made =
+            |fault: &Diagnostic| matches!(fault.code, Code::BadRepeat | Code::TooLarge | Code::BadInclude);
+        if bodies.is_empty() && !self.diagnostics.iter().any(not_made) {
             let message = "the mechanism has no bodies";
             self.missing(self.whole_file(), Span::default(), Code::EmptyMechanism, message).help(
                 r#"add a table [bodies], for example `crank = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3" }`"#,

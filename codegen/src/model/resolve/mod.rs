@@ -45,14 +45,14 @@ mod wheels;
 
 pub use overrides::{OverrideError, Overrides};
 
-use self::names::Names;
+use self::names::{Names, Thing};
 use self::quantity::Allowed;
 use self::resolver::Resolver;
 use super::{Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::input::Reach;
-use crate::source::Span;
-use crate::spec::{CheckSpec, Dimension, File, Spec};
+use crate::source::{Sources, Span};
+use crate::spec::{CheckSpec, Composed, Dimension, File, Spec, composed};
 
 /// Finds out what a file means; files that it names are read within reach.
 ///
@@ -63,8 +63,9 @@ pub fn resolve(
     overrides: &Overrides,
     reach: Reach,
 ) -> Result<(Mechanism, Vec<Diagnostic>), Diagnostics> {
+    let Composed { spec, sources, read } = composed(spec, reach);
     let mut resolver = Resolver {
-        source: &spec.source,
+        source: sources.whole(),
         reach,
         skipped: &spec.skipped,
         diagnostics: spec.problems.clone(),
@@ -77,17 +78,18 @@ pub fn resolve(
         points: Vec::new(),
         joint_models: Vec::new(),
         modal_starts: Vec::new(),
-        attached: Vec::new(),
+        attached: read,
         tables: Vec::new(),
         lost_tables: Vec::new(),
     };
-    let mechanism = resolver.mechanism(&spec.file, overrides);
+    let mut mechanism = resolver.mechanism(&spec.file, overrides);
     resolver.fold_cells(&spec.file);
-    let all = Diagnostics::from_list(resolver.diagnostics).located(&spec.source);
+    let all = Diagnostics::from_list(resolver.diagnostics).located_in(&sources);
     if all.has_errors() {
         return Err(all);
     }
     let warnings = all.list().iter().filter(|d| d.severity == Severity::Warning).cloned().collect();
+    mechanism.sources = sources;
     Ok((mechanism, warnings))
 }
 
@@ -95,6 +97,7 @@ impl Resolver<'_> {
     fn mechanism(&mut self, written: &File, overrides: &Overrides) -> Mechanism {
         let name = self.mechanism_name(written);
         self.names.foresee(written);
+        self.names.declare_table(&written.include, |_| Thing::Part, &mut self.diagnostics);
         self.resolve_parameters(&written.parameters, overrides);
         self.resolve_inputs(&written.inputs, overrides);
         self.resolve_tables(&written.tables);
@@ -138,6 +141,7 @@ impl Resolver<'_> {
             allowed: self.allowed(&file.check),
             starts,
             attached: std::mem::take(&mut self.attached),
+            sources: Sources::default(),
         }
     }
 

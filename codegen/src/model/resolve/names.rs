@@ -27,6 +27,8 @@ pub(super) enum Thing {
     Coupling,
     Stop,
     Force,
+    /// A file that is included.
+    Part,
 }
 
 impl Thing {
@@ -40,6 +42,7 @@ impl Thing {
             Self::Coupling => "coupling",
             Self::Stop => "stop",
             Self::Force => "force",
+            Self::Part => "part",
         }
     }
 
@@ -66,7 +69,7 @@ impl Names {
 
     /// Whether a fault with this name is only the consequence of another.
     pub(super) fn is_lost(&self, name: &str) -> bool {
-        self.lost.iter().any(|lost| lost == name)
+        self.lost.iter().any(|lost| lost == name || is_inside(name, lost))
     }
 
     /// Whether the name belongs to something that is not known yet: parameters come before all else.
@@ -84,7 +87,20 @@ impl Names {
 
     /// Whether a word in a formula is a name.
     pub(super) fn is_name(&self, word: &str) -> bool {
-        word == "t" || word == "pi" || self.by_name.contains_key(word) || self.is_foreseen(word)
+        let is_of_lost = || self.lost.iter().any(|lost| is_inside(word, lost));
+        word == "t"
+            || word == "pi"
+            || self.by_name.contains_key(word)
+            || self.is_foreseen(word)
+            || is_of_lost()
+    }
+
+    /// Whether something may be called so: a plain name, perhaps behind that of a part.
+    pub(super) fn may_be(&self, name: &str) -> bool {
+        match name.rsplit_once('.') {
+            Some((part, inner)) => matches!(self.find(part), Some((Thing::Part, _))) && is_name(inner),
+            None => is_name(name),
+        }
     }
 
     pub(super) fn declare_all(&mut self, file: &File, faults: &mut Vec<Diagnostic>) {
@@ -109,7 +125,7 @@ impl Names {
     }
 
     pub(super) fn declare(&mut self, name: &Name, thing: Thing, faults: &mut Vec<Diagnostic>) {
-        if !is_name(&name.value) {
+        if !self.may_be(&name.value) {
             faults.push(bad_name(name));
         } else if let Some((_, meaning)) = RESERVED.iter().find(|(reserved, _)| *reserved == name.value) {
             faults.push(
@@ -128,7 +144,7 @@ impl Names {
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, inputs, points, bodies, joints, couplings, stops and forces share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints, couplings, stops, forces and parts share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;
@@ -145,6 +161,11 @@ impl Names {
     pub(super) fn known(&self, wanted: impl Fn(Thing) -> bool) -> impl Iterator<Item = &str> {
         self.things.iter().filter(move |(_, thing, _)| wanted(*thing)).map(|(name, ..)| name.as_str())
     }
+}
+
+/// Whether a name is one within a part: `left.R1` in `left`.
+fn is_inside(name: &str, part: &str) -> bool {
+    name.strip_prefix(part).is_some_and(|rest| rest.starts_with('.'))
 }
 
 /// Letters, digits and `_`, a letter first.

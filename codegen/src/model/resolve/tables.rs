@@ -22,7 +22,7 @@ impl Resolver<'_> {
     pub(super) fn resolve_tables(&mut self, written: &Table<TableSpec>) {
         self.lost_tables = written.0.iter().map(|(name, _)| name.value.clone()).collect();
         for (name, spec) in &written.0 {
-            if !super::names::is_name(&name.value) {
+            if !self.names.may_be(&name.value) {
                 self.report(super::names::bad_name(name));
             } else if is_function(&name.value) {
                 let message = format!("the name `{}` is reserved: it is a function of formulas", name.value);

@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 24] = [
+const TABLES: [(&str, &str); 26] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -42,6 +42,8 @@ const TABLES: [(&str, &str); 24] = [
     ("MissionSpec", "`[missions.<name>]`"),
     ("SegmentSpec", "A segment of a mission"),
     ("SegmentJointSpec", "A joint in a segment of a mission"),
+    ("IncludeSpec", "`[include.<part>]`"),
+    ("RotationSpec", "`rotation` of a part"),
 ];
 
 /// These two have no other types behind them.

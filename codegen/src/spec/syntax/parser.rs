@@ -216,6 +216,8 @@ impl<'a> Parser<'a> {
     }
 
     fn named(&mut self, word: &str, range: Range<usize>) -> Result<Expression, SyntaxError> {
+        let (word, range) = self.of_parts(word, range);
+        let word = &*word;
         if self.take('(') {
             let mut arguments = vec![self.argument()?];
             while self.take(',') {
@@ -236,6 +238,25 @@ impl<'a> Parser<'a> {
             return Ok(expression(Form::Member(word.to_owned(), name.to_owned()), range.start..member.end));
         }
         Ok(expression(Form::Name(word.to_owned()), range))
+    }
+
+    /// The name of a thing in a part has that of the part before it: `left.R1`.
+    fn of_parts(&mut self, word: &str, range: Range<usize>) -> (String, Range<usize>) {
+        let (mut whole, mut range) = (word.to_owned(), range);
+        while let (Some('.'), Some(next)) = (self.mark_at(0), self.word_at(1)) {
+            let joined = format!("{whole}.{next}");
+            let end = self.tokens[self.next + 1].range.end;
+            let is_close = end - range.start == joined.len();
+            // Two points or a call can be nothing else, even of what does not exist.
+            let goes_on =
+                self.mark_at(2) == Some('(') || (self.mark_at(2) == Some('.') && self.word_at(3).is_some());
+            if !is_close || !((self.is_name)(&joined) || goes_on) {
+                break;
+            }
+            self.next += 2;
+            (whole, range) = (joined, range.start..end);
+        }
+        (whole, range)
     }
 
     /// A value, or a comparison of two.

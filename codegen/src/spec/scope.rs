@@ -1,0 +1,294 @@
+//! Names of a part within the file that includes it: `R1` becomes `left.R1` wherever it stands. In: the part's [`File`]. Out: the same
+//! with its names as the whole has them. Never knows where parts are.
+
+use std::collections::HashMap;
+use std::mem::take;
+
+use super::file::{File, Input, RepeatSpec};
+use super::syntax::{Expression, Form, parse_expression};
+use super::texts::{Change, Texts as _};
+use super::written::{Name, Table};
+use crate::source::Span;
+
+/// Stands for the braces of a name that a group makes.
+const BRACES: char = '\u{1}';
+
+/// What a part's names are in the whole.
+pub(super) struct Scope {
+    /// `left.`
+    prefix: String,
+    /// Names of the part, and those of its groups with [`BRACES`].
+    own: Vec<String>,
+    by_name: HashMap<String, String>,
+    points: Vec<String>,
+}
+
+impl Scope {
+    /// `bodies`: those of the part, or its ground, that are bodies of the whole.
+    pub(super) fn new(part: &str, file: &File, bodies: &[(String, String)]) -> Self {
+        let prefix = format!("{part}.");
+        let own: Vec<String> = names_of(file).iter().map(|name| without_braces(name)).collect();
+        let mut by_name: HashMap<String, String> =
+            own.iter().map(|name| (name.clone(), format!("{prefix}{name}"))).collect();
+        by_name.extend(bodies.iter().cloned());
+        let groups = file.repeat.0.iter().flat_map(|(_, group)| keys(&group.value.points));
+        let points = keys(&file.points).chain(groups).map(without_braces).collect();
+        Self { prefix, own, by_name, points }
+    }
+
+    /// Renames all that is named in the file. Gives the places where formulas ask where a point is.
+    pub(super) fn rename(&self, file: &mut File) -> Vec<Span> {
+        let mut words = words_of(file);
+        let kept: Vec<Option<Name>> = words.iter_mut().map(|word| take(*word)).collect();
+        // Values of cells are named in braces only.
+        let values: Vec<Vec<String>> = file
+            .repeat
+            .0
+            .iter()
+            .map(|(_, group)| keys(&group.value.values).map(str::to_owned).collect())
+            .collect();
+        let mut asked = Vec::new();
+        each(file, &mut |text, span| self.renamed(text, span, &mut asked));
+        for (word, kept) in words_of(file).into_iter().zip(kept) {
+            *word = kept;
+        }
+        for ((_, group), values) in file.repeat.0.iter_mut().zip(values) {
+            for ((name, _), kept) in group.value.values.0.iter_mut().zip(values) {
+                name.value = kept;
+            }
+        }
+        asked
+    }
+
+    fn renamed(&self, text: &mut String, span: Span, asked: &mut Vec<Span>) {
+        if let Some(name) = self.name(text) {
+            *text = name;
+            return;
+        }
+        let mut found = Vec::new();
+        if text.contains('{') {
+            found = words(text);
+        } else if let Ok(expression) = parse_expression(text, &|word| self.name(word).is_some()) {
+            roots(text, &expression, &mut found);
+        }
+        found.sort_by_key(|(at, ..)| std::cmp::Reverse(*at));
+        for (at, word, has_member) in found {
+            let Some(name) = self.name(&word) else { continue };
+            if has_member && fits_one(&self.points, &word) {
+                asked.push(span);
+            }
+            text.replace_range(at..at + word.len(), &name);
+        }
+    }
+
+    /// What a name of the part is in the whole.
+    fn name(&self, word: &str) -> Option<String> {
+        if let Some(name) = self.by_name.get(word) {
+            return Some(name.clone());
+        }
+        fits_one(&self.own, word).then(|| format!("{}{word}", self.prefix))
+    }
+}
+
+/// All names that a file declares.
+pub(super) fn names_of(file: &File) -> Vec<&str> {
+    let mut names: Vec<&str> =
+        keys(&file.parameters).chain(keys(&file.inputs)).chain(keys(&file.tables)).collect();
+    names.extend(keys(&file.points).chain(keys(&file.bodies)).chain(keys(&file.joints)));
+    names.extend(
+        keys(&file.stops).chain(keys(&file.couplings)).chain(keys(&file.forces)).chain(keys(&file.include)),
+    );
+    names.extend(keys(&file.repeat));
+    for (_, group) in &file.repeat.0 {
+        let RepeatSpec { points, bodies, joints, couplings, stops, forces, .. } = &group.value;
+        names.extend(keys(stops));
+        names.extend(
+            keys(points).chain(keys(bodies)).chain(keys(joints)).chain(keys(couplings)).chain(keys(forces)),
+        );
+    }
+    names
+}
+
+fn keys<T>(table: &Table<T>) -> impl Iterator<Item = &str> {
+    table.0.iter().map(|(name, _)| &*name.value)
+}
+
+fn each(file: &mut File, change: Change<'_>) {
+    let nowhere = Span::default();
+    file.parameters.each(nowhere, change);
+    file.inputs.each(nowhere, change);
+    file.points.each(nowhere, change);
+    file.bodies.each(nowhere, change);
+    file.joints.each(nowhere, change);
+    file.couplings.each(nowhere, change);
+    file.stops.each(nowhere, change);
+    file.forces.each(nowhere, change);
+    file.assembly.each(nowhere, change);
+    file.initial.each(nowhere, change);
+    file.clearance.each(nowhere, change);
+    file.wear.each(nowhere, change);
+    file.tables.each(nowhere, change);
+    file.repeat.each(nowhere, change);
+    for (name, part) in &mut file.include.0 {
+        change(&mut name.value, name.span);
+        part.value.bodies.0.clear();
+    }
+}
+
+/// Texts that are neither names nor formulas.
+fn words_of(file: &mut File) -> Vec<&mut Option<Name>> {
+    let mut words = Vec::new();
+    for (_, input) in &mut file.inputs.0 {
+        if let Input::Table(table) = &mut input.value {
+            words.push(&mut table.unit);
+        }
+    }
+    words.extend(file.tables.0.iter_mut().map(|(_, table)| &mut table.value.data));
+    let groups = file.repeat.0.iter_mut().map(|(_, group)| &mut group.value);
+    let mut bodies: Vec<_> = file.bodies.0.iter_mut().collect();
+    for group in groups {
+        words.push(&mut group.index);
+        bodies.extend(&mut group.bodies.0);
+    }
+    words.extend(
+        bodies
+            .into_iter()
+            .filter_map(|(_, body)| body.value.flexible.as_mut())
+            .map(|bent| &mut bent.value.data),
+    );
+    words
+}
+
+/// Names of files in a file that lies in another folder than the whole.
+pub(super) fn files_of(file: &mut File) -> Vec<&mut Name> {
+    let groups = file.repeat.0.iter_mut().flat_map(|(_, group)| &mut group.value.bodies.0);
+    let bodies = file.bodies.0.iter_mut().chain(groups);
+    let bent = bodies.filter_map(|(_, body)| body.value.flexible.as_mut()?.value.data.as_mut());
+    file.tables.0.iter_mut().filter_map(|(_, table)| table.value.data.as_mut()).chain(bent).collect()
+}
+
+/// Where names stand in a formula, as far as they reach before a member; whether one follows.
+fn roots(text: &str, expression: &Expression, found: &mut Vec<(usize, String, bool)>) {
+    // The range of what stands in brackets is that of the brackets.
+    let start = expression.range.start;
+    let at = text[start..]
+        .find(|letter: char| letter != '(' && !letter.is_whitespace())
+        .map_or(start, |more| start + more);
+    match &expression.form {
+        Form::Number { .. } => {}
+        Form::Name(name) => found.push((at, name.clone(), false)),
+        Form::Member(name, _) => found.push((at, name.clone(), true)),
+        Form::Neg(inner) | Form::Power(inner, _) => roots(text, inner, found),
+        Form::Binary(_, left, right) => {
+            roots(text, left, found);
+            roots(text, right, found);
+        }
+        Form::Call(name, arguments) => {
+            found.push((at, name.clone(), false));
+            arguments.iter().for_each(|argument| roots(text, argument, found));
+        }
+        Form::Compare(_, both) => both.iter().for_each(|side| roots(text, side, found)),
+    }
+}
+
+/// The same of a formula with braces, which is none before they are replaced: words with their braces that follow neither a number, as
+/// units do, nor a point, as members do.
+fn words(text: &str) -> Vec<(usize, String, bool)> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    let mut before = ' ';
+    while let Some(next) = text[at..].chars().next() {
+        if next == '{' {
+            // What stands there is no name of the file, and what follows is a unit as behind a number.
+            at = text[at..].find('}').map_or(text.len(), |end| at + end + 1);
+            before = '0';
+            continue;
+        }
+        if !(next.is_alphabetic() || next == '_') {
+            if !next.is_whitespace() {
+                before = next;
+            }
+            at += next.len_utf8();
+            continue;
+        }
+        let mut inside = false;
+        let length = text[at..].find(|letter: char| {
+            inside = (inside || letter == '{') && letter != '}';
+            !(inside || letter == '}' || letter.is_alphanumeric() || letter == '_')
+        });
+        let end = length.map_or(text.len(), |length| at + length);
+        if before != '.' && !before.is_ascii_digit() {
+            found.push((at, text[at..end].to_owned(), text[end..].starts_with('.')));
+        }
+        before = 'a';
+        at = end;
+    }
+    found
+}
+
+/// A name with every `{..}` as one letter.
+pub(super) fn without_braces(name: &str) -> String {
+    let mut result = String::new();
+    let mut rest = name;
+    while let Some((before, after)) = rest.split_once('{') {
+        let Some((_, behind)) = after.split_once('}') else { break };
+        result.push_str(before);
+        result.push(BRACES);
+        rest = behind;
+    }
+    result + rest
+}
+
+pub(super) fn fits_one(patterns: &[String], word: &str) -> bool {
+    let word = without_braces(word);
+    patterns.iter().any(|pattern| *pattern == word || fits(pattern, &word))
+}
+
+/// Whether a name is one that a pattern makes.
+fn fits(pattern: &str, word: &str) -> bool {
+    let Some((before, after)) = pattern.split_once(BRACES) else { return pattern == word };
+    let Some(rest) = word.strip_prefix(before) else { return false };
+    let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+    (1..=digits).any(|end| fits(after, &rest[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scope() -> Scope {
+        let own = ["L", "m", "A", "B{i}", "R{i}", "curve", "knee", "knee.R1"].map(without_braces).to_vec();
+        let by_name = [("base".to_owned(), "frame".to_owned())].into();
+        Scope { prefix: "left.".into(), own, by_name, points: ["A", "B{i}"].map(without_braces).to_vec() }
+    }
+
+    #[test]
+    fn names_get_the_part_before_them_and_units_and_members_stay() {
+        for (text, renamed) in [
+            ("L + 2 m*L", "left.L + 2 m*left.L"),
+            ("2*( (L)) - (knee.R1.q)", "2*( (left.L)) - (left.knee.R1.q)"),
+            ("base", "frame"),
+            ("ground", "ground"),
+            ("knee.R1.q", "left.knee.R1.q"),
+            ("curve(A.x - B3.L)", "left.curve(left.A.x - left.B3.L)"),
+            ("B{i}.x - B{i-1}.x + 2 m", "left.B{i}.x - left.B{i-1}.x + 2 m"),
+            ("R{2*i+1}", "left.R{2*i+1}"),
+            ("{L}*0.1 m + {m} m + L", "{L}*0.1 m + {m} m + left.L"),
+            ("R12", "left.R12"),
+            ("Rx + sin(L)", "Rx + sin(left.L)"),
+        ] {
+            let mut found = text.to_owned();
+            scope().renamed(&mut found, Span::default(), &mut Vec::new());
+            assert_eq!(found, renamed, "{text}");
+        }
+    }
+
+    #[test]
+    fn formulas_that_ask_where_a_point_is_are_told() {
+        for (text, count) in [("A.x", 1), ("B{i}.x - B{i+1}.y", 2), ("R1.q", 0), ("L", 0)] {
+            let mut asked = Vec::new();
+            scope().renamed(&mut text.to_owned(), Span::default(), &mut asked);
+            assert_eq!(asked.len(), count, "{text}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Groups whose cells differ, and hang on each other by couplings: the same as written out.
+
+use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile};
+
+const GROUP: &str = r#"spec = 1
+name = "train"
+gravity = [0, 0, 0]
+
+[parameters]
+modulus = "2 mm"
+steel = "7850 kg/m^3"
+
+[points]
+P0 = [0, 0, 0]
+Q0 = [0, 0, "10 mm"]
+
+[bodies]
+wheel0 = { rod = ["P0", "Q0"], radius = "10*modulus", density = "steel" }
+
+[joints]
+R0 = { revolute = ["ground", "wheel0"], at = "P0", axis = [0, 0, 1], drive = "2*pi*(1 Hz)*t" }
+
+[repeat.train]
+count = 3
+values = { d = ["20 mm", "40 mm", "70 mm"], r = "{d}/2", x = ["30 mm", "60 mm", "115 mm"], zs = "{d}/modulus", before = [20, 10, 20] }
+
+[repeat.train.points]
+"P{i}" = ["{x}", 0, 0]
+"Q{i}" = ["{x}", 0, "10 mm"]
+
+[repeat.train.bodies]
+"wheel{i}" = { rod = ["P{i}", "Q{i}"], radius = "{r}", density = "steel" }
+
+[repeat.train.joints]
+"R{i}" = { revolute = ["ground", "wheel{i}"], at = "P{i}", axis = [0, 0, 1], damping = "{i}*1e-3 N m s/rad" }
+
+[repeat.train.couplings]
+"mesh{i}" = { gears = ["wheel{i-1}", "wheel{i}"], teeth = ["{before}", "{zs}"] }
+"#;
+
+const FLAT: &str = r#"spec = 1
+name = "train"
+gravity = [0, 0, 0]
+
+[parameters]
+modulus = "2 mm"
+steel = "7850 kg/m^3"
+
+[points]
+P0 = [0, 0, 0]
+Q0 = [0, 0, "10 mm"]
+P1 = ["30 mm", 0, 0]
+Q1 = ["30 mm", 0, "10 mm"]
+P2 = ["60 mm", 0, 0]
+Q2 = ["60 mm", 0, "10 mm"]
+P3 = ["115 mm", 0, 0]
+Q3 = ["115 mm", 0, "10 mm"]
+
+[bodies]
+wheel0 = { rod = ["P0", "Q0"], radius = "10*modulus", density = "steel" }
+wheel1 = { rod = ["P1", "Q1"], radius = "(20 mm)/2", density = "steel" }
+wheel2 = { rod = ["P2", "Q2"], radius = "(40 mm)/2", density = "steel" }
+wheel3 = { rod = ["P3", "Q3"], radius = "(70 mm)/2", density = "steel" }
+
+[joints]
+R0 = { revolute = ["ground", "wheel0"], at = "P0", axis = [0, 0, 1], drive = "2*pi*(1 Hz)*t" }
+R1 = { revolute = ["ground", "wheel1"], at = "P1", axis = [0, 0, 1], damping = "1e-3 N m s/rad" }
+R2 = { revolute = ["ground", "wheel2"], at = "P2", axis = [0, 0, 1], damping = "2e-3 N m s/rad" }
+R3 = { revolute = ["ground", "wheel3"], at = "P3", axis = [0, 0, 1], damping = "3e-3 N m s/rad" }
+
+[couplings]
+mesh1 = { gears = ["wheel0", "wheel1"], teeth = [20, 10] }
+mesh2 = { gears = ["wheel1", "wheel2"], teeth = [10, 20] }
+mesh3 = { gears = ["wheel2", "wheel3"], teeth = [20, 35] }
+"#;
+
+fn compiled(text: &str) -> Result<Compiled, Diagnostics> {
+    compile(&SourceFile { name: "train.toml".into(), text: text.into() }, &Options::default())
+}
+
+#[test]
+fn cells_with_values_and_couplings_are_what_is_written_out() {
+    let group = compiled(GROUP).unwrap_or_else(|errors| panic!("{errors}"));
+    let flat = compiled(FLAT).unwrap_or_else(|errors| panic!("{errors}"));
+    let code = |compiled: &Compiled| compiled.rust_source().replace(&compiled.sha256(), "");
+    let (one, other) = (code(&group), code(&flat));
+    let differ = one.lines().zip(other.lines()).find(|(a, b)| a != b);
+    assert!(one == other, "{differ:#?}");
+}
+
+#[test]
+fn values_that_do_not_fit_are_refused_where_they_are() {
+    let mut wrong = Vec::new();
+    for (from, to, told, cure) in [
+        ("[20, 10, 20]", "[20, 10]", "has 2 values for 3 cells", "one for each cell"),
+        ("r = \"{d}/2\"", "i = \"{d}/2\"", "the name of the index", "another name"),
+        ("radius = \"{r}\"", "radius = \"{rr}\"", "hold no whole number", "`{r}`"),
+        ("r = \"{d}/2\"", "r = \"{zs}/2\"", "hold no whole number", "`{d}`"),
+    ] {
+        assert!(GROUP.contains(from));
+        let Err(errors) = compiled(&GROUP.replace(from, to)) else {
+            wrong.push(format!("{told}: compiles"));
+            continue;
+        };
+        let found = errors.entries();
+        let is_told = |entry: &linkwear_codegen::diagnostic::Entry| {
+            entry.code == "E0110" && entry.message.contains(told) && entry.help.contains(cure)
+        };
+        if !found.iter().any(is_told) {
+            wrong.push(format!("{told}: {errors}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
