@@ -46,6 +46,10 @@ typed_index!(
     ParameterId
 );
 typed_index!(
+    /// A state variable of a file's own.
+    StateId
+);
+typed_index!(
     /// A node of an expression graph.
     ExprId
 );

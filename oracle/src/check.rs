@@ -1,7 +1,7 @@
 //! Checks before a mechanism is modelled: formulas that must be constant are, and what acts on a joint
 //! coordinate acts on one that exists. In: a mechanism. Out: nothing, or an error. Never knows numbers.
 
-use linkwear_codegen::model::{Amount, Body, Formula, Inertia, Joint, Mechanism, Passive, Position};
+use linkwear_codegen::model::{Amount, Body, Formula, Inertia, Joint, Mechanism, Passive, Position, Term};
 
 use crate::error::OracleError;
 use crate::joint::JointGeometry;
@@ -37,6 +37,35 @@ pub(crate) fn check_constants(mechanism: &Mechanism, parameters: &[f64]) -> Resu
     Ok(())
 }
 
+/// Forces depend on positions, speeds and the time alone.
+pub(crate) fn check_responses(mechanism: &Mechanism) -> Result<(), OracleError> {
+    let refuse = |element: &str| Err(OracleError::Responses { element: element.to_owned() });
+    let unknown = |formula: &Formula| {
+        let mut found = false;
+        formula.term.visit(&mut |term| {
+            found |= matches!(term, Term::Response(_) | Term::BodySpin(..) | Term::State(_));
+        });
+        found
+    };
+    if let Some(state) = mechanism.states.first() {
+        return refuse(&state.name);
+    }
+    for joint in &mechanism.joints {
+        let asks = |passive: &Passive| match passive {
+            Passive::Actuator { force, .. } => unknown(force),
+            Passive::DryFriction(_) => true,
+            Passive::Damping { .. } | Passive::Spring { .. } => false,
+        };
+        if joint.passive.iter().any(asks) {
+            return refuse(&joint.name);
+        }
+    }
+    match mechanism.forces.iter().find(|force| force.formulas.iter().any(unknown)) {
+        Some(force) => refuse(&force.name),
+        None => Ok(()),
+    }
+}
+
 fn of_body(body: &Body) -> Vec<&Formula> {
     match &body.inertia {
         Inertia::Rod { radius, inner_radius, amount: Amount::Density(much) | Amount::Mass(much), .. } => {
@@ -55,7 +84,7 @@ fn of_joint(joint: &Joint) -> Vec<&Formula> {
         match passive {
             Passive::Damping { coefficient, .. } => formulas.push(coefficient),
             Passive::Spring { stiffness, rest, preload, .. } => formulas.extend([stiffness, rest, preload]),
-            Passive::Actuator { .. } => {}
+            Passive::Actuator { .. } | Passive::DryFriction(_) => {}
         }
     }
     formulas
@@ -72,6 +101,7 @@ pub(crate) fn check_coordinates(mechanism: &Mechanism, joints: &[JointGeometry])
             Passive::Damping { coordinate, .. }
             | Passive::Spring { coordinate, .. }
             | Passive::Actuator { coordinate, .. } => Some(*coordinate),
+            Passive::DryFriction(_) => Some(0),
         });
         if let Some(coordinate) = drives.chain(passive).find(|k| *k >= geometry.scalars()) {
             return Err(OracleError::NoCoordinate { joint: joint.name.clone(), coordinate });

@@ -19,6 +19,12 @@ pub enum OracleError {
         /// Name of the element.
         element: String,
     },
+    /// A force that asks for accelerations, joint forces or angular velocities of bodies, or a state of the file's own.
+    #[error("{element} depends on what this model does not solve for")]
+    Responses {
+        /// Name of the element.
+        element: String,
+    },
     /// A drive, spring, damper or actuator on a coordinate that the joint does not have.
     #[error("joint {joint} has no scalar coordinate {coordinate}")]
     NoCoordinate {

@@ -95,6 +95,8 @@ impl Oracle {
                     applied.power_supplied += force * row.rate;
                     (row, force)
                 }
+                // Refused before a model is made.
+                Passive::DryFriction(_) => continue,
             };
             on_child.add(force, &row.child);
             applied.push(geometry.parent, geometry.child, force, &row);

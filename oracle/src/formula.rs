@@ -37,6 +37,8 @@ pub fn evaluate(term: &Term, parameters: &[f64], t: f64, state: &dyn State) -> J
         Term::PointPosition(point, k) => Jet::constant(state.point_position(*point, *k)),
         Term::PointSpeed(point, k) => Jet::constant(state.point_speed(*point, *k)),
         Term::Place(k) => state.place(*k),
+        // Refused before a model is made.
+        Term::BodySpin(..) | Term::Response(_) | Term::State(_) => Jet::constant(f64::NAN),
         Term::Neg(a) => -down(a),
         Term::Add(a, b) => down(a) + down(b),
         Term::Sub(a, b) => down(a) - down(b),

@@ -6,7 +6,7 @@ use linkwear_codegen::id::{BodyId, JointId, PointId};
 use linkwear_codegen::model::{Carrier, Formula, Mechanism};
 use nalgebra::Vector3;
 
-use crate::check::{check_constants, check_coordinates};
+use crate::check::{check_constants, check_coordinates, check_responses};
 use crate::error::OracleError;
 use crate::formula::{State, evaluate};
 use crate::frame::{BodyState, Frame};
@@ -46,6 +46,7 @@ impl Oracle {
     /// If a mass is not positive, or a formula that must be constant is not.
     pub fn new(mechanism: &Mechanism, parameters: &[f64]) -> Result<Self, OracleError> {
         check_constants(mechanism, parameters)?;
+        check_responses(mechanism)?;
         let place =
             |formulas: &[Formula; 3]| Vector3::from(formulas.each_ref().map(|f| number(f, parameters)));
         let position = |point: PointId, carrier| place(mechanism.point(point).position_for(carrier));

@@ -20,12 +20,31 @@ pub fn charts(run: &Run) -> Vec<Chart> {
             unit == "m" && [".ux", ".uy", ".uz"].iter().any(|stem| name.contains(stem))
         }),
         plain(run, "joint angles", |name, unit| unit == "rad" && name.contains(".q")),
-        plain(run, "joint speeds", |name, unit| unit == "rad/s" && name.contains(".v")),
+        plain(run, "joint speeds", |name, unit| unit == "rad/s" && name.contains(".v") && !is_own(name)),
         plain(run, "joint positions", |name, unit| unit == "m" && name.contains(".q")),
         plain(run, "inputs", |name, _| name.ends_with(".u")),
-        plain(run, "energy", |_, unit| unit == "J"),
+        plain(run, "energy", |name, unit| unit == "J" && !is_own(name)),
     ];
-    all.into_iter().filter(|chart| !chart.is_empty()).collect()
+    all.into_iter().chain(own(run)).filter(|chart| !chart.is_empty()).collect()
+}
+
+/// Whether the column is a state of the file's own or a sensor.
+fn is_own(name: &str) -> bool {
+    name.ends_with(".value")
+}
+
+/// States and sensors, a chart for each unit.
+fn own(run: &Run) -> Vec<Chart> {
+    let mut units: Vec<&str> = Vec::new();
+    for channel in run.channels.iter().filter(|channel| is_own(&channel.name)) {
+        if !units.contains(&&*channel.unit) {
+            units.push(&channel.unit);
+        }
+    }
+    units
+        .into_iter()
+        .map(|own| plain(run, "states and sensors", |name, unit| is_own(name) && unit == own))
+        .collect()
 }
 
 fn plain(run: &Run, title: &str, is_meant: impl Fn(&str, &str) -> bool) -> Chart {

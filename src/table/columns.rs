@@ -111,6 +111,8 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     ("<stop>.depth", &["m", "rad"], "How far a coordinate is beyond a stop; zero where it is free"),
     ("<force>.length", &["m"], "Distance of the ends of a cable"),
     ("<input>.u", &["<unit>"], "Value of an input of the mechanism"),
+    ("<state>.value", &["<unit>"], "Value of a state of the mechanism's own, or of a sensor"),
+    ("<state>.rate", &["<unit>"], "Rate of a state"),
     ("<body>.eta<n>", &["kg^0.5 m", "1"], "Modal coordinates of a flexible body, from 1"),
     ("<body>.u<axis>", &["m"], "Displacement at mid-span of a flexible link, in the link's own frame"),
     ("<body>.u<axis>_<station>", &["m"], "The same at its other stations, or at named nodes"),
@@ -214,6 +216,7 @@ mod tests {
         assert_eq!(names("coupler.uy_1 [m]"), ["<body>.u<axis>_<station>"]);
         assert_eq!(names("coupler.stress_z [Pa]"), ["<body>.stress_<axis>"]);
         assert_eq!(names("torque.u [N m]"), ["<input>.u"]);
+        assert_eq!(names("heat.rate [W]"), ["<state>.rate"]);
         for wrong in
             ["R4.q", "R4.q [N]", "R4 .q [rad]", "R4.p [rad]", "coupler.uw [m]", "t", "torque.u", "R1.q_1 [m]"]
         {

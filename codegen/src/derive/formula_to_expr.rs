@@ -68,6 +68,9 @@ impl<'g> Inputs<'g> {
             | Term::JointSpeed(..)
             | Term::PointPosition(..)
             | Term::Place(_)
+            | Term::BodySpin(..)
+            | Term::Response(_)
+            | Term::State(_)
             | Term::PointSpeed(..) => state(term),
         }
     }

@@ -1,8 +1,10 @@
 //! Coordinates, speeds and accelerations of joints and points, wherever they come from: a coordinate of the
 //! tree, or recomputed across a cut. In: link motion. Out: expressions. Never knows forces.
 
+use std::rc::Rc;
+
 use crate::expr::{Expr, Scope, Vec3};
-use crate::id::{JointId, PointId};
+use crate::id::{BodyId, JointId, PointId};
 use crate::model::{Formula, Term};
 
 use super::geometry::Geometry;
@@ -10,6 +12,7 @@ use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 use super::joint_markers::{joint_in_child, joint_links, joint_markers};
 use super::motion::Motion;
 use super::relative_motion::{Place, RelativeMotion, Side, Sums};
+use super::responses::Responses;
 
 /// All a formula or an output column may ask of the state.
 pub struct JointStates<'g> {
@@ -19,6 +22,10 @@ pub struct JointStates<'g> {
     pub v: Vec<Expr<'g>>,
     /// All speed derivatives (zero where they are not asked for).
     pub v_dot: Vec<Expr<'g>>,
+    /// Values of the file's own states.
+    pub own: Vec<Expr<'g>>,
+    /// What formulas ask of the solution of the instant.
+    pub responses: Rc<Responses<'g>>,
     /// Whether velocities of points are summed up in W, else in the frames of their links.
     pub points_in_ground: bool,
 }
@@ -78,12 +85,48 @@ impl<'g> JointStates<'g> {
 
     /// A formula over the state.
     pub fn lower(&self, g: &'g Scope, formula: &Formula) -> Expr<'g> {
+        self.lower_asking(g, formula, &self.responses)
+    }
+
+    /// The same, with symbols of `responses` for what it asks of the solution of the instant.
+    pub fn lower_asking(&self, g: &'g Scope, formula: &Formula, responses: &Responses<'g>) -> Expr<'g> {
         self.geometry.inputs.lower_with(formula, &|term| match term {
             Term::JointPosition(joint, c) => self.coordinates(g, *joint).position[*c],
             Term::JointSpeed(joint, c) => self.coordinates(g, *joint).speed[*c],
             Term::PointPosition(point, i) => self.point(*point)[*i],
             Term::PointSpeed(point, i) => self.point_velocity(*point)[*i],
+            Term::BodySpin(body, i) => self.spin(*body)[*i],
+            Term::State(id) => self.own[id.index()],
+            Term::Response(response) => responses.symbol(g, *response),
             _ => g.zero(),
         })
+    }
+
+    /// The value of a force; of one that asks for the solution of the instant the symbol that stands for it.
+    pub fn force_law(&self, g: &'g Scope, formula: &Formula) -> Expr<'g> {
+        let value = self.lower(g, formula);
+        if formula.asks_for_responses() { self.responses.unknown(g, value) } else { value }
+    }
+
+    /// Acceleration of a named point in W [m/s²].
+    pub fn point_acceleration(&self, point: PointId) -> Vec3<'g> {
+        let carrier = self.geometry.mechanism.point(point).carrier;
+        let link = self.geometry.linkage.link_at(carrier, point, false);
+        let local = self.geometry.local(link, point);
+        let Some(at) = link else { return self.geometry.g.zero_vector() };
+        let with_weight = self.motion.accelerations[at].at(local);
+        self.motion.poses.world[at].rotation * with_weight - self.motion.ground
+    }
+
+    /// Angular acceleration of a body in W [rad/s²].
+    pub fn spin_rate(&self, body: BodyId) -> Vec3<'g> {
+        let at = self.geometry.linkage.link_of_body[body.index()];
+        self.motion.poses.world[at].rotation * self.motion.accelerations[at].alpha
+    }
+
+    /// Angular velocity of a body in W [rad/s].
+    pub fn spin(&self, body: BodyId) -> Vec3<'g> {
+        let at = self.geometry.linkage.link_of_body[body.index()];
+        self.motion.poses.world[at].rotation * self.motion.twists[at].omega
     }
 }

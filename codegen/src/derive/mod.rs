@@ -39,6 +39,7 @@ mod motion;
 mod orientation;
 mod plan;
 mod relative_motion;
+mod responses;
 mod rigid_part;
 mod row;
 mod rows;

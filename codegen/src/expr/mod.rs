@@ -3,6 +3,7 @@
 //!
 //! Children are always created before their parents, so node order is a topological order.
 
+mod affine;
 mod count;
 mod diff;
 mod eval;
@@ -20,6 +21,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::limits::EXPRESSIONS;
 
 pub use crate::id::{ExprId, SymbolId};
+pub use affine::Affine;
 pub use expression::Expr;
 pub use linkwear_tape::{Binary, Unary};
 pub use passes::{Program, shortened};

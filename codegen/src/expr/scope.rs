@@ -3,7 +3,8 @@
 
 use std::cell::RefCell;
 
-use super::Graph;
+use super::expression::Expr;
+use super::{ExprId, Graph, Node};
 
 /// A graph under construction. Nodes are made in the order in which Rust evaluates the operands of a formula.
 #[derive(Debug, Default)]
@@ -23,6 +24,37 @@ impl Scope {
     /// What `build` makes of the graph.
     pub(super) fn make<R>(&self, build: impl FnOnce(&mut Graph) -> R) -> R {
         build(&mut self.0.borrow_mut())
+    }
+
+    /// The nodes that roots need, children before parents.
+    pub(super) fn needed(&self, roots: &[Expr<'_>]) -> Vec<ExprId> {
+        let roots: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
+        self.make(|g| {
+            let uses = g.uses(&roots);
+            (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect()
+        })
+    }
+
+    /// Nodes first made from here on belong to the section of this one.
+    pub(super) fn enter_section_of(&self, id: ExprId) {
+        self.make(|g| g.current_section = g.section_index(id));
+    }
+
+    /// Number of nodes so far.
+    pub fn size(&self) -> usize {
+        self.make(|g| g.nodes.len())
+    }
+
+    /// Conditions first made since there were `size` nodes are none of [`Scope::switches`].
+    pub fn keep_quiet_since(&self, size: usize) {
+        self.make(|g| {
+            let new = g.nodes[size..].iter().filter_map(|node| match node {
+                Node::Select(by, ..) if by.index() >= size => Some(*by),
+                _ => None,
+            });
+            let new: Vec<ExprId> = new.collect();
+            g.quiet.extend(new);
+        });
     }
 
     /// Starts a section: nodes first made from here on belong to it.

@@ -3,7 +3,45 @@
 use rustc_hash::FxHashMap;
 
 use super::expression::Expr;
-use super::{ExprId, Node};
+use super::{ExprId, Node, Scope};
+
+impl Scope {
+    /// The same by ids.
+    pub fn with_ids<'g>(&'g self, roots: &[ExprId], values: &[(Expr<'g>, Expr<'g>)]) -> Vec<ExprId> {
+        let Some((any, _)) = values.first() else { return roots.to_vec() };
+        let roots: Vec<Expr<'g>> = roots.iter().map(|id| any.at(*id)).collect();
+        self.with(&roots, values).into_iter().map(Expr::id).collect()
+    }
+
+    /// The same roots with expressions in place of symbols. What is made anew stays in its section, and conditions that are
+    /// quiet stay so.
+    pub fn with<'g>(&'g self, roots: &[Expr<'g>], values: &[(Expr<'g>, Expr<'g>)]) -> Vec<Expr<'g>> {
+        let mut known: FxHashMap<ExprId, Expr<'g>> =
+            values.iter().map(|(symbol, value)| (symbol.id(), *value)).collect();
+        let Some(first) = roots.first() else { return Vec::new() };
+        for id in self.needed(roots) {
+            let node = first.at(id).node();
+            if known.contains_key(&id) || node.children().all(|child| !known.contains_key(&child)) {
+                continue;
+            }
+            self.enter_section_of(id);
+            let of = |id| known.get(&id).copied().unwrap_or_else(|| first.at(id));
+            let made = match node {
+                Node::Constant(_) | Node::Symbol(_) => continue,
+                Node::Unary(operation, a) => of(a).through(operation),
+                Node::Binary(operation, a, b) => of(a).joined(operation, of(b)),
+                Node::Select(by, yes, no) => {
+                    if self.make(|g| g.quiet.contains(&by)) {
+                        of(by).keep_quiet();
+                    }
+                    of(by).below_zero(of(yes), of(no))
+                }
+            };
+            known.insert(id, made);
+        }
+        roots.iter().map(|root| known.get(&root.id()).copied().unwrap_or(*root)).collect()
+    }
+}
 
 impl<'g> Expr<'g> {
     /// The same with expressions in place of symbols.
@@ -42,6 +80,8 @@ mod tests {
         let [x, y, z] = ["x", "y", "z"].map(|name| g.symbol(name));
         let swapped = (x / y + z.sin()).with(&[(x, y), (y, x)]);
         assert_eq!(swapped.id(), (y / x + z.sin()).id());
+        let both = g.with(&[x / y + z.sin(), z], &[(x, y), (y, x)]);
+        assert_eq!(both.iter().map(|root| root.id()).collect::<Vec<_>>(), [swapped.id(), z.id()]);
         assert_eq!((x * y).with(&[(x, g.number(2.0)), (y, g.number(3.0))]).as_number(), Some(6.0));
     }
 }

@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use super::piecewise::{Piecewise, SMOOTH};
+use super::response::Response;
 use super::table::DataTable;
-use crate::id::{JointId, ParameterId, PointId};
+use crate::id::{BodyId, JointId, ParameterId, PointId, StateId};
 use crate::source::Span;
 use crate::spec::Dimension;
 
@@ -37,6 +38,12 @@ pub enum Term {
     PointPosition(PointId, usize),
     /// Component of a point's velocity in W [m/s].
     PointSpeed(PointId, usize),
+    /// Component of a body's angular velocity in W [rad/s].
+    BodySpin(BodyId, usize),
+    /// What only the solution of the instant tells.
+    Response(Response),
+    /// A state variable of the file's own.
+    State(StateId),
     /// Argument of the formula: a coordinate (0, 1, 2) of the place that a surface is an equation of [m]; pressure [Pa] or sliding
     /// speed [m/s] of a contact.
     Place(usize),
@@ -96,6 +103,13 @@ impl Formula {
     /// `None` if it depends on coordinates or speeds.
     pub fn value_at_time(&self, parameters: &[f64], t: f64) -> Option<f64> {
         self.term.value_at(parameters, Some(t))
+    }
+
+    /// Whether it asks for accelerations or forces of joints.
+    pub fn asks_for_responses(&self) -> bool {
+        let mut found = false;
+        self.term.visit(&mut |term| found |= matches!(term, Term::Response(_)));
+        found
     }
 
     /// Whether a tunable parameter occurs, by `is_tunable`.

@@ -300,6 +300,11 @@ impl JointModel {
         matches!(self.kind.primitives, [Turn(_)])
     }
 
+    /// Whether the joint's only coordinate is a way along its axis, without a turn.
+    pub fn is_guide(&self) -> bool {
+        matches!(self.kind.primitives, [Slide(_)])
+    }
+
     /// Whether the child's point leaves that of the parent by a coordinate.
     pub fn slides(&self) -> bool {
         self.any(|primitive| matches!(primitive, Slide(_) | Thread | Shift))

@@ -14,12 +14,16 @@ use crate::spec::Dimension;
 mod body;
 mod coordinate;
 mod coupling;
+mod dry_friction;
 mod force;
 mod formula;
 mod joint_kind;
 mod mission;
 mod piecewise;
 mod resolve;
+mod response;
+mod sensor;
+mod state;
 mod stop;
 mod table;
 pub mod topology;
@@ -29,6 +33,7 @@ pub use coordinate::Coordinate;
 pub use coupling::{
     ByMultiplier, Compliance, CoupledCoordinate, Coupling, ForceColumn, MeshSide, PitchCircle,
 };
+pub use dry_friction::DryFriction;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
 pub use joint_kind::{
@@ -37,6 +42,9 @@ pub use joint_kind::{
 pub use mission::{Mission, Segment};
 pub use piecewise::{Piecewise, Value};
 pub use resolve::{OverrideError, Overrides, resolve};
+pub use response::Response;
+pub use sensor::Sensor;
+pub use state::StateVariable;
 pub use stop::{Stop, StopLoss};
 pub use table::DataTable;
 
@@ -70,6 +78,10 @@ pub struct Mechanism {
     pub stops: Vec<Stop>,
     /// Force elements in file order.
     pub forces: Vec<Force>,
+    /// State variables of the file's own, in file order.
+    pub states: Vec<StateVariable>,
+    /// Named values of a run, in file order.
+    pub sensors: Vec<Sensor>,
     /// Duty cycles in file order.
     pub missions: Vec<Mission>,
     /// How loops are closed.
@@ -239,6 +251,8 @@ pub enum Passive {
         /// [N m] or [N], positive along the coordinate.
         force: Formula,
     },
+    /// Dry friction under the joint's own force, against the only coordinate.
+    DryFriction(Box<DryFriction>),
 }
 
 /// A start value of one joint coordinate (or of a spherical joint's rotation vector, indices 0..3).

@@ -100,13 +100,18 @@ fn coupled(mechanism: &Mechanism) -> Vec<bool> {
     coupled
 }
 
-/// Joints whose coordinates occur in the formulas of forces.
+/// Joints whose coordinates occur in the formulas of forces and states.
 fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
     let mut mentioned = vec![false; mechanism.joints.len()];
     let mut note = |formula: &Formula| {
         formula.term.visit(&mut |term| {
-            if let Term::JointPosition(id, _) | Term::JointSpeed(id, _) = term {
-                mentioned[id.index()] = true;
+            let joint = match term {
+                Term::JointPosition(id, _) | Term::JointSpeed(id, _) => Some(*id),
+                Term::Response(response) => response.coordinate_of(),
+                _ => None,
+            };
+            if let Some(joint) = joint {
+                mentioned[joint.index()] = true;
             }
         });
     };
@@ -118,6 +123,7 @@ fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
     for force in &mechanism.forces {
         force.formulas.iter().for_each(&mut note);
     }
+    mechanism.states.iter().for_each(|state| note(&state.rate));
     mentioned
 }
 

@@ -129,7 +129,7 @@ impl Composer {
         if place.turn.is_some() || !place.origin.is_empty() {
             for span in asked {
                 let message = format!(
-                    "the part `{}` is moved, and this formula asks where a point of it is",
+                    "the part `{}` is moved, and this formula asks for components along axes of the ground",
                     name.value
                 );
                 self.refuse(span, message, "write such a formula in the file that includes the part, or include it where it is drawn");
@@ -325,6 +325,8 @@ fn append(file: &mut File, part: File) {
     join(&mut file.joints, part.joints);
     join(&mut file.couplings, part.couplings);
     join(&mut file.stops, part.stops);
+    join(&mut file.states, part.states);
+    join(&mut file.sensors, part.sensors);
     join(&mut file.forces, part.forces);
     join(&mut file.assembly, part.assembly);
     join(&mut file.initial, part.initial);

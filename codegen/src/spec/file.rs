@@ -15,7 +15,9 @@ use super::include::IncludeSpec;
 use super::joint::JointSpec;
 use super::mission::MissionSpec;
 use super::point::PointSpec;
+use super::sensor::Sensor;
 use super::start::StartSpec;
+use super::state::StateSpec;
 use super::stop::StopSpec;
 use super::table::TableSpec;
 use super::texts::{tables, texts_of, without_texts};
@@ -66,6 +68,12 @@ pub struct File {
     /// Springs, forces and torques.
     /// [table]
     pub forces: Table<ForceSpec>,
+    /// Quantities with a rate by formula, integrated along with the motion.
+    /// [table]
+    pub states: Table<StateSpec>,
+    /// Formulas with a name and a column of their own.
+    /// [table]
+    pub sensors: Table<Sensor>,
     /// Guesses of joint coordinates from which assembly starts.
     /// [table]
     pub assembly: Table<StartSpec>,

@@ -97,6 +97,9 @@ tables! {
         /// Linear spring.
         /// [table; default none]
         pub spring: Option<SpringSpec>,
+        /// Dry friction that follows the joint's own force; of revolute and prismatic joints.
+        /// [table; default none]
+        pub dry_friction: Option<Box<At<DryFrictionSpec>>>,
         /// Force or torque by formula, positive along the coordinate.
         /// [N m or N; any; default none; e.g. "-2 N m"]
         pub force: Option<ByCoordinate>,
@@ -150,6 +153,29 @@ tables! {
         /// Third coordinate.
         /// [table]
         pub q3: Option<At<SpringPart>>,
+    }
+
+    /// Coulomb friction under the force that the joint carries across its axis.
+    #[cfg_attr(test, schemars(extend("required" = ["coefficient"])))]
+    pub struct DryFrictionSpec {
+        /// Coefficient of friction of sliding at speed.
+        /// [1; from 0; required; e.g. 0.1]
+        pub coefficient: Option<Quantity>,
+        /// Coefficient of friction just after sliding begins (Stribeck).
+        /// [1; from 0; default `coefficient`; e.g. 0.15]
+        pub at_rest: Option<Quantity>,
+        /// Speed by which the coefficient has fallen from the one to the other.
+        /// [rad/s or m/s; above 0; required with `at_rest`; e.g. "10 mm/s"]
+        pub stribeck_speed: Option<Quantity>,
+        /// Speed within which friction changes its sign: below it the joint creeps.
+        /// [rad/s or m/s; above 0; default 0.01 rad/s or 1 mm/s; e.g. "0.1 mm/s"]
+        pub onset: Option<Quantity>,
+        /// Radius of the bearing of a revolute joint.
+        /// [m; above 0; required of a revolute joint; e.g. "10 mm"]
+        pub radius: Option<Quantity>,
+        /// Distance of the two places that carry moments across the axis.
+        /// [m; above 0; default one place, which carries the force alone; e.g. "80 mm"]
+        pub length: Option<Quantity>,
     }
 
     /// A spring of one coordinate.

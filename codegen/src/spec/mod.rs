@@ -21,7 +21,9 @@ mod rockwell;
 #[cfg(test)]
 mod schema;
 mod scope;
+mod sensor;
 mod start;
+mod state;
 mod stop;
 mod syntax;
 mod table;
@@ -44,12 +46,14 @@ pub use force::{
     Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Written,
 };
 pub use include::{IncludeSpec, RotationSpec};
-pub use joint::{ByCoordinate, EachCoordinate, JointSpec, SpringPart, SpringSpec};
+pub use joint::{ByCoordinate, DryFrictionSpec, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use mission::{MissionSpec, SegmentJointSpec, SegmentSpec};
 pub use parse::{Spec, parse};
 pub use point::PointSpec;
 pub use repeat::{expand, group_spans};
+pub use sensor::{Sensor, SensorTable};
 pub use start::{StartSpec, StartTable};
+pub use state::StateSpec;
 pub use stop::StopSpec;
 pub use syntax::{Expression, Form, Operator, Relation, SyntaxError, as_written, parse_expression};
 pub use table::{Interpolation, Outside, TableSpec};

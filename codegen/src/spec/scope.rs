@@ -20,7 +20,8 @@ pub(super) struct Scope {
     /// Names of the part, and those of its groups with [`BRACES`].
     own: Vec<String>,
     by_name: HashMap<String, String>,
-    points: Vec<String>,
+    /// Points and bodies, whose members are along axes of the ground.
+    along_ground: Vec<String>,
 }
 
 impl Scope {
@@ -31,12 +32,14 @@ impl Scope {
         let mut by_name: HashMap<String, String> =
             own.iter().map(|name| (name.clone(), format!("{prefix}{name}"))).collect();
         by_name.extend(bodies.iter().cloned());
-        let groups = file.repeat.0.iter().flat_map(|(_, group)| keys(&group.value.points));
-        let points = keys(&file.points).chain(groups).map(without_braces).collect();
-        Self { prefix, own, by_name, points }
+        let points = file.repeat.0.iter().flat_map(|(_, group)| keys(&group.value.points));
+        let bodies = file.repeat.0.iter().flat_map(|(_, group)| keys(&group.value.bodies));
+        let named = keys(&file.points).chain(keys(&file.bodies)).chain(points).chain(bodies);
+        let along_ground = named.map(without_braces).collect();
+        Self { prefix, own, by_name, along_ground }
     }
 
-    /// Renames all that is named in the file. Gives the places where formulas ask where a point is.
+    /// Renames all that is named in the file. Gives the places where formulas ask for components along axes of the ground.
     pub(super) fn rename(&self, file: &mut File) -> Vec<Span> {
         let mut words = words_of(file);
         let kept: Vec<Option<Name>> = words.iter_mut().map(|word| take(*word)).collect();
@@ -72,9 +75,11 @@ impl Scope {
             roots(text, &expression, &mut found);
         }
         found.sort_by_key(|(at, ..)| std::cmp::Reverse(*at));
-        for (at, word, has_member) in found {
+        for (at, word, member) in found {
             let Some(name) = self.name(&word) else { continue };
-            if has_member && fits_one(&self.points, &word) {
+            // Forces and moments in joints have such components too.
+            let along = |member: &str| member.starts_with(['F', 'M']) || fits_one(&self.along_ground, &word);
+            if member.as_deref().is_some_and(along) {
                 asked.push(span);
             }
             text.replace_range(at..at + word.len(), &name);
@@ -98,6 +103,7 @@ pub(super) fn names_of(file: &File) -> Vec<&str> {
     names.extend(
         keys(&file.stops).chain(keys(&file.couplings)).chain(keys(&file.forces)).chain(keys(&file.include)),
     );
+    names.extend(keys(&file.states).chain(keys(&file.sensors)));
     names.extend(keys(&file.repeat));
     for (_, group) in &file.repeat.0 {
         let RepeatSpec { points, bodies, joints, couplings, stops, forces, .. } = &group.value;
@@ -123,6 +129,8 @@ fn each(file: &mut File, change: Change<'_>) {
     file.couplings.each(nowhere, change);
     file.stops.each(nowhere, change);
     file.forces.each(nowhere, change);
+    file.states.each(nowhere, change);
+    file.sensors.each(nowhere, change);
     file.assembly.each(nowhere, change);
     file.initial.each(nowhere, change);
     file.clearance.each(nowhere, change);
@@ -167,8 +175,8 @@ pub(super) fn files_of(file: &mut File) -> Vec<&mut Name> {
     file.tables.0.iter_mut().filter_map(|(_, table)| table.value.data.as_mut()).chain(bent).collect()
 }
 
-/// Where names stand in a formula, as far as they reach before a member; whether one follows.
-fn roots(text: &str, expression: &Expression, found: &mut Vec<(usize, String, bool)>) {
+/// Where names stand in a formula, as far as they reach before a member; the member that follows.
+fn roots(text: &str, expression: &Expression, found: &mut Vec<(usize, String, Option<String>)>) {
     // The range of what stands in brackets is that of the brackets.
     let start = expression.range.start;
     let at = text[start..]
@@ -176,15 +184,15 @@ fn roots(text: &str, expression: &Expression, found: &mut Vec<(usize, String, bo
         .map_or(start, |more| start + more);
     match &expression.form {
         Form::Number { .. } => {}
-        Form::Name(name) => found.push((at, name.clone(), false)),
-        Form::Member(name, _) => found.push((at, name.clone(), true)),
+        Form::Name(name) => found.push((at, name.clone(), None)),
+        Form::Member(name, member) => found.push((at, name.clone(), Some(member.clone()))),
         Form::Neg(inner) | Form::Power(inner, _) => roots(text, inner, found),
         Form::Binary(_, left, right) => {
             roots(text, left, found);
             roots(text, right, found);
         }
         Form::Call(name, arguments) => {
-            found.push((at, name.clone(), false));
+            found.push((at, name.clone(), None));
             arguments.iter().for_each(|argument| roots(text, argument, found));
         }
         Form::Compare(_, both) => both.iter().for_each(|side| roots(text, side, found)),
@@ -193,7 +201,7 @@ fn roots(text: &str, expression: &Expression, found: &mut Vec<(usize, String, bo
 
 /// The same of a formula with braces, which is none before they are replaced: words with their braces that follow neither a number, as
 /// units do, nor a point, as members do.
-fn words(text: &str) -> Vec<(usize, String, bool)> {
+fn words(text: &str) -> Vec<(usize, String, Option<String>)> {
     let mut found = Vec::new();
     let mut at = 0;
     let mut before = ' ';
@@ -218,7 +226,8 @@ fn words(text: &str) -> Vec<(usize, String, bool)> {
         });
         let end = length.map_or(text.len(), |length| at + length);
         if before != '.' && !before.is_ascii_digit() {
-            found.push((at, text[at..end].to_owned(), text[end..].starts_with('.')));
+            let member = text[end..].strip_prefix('.').map(str::to_owned);
+            found.push((at, text[at..end].to_owned(), member));
         }
         before = 'a';
         at = end;
@@ -259,7 +268,12 @@ mod tests {
     fn scope() -> Scope {
         let own = ["L", "m", "A", "B{i}", "R{i}", "curve", "knee", "knee.R1"].map(without_braces).to_vec();
         let by_name = [("base".to_owned(), "frame".to_owned())].into();
-        Scope { prefix: "left.".into(), own, by_name, points: ["A", "B{i}"].map(without_braces).to_vec() }
+        Scope {
+            prefix: "left.".into(),
+            own,
+            by_name,
+            along_ground: ["A", "B{i}"].map(without_braces).to_vec(),
+        }
     }
 
     #[test]
@@ -285,7 +299,9 @@ mod tests {
 
     #[test]
     fn formulas_that_ask_where_a_point_is_are_told() {
-        for (text, count) in [("A.x", 1), ("B{i}.x - B{i+1}.y", 2), ("R1.q", 0), ("L", 0)] {
+        for (text, count) in
+            [("A.x", 1), ("B{i}.x - B{i+1}.y", 2), ("R1.q", 0), ("R1.Fx", 1), ("2*R{i}.Mz", 1), ("L", 0)]
+        {
             let mut asked = Vec::new();
             scope().renamed(&mut text.to_owned(), Span::default(), &mut asked);
             assert_eq!(asked.len(), count, "{text}");

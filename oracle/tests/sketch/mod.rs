@@ -48,6 +48,8 @@ impl Sketch {
             couplings: Vec::new(),
             stops: Vec::new(),
             forces: Vec::new(),
+            states: Vec::new(),
+            sensors: Vec::new(),
             closure: Closure::Joint,
             allowed: Vec::new(),
             starts: Vec::new(),

@@ -182,7 +182,7 @@ fn world_pair<'g>(
 /// Components in W of a vector given in W or in axes that move with a body.
 fn components<'g>(element: &Force, g: &'g Scope, state: &JointStates<'g>) -> Vec3<'g> {
     let [components] = element.triples();
-    let components = Vec3::from_fn(|i| state.lower(g, &components[i]));
+    let components = Vec3::from_fn(|i| state.force_law(g, &components[i]));
     let Some(at) = state.geometry.linkage.link(element.axes) else { return components };
     let local = state.geometry.turn(&state.geometry.linkage.links[at].frame, components);
     state.motion.poses.world[at].rotation * local

@@ -1,6 +1,7 @@
 //! Springs, dampers and actuators on the coordinates of a joint.
 
 use super::ball_damper::BallDamper;
+use super::dry_friction::dry_friction;
 use crate::derive::element::Element;
 use crate::derive::joint_coordinates::JointCoordinates;
 use crate::derive::joint_state::JointStates;
@@ -41,9 +42,15 @@ impl<'g> Element<'g> for JointElement<'_> {
                 (*coordinate, -(force + preload))
             }
             Passive::Actuator { coordinate, force } => {
-                let force = state.lower(g, force);
+                let force = state.force_law(g, force);
                 loads.supplied += force * coordinates.speed[*coordinate];
                 (*coordinate, force)
+            }
+            Passive::DryFriction(friction) => {
+                let speed = coordinates.speed[0];
+                let force = dry_friction(g, state, (joint, friction), speed);
+                loads.dissipated -= force * speed;
+                (0, force)
             }
         };
         push_along(loads, state, (joint, coordinate), &coordinates, force);

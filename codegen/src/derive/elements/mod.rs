@@ -11,6 +11,7 @@ use super::loads::Loads;
 
 mod ball_damper;
 mod coupling;
+mod dry_friction;
 mod elasticity;
 mod forces;
 mod joint;

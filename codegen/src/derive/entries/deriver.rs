@@ -1,6 +1,8 @@
 //! The symbols of one mechanism, and its motion, loads and closure rows at an instant.
 //! In: [`Geometry`], which constraint rows to keep. Out: [`Instant`]s. Never knows what entry points return.
 
+use std::rc::Rc;
+
 use nalgebra::DMatrix;
 
 use crate::expr::{Expr, Scope, Vec3};
@@ -8,6 +10,7 @@ use crate::id::{JointId, ParameterId};
 use crate::model::Mechanism;
 
 use super::names::{INPUT_RATES, variable_names};
+use super::own_states::{OwnState, own_states};
 use crate::derive::accelerations::accelerations;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
 use crate::derive::contacts::ContactWrench;
@@ -24,6 +27,7 @@ use crate::derive::loads::Loads;
 use crate::derive::motion::{ModalState, Motion};
 use crate::derive::plan::Guide;
 use crate::derive::relative_motion::Sums;
+use crate::derive::responses::Responses;
 
 /// Symbols that every entry point takes besides the time: of tunable parameters, and of inputs with the rates that
 /// drives need.
@@ -91,6 +95,10 @@ pub struct Deriver<'g> {
     pub keep: Vec<bool>,
     /// Of the kept rows by the free speeds, at closed positions.
     pub jacobians: Vec<DMatrix<f64>>,
+    /// States of the file's own; none where positions alone are asked for.
+    pub own: Vec<OwnState<'g>>,
+    /// What forces ask of the solution of the instant.
+    pub responses: Rc<Responses<'g>>,
 }
 
 /// Link motion with what depends on it.
@@ -99,6 +107,10 @@ pub struct Instant<'g> {
     pub loads: Loads<'g>,
     pub cuts: Vec<CutRows<'g>>,
     pub couplings: Vec<CouplingRow<'g>>,
+    /// Rates of the file's own states.
+    pub own_rates: Vec<Expr<'g>>,
+    /// Laws of the forces that ask for the solution.
+    pub laws: Vec<Expr<'g>>,
 }
 
 impl<'g> Instant<'g> {
@@ -156,7 +168,8 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 
 impl<'g> Deriver<'g> {
     /// Makes the symbols; without a guide all constraint rows are kept.
-    pub fn new(geometry: Geometry<'g>, given: Given<'g>, guide: Option<&Guide>) -> Self {
+    /// `with_own`: with the states of the file's own, which else keep their start values.
+    pub fn new(geometry: Geometry<'g>, given: Given<'g>, guide: Option<&Guide>, with_own: bool) -> Self {
         let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
         let keep = guide.map_or_else(
@@ -215,6 +228,8 @@ impl<'g> Deriver<'g> {
             contacts,
             keep,
             jacobians,
+            own: if with_own { own_states(g, mechanism) } else { Vec::new() },
+            responses: Rc::default(),
         }
     }
 
@@ -264,11 +279,21 @@ impl<'g> Deriver<'g> {
         }
         let modes = linkage.links.iter().map(|link| modal_state(link, &q, &v, &v_dot)).collect();
         let motion = Motion { poses, twists, accelerations, ground, modes };
-        let state = JointStates { geometry, motion, q, v, v_dot, points_in_ground: true };
+        let own = if self.own.is_empty() { self.starts_of_states() } else { self.own_values().collect() };
+        let responses = Rc::clone(&self.responses);
+        let state = JointStates { geometry, motion, q, v, v_dot, own, responses, points_in_ground: true };
         let loads = loads(g, &state, &self.contacts);
         let cuts = cut_rows(&state.motion, exact, Sums::Links);
         let couplings = coupling_rows(g, &state);
-        Instant { state, loads, cuts, couplings }
+        let laws = self.responses.take_laws();
+        let rates = geometry.mechanism.states.iter().take(self.own.len());
+        let own_rates = rates
+            .map(|own| {
+                g.begin_section(format!("rate of {}", own.name));
+                state.lower(g, &own.rate)
+            })
+            .collect();
+        Instant { state, loads, cuts, couplings, own_rates, laws }
     }
 
     fn label_poses(&self, poses: &Poses<'g>, q: &[Expr<'g>]) {

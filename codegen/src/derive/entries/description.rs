@@ -8,22 +8,23 @@ use linkwear_runtime::{
 
 use super::deriver::{Deriver, Instant};
 use super::names::{INPUT_RATES, variable_names};
+use super::own_states::unit;
 use crate::derive::geometry::Geometry;
 use crate::derive::linkage::Freedom;
 use crate::derive::start::StartValues;
 use crate::derive::wear_factor::steps;
 use crate::id::ParameterId;
-use crate::model::{Coordinate, Mission, Parameter, Segment};
+use crate::model::{Coordinate, Mission, Parameter, Segment, StateVariable};
 use crate::spec::Dimension;
 
 impl Deriver<'_> {
     pub(super) fn sizes(&self, channels: usize) -> Sizes {
         Sizes {
             parameters: self.given.tunable.len() + self.given.inputs.len(),
-            coordinates: self.free_q.len(),
-            speeds: self.partition.free.len(),
-            all_coordinates: self.q_all.len(),
-            all_speeds: self.v_all.len(),
+            coordinates: self.free_q.len() + self.own.len(),
+            speeds: self.partition.free.len() + self.own.len(),
+            all_coordinates: self.q_all.len() + self.own.len(),
+            all_speeds: self.v_all.len() + self.own.len(),
             rows: self.keep.iter().filter(|kept| **kept).count(),
             all_rows: self.keep.len(),
             drivers: self.drivers.len(),
@@ -70,8 +71,12 @@ impl Deriver<'_> {
             name: mechanism.name.clone().into(),
             parameters: parameters.into(),
             inputs: roles.into(),
-            coordinates: pick(&names.0, &self.free_q, &start.held_q).into(),
-            speeds: pick(&names.1, &self.partition.free, &start.held_v).into(),
+            coordinates: [pick(&names.0, &self.free_q, &start.held_q), self.own_infos(".integral", 1)]
+                .concat()
+                .into(),
+            speeds: [pick(&names.1, &self.partition.free, &start.held_v), self.own_infos(".value", 0)]
+                .concat()
+                .into(),
             motions: self.motions().into(),
             quaternions: self.quaternions().into(),
             rows: rows.into(),
@@ -83,6 +88,17 @@ impl Deriver<'_> {
             coefficients: self.coefficients().into(),
             missions: missions.into(),
         }
+    }
+
+    /// States of the file's own, or their integrals.
+    fn own_infos(&self, suffix: &str, seconds: i32) -> Vec<VariableInfo> {
+        let states = self.geometry.mechanism.states.iter().take(self.own.len());
+        let info = |state: &StateVariable| VariableInfo {
+            name: format!("{}{suffix}", state.name).into(),
+            unit: unit(state.initial.dimension, seconds).into(),
+            held: true,
+        };
+        states.map(info).collect()
     }
 
     /// The inputs, each with its rates behind it where a drive follows it, and what each of them is.
@@ -195,6 +211,7 @@ impl Deriver<'_> {
                 Freedom::Flexible { modes } => vec![MotionInfo::Scalar { driver: None }; modes],
                 Freedom::Weld | Freedom::Node => Vec::new(),
             })
+            .chain(self.own.iter().map(|_| MotionInfo::Scalar { driver: None }))
             .collect()
     }
 

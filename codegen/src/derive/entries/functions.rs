@@ -29,6 +29,8 @@ pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec
 pub(super) struct StateRates<'g> {
     /// Of the free coordinates.
     coordinates: Vec<Expr<'g>>,
+    /// Of the file's own states.
+    own: Vec<Expr<'g>>,
     /// Power of applied forces, without drivers.
     supplied: Expr<'g>,
     dissipated: Expr<'g>,
@@ -52,8 +54,10 @@ impl<'g> Deriver<'g> {
         let q = self.free_q.iter().map(|i| self.q_all[*i]);
         let v = self.partition.free.iter().map(|i| self.v_all[*i]);
         let mut blocks = self.base_inputs();
-        blocks.push(Block::vector("q", q).doc("Free coordinates [rad, m, quaternions]."));
-        blocks.push(Block::vector("v", v).doc("Free speeds [rad/s, m/s]."));
+        blocks.push(
+            Block::vector("q", q.chain(self.own_integrals())).doc("Free coordinates [rad, m, quaternions]."),
+        );
+        blocks.push(Block::vector("v", v.chain(self.own_values())).doc("Free speeds [rad/s, m/s]."));
         blocks.extend(further);
         blocks
     }
@@ -81,8 +85,10 @@ impl<'g> Deriver<'g> {
         let driven = self.drivers.iter().map(|driver| (driver.coordinate, driver.speed, driver.law));
         self.geometry.g.begin_section("start values");
         let values = start_values(&self.geometry, driven);
-        let q = self.free_q.iter().map(|i| values.q[*i]);
-        let v = self.partition.free.iter().map(|i| values.v[*i]);
+        let own = if self.own.is_empty() { Vec::new() } else { self.starts_of_states() };
+        let unstarted = own.iter().map(|_| self.geometry.g.zero());
+        let q = self.free_q.iter().map(|i| values.q[*i]).chain(unstarted);
+        let v = self.partition.free.iter().map(|i| values.v[*i]).chain(own.iter().copied());
         let outputs = vec![
             Block::vector("q", q).doc("Start values of the free coordinates, before the loops are closed."),
             Block::vector("v", v).doc("Wishes for the free speeds."),
@@ -116,14 +122,14 @@ impl<'g> Deriver<'g> {
         instant.by_shorter_rows(false, self.is_short(), by)
     }
 
-    pub(super) fn forward_dynamics(&self, solved: &Forward<'g>) -> Function {
+    pub(super) fn forward_dynamics(&self, solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> Function {
         let doc = "Accelerations, multipliers and drive forces for a state that satisfies the closures.";
         let inputs = self.state_inputs([self.contact_input()]);
-        function(Entry::ForwardDynamics, doc, inputs, solution_blocks(solved).into())
+        function(Entry::ForwardDynamics, doc, inputs, solution_blocks(solved, own_rates).into())
     }
 
-    pub(super) fn accelerations(&self, solved: &Forward<'g>) -> Function {
-        let [accelerations, _, _, pivots] = solution_blocks(solved);
+    pub(super) fn accelerations(&self, solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> Function {
+        let [accelerations, _, _, pivots] = solution_blocks(solved, own_rates);
         let doc = "Accelerations alone, where nobody asks for multipliers and drive forces.";
         let inputs = self.state_inputs([self.contact_input()]);
         function(Entry::Accelerations, doc, inputs, vec![accelerations, pivots])
@@ -139,7 +145,8 @@ impl<'g> Deriver<'g> {
             q_dot.extend(coordinate_rates(link.freedom, q, v));
         }
         StateRates {
-            coordinates: self.free_q.iter().map(|i| q_dot[*i]).collect(),
+            coordinates: self.free_q.iter().map(|i| q_dot[*i]).chain(self.own_values()).collect(),
+            own: instant.own_rates.clone(),
             supplied: instant.loads.supplied,
             dissipated: instant.loads.dissipated,
         }
@@ -166,7 +173,7 @@ impl<'g> Deriver<'g> {
     }
 
     pub(super) fn derivative(&self, solved: &Forward<'g>, rates: &StateRates<'g>) -> Function {
-        let [accelerations, multipliers, drive, pivots] = solution_blocks(solved);
+        let [accelerations, multipliers, drive, pivots] = solution_blocks(solved, &rates.own);
         let [q_dot, supplied, dissipated] = self.rate_blocks(rates, &solved.drive);
         let outputs = vec![q_dot, accelerations, multipliers, drive, pivots, supplied, dissipated];
         let doc =
@@ -179,6 +186,8 @@ impl<'g> Deriver<'g> {
         let g = self.geometry.g;
         let instant = self.instant(self.driven_state(&[]), true);
         let free = &self.partition.free;
+        // States of the file's own are in no loop.
+        let beside = || self.own.iter().map(|_| g.zero());
         let by = |cuts: &[CutRows<'g>]| {
             let of_cuts = cuts.iter().flat_map(|cut| &cut.rows);
             let of_couplings = instant.couplings.iter().map(|coupling| &coupling.row);
@@ -186,7 +195,7 @@ impl<'g> Deriver<'g> {
             let rows = kept_rows(&instant.state.motion, (cuts, &instant.couplings), &self.keep);
             let rates: Vec<Expr<'g>> = rows.iter().map(|kept| kept.row.rate).collect();
             let jacobian: Vec<Expr<'g>> =
-                rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j])).collect();
+                rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]).chain(beside())).collect();
             (g.operations([&all, &rates, &jacobian].into_iter().flatten().copied()), [all, rates, jacobian])
         };
         let [all, rates, jacobian] = instant.by_shorter_rows(true, true, by);
@@ -197,7 +206,7 @@ impl<'g> Deriver<'g> {
             Block::vector("phi_dot", rates.iter().copied())
                 .doc("Velocity residuals of the kept rows [rad/s, m/s].")
                 .cites("[CS (3)]"),
-            Block::matrix("phi_q", (rates.len(), free.len()), jacobian)
+            Block::matrix("phi_q", (rates.len(), free.len() + self.own.len()), jacobian)
                 .doc("Jacobian of the kept rows by the free speeds.")
                 .cites("[CS (3)]"),
         ];
@@ -249,7 +258,7 @@ impl<'g> Deriver<'g> {
             values.push(*value);
         }
         let inputs = self.state_inputs([
-            Block::vector("v_dot", self.v_dot.iter().copied()).doc("Accelerations from forward_dynamics."),
+            Block::vector("v_dot", self.v_dot.iter().copied().chain(self.own_rates())).doc("Accelerations from forward_dynamics."),
             Block::vector("lambda", self.lambda.iter().copied()).doc(
                 "Multipliers of all rows; zero for dropped rows except near positions where kept rows lose rank.",
             ),
@@ -285,6 +294,7 @@ impl<'g> Deriver<'g> {
     ) -> Function {
         let g = self.geometry.g;
         let n = self.v_all.len();
+        let own = self.own.len();
         let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
         let motion = &instant.state.motion;
         g.begin_section("mass matrix by composite bodies");
@@ -313,18 +323,23 @@ impl<'g> Deriver<'g> {
             (operations, (rows, h))
         };
         let (rows, h) = instant.by_shorter_rows(false, true, by);
-        let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied());
+        let beside = || vec![g.zero(); own];
+        let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied().chain(beside()));
+        // Each state of the file's own by itself: one times its rate is its rate.
+        let mass_of_own = (0..own).flat_map(|i| (i..own).map(move |j| g.number(f64::from(u8::from(i == j)))));
+        let upper = (0..n).flat_map(|i| mass[i][i..].iter().copied().chain(beside()).collect::<Vec<_>>());
+        let own_rates = instant.own_rates.iter().map(|rate| -*rate);
         let outputs = vec![
-            Block::vector("mass", (0..n).flat_map(|i| mass[i][i..].to_vec()))
+            Block::vector("mass", upper.chain(mass_of_own))
                 .doc("Upper triangle of M, row by row [kg m², kg m, kg].")
                 .cites("[CS (6)]"),
-            Block::vector("h", h)
+            Block::vector("h", h.into_iter().chain(own_rates))
                 .doc("Left side besides M v̇: inertia, weight, springs, damping.")
                 .cites("[CS (6)]"),
             Block::vector("phi", rows.iter().map(|(phi, ..)| *phi))
                 .doc("Position residuals of all rows [rad, m].")
                 .cites("[CS (3)]"),
-            Block::matrix("phi_q", (rows.len(), n), jacobian)
+            Block::matrix("phi_q", (rows.len(), n + own), jacobian)
                 .doc("Jacobian of all rows by all speeds.")
                 .cites("[CS (3)]"),
             Block::vector("gamma", rows.iter().map(|(.., gamma)| *gamma))
@@ -332,7 +347,8 @@ impl<'g> Deriver<'g> {
                 .cites("[CS (6)]"),
         ];
         let mut inputs = self.base_inputs();
-        let (q, v) = (instant.state.q, instant.state.v);
+        let (q, v) = (instant.state.q.into_iter(), instant.state.v.into_iter());
+        let (q, v) = (q.chain(self.own_integrals()), v.chain(self.own_values()));
         inputs.push(Block::vector("q", q).doc("All coordinates, driven ones included."));
         inputs.push(Block::vector("v", v).doc("All speeds, driven ones included."));
         inputs.push(self.contact_input());
@@ -341,11 +357,11 @@ impl<'g> Deriver<'g> {
     }
 }
 
-/// Accelerations, multipliers, drive forces, pivots.
-fn solution_blocks(solved: &Forward<'_>) -> [Block; 4] {
+/// Accelerations with the rates of the file's own states behind them, multipliers, drive forces, pivots.
+fn solution_blocks<'g>(solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> [Block; 4] {
     let Forward { solution, drive, .. } = solved;
     [
-        Block::vector("v_dot", solution.accelerations.iter().copied())
+        Block::vector("v_dot", solution.accelerations.iter().chain(own_rates).copied())
             .doc("Accelerations of the free speeds [rad/s², m/s²].")
             .cites("[CS (6)]"),
         Block::vector("lambda", solution.multipliers.iter().copied())

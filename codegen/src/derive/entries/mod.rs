@@ -6,13 +6,16 @@ mod deriver;
 mod description;
 mod element_columns;
 mod functions;
+mod joint_forces;
 mod names;
 mod observe;
+mod own_states;
+mod response_solution;
 mod row_axes;
 
 use linkwear_runtime::{Description, Entry, Sizes};
 
-use crate::expr::{ExprId, Scope};
+use crate::expr::{Expr, ExprId, Scope};
 use crate::model::{Mechanism, Topology};
 
 use super::geometry::Geometry;
@@ -61,9 +64,21 @@ pub fn derive(
         scope.begin_section("prescribed motion");
         let (inputs, given) = inputs(&scope, mechanism);
         let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-        results(&Deriver::new(geometry, given, guide), purpose)
+        let with_own = purpose != Purpose::Analysis;
+        results(&Deriver::new(geometry, given, guide, with_own), purpose)
     };
     Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
+}
+
+/// Puts into the outputs of all functions what stands for symbols.
+fn insert<'g>(g: &'g Scope, functions: &mut [Function], values: &[(Expr<'g>, Expr<'g>)]) {
+    let blocks = || functions.iter().flat_map(|function| &function.outputs);
+    let roots: Vec<ExprId> = blocks().flat_map(|block| block.entries.iter().copied()).collect();
+    let mut made = g.with_ids(&roots, values).into_iter();
+    let entries = functions.iter_mut().flat_map(|function| &mut function.outputs);
+    for (entry, made) in entries.flat_map(|block| &mut block.entries).zip(&mut made) {
+        *entry = made;
+    }
 }
 
 /// All functions, in the order of [`Entry::ALL`], with their layout and names.
@@ -78,23 +93,26 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
         Purpose::Analysis => None,
     };
     let solved = solved.as_ref();
-    let forward_dynamics =
-        solved.map_or_else(|| nothing(Entry::ForwardDynamics), |solved| deriver.forward_dynamics(solved));
+    let responses = deriver.response_values(&masses, solved, &dynamic.laws);
+    let own = &dynamic.own_rates;
+    let forward_dynamics = solved
+        .map_or_else(|| nothing(Entry::ForwardDynamics), |solved| deriver.forward_dynamics(solved, own));
     let accelerations =
-        solved.map_or_else(|| nothing(Entry::Accelerations), |solved| deriver.accelerations(solved));
+        solved.map_or_else(|| nothing(Entry::Accelerations), |solved| deriver.accelerations(solved, own));
     let state_rates = deriver.state_rates(&dynamic);
     let rates = deriver.rates(&state_rates);
     let (closure, rows) = deriver.closure();
     let energy = deriver.energy(&dynamic, &masses);
+    let g = deriver.geometry.g;
     let roots = [&forward_dynamics, &rates].into_iter().flat_map(|function| &function.outputs);
     let roots: Vec<ExprId> = roots.flat_map(|block| block.entries.iter().copied()).collect();
-    let switches = deriver.geometry.g.switches(&roots);
+    let switches = g.switches(&g.with_ids(&roots, &responses));
     let (observe, channels) = deriver.observe(&masses, purpose == Purpose::Picture, &switches);
     let equations_of_motion = deriver.equations_of_motion(&masses, solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
-    let functions = vec![
+    let mut functions = vec![
         prescribed,
         start,
         forward_dynamics,
@@ -109,5 +127,6 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     ];
     let in_order = functions.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name());
     debug_assert!(in_order);
+    insert(g, &mut functions, &responses);
     (functions, deriver.sizes(channels.len()), deriver.description(&start_values, rows, channels))
 }

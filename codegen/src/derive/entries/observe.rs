@@ -5,17 +5,15 @@
 use linkwear_runtime::{Channel, Text};
 
 use super::deriver::{Deriver, Instant};
+use super::joint_forces::JointForces;
 use super::names::{number_among, units};
+use super::own_states::unit;
 use crate::derive::attachment::{NodePose, NodeShape};
-use crate::derive::closure::CutRows;
-use crate::derive::couplings::{Multiplied, given, mesh_wrenches};
-use crate::derive::dynamics::joint_wrenches;
+use crate::derive::geometry::Geometry;
 use crate::derive::joint_markers::joint_links;
 use crate::derive::link_mass::LinkMass;
-use crate::derive::linkage::Freedom;
 use crate::derive::orientation::{conjugate, link_displacement, quaternion_product};
-use crate::derive::relative_motion::RelativeMotion;
-use crate::derive::wrench::Wrench;
+use crate::derive::responses::Responses;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
 use crate::id::{JointId, PointId};
@@ -70,6 +68,8 @@ impl<'a, 'g> Channels<'a, 'g> {
         for (input, value) in parameters.filter(|(parameter, _)| parameter.input) {
             list.push(format!("{}.u", input.name), input.dimension.si_unit(), *value);
         }
+        list.own_states();
+        list.sensors(masses);
         list.multipliers();
         list.push("energy.kinetic".to_owned(), "J", energy[0]);
         list.push("energy.potential".to_owned(), "J", energy[1]);
@@ -202,136 +202,50 @@ impl<'a, 'g> Channels<'a, 'g> {
 
     fn wrenches(&mut self, masses: &[LinkMass<'g>]) {
         let (deriver, instant) = (self.deriver, self.instant);
-        let (state, geometry) = (&instant.state, deriver.geometry);
-        geometry.g.begin_section("constraint forces of the loops");
-        let mut external = instant.loads.external.clone();
-        let mut multipliers = deriver.lambda.iter();
-        let mut at_cuts = Vec::new();
-        for cut in &instant.cuts {
-            let mut sum = [geometry.g.zero_vector(); 2];
-            for (row, multiplier) in cut.rows.iter().zip(&mut multipliers) {
-                let [moment, force] = [row.moment, row.force].map(|part| *multiplier * part);
-                sum = [sum[0] + moment, sum[1] + force];
-            }
-            at_cuts.push(sum);
-            let [parent, child] = cut.motion.link_wrenches(sum[0], sum[1]);
-            for (link, wrench) in [(cut.motion.child.link, child), (cut.motion.parent.link, parent)] {
-                if let Some(at) = link {
-                    external[at] += wrench;
-                }
-            }
-        }
-        for (coupling, multiplier) in geometry.mechanism.couplings.iter().zip(self.coupling_forces()) {
-            geometry.g.begin_section(format!("force of {}", coupling.name));
-            let by = Multiplied::new(multiplier);
+        let mut forces = JointForces::new(deriver, instant);
+        for (coupling, by) in forces.couplings() {
             for column in &coupling.columns {
                 self.push(format!("{}.{}", coupling.name, column.name), column.unit, by.number(column.value));
             }
-            // What others give way with is among the loads.
-            let wrenches =
-                if coupling.compliance.is_none() { mesh_wrenches(state, coupling, &by) } else { Vec::new() };
-            for (link, wrench) in wrenches {
-                if let Some(at) = link {
-                    external[at] += wrench;
-                }
-            }
+            forces.add(coupling, &by);
         }
-        geometry.g.begin_section("joint wrenches, from the leaves of the tree to its root");
-        let transmitted = joint_wrenches(&state.motion, masses, &external);
-        for (index, joint) in geometry.mechanism.joints.iter().enumerate() {
-            let id = JointId::new(index);
-            geometry.g.begin_section(format!("wrench at {}", joint.name));
-            let [moment, force] = match geometry.linkage.link_of_joint[index] {
-                Some(at) => self.tree_wrench(id, at, transmitted[at]),
-                None => {
-                    let position = instant.cuts.iter().position(|cut| cut.cut.joint == id);
-                    #[expect(clippy::expect_used, reason = "the spanning tree takes every joint or cuts it")]
-                    let position = position.expect("a joint is in the tree or a cut");
-                    self.cut_wrench(&instant.cuts[position], at_cuts[position])
-                }
-            };
+        let transmitted = forces.transmitted(masses);
+        for (index, joint) in deriver.geometry.mechanism.joints.iter().enumerate() {
+            let [moment, force] = forces.wrench(JointId::new(index), &transmitted);
             self.vector(&joint.name, "F", "N", force);
             self.vector(&joint.name, "M", "N m", moment);
         }
     }
 
-    /// Forces of all couplings: multipliers, whose rows are behind those of the cuts, and what others give way with.
-    fn coupling_forces(&self) -> Vec<Expr<'g>> {
-        let (g, state) = (self.deriver.geometry.g, &self.instant.state);
-        let lambda = &self.deriver.lambda;
-        let mut multipliers = lambda[lambda.len() - self.instant.couplings.len()..].iter();
-        let couplings = self.deriver.geometry.mechanism.couplings.iter();
-        couplings
-            .filter_map(|coupling| match &coupling.compliance {
-                Some(law) => Some(given(g, state, coupling, law).force),
-                None => multipliers.next().copied(),
-            })
-            .collect()
+    /// Sensors, from the accelerations, multipliers and drive forces that are handed in.
+    fn sensors(&mut self, masses: &[LinkMass<'g>]) {
+        let (deriver, instant) = (self.deriver, self.instant);
+        let Geometry { g, mechanism, .. } = deriver.geometry;
+        if mechanism.sensors.is_empty() {
+            return;
+        }
+        let responses = Responses::default();
+        let lowered = mechanism.sensors.iter().map(|sensor| {
+            g.begin_section(format!("sensor {}", sensor.name));
+            instant.state.lower_asking(g, &sensor.value, &responses)
+        });
+        let lowered: Vec<Expr<'g>> = lowered.collect();
+        let asked = responses.asked();
+        let values = deriver.responses_by_symbols(masses, &asked, instant);
+        let by: Vec<_> = asked.iter().map(|(_, symbol)| *symbol).zip(values).collect();
+        for (sensor, value) in mechanism.sensors.iter().zip(g.with(&lowered, &by)) {
+            self.push(format!("{}.value", sensor.name), sensor.value.dimension.si_unit(), value);
+        }
     }
 
-    /// Wrench by parent on child in W at the child's joint point, without the drives and the forces of relations.
-    fn tree_wrench(&self, joint: JointId, at: usize, total: Wrench<'g>) -> [Vec3<'g>; 2] {
-        let (poses, geometry) = (&self.instant.state.motion.poses, self.deriver.geometry);
-        let linkage = geometry.linkage;
-        let pose = poses.world[at];
-        let mut moment = pose.rotation * total.moment;
-        let mut force = pose.rotation * total.force;
-        let reversed = linkage.reversed[joint.index()];
-        let data = geometry.mechanism.joint(joint);
-        if reversed && data.model.slides() {
-            // The joint's child is inboard: all is about its own joint point, and there the drive acts too.
-            let link = linkage.link_at(data.child, data.at, true);
-            let place = poses.position(link, geometry.local(link, data.at));
-            moment += (pose.offset - place).cross(force);
+    /// States of the file's own.
+    fn own_states(&mut self) {
+        let deriver = self.deriver;
+        for (state, own) in deriver.geometry.mechanism.states.iter().zip(&deriver.own) {
+            let dimension = state.initial.dimension;
+            self.push(format!("{}.value", state.name), unit(dimension, 0), own.value);
+            self.push(format!("{}.rate", state.name), unit(dimension, -1), own.rate);
         }
-        for (driver, drive) in self.deriver.drivers.iter().zip(&self.deriver.drive) {
-            if driver.joint != joint {
-                continue;
-            }
-            let Some(link) = linkage.link_of_coordinate(joint, driver.joint_coordinate) else { continue };
-            let along = |axis: [f64; 3]| *drive * (poses.world[link].rotation * geometry.g.vector(axis));
-            match linkage.links[link].freedom {
-                Freedom::Translation { axis } => force -= along(axis),
-                _ => moment -= along([0.0, 0.0, 1.0]),
-            }
-        }
-        for (coupling, multiplier) in geometry.mechanism.couplings.iter().zip(self.coupling_forces()) {
-            let felt = coupling.meshes.is_empty();
-            for term in coupling.terms.iter().filter(|term| felt && term.joint == joint) {
-                let Some(link) = linkage.link_of_coordinate(joint, term.coordinate) else { continue };
-                let amount = multiplier * self.instant.state.lower(geometry.g, &term.factor);
-                let along = |axis: [f64; 3]| amount * (poses.world[link].rotation * geometry.g.vector(axis));
-                match linkage.links[link].freedom {
-                    Freedom::Translation { axis } => force -= along(axis),
-                    _ => moment -= along([0.0, 0.0, 1.0]),
-                }
-            }
-        }
-        // The child of a reversed joint feels the opposite.
-        if reversed { [-moment, -force] } else { [moment, force] }
-    }
-
-    fn cut_wrench(&self, cut: &CutRows<'g>, [mut moment, mut force]: [Vec3<'g>; 2]) -> [Vec3<'g>; 2] {
-        let (g, state) = (self.deriver.geometry.g, &self.instant.state);
-        let rotation = |motion: &RelativeMotion<'g>| state.motion.poses.world_of(g, motion.beside()).rotation;
-        let own = state.relative_motion(cut.cut.joint);
-        let same = cut.motion.beside() == own.beside();
-        let mut apart = [g.zero_vector(); 2];
-        for (joint, own_moment, own_force) in &self.instant.loads.in_cuts {
-            if *joint == cut.cut.joint {
-                let [m, f] = if same {
-                    [&mut moment, &mut force]
-                } else {
-                    let [m, f] = &mut apart;
-                    [m, f]
-                };
-                *m += *own_moment;
-                *f += *own_force;
-            }
-        }
-        let turned = [moment, force].map(|part| rotation(&cut.motion) * part);
-        let apart = apart.map(|part| rotation(&own) * part);
-        [turned[0] + apart[0], turned[1] + apart[1]]
     }
 }
 

@@ -57,7 +57,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let scope = Scope::new();
     let (inputs, parameters) = inputs(&scope, mechanism);
     let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-    let deriver = Deriver::new(geometry, parameters, None);
+    let deriver = Deriver::new(geometry, parameters, None, false);
     let masses = deriver.masses();
     let instant = deriver.instant(deriver.driven_state(&[]), false);
     let (motion, partition) = (&instant.state.motion, &deriver.partition);

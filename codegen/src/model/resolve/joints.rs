@@ -124,6 +124,7 @@ impl Resolver<'_> {
         if let (Some(spring), false) = (&spec.spring, model.is_ball()) {
             self.springs(name, spring, model, &mut passive);
         }
+        passive.extend(self.dry_friction(name, spec, model));
         let what = place("force", "joint", name);
         for (coordinate, force) in self.by_coordinate(spec.force.as_ref(), model, &what) {
             let dimension = model.coordinates()[coordinate].force();

@@ -15,6 +15,7 @@ mod coaxial;
 mod connect;
 mod coupling_numbers;
 mod couplings;
+mod dry_friction;
 mod flexible;
 mod forces;
 mod inertia;
@@ -32,9 +33,12 @@ mod parameters;
 mod points;
 mod quantity;
 mod resolver;
+mod responses;
 mod section;
+mod sensors;
 mod series;
 mod starts;
+mod states;
 mod stops;
 mod surface;
 mod tabled;
@@ -78,6 +82,9 @@ pub fn resolve(
         points: Vec::new(),
         joint_models: Vec::new(),
         modal_starts: Vec::new(),
+        driven: Vec::new(),
+        states: Vec::new(),
+        sensors: Vec::new(),
         attached: read,
         tables: Vec::new(),
         lost_tables: Vec::new(),
@@ -113,6 +120,9 @@ impl Resolver<'_> {
         let models = file.joints.0.iter().map(|(name, joint)| self.joint_model(name, joint)).collect();
         self.joint_models = models;
         self.add_clearance(&file);
+        self.note_drives(&file);
+        self.declare_states(&file.states);
+        self.resolve_sensors(&file.sensors);
         let mut bodies = self.resolve_bodies(&file.bodies);
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);
@@ -120,6 +130,8 @@ impl Resolver<'_> {
         let couplings = self.resolve_couplings(&file, &joints);
         let mut forces = self.resolve_forces(&file.forces);
         forces.extend(self.ball_springs(&file.joints, &joints));
+        let states = self.resolve_states(&file.states);
+        self.check_responses(&joints, &forces, &states);
         let starts = self.resolve_starts(&file, &joints);
         let stops = self.resolve_stops(&file.stops, &joints, &starts);
         self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
@@ -136,6 +148,8 @@ impl Resolver<'_> {
             couplings,
             stops,
             forces,
+            states,
+            sensors: self.take_sensors(&file.sensors),
             missions,
             closure: file.closure.unwrap_or_default(),
             allowed: self.allowed(&file.check),

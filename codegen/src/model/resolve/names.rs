@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::id::{BodyId, JointId, ParameterId, PointId};
+use crate::id::{BodyId, JointId, ParameterId, PointId, StateId};
 use crate::source::Span;
 use crate::spec::{File, Name, Table};
 
@@ -29,6 +29,9 @@ pub(super) enum Thing {
     Force,
     /// A file that is included.
     Part,
+    State(StateId),
+    /// By its place in the table.
+    Sensor(usize),
 }
 
 impl Thing {
@@ -43,6 +46,8 @@ impl Thing {
             Self::Stop => "stop",
             Self::Force => "force",
             Self::Part => "part",
+            Self::State(_) => "state",
+            Self::Sensor(_) => "sensor",
         }
     }
 
@@ -83,6 +88,8 @@ impl Names {
         self.foreseen.extend(file.inputs.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.points.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.joints.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.states.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.sensors.0.iter().map(|(name, _)| name.value.clone()));
     }
 
     /// Whether a word in a formula is a name.
@@ -110,6 +117,8 @@ impl Names {
         self.declare_table(&file.couplings, |_| Thing::Coupling, faults);
         self.declare_table(&file.stops, |_| Thing::Stop, faults);
         self.declare_table(&file.forces, |_| Thing::Force, faults);
+        self.declare_table(&file.states, |at| Thing::State(StateId::new(at)), faults);
+        self.declare_table(&file.sensors, Thing::Sensor, faults);
         self.foreseen.clear();
     }
 
@@ -144,7 +153,7 @@ impl Names {
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, inputs, points, bodies, joints, couplings, stops, forces and parts share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints, couplings, stops, forces, states, sensors and parts share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;

@@ -39,7 +39,7 @@ impl Allowed {
     pub(super) const PARAMETERS: Self = Self { tunable: true, ..Self::CONSTANTS };
     /// Parameters, inputs and t.
     pub(super) const TIME: Self = Self { time: true, ..Self::PARAMETERS };
-    /// Parameters, inputs, t, joint coordinates, points, and their speeds.
+    /// Parameters, inputs, t, and all that an instant has: motion, accelerations, forces of joints, states.
     pub(super) const STATE: Self = Self { state: true, ..Self::TIME };
     /// All parameters and the place x, y, z of a point.
     pub(super) const PLACE: Self = Self { arguments: PLACE, ..Self::PARAMETERS };
@@ -48,7 +48,7 @@ impl Allowed {
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
-            (_, true) => "parameters, inputs, t, joint coordinates and points",
+            (_, true) => "parameters, inputs, t, joints, points, bodies and states",
             (true, false) if !self.arguments.is_empty() => {
                 "parameters, inputs, `pressure` and `sliding_speed`"
             }

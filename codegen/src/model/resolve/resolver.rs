@@ -6,6 +6,7 @@ use super::modal_start::ModalStart;
 use super::names::Names;
 use super::tabled::Tabled;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::id::JointId;
 use crate::input::Reach;
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
 use crate::source::{SourceFile, Span};
@@ -30,6 +31,12 @@ pub(super) struct Resolver<'a> {
     pub(super) points: Vec<Point>,
     pub(super) joint_models: Vec<JointModel>,
     pub(super) modal_starts: Vec<ModalStart>,
+    /// Coordinates of joints that drives prescribe.
+    pub(super) driven: Vec<(JointId, usize)>,
+    /// Start values of the states; nothing of one whose start is wrong.
+    pub(super) states: Vec<Option<Formula>>,
+    /// Formulas of sensors so far; nothing of one without.
+    pub(super) sensors: Vec<Option<Formula>>,
     /// Other files that were read.
     pub(super) attached: Vec<PathBuf>,
     /// Functions given by rows.

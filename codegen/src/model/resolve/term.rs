@@ -3,6 +3,7 @@
 use super::names::Thing;
 use super::quantity::{Here, Origin, Resolved};
 use super::resolver::{Reported, Resolver};
+use super::responses::Member;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
 use crate::model::Term;
@@ -80,11 +81,18 @@ impl Resolver<'_> {
         }
         match self.names.find(name) {
             Some((Thing::Parameter(id) | Thing::Input(id), _)) => self.parameter_term(id, here),
+            Some((Thing::State(id), _)) if allowed.state => {
+                // One whose start is wrong has no dimension; it is reported there.
+                let dimension = self.states.get(id.index())?.as_ref()?.dimension;
+                Some((Term::State(id), dimension))
+            }
+            Some((Thing::Sensor(at), _)) if allowed.state => self.sensor_term(name, at, here),
             Some((thing, span)) => {
                 let message = format!("`{name}` is {}, not a number", thing.a());
                 let help = match thing {
                     Thing::Point(_) => format!("write `{name}.x`, `{name}.y` or `{name}.z` for a coordinate"),
                     Thing::Joint(_) => format!("write `{name}.q` for the position, `{name}.v` for the speed"),
+                    Thing::Body(_) => format!("write `{name}.wz` for a component of its angular velocity"),
                     _ => format!("a formula can use {}", allowed.list()),
                 };
                 self.refuse_in(here, Code::WrongKindOfName, &message).also(span, "").help(help);
@@ -100,7 +108,12 @@ impl Resolver<'_> {
             None => {
                 let known = self
                     .names
-                    .known(|thing| matches!(thing, Thing::Parameter(_) | Thing::Input(_)))
+                    .known(|thing| {
+                        matches!(
+                            thing,
+                            Thing::Parameter(_) | Thing::Input(_) | Thing::State(_) | Thing::Sensor(_)
+                        )
+                    })
                     .chain(["t", "pi"])
                     .chain(allowed.arguments.iter().map(|(name, _)| *name));
                 let mut fault = self.unknown(name, "unknown parameter", here).did_you_mean(name, known);
@@ -176,17 +189,22 @@ impl Resolver<'_> {
                 match (component, member.starts_with('v')) {
                     (Some(axis), false) => Ok((Term::PointPosition(id, axis), Dimension::LENGTH)),
                     (Some(axis), true) => Ok((Term::PointSpeed(id, axis), Dimension::of(1, 0, -1))),
-                    (None, _) => Err("a point has `x`, `y`, `z` and the speeds `vx`, `vy`, `vz`".to_owned()),
+                    (None, _) => Self::point_response(id, member).ok_or_else(|| {
+                        "a point has `x`, `y`, `z`, the speeds `vx`, `vy`, `vz` and the accelerations `ax`, `ay`, `az`".to_owned()
+                    }),
                 }
             }
+            Some((Thing::Body(id), _)) => Self::body_member(id, member),
             Some((other, _)) => Err(format!("a {} has no members in formulas", other.what())),
             None if self.names.is_lost(thing) => return None,
             None => {
-                let known = self.names.known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_)));
+                let known = self
+                    .names
+                    .known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_) | Thing::Body(_)));
                 let mut fault =
-                    self.unknown(thing, "unknown joint or point", here).did_you_mean(thing, known);
+                    self.unknown(thing, "unknown joint, point or body", here).did_you_mean(thing, known);
                 if fault.help.is_empty() {
-                    fault = fault.help("name a joint of [joints] or a point of [points]");
+                    fault = fault.help("name a joint of [joints], a point of [points] or a body of [bodies]");
                 }
                 self.report(fault);
                 return None;
@@ -202,7 +220,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn joint_member(&self, id: JointId, member: &str) -> Result<(Term, Dimension), String> {
+    fn joint_member(&self, id: JointId, member: &str) -> Member {
         // A joint whose kind is wrong has none here; it is reported there.
         let Some(model) = self.joint_models.get(id.index()) else {
             return Ok((Term::JointPosition(id, 0), Dimension::NONE));
@@ -218,12 +236,15 @@ impl Resolver<'_> {
         match (letter, position.and_then(|at| Some((at, coordinates.get(at)?)))) {
             ("q", Some((at, coordinate))) => Ok((Term::JointPosition(id, at), coordinate.dimension())),
             ("v", Some((at, coordinate))) => Ok((Term::JointSpeed(id, at), coordinate.speed())),
-            _ => Err(match coordinates.len() {
-                0 => format!("a {kind} joint has no scalar coordinates; use points"),
-                1 => format!("a {kind} joint has the position `q` and the speed `v`"),
-                n => {
-                    format!("a {kind} joint has the positions `q1` to `q{n}` and the speeds `v1` to `v{n}`")
-                }
+            _ => self.joint_response(id, member, &coordinates).unwrap_or_else(|| {
+                let own = match coordinates.len() {
+                    0 => "no scalar coordinates; use points, or".to_owned(),
+                    1 => "the position `q`, the speed `v`, the acceleration `a`,".to_owned(),
+                    n => format!("the positions `q1` to `q{n}`, the speeds `v1`, the accelerations `a1`,"),
+                };
+                Err(format!(
+                    "a {kind} joint has {own} the force `Fx`, `Fy`, `Fz` and the moment `Mx`, `My`, `Mz`"
+                ))
             }),
         }
     }

@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 26] = [
+const TABLES: [(&str, &str); 29] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -31,10 +31,13 @@ const TABLES: [(&str, &str); 26] = [
     ("EachCoordinate", "`drive`, `damping`, `friction`, `force` by coordinate"),
     ("SpringSpec", "`spring` of a joint"),
     ("SpringPart", "`spring` of one coordinate"),
+    ("DryFrictionSpec", "`dry_friction` of a joint"),
     ("CouplingSpec", "A coupling"),
     ("StopSpec", "A stop"),
     ("ForceSpec", "A force"),
     ("ByAxis", "`translation` and `rotation` of a bushing"),
+    ("StateSpec", "A state"),
+    ("SensorTable", "A sensor, where it is a table"),
     ("StartTable", "Start values in `[assembly]` and `[initial]`, where they are a table"),
     ("ClearanceSpec", "`[clearance.<joint>]`"),
     ("WearSpec", "`[wear.<joint>]`"),

@@ -1,0 +1,195 @@
+//! Forces that depend on accelerations and joint forces of the same instant, solved for.
+//! In: their laws, the forward dynamics over symbols of these forces. Out: what stands for the symbols. Never knows elements.
+//!
+//! Accelerations, multipliers and joint forces r are affine in the forces y that ask for them: `r = b + A y`. The laws
+//! say `y = phi(r)`. Where phi is affine too, one elimination of `(1 - phi' A) y = phi(b)` solves it; else Newton's method
+//! takes [`STEPS`] steps from `phi(b)`, and what misses the laws by more than [`MISS`] then is no number.
+
+use super::deriver::{Deriver, Instant};
+use super::joint_forces::JointForces;
+use crate::derive::forward::Forward;
+use crate::derive::link_mass::LinkMass;
+use crate::expr::{Affine, Expr, Scope};
+use crate::model::Response;
+
+/// Steps of Newton's method. Each doubles the digits: from two right ones, which friction at a coefficient of 1 has at the
+/// start or never, four steps reach rounding; two more are for laws that bend more.
+const STEPS: usize = 6;
+
+/// Part of a force (of 1 N or 1 N m, where it is smaller) that its law may be missed by: far below what an integrator's
+/// tolerance lets through, far above rounding in the elimination.
+const MISS: f64 = 1e-8;
+
+/// A symbol and what stands for it.
+type Values<'g> = Vec<(Expr<'g>, Expr<'g>)>;
+
+impl<'g> Deriver<'g> {
+    /// What stands for the forces that ask and for what they ask for. `laws`: of the forces, in the order of their symbols.
+    pub(super) fn response_values(
+        &self,
+        masses: &[LinkMass<'g>],
+        solved: Option<&Forward<'g>>,
+        laws: &[Expr<'g>],
+    ) -> Values<'g> {
+        let g = self.geometry.g;
+        let (asked, unknowns) = (self.responses.asked(), self.responses.unknowns());
+        if asked.is_empty() {
+            return Vec::new();
+        }
+        let Some(solved) = solved else {
+            let symbols = asked.iter().map(|(_, symbol)| symbol).chain(&unknowns);
+            return symbols.map(|symbol| (*symbol, g.zero())).collect();
+        };
+        let symbols: Vec<Expr<'g>> = asked.iter().map(|(_, symbol)| *symbol).collect();
+        let instant = self.instant(self.driven_state(&self.v_dot), false);
+        let responses =
+            g.with(&self.responses_by_symbols(masses, &asked, &instant), &self.solution_values(solved));
+        g.begin_section("accelerations and joint forces that forces ask for");
+        #[expect(clippy::expect_used, reason = "equations of motion are linear in forces")]
+        let affine = g.affine(&responses, &unknowns).expect("accelerations are affine in forces");
+        let linear = g.affine(laws, &symbols);
+        let forces = match &linear {
+            Some(laws) => by_elimination(g, &affine, laws),
+            None => by_newton(g, &affine, laws, &symbols),
+        };
+        let at = symbols.into_iter().zip(responses_at(&affine, &forces));
+        unknowns.into_iter().zip(forces).chain(at).collect()
+    }
+
+    /// What is asked for, over symbols of accelerations, multipliers, drive forces and of the forces that ask.
+    pub(super) fn responses_by_symbols(
+        &self,
+        masses: &[LinkMass<'g>],
+        asked: &[(Response, Expr<'g>)],
+        instant: &Instant<'g>,
+    ) -> Vec<Expr<'g>> {
+        let mut joints = JointForces::new(self, instant);
+        for (coupling, by) in joints.couplings() {
+            joints.add(coupling, &by);
+        }
+        let transmitted = std::cell::OnceCell::new();
+        let wrench = |joint| joints.wrench(joint, transmitted.get_or_init(|| joints.transmitted(masses)));
+        let state = &instant.state;
+        let value = |response: &Response| match *response {
+            Response::JointAcceleration(joint, c) => {
+                state.coordinates(self.geometry.g, joint).acceleration[c]
+            }
+            Response::PointAcceleration(point, axis) => state.point_acceleration(point)[axis],
+            Response::BodyAcceleration(body, axis) => state.spin_rate(body)[axis],
+            Response::JointForce(joint, axis) => wrench(joint)[1][axis],
+            Response::JointMoment(joint, axis) => wrench(joint)[0][axis],
+            Response::Drive(joint, c) => {
+                let driver = self
+                    .drivers
+                    .iter()
+                    .zip(&self.drive)
+                    .find(|(driver, _)| driver.joint == joint && driver.joint_coordinate == c);
+                driver.map_or_else(|| self.geometry.g.zero(), |(_, force)| *force)
+            }
+        };
+        asked.iter().map(|(response, _)| value(response)).collect()
+    }
+
+    /// The forward dynamics in place of the symbols of accelerations, multipliers and drive forces.
+    fn solution_values(&self, solved: &Forward<'g>) -> Values<'g> {
+        let accelerations = self.v_dot.iter().copied().zip(solved.solution.accelerations.iter().copied());
+        let mut kept = solved.solution.multipliers.iter().copied();
+        let multipliers = self.lambda.iter().zip(&self.keep).map(|(symbol, keep)| {
+            let value = if *keep { kept.next() } else { None };
+            (*symbol, value.unwrap_or_else(|| self.geometry.g.zero()))
+        });
+        let drives = self.drive.iter().copied().zip(solved.drive.iter().copied());
+        accelerations.chain(multipliers).chain(drives).collect()
+    }
+}
+
+/// `b + A y`.
+fn responses_at<'g>(affine: &[Affine<'g>], forces: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let at = |response: &Affine<'g>| {
+        response.factors.iter().fold(response.constant, |sum, (k, factor)| sum + *factor * forces[*k])
+    };
+    affine.iter().map(at).collect()
+}
+
+/// `1 - phi' A`, where `slope` is the slope of a law by something asked for.
+fn matrix<'g>(
+    g: &'g Scope,
+    affine: &[Affine<'g>],
+    laws: usize,
+    slope: impl Fn(usize, usize) -> Expr<'g>,
+) -> Vec<Vec<Expr<'g>>> {
+    let entry = |k: usize, j: usize| {
+        let own = g.number(f64::from(u8::from(k == j)));
+        affine.iter().enumerate().fold(own, |sum, (at, response)| sum - slope(k, at) * response.factor(j))
+    };
+    (0..laws).map(|k| (0..laws).map(|j| entry(k, j)).collect()).collect()
+}
+
+fn by_elimination<'g>(g: &'g Scope, affine: &[Affine<'g>], laws: &[Affine<'g>]) -> Vec<Expr<'g>> {
+    let constants: Vec<Expr<'g>> = affine.iter().map(|response| response.constant).collect();
+    let right = responses_at(laws, &constants);
+    eliminate(matrix(g, affine, laws.len(), |k, at| laws[k].factor(at)), right)
+}
+
+fn by_newton<'g>(
+    g: &'g Scope,
+    affine: &[Affine<'g>],
+    laws: &[Expr<'g>],
+    symbols: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let slopes: Vec<Vec<Expr<'g>>> =
+        laws.iter().map(|law| symbols.iter().map(|symbol| law.derivative(*symbol)).collect()).collect();
+    let flat: Vec<Expr<'g>> = laws.iter().chain(slopes.iter().flatten()).copied().collect();
+    // Laws and their slopes where these forces act.
+    let at = |forces: &[Expr<'g>]| {
+        let values: Values<'g> = symbols.iter().copied().zip(responses_at(affine, forces)).collect();
+        let mut all = g.with(&flat, &values);
+        let slopes = all.split_off(laws.len());
+        (all, slopes)
+    };
+    let size = g.size();
+    let (mut forces, _) = at(&vec![g.zero(); laws.len()]);
+    for _ in 0..STEPS {
+        let (values, slopes) = at(&forces);
+        let wrong = values.iter().zip(&forces).map(|(value, force)| *value - *force).collect();
+        let matrix = matrix(g, affine, laws.len(), |k, response| slopes[k * symbols.len() + response]);
+        let step = eliminate(matrix, wrong);
+        forces = forces.into_iter().zip(step).map(|(force, step)| force + step).collect();
+    }
+    // Pieces of laws at forces that are not yet right begin where no step has to end.
+    g.keep_quiet_since(size);
+    let (values, _) = at(&forces);
+    let checked = forces.iter().zip(values).map(|(force, value)| {
+        let allowed = (MISS * MISS) * (force.square() + 1.0);
+        let left = allowed - (value - *force).square();
+        left.keep_quiet();
+        // The root of what is negative is not a number.
+        left.below_zero(left.sqrt(), *force)
+    });
+    checked.collect()
+}
+
+/// Solves `matrix x = right` in the order of the rows. On the diagonal stands 1 less what a force does to itself.
+fn eliminate<'g>(mut matrix: Vec<Vec<Expr<'g>>>, mut right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+    let count = right.len();
+    for k in 0..count {
+        let reciprocal = matrix[k][k].recip();
+        for i in k + 1..count {
+            if matrix[i][k].is_zero() {
+                continue;
+            }
+            let factor = matrix[i][k] * reciprocal;
+            for j in k + 1..count {
+                let less = factor * matrix[k][j];
+                matrix[i][j] -= less;
+            }
+            let less = factor * right[k];
+            right[i] -= less;
+        }
+    }
+    for k in (0..count).rev() {
+        let known = (k + 1..count).fold(right[k], |sum, j| sum - matrix[k][j] * right[j]);
+        right[k] = known / matrix[k][k];
+    }
+    right
+}
