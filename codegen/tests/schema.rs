@@ -41,13 +41,42 @@ fn every_shipped_mechanism_fits_the_schema() {
 fn files_of_wrong_form_do_not_fit_the_schema_and_others_do() {
     let schema = json_schema();
     for (name, value) in files("tests/spec_fail") {
-        // E0103 to E0109 are about form, and so are the presence of the version and of a unit (E0304); NaN (E0308) is no JSON.
-        let form =
-            ["E0102_no", "E0103", "E0104", "E0105", "E0106", "E0107", "E0108", "E0109", "E0304", "E0308_not"];
+        // E0103 to E0109 are about form, and so are the presence of the version and of a unit (E0304) and the rows of a matrix
+        // (E0419); NaN (E0308) is no JSON.
+        let form = [
+            "E0102_no",
+            "E0103",
+            "E0104",
+            "E0105",
+            "E0106",
+            "E0107",
+            "E0108",
+            "E0109",
+            "E0304",
+            "E0308_not",
+            "E0419",
+        ];
         // A mechanism name, a number of cells and the like are checked beyond the form; these files are well-formed.
         let wrong = form.iter().any(|code| name.starts_with(code));
         assert_eq!(!faults(&schema, &value).is_empty(), wrong, "{name}");
     }
+}
+
+/// Validators that are strict stop at a null where a schema should be.
+#[test]
+fn nothing_in_the_schema_is_null() {
+    fn nulls(value: &Value) -> usize {
+        match value {
+            Value::Null => 1,
+            Value::Array(items) => items.iter().map(nulls).sum(),
+            // A default of null is one.
+            Value::Object(fields) => {
+                fields.iter().filter(|(key, _)| *key != "default").map(|(_, value)| nulls(value)).sum()
+            }
+            _ => 0,
+        }
+    }
+    assert_eq!(nulls(&json_schema()), 0);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::expression::Expr;
-use super::{Binary, Node, Scope, Unary};
+use super::{Binary, ExprId, Node, Scope, Unary};
 
 /// `constant + sum of factor_k symbol_k`; only factors that are not zero.
 #[derive(Clone)]
@@ -51,7 +51,8 @@ impl Scope {
         }
         let Some(first) = roots.first() else { return Some(Vec::new()) };
         // Children come before parents; what is not among the known does not depend on the symbols.
-        for id in self.needed(roots) {
+        let ids: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
+        for id in self.needed(&ids) {
             let of = |id| known.get(&id).cloned();
             let plain = |id| Affine { constant: first.at(id), factors: Vec::new() };
             let node = first.at(id).node();

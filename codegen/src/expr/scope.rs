@@ -3,7 +3,6 @@
 
 use std::cell::RefCell;
 
-use super::expression::Expr;
 use super::{ExprId, Graph, Node};
 
 /// A graph under construction. Nodes are made in the order in which Rust evaluates the operands of a formula.
@@ -27,10 +26,9 @@ impl Scope {
     }
 
     /// The nodes that roots need, children before parents.
-    pub(super) fn needed(&self, roots: &[Expr<'_>]) -> Vec<ExprId> {
-        let roots: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
+    pub(super) fn needed(&self, roots: &[ExprId]) -> Vec<ExprId> {
         self.make(|g| {
-            let uses = g.uses(&roots);
+            let uses = g.uses(roots);
             (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect()
         })
     }

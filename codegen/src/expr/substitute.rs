@@ -19,7 +19,8 @@ impl Scope {
         let mut known: FxHashMap<ExprId, Expr<'g>> =
             values.iter().map(|(symbol, value)| (symbol.id(), *value)).collect();
         let Some(first) = roots.first() else { return Vec::new() };
-        for id in self.needed(roots) {
+        let ids: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
+        for id in self.needed(&ids) {
             let node = first.at(id).node();
             if known.contains_key(&id) || node.children().all(|child| !known.contains_key(&child)) {
                 continue;

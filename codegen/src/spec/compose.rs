@@ -11,7 +11,7 @@ use super::include::{IncludeSpec, RotationSpec};
 use super::parse::{self, Spec};
 use super::placed::{Place, Turn, turn};
 use super::read;
-use super::scope::{Scope, files_of, fits_one, without_braces};
+use super::scope::{Asked, Scope, files_of, fits_one, without_braces};
 use super::syntax::parse_expression;
 use super::written::{At, Literal, Name, Quantity, Table, Triple};
 use crate::diagnostic::{Code, Diagnostic, brief};
@@ -127,7 +127,7 @@ impl Composer {
         let turn = own.rotation.as_ref().and_then(|rotation| self.turn(name, rotation));
         let place = Place { turn, origin: self.origin(own) };
         if place.turn.is_some() || !place.origin.is_empty() {
-            for span in asked {
+            for Asked { span, .. } in asked.into_iter().filter(|asked| asked.place || place.turn.is_some()) {
                 let message = format!(
                     "the part `{}` is moved, and this formula asks for components along axes of the ground",
                     name.value
@@ -318,21 +318,48 @@ fn append(file: &mut File, part: File) {
     fn join<T>(table: &mut Table<T>, more: Table<T>) {
         table.0.extend(more.0);
     }
-    join(&mut file.parameters, part.parameters);
-    join(&mut file.inputs, part.inputs);
-    join(&mut file.points, part.points);
-    join(&mut file.bodies, part.bodies);
-    join(&mut file.joints, part.joints);
-    join(&mut file.couplings, part.couplings);
-    join(&mut file.stops, part.stops);
-    join(&mut file.states, part.states);
-    join(&mut file.sensors, part.sensors);
-    join(&mut file.forces, part.forces);
-    join(&mut file.assembly, part.assembly);
-    join(&mut file.initial, part.initial);
-    join(&mut file.clearance, part.clearance);
-    join(&mut file.wear, part.wear);
-    join(&mut file.tables, part.tables);
-    join(&mut file.repeat, part.repeat);
-    join(&mut file.include, part.include);
+    // Without `..`: a table that is new must be thought of here. What is left out is the whole's affair.
+    let File {
+        spec: _,
+        name: _,
+        doc: _,
+        gravity: _,
+        closure: _,
+        check: _,
+        missions: _,
+        parameters,
+        inputs,
+        points,
+        bodies,
+        joints,
+        couplings,
+        stops,
+        forces,
+        states,
+        sensors,
+        assembly,
+        initial,
+        clearance,
+        wear,
+        tables,
+        repeat,
+        include,
+    } = part;
+    join(&mut file.parameters, parameters);
+    join(&mut file.inputs, inputs);
+    join(&mut file.points, points);
+    join(&mut file.bodies, bodies);
+    join(&mut file.joints, joints);
+    join(&mut file.couplings, couplings);
+    join(&mut file.stops, stops);
+    join(&mut file.forces, forces);
+    join(&mut file.states, states);
+    join(&mut file.sensors, sensors);
+    join(&mut file.assembly, assembly);
+    join(&mut file.initial, initial);
+    join(&mut file.clearance, clearance);
+    join(&mut file.wear, wear);
+    join(&mut file.tables, tables);
+    join(&mut file.repeat, repeat);
+    join(&mut file.include, include);
 }

@@ -27,7 +27,7 @@ use super::written::{At, Name, Quantity, Table, Triple};
 #[derive(Clone, Debug, Default, Deserialize)]
 #[cfg_attr(test, derive(JsonSchema))]
 #[serde(default, deny_unknown_fields)]
-#[cfg_attr(test, schemars(extend("required" = ["spec", "name", "bodies"])))]
+#[cfg_attr(test, schemars(extend("required" = ["spec", "name"])))]
 pub struct File {
     /// Version of this format: 1.
     /// [1; required; e.g. 1]
@@ -53,8 +53,8 @@ pub struct File {
     /// Named points at the reference pose.
     /// [table]
     pub points: Table<PointSpec>,
-    /// Moving bodies.
-    /// [table; required]
+    /// Moving bodies; those of included files count.
+    /// [table; at least one]
     pub bodies: Table<BodySpec>,
     /// Joints between bodies or to the ground.
     /// [table]

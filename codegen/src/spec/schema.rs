@@ -121,7 +121,10 @@ fn schema() -> Value {
     };
     change(&mut schema["properties"]);
     for name in types.keys() {
-        change(&mut schema["$defs"][name]["properties"]);
+        // Types of several forms have no fields of their own.
+        if let Some(fields) = schema["$defs"][name].get_mut("properties") {
+            change(fields);
+        }
     }
     // A point is written in several forms, of which one is a table with its keys.
     let point = with_units(&schema["$defs"]["PointSpec"], &types, &mut more);

@@ -13,6 +13,13 @@ use crate::source::Span;
 /// Stands for the braces of a name that a group makes.
 const BRACES: char = '\u{1}';
 
+/// Where a formula asks for components along axes of the ground.
+pub(super) struct Asked {
+    pub(super) span: Span,
+    /// Whether they are of a place, which a shift changes too.
+    pub(super) place: bool,
+}
+
 /// What a part's names are in the whole.
 pub(super) struct Scope {
     /// `left.`
@@ -40,7 +47,7 @@ impl Scope {
     }
 
     /// Renames all that is named in the file. Gives the places where formulas ask for components along axes of the ground.
-    pub(super) fn rename(&self, file: &mut File) -> Vec<Span> {
+    pub(super) fn rename(&self, file: &mut File) -> Vec<Asked> {
         let mut words = words_of(file);
         let kept: Vec<Option<Name>> = words.iter_mut().map(|word| take(*word)).collect();
         // Values of cells are named in braces only.
@@ -63,7 +70,7 @@ impl Scope {
         asked
     }
 
-    fn renamed(&self, text: &mut String, span: Span, asked: &mut Vec<Span>) {
+    fn renamed(&self, text: &mut String, span: Span, asked: &mut Vec<Asked>) {
         if let Some(name) = self.name(text) {
             *text = name;
             return;
@@ -79,8 +86,8 @@ impl Scope {
             let Some(name) = self.name(&word) else { continue };
             // Forces and moments in joints have such components too.
             let along = |member: &str| member.starts_with(['F', 'M']) || fits_one(&self.along_ground, &word);
-            if member.as_deref().is_some_and(along) {
-                asked.push(span);
+            if let Some(member) = member.filter(|member| along(member)) {
+                asked.push(Asked { span, place: member.starts_with(['x', 'y', 'z']) });
             }
             text.replace_range(at..at + word.len(), &name);
         }
@@ -121,23 +128,50 @@ fn keys<T>(table: &Table<T>) -> impl Iterator<Item = &str> {
 
 fn each(file: &mut File, change: Change<'_>) {
     let nowhere = Span::default();
-    file.parameters.each(nowhere, change);
-    file.inputs.each(nowhere, change);
-    file.points.each(nowhere, change);
-    file.bodies.each(nowhere, change);
-    file.joints.each(nowhere, change);
-    file.couplings.each(nowhere, change);
-    file.stops.each(nowhere, change);
-    file.forces.each(nowhere, change);
-    file.states.each(nowhere, change);
-    file.sensors.each(nowhere, change);
-    file.assembly.each(nowhere, change);
-    file.initial.each(nowhere, change);
-    file.clearance.each(nowhere, change);
-    file.wear.each(nowhere, change);
-    file.tables.each(nowhere, change);
-    file.repeat.each(nowhere, change);
-    for (name, part) in &mut file.include.0 {
+    // Without `..`: a table that is new must be thought of here.
+    let File {
+        spec: _,
+        name: _,
+        doc: _,
+        gravity: _,
+        closure: _,
+        check: _,
+        missions: _,
+        parameters,
+        inputs,
+        points,
+        bodies,
+        joints,
+        couplings,
+        stops,
+        forces,
+        states,
+        sensors,
+        assembly,
+        initial,
+        clearance,
+        wear,
+        tables,
+        repeat,
+        include,
+    } = file;
+    parameters.each(nowhere, change);
+    inputs.each(nowhere, change);
+    points.each(nowhere, change);
+    bodies.each(nowhere, change);
+    joints.each(nowhere, change);
+    couplings.each(nowhere, change);
+    stops.each(nowhere, change);
+    forces.each(nowhere, change);
+    states.each(nowhere, change);
+    sensors.each(nowhere, change);
+    assembly.each(nowhere, change);
+    initial.each(nowhere, change);
+    clearance.each(nowhere, change);
+    wear.each(nowhere, change);
+    tables.each(nowhere, change);
+    repeat.each(nowhere, change);
+    for (name, part) in &mut include.0 {
         change(&mut name.value, name.span);
         part.value.bodies.0.clear();
     }

@@ -296,6 +296,24 @@ impl<'g> Deriver<'g> {
         Instant { state, loads, cuts, couplings, own_rates, laws }
     }
 
+    pub(super) fn own_integrals(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.own.iter().map(|own| own.integral)
+    }
+
+    pub(super) fn own_values(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.own.iter().map(|own| own.value)
+    }
+
+    pub(super) fn own_rates(&self) -> impl Iterator<Item = Expr<'g>> {
+        self.own.iter().map(|own| own.rate)
+    }
+
+    /// Start values of all states that the file has.
+    pub(super) fn starts_of_states(&self) -> Vec<Expr<'g>> {
+        let states = self.geometry.mechanism.states.iter();
+        states.map(|state| self.geometry.inputs.lower(&state.initial)).collect()
+    }
+
     fn label_poses(&self, poses: &Poses<'g>, q: &[Expr<'g>]) {
         let Geometry { mechanism, linkage, .. } = self.geometry;
         for (at, link) in linkage.links.iter().enumerate() {

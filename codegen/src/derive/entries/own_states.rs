@@ -2,7 +2,6 @@
 //! A state is a speed, its rate the acceleration and its integral the coordinate: all integrators take it as they take motion.
 //! They stand behind all others.
 
-use super::deriver::Deriver;
 use crate::expr::{Expr, Scope};
 use crate::model::Mechanism;
 use crate::spec::Dimension;
@@ -17,12 +16,12 @@ pub struct OwnState<'g> {
 
 /// Symbols of all states.
 pub fn own_states<'g>(g: &'g Scope, mechanism: &Mechanism) -> Vec<OwnState<'g>> {
-    let state = |name: &str| OwnState {
+    let state = |name: String| OwnState {
         integral: g.symbol(format!("{name}_integral")),
-        value: g.symbol(name),
+        value: g.symbol(&*name),
         rate: g.symbol(format!("{name}_rate")),
     };
-    mechanism.states.iter().map(|state_variable| state(&state_variable.name)).collect()
+    mechanism.states.iter().map(|state_variable| state(state_variable.name.replace('.', "_"))).collect()
 }
 
 /// Unit of the value over a power of time.
@@ -37,24 +36,4 @@ pub(super) fn unit(dimension: Dimension, seconds: i32) -> String {
             );
     }
     unit.map(Dimension::si_unit).unwrap_or_default()
-}
-
-impl<'g> Deriver<'g> {
-    pub(super) fn own_integrals(&self) -> impl Iterator<Item = Expr<'g>> {
-        self.own.iter().map(|own| own.integral)
-    }
-
-    pub(super) fn own_values(&self) -> impl Iterator<Item = Expr<'g>> {
-        self.own.iter().map(|own| own.value)
-    }
-
-    pub(super) fn own_rates(&self) -> impl Iterator<Item = Expr<'g>> {
-        self.own.iter().map(|own| own.rate)
-    }
-
-    /// Start values of all states that the file has.
-    pub(super) fn starts_of_states(&self) -> Vec<Expr<'g>> {
-        let states = self.geometry.mechanism.states.iter();
-        states.map(|state| self.geometry.inputs.lower(&state.initial)).collect()
-    }
 }

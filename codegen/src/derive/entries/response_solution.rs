@@ -173,23 +173,25 @@ fn by_newton<'g>(
 fn eliminate<'g>(mut matrix: Vec<Vec<Expr<'g>>>, mut right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
     let count = right.len();
     for k in 0..count {
-        let reciprocal = matrix[k][k].recip();
-        for i in k + 1..count {
-            if matrix[i][k].is_zero() {
+        let (above, below) = matrix.split_at_mut(k + 1);
+        let pivot = &above[k];
+        let reciprocal = pivot[k].recip();
+        let known = right[k];
+        for (row, right) in below.iter_mut().zip(&mut right[k + 1..]) {
+            if row[k].is_zero() {
                 continue;
             }
-            let factor = matrix[i][k] * reciprocal;
-            for j in k + 1..count {
-                let less = factor * matrix[k][j];
-                matrix[i][j] -= less;
+            let factor = row[k] * reciprocal;
+            for (entry, over) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
+                *entry -= factor * *over;
             }
-            let less = factor * right[k];
-            right[i] -= less;
+            *right -= factor * known;
         }
     }
     for k in (0..count).rev() {
-        let known = (k + 1..count).fold(right[k], |sum, j| sum - matrix[k][j] * right[j]);
-        right[k] = known / matrix[k][k];
+        let known = matrix[k][k + 1..].iter().zip(&right[k + 1..]);
+        let left = known.fold(right[k], |sum, (entry, value)| sum - *entry * *value);
+        right[k] = left / matrix[k][k];
     }
     right
 }

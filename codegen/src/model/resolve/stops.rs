@@ -1,5 +1,6 @@
 //! End stops: coordinate, limits and law; and whether anything starts beyond them.
 
+use super::names::Thing;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
@@ -49,8 +50,11 @@ impl Resolver<'_> {
                 .help("add `joint = \"slide\"`; of a joint with several coordinates `joint = \"C.q2\"`");
             return None;
         };
-        let (joint, coordinate) = key.value.split_once('.').unwrap_or((&key.value, ""));
-        let joint = self.joint_named(&Name { span: key.span, value: joint.to_owned() }, &what)?;
+        // Joints of parts have a point in their names.
+        let is_joint = matches!(self.names.find(&key.value), Some((Thing::Joint(_), _)));
+        let parts = key.value.rsplit_once('.').filter(|_| !is_joint);
+        let (joint_name, coordinate) = parts.unwrap_or((&key.value, ""));
+        let joint = self.joint_named(&Name { span: key.span, value: joint_name.to_owned() }, &what)?;
         let model = self.joint_models.get(joint.index())?.clone();
         let coordinates = model.coordinates().len();
         if coordinate.is_empty() && coordinates > 1 {
@@ -68,9 +72,8 @@ impl Resolver<'_> {
         }
         if coordinates == 1 && !["", "q", "q1"].contains(&coordinate) {
             let message = format!("{what}: a {} joint has only the coordinate `q`", model.kind.name);
-            let joint = key.value.split('.').next().unwrap_or_default();
             self.refuse(Code::NoSuchCoordinate, key.span, message)
-                .help(format!("write `joint = \"{joint}\"`"));
+                .help(format!("write `joint = \"{joint_name}\"`"));
             return None;
         }
         Some((joint, self.coordinate(coordinate, &model, key.span, &what)?))
