@@ -12,8 +12,8 @@ use crate::derive::link_mass::LinkMass;
 use crate::expr::{Affine, Expr, Scope};
 use crate::model::Response;
 
-/// Steps of Newton's method. Each doubles the digits: from two right ones, which friction at a coefficient of 1 has at the
-/// start or never, four steps reach rounding; two more are for laws that bend more.
+/// Steps of Newton's method. Near the solution each doubles the digits: from two right ones three steps reach rounding. As
+/// many again are there to come near.
 const STEPS: usize = 6;
 
 /// Part of a force (of 1 N or 1 N m, where it is smaller) that its law may be missed by: far below what an integrator's
