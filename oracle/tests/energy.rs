@@ -51,7 +51,12 @@ fn two_bodies(model: JointModel) -> Oracle {
     }
     let (p, q) = (s.point([0.3, 0.2, 0.1]), s.point([0.9, -0.2, 0.4]));
     s.force(Force::new("spring", [a, b], [p, q], [20.0, 0.4, 0.6, 1.5].map(number).to_vec()));
-    let values = [30.0, 12.0, 7.0, 0.3, 0.2, 0.4, 2.0, 0.7, 1.1, 0.03, 0.05, 0.02].map(number).to_vec();
+    let by_axis = [30.0, 12.0, 7.0, 0.3, 0.2, 0.4, 2.0, 0.7, 1.1, 0.03, 0.05, 0.02];
+    let preload = [0.2, -0.1, 0.3, 0.02, 0.01, -0.03];
+    // Matrices of stiffness and damping that couple the ways along and about the axes.
+    let coupled = |size: f64| (0..36).map(move |at| if (at / 6) + (at % 6) == 5 { size } else { 0.0 });
+    let values =
+        by_axis.into_iter().chain(preload).chain(coupled(0.2)).chain(coupled(0.01)).map(number).collect();
     let directions = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
     s.force(Force { directions, ..Force::new("bushing", [a, b], [p, p], values) });
     let speed = Term::PointSpeed(q, 1);
