@@ -46,6 +46,17 @@ const PIECES: &[&str] = &[
     "box",
     "\"{i}\"",
     "[repeat.x]\ncount = 2\n",
+    "dry_friction = { coefficient = 0.1, radius = \"1 mm\" },",
+    "\"R1.Fx*(1 m)\"",
+    "\"R1.a*(1 kg m^2)\"",
+    "\"crank.alpha_z*(1 kg m^2)\"",
+    "\"R1.drive\"",
+    "[states]\nx = { initial = \"1 N\", rate = \"-x/(1 s)\" }\n",
+    "[sensors]\ns = \"2*s\"\n",
+    "[stops]\nend = { joint = \"R1\", upper = \"1 rad\", stiffness = \"1 N m\" }\n",
+    "[include.p]\nfile = \"p.toml\"\n",
+    "cable",
+    "stiffness_matrix = [[1], [2]]",
     "µ",
     "\\",
     "=",
@@ -82,7 +93,7 @@ proptest! {
 
     #[test]
     fn a_damaged_file_gives_a_mechanism_or_diagnostics(
-        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum"]),
+        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum", "../examples/data/servo_crank", "../examples/data/drop_hammer", "../examples/data/walker"]),
         damages in prop::collection::vec((0.0..1.0, 0usize..12, prop::sample::select(PIECES)), 1..4),
     ) {
         let path = format!("{}/../mechanisms/{file}.toml", env!("CARGO_MANIFEST_DIR"));
