@@ -5,11 +5,12 @@ use std::rc::Rc;
 
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{BodyId, JointId, PointId};
-use crate::model::{Formula, Term};
+use crate::model::{Carrier, Formula, Term};
 
 use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 use super::joint_markers::{joint_in_child, joint_links, joint_markers};
+use super::linkage::LinkIndex;
 use super::motion::Motion;
 use super::relative_motion::{Place, RelativeMotion, Side, Sums};
 use super::responses::Responses;
@@ -62,20 +63,29 @@ impl<'g> JointStates<'g> {
         RelativeMotion::between(&self.motion, markers, side, (Place::Child, Sums::Links))
     }
 
-    /// Position of a named point in W [m].
-    pub fn point(&self, point: PointId) -> Vec3<'g> {
+    /// The link that carries a named point, and its place in the link's frame [m].
+    fn place_of(&self, point: PointId) -> (LinkIndex, Vec3<'g>) {
         let carrier = self.geometry.mechanism.point(point).carrier;
         let link = self.geometry.linkage.link_at(carrier, point, false);
-        let local = self.geometry.local(link, point);
+        (link, self.geometry.local(link, point))
+    }
+
+    /// Components in W of a vector that a carrier takes along, given at the reference pose.
+    pub fn taken_along(&self, carrier: Carrier, vector: Vec3<'g>) -> Vec3<'g> {
+        let Some(at) = self.geometry.linkage.link(carrier) else { return vector };
+        let local = self.geometry.turn(&self.geometry.linkage.links[at].frame, vector);
+        self.motion.poses.world[at].rotation * local
+    }
+
+    /// Position of a named point in W [m].
+    pub fn point(&self, point: PointId) -> Vec3<'g> {
+        let (link, local) = self.place_of(point);
         self.motion.poses.position(link, local)
     }
 
     /// Velocity of a named point in W [m/s].
     pub fn point_velocity(&self, point: PointId) -> Vec3<'g> {
-        let carrier = self.geometry.mechanism.point(point).carrier;
-        let linkage = self.geometry.linkage;
-        let link = linkage.link_at(carrier, point, false);
-        let local = self.geometry.local(link, point);
+        let (link, local) = self.place_of(point);
         if self.points_in_ground {
             return self.motion.velocity_in_ground(link, local);
         }
@@ -110,9 +120,7 @@ impl<'g> JointStates<'g> {
 
     /// Acceleration of a named point in W [m/s²].
     pub fn point_acceleration(&self, point: PointId) -> Vec3<'g> {
-        let carrier = self.geometry.mechanism.point(point).carrier;
-        let link = self.geometry.linkage.link_at(carrier, point, false);
-        let local = self.geometry.local(link, point);
+        let (link, local) = self.place_of(point);
         let Some(at) = link else { return self.geometry.g.zero_vector() };
         let with_weight = self.motion.accelerations[at].at(local);
         self.motion.poses.world[at].rotation * with_weight - self.motion.ground

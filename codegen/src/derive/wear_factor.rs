@@ -27,7 +27,7 @@ pub fn steps(inputs: &Inputs<'_>, wear: &WearFactor) -> Vec<Step> {
         Term::Place(at) => given[*at],
         _ => scope.zero(),
     });
-    let nodes = scope.nodes(factor);
+    let nodes = scope.nodes(&[factor.id()]);
     let places: HashMap<ExprId, usize> = nodes.iter().enumerate().map(|(at, (id, _))| (*id, at)).collect();
     nodes.iter().map(|(_, node)| step(*node, &|id| places[&id])).collect::<Option<_>>().unwrap_or_default()
 }

@@ -52,10 +52,9 @@ impl Scope {
         let Some(first) = roots.first() else { return Some(Vec::new()) };
         // Children come before parents; what is not among the known does not depend on the symbols.
         let ids: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
-        for id in self.needed(&ids) {
+        for (id, node) in self.nodes(&ids) {
             let of = |id| known.get(&id).cloned();
             let plain = |id| Affine { constant: first.at(id), factors: Vec::new() };
-            let node = first.at(id).node();
             if known.contains_key(&id) || node.children().all(|child| !known.contains_key(&child)) {
                 continue;
             }

@@ -36,10 +36,10 @@ impl Scope {
         self.number(0.0)
     }
 
-    /// The nodes that an expression is computed from, itself last, each after those that it reads.
-    pub fn nodes(&self, of: Expr<'_>) -> Vec<(ExprId, Node)> {
+    /// The nodes that roots need, themselves included, each after those that it reads.
+    pub fn nodes(&self, roots: &[ExprId]) -> Vec<(ExprId, Node)> {
         self.make(|g| {
-            let uses = g.uses(&[of.id]);
+            let uses = g.uses(roots);
             let needed = (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new);
             needed.map(|id| (id, g.node(id))).collect()
         })
@@ -52,17 +52,13 @@ impl Scope {
 
     /// What the pieces that roots need are chosen by: values whose sign changes where another piece begins, each once.
     pub fn switches<'g>(&'g self, roots: &[ExprId]) -> Vec<Expr<'g>> {
-        let needed = self.make(|g| {
-            let uses = g.uses(roots);
-            let needed = (0..uses.len()).filter(|index| uses[*index] > 0);
-            let nodes = needed.map(|index| g.node(ExprId::new(index)));
-            nodes
-                .filter(|node| !matches!(node, Node::Select(by, ..) if g.quiet.contains(by)))
-                .collect::<Vec<Node>>()
+        let mut needed = self.nodes(roots);
+        self.make(|g| {
+            needed.retain(|(_, node)| !matches!(node, Node::Select(by, ..) if g.quiet.contains(by)))
         });
         let own = |id| Expr { scope: self, id };
         let (mut switches, mut known) = (Vec::new(), FxHashSet::default());
-        for node in needed {
+        for (_, node) in needed {
             let switch = match node {
                 Node::Select(by, ..) => own(by),
                 // Where it jumps, and half way in between.

@@ -25,14 +25,6 @@ impl Scope {
         build(&mut self.0.borrow_mut())
     }
 
-    /// The nodes that roots need, children before parents.
-    pub(super) fn needed(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        self.make(|g| {
-            let uses = g.uses(roots);
-            (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect()
-        })
-    }
-
     /// Nodes first made from here on belong to the section of this one.
     pub(super) fn enter_section_of(&self, id: ExprId) {
         self.make(|g| g.current_section = g.section_index(id));

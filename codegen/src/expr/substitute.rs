@@ -20,24 +20,18 @@ impl Scope {
             values.iter().map(|(symbol, value)| (symbol.id(), *value)).collect();
         let Some(first) = roots.first() else { return Vec::new() };
         let ids: Vec<ExprId> = roots.iter().map(|root| root.id()).collect();
-        for id in self.needed(&ids) {
-            let node = first.at(id).node();
+        for (id, node) in self.nodes(&ids) {
             if known.contains_key(&id) || node.children().all(|child| !known.contains_key(&child)) {
                 continue;
             }
             self.enter_section_of(id);
             let of = |id| known.get(&id).copied().unwrap_or_else(|| first.at(id));
-            let made = match node {
-                Node::Constant(_) | Node::Symbol(_) => continue,
-                Node::Unary(operation, a) => of(a).through(operation),
-                Node::Binary(operation, a, b) => of(a).joined(operation, of(b)),
-                Node::Select(by, yes, no) => {
-                    if self.make(|g| g.quiet.contains(&by)) {
-                        of(by).keep_quiet();
-                    }
-                    of(by).below_zero(of(yes), of(no))
-                }
-            };
+            if let Node::Select(by, ..) = node
+                && self.make(|g| g.quiet.contains(&by))
+            {
+                of(by).keep_quiet();
+            }
+            let made = first.at(id).rebuilt(|child| of(child.id()));
             known.insert(id, made);
         }
         roots.iter().map(|root| known.get(&root.id()).copied().unwrap_or(*root)).collect()
@@ -50,22 +44,27 @@ impl<'g> Expr<'g> {
         self.substituted(&mut values.iter().map(|(symbol, value)| (symbol.id(), *value)).collect())
     }
 
+    /// The same of what `of` makes of the nodes that it is computed from.
+    fn rebuilt(self, mut of: impl FnMut(Self) -> Self) -> Self {
+        match self.node() {
+            Node::Constant(_) | Node::Symbol(_) => self,
+            Node::Unary(operation, a) => of(self.at(a)).through(operation),
+            Node::Binary(operation, a, b) => {
+                let (a, b) = (of(self.at(a)), of(self.at(b)));
+                a.joined(operation, b)
+            }
+            Node::Select(by, yes, no) => {
+                let [by, yes, no] = [by, yes, no].map(|part| of(self.at(part)));
+                by.below_zero(yes, no)
+            }
+        }
+    }
+
     fn substituted(self, known: &mut FxHashMap<ExprId, Self>) -> Self {
         if let Some(found) = known.get(&self.id()) {
             return *found;
         }
-        let result = match self.node() {
-            Node::Constant(_) | Node::Symbol(_) => self,
-            Node::Unary(operation, a) => self.at(a).substituted(known).through(operation),
-            Node::Select(a, yes, no) => {
-                let [a, yes, no] = [a, yes, no].map(|part| self.at(part).substituted(known));
-                a.below_zero(yes, no)
-            }
-            Node::Binary(operation, a, b) => {
-                let (a, b) = (self.at(a).substituted(known), self.at(b).substituted(known));
-                a.joined(operation, b)
-            }
-        };
+        let result = self.rebuilt(|child| child.substituted(known));
         known.insert(self.id(), result);
         result
     }

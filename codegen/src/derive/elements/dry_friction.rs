@@ -8,7 +8,7 @@
 use crate::derive::joint_state::JointStates;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
-use crate::model::{Carrier, DryFriction, Response};
+use crate::model::{DryFriction, Response};
 
 /// Force below which a bearing counts as unloaded [N]: the square root in its size has no slope at zero. What it
 /// adds is below the rounding of forces that anyone measures.
@@ -24,7 +24,8 @@ pub fn dry_friction<'g>(
     let asked = |response: fn(JointId, usize) -> Response| {
         Vec3::from_fn(|i| state.responses.symbol(g, response(joint, i)))
     };
-    let axis = axis(g, state, joint);
+    let data = state.geometry.mechanism.joint(joint);
+    let axis = state.taken_along(data.parent, g.vector(data.model.axes[0].parent));
     let across = |vector: Vec3<'g>| vector - vector.dot(axis) * axis;
     let size = |vector: Vec3<'g>| (vector.dot(vector) + UNLOADED * UNLOADED).sqrt();
     let force = across(asked(Response::JointForce));
@@ -48,17 +49,4 @@ pub fn dry_friction<'g>(
     let direction = speed / (speed.square() + onset.square()).sqrt();
     let arm = friction.radius.as_ref().map_or_else(|| g.number(1.0), lower);
     state.responses.unknown(g, -(arm * coefficient * direction * carried))
-}
-
-/// The joint's axis in W: that of its parent.
-fn axis<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec3<'g> {
-    let data = state.geometry.mechanism.joint(joint);
-    let described = g.vector(data.model.axes[0].parent);
-    match (data.parent, state.geometry.linkage.link(data.parent)) {
-        (Carrier::Body(_), Some(at)) => {
-            let local = state.geometry.turn(&state.geometry.linkage.links[at].frame, described);
-            state.motion.poses.world[at].rotation * local
-        }
-        _ => described,
-    }
 }

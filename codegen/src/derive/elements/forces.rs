@@ -183,9 +183,7 @@ fn world_pair<'g>(
 fn components<'g>(element: &Force, g: &'g Scope, state: &JointStates<'g>) -> Vec3<'g> {
     let [components] = element.triples();
     let components = Vec3::from_fn(|i| state.force_law(g, &components[i]));
-    let Some(at) = state.geometry.linkage.link(element.axes) else { return components };
-    let local = state.geometry.turn(&state.geometry.linkage.links[at].frame, components);
-    state.motion.poses.world[at].rotation * local
+    state.taken_along(element.axes, components)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ use crate::derive::orientation::{conjugate, link_displacement, quaternion_produc
 use crate::derive::responses::Responses;
 use crate::expr::{Expr, Scope, Vec3};
 use crate::flexible::ModalData;
-use crate::id::{JointId, PointId};
+use crate::id::{BodyId, JointId, PointId};
 use crate::model::{Carrier, Coordinate, Flexible};
 
 /// The columns so far, and what they are made from.
@@ -123,14 +123,12 @@ impl<'a, 'g> Channels<'a, 'g> {
     }
 
     fn bodies(&mut self) {
-        let geometry = self.deriver.geometry;
-        let motion = &self.instant.state.motion;
+        let (geometry, state) = (self.deriver.geometry, &self.instant.state);
         for (index, body) in geometry.mechanism.bodies.iter().enumerate() {
             geometry.g.begin_section(format!("angular velocity of {}", body.name));
-            let at = geometry.linkage.link_of_body[index];
-            self.vector(&body.name, "w", "rad/s", motion.poses.world[at].rotation * motion.twists[at].omega);
+            self.vector(&body.name, "w", "rad/s", state.spin(BodyId::new(index)));
             if let Some(flexible) = &body.flexible {
-                self.modes(&body.name, flexible, at);
+                self.modes(&body.name, flexible, geometry.linkage.link_of_body[index]);
             }
         }
     }

@@ -19,6 +19,16 @@ fn component(of: &str, prefix: &str) -> Option<usize> {
     XYZ.iter().position(|known| letter == *known)
 }
 
+/// The coordinate that a number behind a letter means, among `count` of them: the only one needs none.
+pub(super) fn coordinate_of(number: &str, count: usize) -> Option<usize> {
+    match number.parse::<usize>() {
+        Ok(number) if count > 1 => number.checked_sub(1),
+        Ok(1) => Some(0),
+        Err(_) if number.is_empty() && count == 1 => Some(0),
+        _ => None,
+    }
+}
+
 impl Resolver<'_> {
     /// Takes note of the coordinates that drives prescribe: formulas may ask for their forces.
     pub(super) fn note_drives(&mut self, file: &File) {
@@ -66,12 +76,7 @@ impl Resolver<'_> {
         member: &str,
         coordinates: &[Coordinate],
     ) -> Option<Member> {
-        let numbered = |number: &str| match number.parse::<usize>() {
-            Ok(number) if coordinates.len() > 1 => number.checked_sub(1),
-            Ok(1) => Some(0),
-            Err(_) if number.is_empty() && coordinates.len() == 1 => Some(0),
-            _ => None,
-        };
+        let numbered = |number| coordinate_of(number, coordinates.len());
         if let Some(axis) = component(member, "F") {
             return Some(Ok((Term::Response(Response::JointForce(joint, axis)), Dimension::FORCE)));
         }

@@ -3,7 +3,7 @@
 use super::names::Thing;
 use super::quantity::{Here, Origin, Resolved};
 use super::resolver::{Reported, Resolver};
-use super::responses::Member;
+use super::responses::{Member, coordinate_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::{JointId, ParameterId};
 use crate::model::Term;
@@ -227,12 +227,7 @@ impl Resolver<'_> {
         };
         let (kind, coordinates) = (model.kind.name, model.coordinates());
         let (letter, number) = member.split_at(usize::from(member.starts_with(['q', 'v'])));
-        let position = match number.parse::<usize>() {
-            Ok(number) if coordinates.len() > 1 => number.checked_sub(1),
-            Ok(1) => Some(0),
-            Err(_) if number.is_empty() && coordinates.len() == 1 => Some(0),
-            _ => None,
-        };
+        let position = coordinate_of(number, coordinates.len());
         match (letter, position.and_then(|at| Some((at, coordinates.get(at)?)))) {
             ("q", Some((at, coordinate))) => Ok((Term::JointPosition(id, at), coordinate.dimension())),
             ("v", Some((at, coordinate))) => Ok((Term::JointSpeed(id, at), coordinate.speed())),
