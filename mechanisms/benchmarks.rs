@@ -18,4 +18,6 @@ mechanisms! {
     cam,
     /// A wheel carrier on five rods without mass.
     five_link,
+    /// A press: a ram moved by a cam's law, and a sprung pad that meets the blank.
+    cam_press,
 }

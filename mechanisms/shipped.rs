@@ -22,6 +22,4 @@ mechanisms! {
     six_bar,
     /// A spatial slider-crank with a universal joint.
     spatial_slider_crank,
-    /// A press: a ram moved by a cam's law, and a sprung pad that meets the blank.
-    cam_press,
 }
