@@ -5,7 +5,9 @@
 use linkwear_gamma::data::{Gauge, Observations, Reading};
 use linkwear_gamma::fit::{Model, estimate};
 use linkwear_gamma::life::{Estimate, OperatingState};
-use linkwear_gamma::plan::{Costs, age_bands, age_cost_rate, best_age};
+use linkwear_gamma::plan::{
+    Costs, Looks, Monitored, age_bands, age_cost_rate, best_age, best_inspection, look_bands,
+};
 use linkwear_gamma::process::{Gamma, Process};
 use linkwear_gamma::random::Stream;
 use linkwear_gamma::{FitFile, Prediction};
@@ -67,6 +69,61 @@ fn bands_of_few_increments_hold_what_is_true() {
     let least = 40.0 * (0.95 - 3.0 * (0.95_f64 * 0.05 / 40.0).sqrt() - 0.025);
     for (what, count) in ["age", "cost", "cost of failures"].into_iter().zip(held(3, 4, 40, 40)) {
         assert!(count as f64 >= least, "{what}: {count} of 40");
+    }
+}
+
+/// How many of `runs` samples have bands that hold the best interval and threshold of looks, and what the plan told costs; a line for
+/// each `every` of them.
+fn held_by_looks(units: usize, readings: usize, (runs, every): (u64, u64), lives: usize) -> [usize; 3] {
+    let costs = Costs::new(100.0, 900.0).expect("valid");
+    let looks = Looks::new(15.0, None).expect("valid");
+    let state = OperatingState::new(THRESHOLD).expect("valid");
+    let part = |estimate: &Estimate| {
+        let life = state.life(estimate).expect("valid");
+        Monitored::new(*life.law(), life.clock().clone(), THRESHOLD).expect("valid")
+    };
+    let truth = part(&Estimate::new(&Gamma, [SHAPE; 2], None).expect("valid"));
+    let best = best_inspection(&truth, &costs, &looks, None, None).expect("a plan");
+    let mut count = [0; 3];
+    for run in 0..runs {
+        let data = sample(units, readings, run);
+        let fit = estimate(&data, &Model::default()).expect("fits");
+        let found = FitFile::new(&fit, &data, &[], ("w", "t"), false).informed(&[]).expect("no covariates");
+        let plan = best_inspection(&part(&found), &costs, &looks, None, None).expect("a plan");
+        let possible = Prediction::possible_lives(&found, &state, lives).expect("valid");
+        let bands = look_bands(
+            possible.as_slice(),
+            THRESHOLD,
+            (&costs, &looks),
+            (&plan, [false; 2]),
+            Prediction::LEVEL,
+        )
+        .expect("bands");
+        let own = truth.cost(&costs, &looks, plan.interval, plan.threshold).expect("valid").rate;
+        let truths = [best.interval, best.threshold, own];
+        for ((count, truth), (low, high)) in
+            count.iter_mut().zip(truths).zip([bands.interval, bands.threshold, bands.cost_rate])
+        {
+            *count += usize::from(low <= truth && truth <= high);
+        }
+        if (run + 1) % every == 0 {
+            println!("{} increments, {} samples: {count:?}", units * readings, run + 1);
+        }
+    }
+    count
+}
+
+#[test]
+#[ignore = "an hour: the second table of docs/plans.md"]
+fn table_of_coverages_of_looks() {
+    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(500);
+    println!(
+        "| increments | interval | threshold | cost of the looks told | samples |\n|---|---|---|---|---|"
+    );
+    for (units, readings) in [(3, 4), (10, 4)] {
+        let part = held_by_looks(units, readings, (runs, 50), 50)
+            .map(|count| format!("{:.1}", 100.0 * count as f64 / runs as f64));
+        println!("| {} | {} | {runs} |", units * readings, part.join(" | "));
     }
 }
 

@@ -82,7 +82,8 @@ impl Model {
     /// ln dLambda of an increment and its derivatives in the parameters from the third on; and its second derivative
     /// in c, the only one there is.
     pub(super) fn ln_lambda(&self, phi: &[f64], increment: &Increment) -> (f64, Vec<f64>, f64) {
-        let mut slopes = Vec::with_capacity(phi.len() - 2);
+        // Room is taken where there are any.
+        let mut slopes = Vec::new();
         let (mut value, mut bend) = (libm::log(increment.to - increment.from), 0.0);
         if self.power_law {
             let c = phi[2];

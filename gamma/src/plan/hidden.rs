@@ -29,8 +29,12 @@ const MOST: usize = 20_000;
 const INTERVALS: (f64, f64) = (256.0, 3.0);
 /// Intervals of the first search.
 const TRIED: usize = 24;
-/// Looks at which parts that work are replaced, at most: with more, replacing them hardly differs from never.
-const LOOKS: usize = 12;
+/// The look at which parts that work are replaced is sought upwards, until so many in a row cost more than the one before, ...
+const RISES: usize = 3;
+/// ... or less than this part of them comes so far, and replacing these hardly differs from never doing it; ...
+const SELDOM: f64 = 1e-2;
+/// ... or here: intervals are not shorter than the mean life over [`INTERVALS`], and later parts have failed.
+const LOOKS: usize = 512;
 /// What a replacement of parts that work must save, as a part: less is rounding.
 const SAVED: f64 = 1e-9;
 
@@ -115,10 +119,16 @@ pub fn best_hidden(
         })
     };
     let mut best = best_of(None)?;
+    let (mut before, mut rises) = (f64::INFINITY, 0);
     for last in 1..=LOOKS {
         let found = best_of(Some(last))?;
         if found.cost.rate < best.cost.rate * (1.0 - SAVED) {
             best = found;
+        }
+        rises = if found.cost.rate >= before { rises + 1 } else { 0 };
+        before = found.cost.rate;
+        if rises == RISES || 1.0 - found.cost.fail < SELDOM {
+            break;
         }
     }
     Ok(best)

@@ -39,18 +39,57 @@ fn availabilities_and_the_inspection_interval_of_a_published_example() {
 }
 
 /// Intervals of failure finding as parts of the mean life, for an availability (J. Moubray, Reliability-centred Maintenance, 2nd ed.
-/// 1997, chapter 8): exponential lives, looks that take no time.
+/// 1997, compared with a reprint of the table): exponential lives, looks that take no time.
 #[test]
 fn availabilities_of_a_published_table_of_failure_finding() {
     let life = Weibull { scale: 1.0, shape: 1.0 };
     let costs = Costs::new(0.5, 1.0).expect("valid");
     let looks = Looks::new(0.0, Some(1.0)).expect("valid");
     for (interval, printed, digit) in
-        [(0.002, 99.9, 0.1), (0.01, 99.5, 0.1), (0.02, 99.0, 1.0), (0.04, 98.0, 1.0), (0.1, 95.0, 1.0)]
+        [(0.002, 99.9, 0.1), (0.01, 99.5, 0.1), (0.02, 99.0, 1.0), (0.06, 97.0, 1.0), (0.1, 95.0, 1.0)]
     {
         let found = hidden_cost(&life, &costs, &looks, interval, None).expect("valid");
         let availability = 100.0 * (1.0 - found.unnoticed / found.cycle);
         assert!((availability - printed).abs() < 0.5 * digit, "{interval}: {availability}");
+    }
+}
+
+/// Shocks of rate 1 whose exponential damages add up to more than 100 of their means.
+struct Shocks;
+
+impl Lifetime for Shocks {
+    fn reliability(&self, t: f64) -> f64 {
+        // By the number of shocks until then, and the number of damages that fit in: both are Poisson's.
+        let (mut sum, mut shocks, mut fit) = (0.0, (-t).exp(), 1.0);
+        let mut damages = (-100.0_f64).exp();
+        for j in 0..400 {
+            sum += shocks * fit;
+            shocks *= t / f64::from(j + 1);
+            fit -= damages;
+            damages *= 100.0 / f64::from(j + 1);
+        }
+        sum
+    }
+    fn typical(&self) -> f64 {
+        100.0
+    }
+}
+
+/// Looks that find damage beyond a threshold (T. Nakagawa, Shock and Damage Models in Reliability Theory, Springer 2007, table 5.2,
+/// without damage by inspection): a look every 5, which costs 1 as an undetected failure does by unit of time. With a replacement at
+/// 1 it is printed to be best at the 15th look, and to cost 0.214. For replacements at 5 and 10 the book has 17, 19 and 0.264, 0.323;
+/// its sums end too early there: with all terms it is 18, 20 and 0.262, 0.316 (by another program).
+#[test]
+fn the_look_at_which_parts_are_replaced_may_be_late() {
+    for (replacement, last, rate, digits) in
+        [(1.0, 15, 0.214, 5e-4), (5.0, 18, 0.262_025, 1e-6), (10.0, 20, 0.316_202, 1e-6)]
+    {
+        // A replacement costs the same for a failed part; costs must differ.
+        let costs = Costs::new(replacement, replacement * (1.0 + 1e-9)).expect("valid");
+        let looks = Looks::new(1.0, Some(1.0)).expect("valid");
+        let plan = best_hidden(&Shocks, &costs, &looks, Some(5.0)).expect("a plan");
+        assert_eq!(plan.last, Some(last), "{plan:?}");
+        assert!((plan.cost.rate - rate).abs() < digits, "{plan:?}");
     }
 }
 

@@ -8,6 +8,42 @@ fn part(law: Law) -> Monitored {
     Monitored::new(law, Clock::linear(1.0).expect("valid"), 10.0).expect("valid")
 }
 
+/// Wear that is looked at after every unit of time and grows by exponential amounts in between, which a Gamma process of shape 1
+/// does; a part has failed if wear is beyond K at a look (T. Nakagawa, Shock and Damage Models in Reliability Theory, Springer 2007,
+/// section 3.2 (3) and the end of example 3.1; tables 3.1 and 3.4). Printed: K, cost of a failure beside that of a replacement in
+/// time, the wear from which to replace, and its cost, all in mean amounts and by looks.
+#[test]
+fn thresholds_of_replacement_of_a_published_example() {
+    let table_3_4 = [
+        (10.0, 2.0, 7.93, Some(0.126)),
+        (10.0, 5.0, 6.71, Some(0.149)),
+        (10.0, 10.0, 6.01, Some(0.166)),
+        (10.0, 20.0, 5.37, Some(0.186)),
+        (20.0, 2.0, 17.16, Some(0.058)),
+        (20.0, 5.0, 15.85, Some(0.063)),
+        (20.0, 10.0, 15.09, Some(0.066)),
+        (20.0, 20.0, 14.39, Some(0.069)),
+    ];
+    // Tires that fail at 30,000 km, with a mean of 1000 km in a unit of time: printed in km.
+    let table_3_1 = [(30.0, 2.0, 26.714, None), (30.0, 5.0, 25.379, None), (30.0, 10.0, 24.600, None)];
+    let rows = table_3_4.into_iter().chain(table_3_1);
+    // All of them take half a minute.
+    let every = if std::env::var("ALL_ROWS").is_ok() { 1 } else { 5 };
+    for (failure, ratio, threshold, rate) in rows.step_by(every) {
+        let law = Law::from_logs(&Gamma, [0.0, 0.0]).expect("valid");
+        let part = Monitored::new(law, Clock::linear(1.0).expect("valid"), failure).expect("valid");
+        let costs = Costs::new(1.0, ratio).expect("valid");
+        // The book has no cost of looks, nor of failures until they are seen: as good as none.
+        let looks = Looks::new(1e-6, Some(1e-6)).expect("valid");
+        let plan = best_inspection(&part, &costs, &looks, Some(1.0), None).expect("a plan");
+        // Half of the last digit, and what a cost good to 1e-7 leaves of a flat minimum.
+        assert!((plan.threshold - threshold).abs() < 5e-3 + 2e-3, "{failure} {ratio}: {plan:?}");
+        if let Some(rate) = rate {
+            assert!((plan.cost.rate - rate).abs() < 5e-4, "{failure} {ratio}: {plan:?}");
+        }
+    }
+}
+
 #[test]
 fn units_that_hardly_differ_cost_what_units_alike_do() {
     let costs = Costs::new(10.0, 50.0).expect("valid");

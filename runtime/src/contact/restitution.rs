@@ -21,7 +21,7 @@ named! {
         HuntCrossley = "hunt_crossley", "Hunt-Crossley";
         /// chi = 8 (1 - e) / (5 e): Flores, Machado, Silva & Martins, Multibody Syst. Dyn. 25 (2011) 357-375.
         Flores = "flores", "Flores";
-        /// chi = 3/4 (1 - e): Lee & Wang, J. Mech. Des. 105 (1983) 188-193.
+        /// chi = 3/4 (1 - e): Lee & Wang, J. Mech. Transm. Autom. Des. 105 (1983) 534-540.
         LeeWang = "lee_wang", "Lee-Wang";
     }
 }

@@ -4,14 +4,16 @@
 use std::collections::HashMap;
 
 use super::kernel::{Kernel, Known, Laws};
-use super::window::{Place, Window};
+use super::window::{Even, Place, Window};
 use crate::data::{self, Increment, Rounding};
 
 /// What is known of laws is kept for all readings that share them, of whichever unit.
 pub struct Chain {
     rounding: Rounding,
     window: Window,
-    /// Chances to go from a part to a part, by law and difference of readings.
+    /// Densities that hardly change, and that others do, by law and difference of readings; ...
+    evens: HashMap<[u64; 3], Option<Even>>,
+    /// ... and the chances of these to go from a part to a part.
     followed: HashMap<[u64; 3], Vec<f64>>,
     known_laws: HashMap<[u64; 2], Known>,
 }
@@ -19,7 +21,7 @@ pub struct Chain {
 impl Chain {
     pub fn new(rounding: Rounding) -> Self {
         let window = Window::new(rounding);
-        Self { rounding, window, followed: HashMap::new(), known_laws: HashMap::new() }
+        Self { rounding, window, evens: HashMap::new(), followed: HashMap::new(), known_laws: HashMap::new() }
     }
 
     /// The gauge's step.
@@ -41,7 +43,7 @@ impl Chain {
         increments: &[Increment],
         seen: &mut dyn FnMut(f64, &dyn Fn() -> f64),
     ) {
-        let Self { rounding, window, followed, known_laws } = self;
+        let Self { rounding, window, evens, followed, known_laws } = self;
         let (rounding, window) = (*rounding, &*window);
         let (step, part, parts) = (rounding.step, window.part, window.parts);
         let mut place = Place::Exact;
@@ -57,7 +59,7 @@ impl Chain {
             }
             before = Some(increment);
             let kernel = Kernel::new(laws, increment, rounding, window);
-            if let Some(even) = kernel.even() {
+            if let Some(even) = evens.entry(kernel.key()).or_insert_with(|| kernel.even()) {
                 let (chance, next) = even.follow(&place, window);
                 // The distribution function is as straight as the density is even.
                 seen(step * chance, &|| kernel.below(kernel.middle - 0.5 * step));

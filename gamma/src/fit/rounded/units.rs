@@ -5,6 +5,7 @@
 //! That is a sum over places of the law that are evenly apart, the same for all units, so that units share their chains' laws. The
 //! trapezoid rule errs by exp(-2 pi^2 / spacing^2), in standard deviations of what a unit's readings leave of its parameter.
 
+use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -180,7 +181,15 @@ impl<'a> Differing<'a> {
         let place = self.spacing * at as f64;
         let Self { model, effect, phi, cv, chain, .. } = self;
         let placed = |logs: [f64; 2]| effect.place(logs, *cv, place).unwrap_or(([f64::NAN; 2], f64::NAN));
-        let logs = |one: &Increment| placed(model.logs(phi, one)).0;
+        // Neighbouring increments mostly have one law.
+        let last = Cell::new(([f64::NAN; 2], [f64::NAN; 2]));
+        let logs = |one: &Increment| {
+            let own = model.logs(phi, one);
+            if last.get().0 != own {
+                last.set((own, placed(own).0));
+            }
+            last.get().1
+        };
         chain.follow(Laws { process: model.process, logs: &logs }, unit, seen);
         placed([phi[0], phi[1]]).1
     }

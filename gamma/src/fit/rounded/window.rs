@@ -86,6 +86,7 @@ pub(super) enum Place {
 }
 
 /// The logarithm of a density around a difference of readings: value, slope and half its bend by wear.
+#[derive(Clone, Copy)]
 pub(super) struct Even {
     pub ln: f64,
     pub slope: f64,
