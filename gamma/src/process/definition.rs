@@ -50,6 +50,11 @@ pub trait Process: Debug + Sync {
     /// Variance of an increment over exposure 1.
     fn variance(&self, logs: [f64; 2]) -> f64;
 
+    /// The ln density of an increment over exposure 1 as c + p ln wear - r wear: c, p, r; None where it is none of that kind.
+    fn density_terms(&self, _logs: [f64; 2]) -> Option<[f64; 3]> {
+        None
+    }
+
     /// Mean of what an increment over exposure 1 is below `wear`: the integral of its distribution function up to there; None
     /// where readings rounded to a gauge's step cannot be taken as such.
     fn mean_shortfall(&self, _logs: [f64; 2], _wear: f64) -> Option<f64> {

@@ -80,6 +80,11 @@ impl Process for Gamma {
         a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) - libm::exp(ln_beta) * wear
     }
 
+    fn density_terms(&self, [eta, ln_beta]: [f64; 2]) -> Option<[f64; 3]> {
+        let a = libm::exp(eta);
+        Some([a * ln_beta - ln_gamma(a), a - 1.0, libm::exp(ln_beta)])
+    }
+
     /// P(a, x) = P(a + 1, x) + x^a exp(-x) / Gamma(a + 1), Q likewise the other way round: sums that lose no digits.
     fn mean_shortfall(&self, logs: [f64; 2], wear: f64) -> Option<f64> {
         if wear <= 0.0 {

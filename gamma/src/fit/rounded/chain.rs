@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::kernel::{Kernel, Known, Laws};
+use super::kernel::{By, Kernel, Known, Laws};
 use super::window::{Even, Place, Window};
 use crate::data::{self, Increment, Rounding};
 
@@ -11,17 +11,32 @@ use crate::data::{self, Increment, Rounding};
 pub struct Chain {
     rounding: Rounding,
     window: Window,
-    /// Densities that hardly change, and that others do, by law and difference of readings; ...
-    evens: HashMap<[u64; 3], Option<Even>>,
-    /// ... and the chances of these to go from a part to a part.
-    followed: HashMap<[u64; 3], Vec<f64>>,
+    /// What is known by law and difference of readings.
+    followed: HashMap<[u64; 3], Followed>,
     known_laws: HashMap<[u64; 2], Known>,
+    /// Logarithms of wear, by difference of readings, where chances are found by densities.
+    logarithms: Option<HashMap<u64, Vec<f64>>>,
+}
+
+/// What is known of one law and one difference of readings.
+struct Followed {
+    /// The density, where it hardly changes.
+    even: Option<Even>,
+    /// Chances to go from a part to a part, once they were asked for; ...
+    chances: Option<Vec<f64>>,
+    /// ... and from wear that is known exactly.
+    after_exact: Option<Vec<f64>>,
 }
 
 impl Chain {
     pub fn new(rounding: Rounding) -> Self {
         let window = Window::new(rounding);
-        Self { rounding, window, evens: HashMap::new(), followed: HashMap::new(), known_laws: HashMap::new() }
+        Self { rounding, window, followed: HashMap::new(), known_laws: HashMap::new(), logarithms: None }
+    }
+
+    /// The same for many laws: chances are found by densities where these are smooth, good to 1e-9.
+    pub fn of_many_laws(rounding: Rounding) -> Self {
+        Self { logarithms: Some(HashMap::new()), ..Self::new(rounding) }
     }
 
     /// The gauge's step.
@@ -43,7 +58,7 @@ impl Chain {
         increments: &[Increment],
         seen: &mut dyn FnMut(f64, &dyn Fn() -> f64),
     ) {
-        let Self { rounding, window, evens, followed, known_laws } = self;
+        let Self { rounding, window, followed, known_laws, logarithms } = self;
         let (rounding, window) = (*rounding, &*window);
         let (step, part, parts) = (rounding.step, window.part, window.parts);
         let mut place = Place::Exact;
@@ -59,7 +74,9 @@ impl Chain {
             }
             before = Some(increment);
             let kernel = Kernel::new(laws, increment, rounding, window);
-            if let Some(even) = evens.entry(kernel.key()).or_insert_with(|| kernel.even()) {
+            let new = || Followed { even: kernel.even(), chances: None, after_exact: None };
+            let own = followed.entry(kernel.key()).or_insert_with(new);
+            if let Some(even) = own.even {
                 let (chance, next) = even.follow(&place, window);
                 // The distribution function is as straight as the density is even.
                 seen(step * chance, &|| kernel.below(kernel.middle - 0.5 * step));
@@ -72,10 +89,11 @@ impl Chain {
                 Place::Parts(masses) => Some(masses),
             };
             let known = known_laws.entry(kernel.law()).or_default();
+            let by = logarithms.as_mut().map_or(By::Integrals, By::Densities);
             let next: Vec<f64> = match &masses {
-                None => kernel.after_exact(known),
+                None => own.after_exact.get_or_insert_with(|| kernel.after_exact(known, by)).clone(),
                 Some(masses) => {
-                    let chances = followed.entry(kernel.key()).or_insert_with(|| kernel.chances(known));
+                    let chances = own.chances.get_or_insert_with(|| kernel.chances(known, by));
                     // Part by part of the window before: sums side by side, each in the order of the parts.
                     let mut next = vec![0.0; parts];
                     for (i, mass) in masses.iter().enumerate() {

@@ -2,7 +2,9 @@
 //! the slope of a density that hardly changes. Never knows what came before.
 
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
+use super::nodes::Nodes;
 use super::window::{Even, Window};
 use crate::data::{Increment, Rounding};
 use crate::process::Process;
@@ -28,6 +30,14 @@ pub struct Laws<'a> {
 pub(super) struct Known {
     chances: [HashMap<u64, f64>; 2],
     integrals: [HashMap<u64, f64>; 2],
+}
+
+/// How chances of a law are found.
+pub(super) enum By<'a> {
+    /// By its integrals alone.
+    Integrals,
+    /// By its density, where that is smooth enough; logarithms of wear are kept for all laws.
+    Densities(&'a mut HashMap<u64, Vec<f64>>),
 }
 
 /// Increments over one exposure whose readings differ by a number of steps.
@@ -108,9 +118,33 @@ impl<'a> Kernel<'a> {
         })
     }
 
+    /// Densities at the places of the lattice and halfway between them, up to `reach` half parts from the middle.
+    fn nodes(&self, by: By<'_>, reach: usize) -> Option<Nodes> {
+        let By::Densities(logarithms) = by else { return None };
+        let terms = self.process.density_terms(self.logs)?;
+        let (last, half) = (2 * self.parts, 0.5 * self.part);
+        let wear = |at: usize| self.middle + half * (at as f64 - last as f64);
+        let ln = |wear: f64| if wear > 0.0 { libm::log(wear) } else { f64::NAN };
+        let logs = logarithms
+            .entry(self.middle.to_bits())
+            .or_insert_with(|| (0..=2 * last).map(|at| ln(wear(at))).collect());
+        let first = last - reach;
+        Nodes::new(terms, self.part, wear(first), &logs[first..=last + reach])
+    }
+
     /// Chances of all differences of parts, from -(parts - 1) on.
-    pub fn chances(&self, known: &mut Known) -> Vec<f64> {
+    pub fn chances(&self, known: &mut Known, by: By<'_>) -> Vec<f64> {
         let last = self.parts as isize;
+        if let Some(nodes) = self.nodes(by, 2 * self.parts) {
+            // Of differences from `smooth` on; those below by integrals.
+            let smooth = (1..2 * self.parts).find(|at| nodes.is_smooth(2 * at)).unwrap_or(2 * self.parts);
+            let mut chances = match smooth {
+                1 => Vec::new(),
+                _ => self.by_integrals(known, -last..=smooth as isize - last),
+            };
+            chances.extend((smooth..2 * self.parts).map(|at| nodes.chance(2 * at)));
+            return chances;
+        }
         let ends = [-last, last - 1].map(|k| (self.ln_density(k + 1) - self.ln_density(k)).abs());
         if ends.into_iter().all(|change| change < SMOOTH) {
             let values: Vec<f64> = (-last..=last).map(|k| libm::exp(self.ln_density(k))).collect();
@@ -119,6 +153,11 @@ impl<'a> Kernel<'a> {
                 .map(|v| self.part * (v[1] + (v[0] - 2.0 * v[1] + v[2]) / 12.0))
                 .collect();
         }
+        self.by_integrals(known, -last..=last)
+    }
+
+    /// Second differences of integrals between the first and the last of these parts.
+    fn by_integrals(&self, known: &mut Known, parts: RangeInclusive<isize>) -> Vec<f64> {
         // The integral that is small there keeps the digits of its differences.
         let is_upper = self.excess(0) < self.shortfall(0);
         let known = &mut known.integrals[usize::from(is_upper)];
@@ -126,13 +165,17 @@ impl<'a> Kernel<'a> {
             let new = || if is_upper { self.excess(k) } else { self.shortfall(k) };
             *known.entry((self.place + k as f64 * self.pitch).to_bits()).or_insert_with(new)
         };
-        let values: Vec<f64> = (-last..=last).map(&mut integral).collect();
+        let values: Vec<f64> = parts.map(&mut integral).collect();
         values.windows(3).map(|v| ((v[0] - 2.0 * v[1] + v[2]) / self.part).max(0.0)).collect()
     }
 
     /// Masses of the parts of the next window before it is read, after wear that is known exactly.
-    pub fn after_exact(&self, known: &mut Known) -> Vec<f64> {
-        let is_upper = self.below(self.middle) > 0.5;
+    pub fn after_exact(&self, known: &mut Known, by: By<'_>) -> Vec<f64> {
+        // Middles of parts are odd numbers of half parts from the first edge, and nodes begin one before that.
+        let nodes = self.nodes(by, self.parts + 1);
+        let smooth = |k: &usize| nodes.as_ref().is_some_and(|nodes| nodes.is_smooth(2 * k + 2));
+        let first = (0..self.parts).find(smooth).unwrap_or(self.parts);
+        let is_upper = first > 0 && self.below(self.middle) > 0.5;
         let known = &mut known.chances[usize::from(is_upper)];
         let mut chance = |k: usize| {
             let place = k as f64 - 0.5 * self.parts as f64;
@@ -144,7 +187,8 @@ impl<'a> Kernel<'a> {
             };
             *known.entry((self.place + place * self.pitch).to_bits()).or_insert_with(new)
         };
-        let edges: Vec<f64> = (0..=self.parts).map(&mut chance).collect();
-        edges.windows(2).map(|edge| (edge[1] - edge[0]).abs()).collect()
+        let edges: Vec<f64> = if first == 0 { Vec::new() } else { (0..=first).map(&mut chance).collect() };
+        let rest = nodes.iter().flat_map(|nodes| (first..self.parts).map(|k| nodes.mass(2 * k + 2)));
+        edges.windows(2).map(|edge| (edge[1] - edge[0]).abs()).chain(rest).collect()
     }
 }

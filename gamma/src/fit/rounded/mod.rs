@@ -13,6 +13,7 @@
 
 mod chain;
 mod kernel;
+mod nodes;
 mod units;
 mod window;
 

@@ -1,10 +1,11 @@
 //! Likelihoods of rounded readings against sums over fine grids.
 
-use super::kernel::{Kernel, Known};
+use super::kernel::{By, Kernel, Known};
 use super::window::{Place, Window};
 use super::*;
 use crate::process::{Gamma, Process};
 use crate::special::normal_cdf;
+use std::collections::HashMap;
 
 fn laws(logs: &dyn Fn(&Increment) -> [f64; 2]) -> Laws<'_> {
     Laws { process: &Gamma, logs }
@@ -100,9 +101,9 @@ fn two_chances(place: &Place, kernels: [&Kernel<'_>; 2], window: &Window, by_til
         } else {
             let parts = kernel.parts;
             let next = match masses(&at) {
-                None => kernel.after_exact(&mut Known::default()),
+                None => kernel.after_exact(&mut Known::default(), By::Integrals),
                 Some(masses) => {
-                    let chances = kernel.chances(&mut Known::default());
+                    let chances = kernel.chances(&mut Known::default(), By::Integrals);
                     let into =
                         |j: usize| (0..parts).map(|i| masses[i] * chances[parts - 1 + j - i]).sum::<f64>();
                     (0..parts).map(into).collect()
@@ -117,6 +118,35 @@ fn two_chances(place: &Place, kernels: [&Kernel<'_>; 2], window: &Window, by_til
         at = next;
     }
     product
+}
+
+#[test]
+fn chances_by_densities_are_those_by_integrals() {
+    for rounding in [Rounding::to(1.0), Rounding { step: 1.0, error: 0.4 }] {
+        let window = Window::new(rounding);
+        for (alpha, beta) in [(0.3_f64, 0.5_f64), (2.0, 1.5), (8.0, 3.0), (20.0, 20.0)] {
+            for steps in [0.0, 1.0, 2.0, 5.0] {
+                let kernel = Kernel::of(&Gamma, [alpha.ln(), beta.ln()], (steps, rounding), &window);
+                let mut logarithms = HashMap::new();
+                let mut both = |of: &mut dyn FnMut(By<'_>) -> Vec<f64>| {
+                    [of(By::Integrals), of(By::Densities(&mut logarithms))]
+                };
+                let chances = both(&mut |by| kernel.chances(&mut Known::default(), by));
+                let masses = both(&mut |by| kernel.after_exact(&mut Known::default(), by));
+                for [integrals, densities] in [chances, masses] {
+                    assert_eq!(integrals.len(), densities.len());
+                    let most = integrals.iter().copied().fold(0.0, f64::max);
+                    for (a, b) in integrals.iter().zip(densities) {
+                        // What five nodes leave, and second differences of integrals that are some ten thousand parts' chances.
+                        assert!(
+                            (a - b).abs() < 2e-9 * a + 1e-11 * most,
+                            "{alpha} {steps} {rounding:?}: {a} {b}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }
 
 #[test]

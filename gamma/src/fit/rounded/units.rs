@@ -61,7 +61,7 @@ impl<'a> Differing<'a> {
     ) -> Option<Self> {
         let effect = model.process.random_effect()?;
         let cv = libm::exp(phi[phi.len() - 1]);
-        let mut own = Self { model, effect, phi, cv, chain: Chain::new(rounding), spacing: 0.0 };
+        let mut own = Self { model, effect, phi, cv, chain: Chain::of_many_laws(rounding), spacing: 0.0 };
         let left = |unit: &[Increment]| own.after(unit, rounding).map_or(cv, |(_, cv)| cv);
         let narrowest = units(increments).map(left).fold(cv, f64::min);
         own.spacing = (SPACING * narrowest).min(WIDEST) / cv;
