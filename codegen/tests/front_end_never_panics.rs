@@ -56,6 +56,14 @@ const PIECES: &[&str] = &[
     "[stops]\nend = { joint = \"R1\", upper = \"1 rad\", stiffness = \"1 N m\" }\n",
     "[include.p]\nfile = \"p.toml\"\n",
     "cable",
+    "tilt = true\n",
+    "tilt = false\n",
+    "ends = \"journal\"\n",
+    "ends = \"bearing\"\n",
+    "prismatic",
+    "cylindrical",
+    "length = \"0 mm\"\n",
+    "hardness_ratio = 0.5\n",
     "stiffness_matrix = [[1], [2]]",
     "µ",
     "\\",
@@ -93,7 +101,7 @@ proptest! {
 
     #[test]
     fn a_damaged_file_gives_a_mechanism_or_diagnostics(
-        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum", "../examples/data/servo_crank", "../examples/data/drop_hammer", "../examples/data/walker"]),
+        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum", "../examples/data/servo_crank", "../examples/data/drop_hammer", "../examples/data/walker", "../examples/data/loose_guide", "../examples/data/tilting_bearing"]),
         damages in prop::collection::vec((0.0..1.0, 0usize..12, prop::sample::select(PIECES)), 1..4),
     ) {
         let path = format!("{}/../mechanisms/{file}.toml", env!("CARGO_MANIFEST_DIR"));

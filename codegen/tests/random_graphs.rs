@@ -74,6 +74,7 @@ fn nobody() -> Description {
         turn_driver: None,
         contacts: Vec::new().into(),
         journals: Vec::new().into(),
+        guides: Vec::new().into(),
         coefficients: Vec::new().into(),
         missions: Vec::new().into(),
     }

@@ -112,6 +112,8 @@ pub struct Description {
     pub journals: List<JournalWear>,
     /// Wear coefficients that depend on the state of the contact.
     pub coefficients: List<CoefficientFactor>,
+    /// Which of the contacts are rods in bushes along which they may slide and in which they may lean, by index.
+    pub guides: List<usize>,
     /// Duty cycles, in the order of the file.
     pub missions: List<MissionInfo>,
 }
@@ -191,6 +193,7 @@ impl Description {
             contacts: tables.contacts.into(),
             journals: List::Borrowed(&[]),
             coefficients: List::Borrowed(&[]),
+            guides: List::Borrowed(&[]),
             missions: tables.missions.iter().map(MissionInfo::from_row).collect(),
         }
     }
@@ -202,6 +205,7 @@ pub struct TabledDescription {
     tables: &'static Tables,
     journals: &'static [JournalWear],
     coefficients: &'static [CoefficientRow],
+    guides: &'static [usize],
     made: OnceLock<Description>,
 }
 
@@ -217,7 +221,17 @@ impl TabledDescription {
         journals: &'static [JournalWear],
         coefficients: &'static [CoefficientRow],
     ) -> Self {
-        Self { tables, journals, coefficients, made: OnceLock::new() }
+        Self::with_guides(tables, journals, coefficients, &[])
+    }
+
+    /// The same with guides among the contacts, by index.
+    pub const fn with_guides(
+        tables: &'static Tables,
+        journals: &'static [JournalWear],
+        coefficients: &'static [CoefficientRow],
+        guides: &'static [usize],
+    ) -> Self {
+        Self { tables, journals, coefficients, guides, made: OnceLock::new() }
     }
 
     /// The description.
@@ -226,6 +240,7 @@ impl TabledDescription {
         self.made.get_or_init(|| Description {
             journals: self.journals.into(),
             coefficients: self.coefficients.iter().map(factor).collect(),
+            guides: self.guides.into(),
             ..Description::from_tables(self.tables)
         })
     }

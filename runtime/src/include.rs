@@ -40,6 +40,14 @@ macro_rules! describe_mechanism {
             DESCRIPTION.get()
         }
     };
+    ($tables:ident, $journals:ident, $coefficients:ident, $guides:ident) => {
+        /// Names and units of parameters, coordinates, rows and output columns.
+        pub fn description() -> &'static $crate::Description {
+            static DESCRIPTION: $crate::TabledDescription =
+                $crate::TabledDescription::with_guides(&$tables, &$journals, &$coefficients, &$guides);
+            DESCRIPTION.get()
+        }
+    };
 }
 
 /// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.

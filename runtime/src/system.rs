@@ -48,12 +48,14 @@ pub enum Entry {
 /// rate seen from the bearing (3) [m/s], angular velocity of the journal relative to the bearing (3) [rad/s],
 /// clearance [m]. A journal in a revolute joint does not slide along the axis: where it wears, the third component of the
 /// offset is the angle of the joint [rad], and where its wear coefficient varies, parameters and inputs that it depends on are in
-/// the third component of the rate and the first two of the angular velocity.
+/// the third component of the rate and the first two of the angular velocity. A rod that is loose in its bush along its length has a row for each
+/// end, of the rod's centre there, in the frame of the bush; its rate has the speed along the axis as third component.
 pub const CONTACT_MOTION: usize = 10;
 
 /// Values per joint with clearance that contact laws hand back: force on the journal (3) [N] and moment about the
 /// journal's centre (3) [N m], in the frame of the bearing. The opposite acts on the bearing at the same place. A
-/// revolute joint takes force x, y and moment z; the other components belong to its constraints and are ignored.
+/// revolute joint takes force x, y and moment z; the other components belong to its constraints and are ignored. A rod loose in its bush takes all at
+/// each end.
 pub const CONTACT_WRENCH: usize = 6;
 
 impl Entry {

@@ -2,13 +2,16 @@
 //! In: link motion, wrenches handed in from outside. Out: [`linkwear_runtime::Entry::Contacts`], loads. Never
 //! knows laws of contact: those have branches and live in the runtime.
 //!
-//! A revolute with clearance is free along two directions of the bearing; a ball along all three. Offset and turn
+//! A revolute with clearance is free along two directions of the bearing; a ball and the cross of a universal joint along all three.
+//! Rods that slide along their bushes or tilt in them touch at places of their own: [`super::guide_contacts`]. Offset and turn
 //! are coordinates of the joint, so the generalised force of a contact wrench on the journal (its opposite acts on
 //! the bearing at the same place) is the wrench itself: J_rel of [CS (8)] is a selection.
 
 use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
+use crate::model::Axis;
 
+use super::guide_contacts::GuidePlace;
 use super::joint_state::JointStates;
 use super::linkage::{Link, Linkage};
 use super::loads::Loads;
@@ -18,6 +21,8 @@ use super::loads::Loads;
 pub struct ContactWrench<'g> {
     /// The joint.
     pub joint: JointId,
+    /// How far along the joint's axis [m].
+    pub along: f64,
     /// [N].
     pub force: Vec3<'g>,
     /// [N m].
@@ -26,20 +31,27 @@ pub struct ContactWrench<'g> {
 
 /// The link that a coordinate of a tree joint moves.
 #[expect(clippy::expect_used, reason = "asked of joints in the tree only, which have all their coordinates")]
-fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
+pub(super) fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
     let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
     &linkage.links[link]
 }
 
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint, as [`linkwear_runtime::CONTACT_MOTION`] has
 /// them.
-pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec<Expr<'g>> {
+pub fn contact_motion<'g>(
+    g: &'g Scope,
+    state: &JointStates<'g>,
+    contact: &ContactWrench<'g>,
+) -> Vec<Expr<'g>> {
+    let joint = contact.joint;
     let linkage = state.geometry.linkage;
     let data = state.geometry.mechanism.joint(joint);
     // A journal that wears tells its angle: which place of it touches.
     let wears = data.clearance.as_ref().is_some_and(|clearance| clearance.journal.is_some());
     let (mut offset, mut rate, mut turn) = (g.zero_vector(), g.zero_vector(), g.zero_vector());
-    if linkage.link_of_joint[joint.index()].is_some() {
+    if data.model.is_loose_guide() {
+        [offset, rate, turn] = GuidePlace::new(g, state, contact).motion(g);
+    } else if linkage.link_of_joint[joint.index()].is_some() {
         for (axis, coordinate) in data.model.offsets().enumerate() {
             let link = moved_link(linkage, joint, coordinate);
             offset[axis] = state.q[link.first_coordinate];
@@ -52,6 +64,8 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
             } else {
                 state.motion.poses.relative[ball].rotation * relative
             };
+        } else if data.model.is_cross() {
+            turn = cross_rate(g, state, joint);
         } else {
             turn[2] = state.v[moved_link(linkage, joint, 0).first_speed];
             if wears {
@@ -60,7 +74,7 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
         }
     } else {
         let motion = state.relative_motion(joint);
-        let journal = !data.model.is_ball();
+        let journal = data.model.is_hinge();
         for j in 0..3 {
             let axis = motion.parent_axis(j);
             if journal && j == 2 {
@@ -94,6 +108,28 @@ pub fn contact_motion<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId)
     offset.into_iter().chain(rate).chain(turn).chain([clearance]).collect()
 }
 
+/// Both axes of a universal joint in the tree, in the frame of its parent in which its offset is: the second is turned about the
+/// first.
+fn cross_axes<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> [Vec3<'g>; 2] {
+    let linkage = state.geometry.linkage;
+    let model = &state.geometry.mechanism.joint(joint).model;
+    let reversed = linkage.reversed[joint.index()];
+    let frame = moved_link(linkage, joint, model.offsets().start).frame;
+    let of = |axis: &Axis| g.vector(frame.local(if reversed { axis.child } else { axis.parent }));
+    let [first, second] = [of(&model.axes[0]), of(&model.axes[1])];
+    let angle = state.q[moved_link(linkage, joint, 0).first_coordinate];
+    let (sine, cosine) = (angle.sin(), angle.cos());
+    let along = first.dot(second) * first;
+    [first, along + cosine * (second - along) + sine * first.cross(second)]
+}
+
+/// Angular velocity of the child of a universal joint in the tree, relative to the parent.
+fn cross_rate<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec3<'g> {
+    let [first, second] = cross_axes(g, state, joint);
+    let rate = |coordinate| state.v[moved_link(state.geometry.linkage, joint, coordinate).first_speed];
+    rate(0) * first + rate(1) * second
+}
+
 /// Adds what a contact wrench does.
 pub fn contact_forces<'g>(
     g: &'g Scope,
@@ -103,10 +139,13 @@ pub fn contact_forces<'g>(
 ) {
     let linkage = state.geometry.linkage;
     let joint = contact.joint;
+    if state.geometry.mechanism.joint(joint).model.is_loose_guide() {
+        return GuidePlace::new(g, state, contact).push(loads, contact.force, contact.moment);
+    }
     let model = &state.geometry.mechanism.joint(joint).model;
     if linkage.link_of_joint[joint.index()].is_none() {
         let motion = state.relative_motion(joint);
-        let journal = !model.is_ball();
+        let journal = model.is_hinge();
         let (mut moment, mut force) = (g.zero_vector(), g.zero_vector());
         for j in 0..3 {
             let axis = motion.parent_axis(j);
@@ -121,6 +160,13 @@ pub fn contact_forces<'g>(
     }
     for (axis, coordinate) in model.offsets().enumerate() {
         loads.joint[moved_link(linkage, joint, coordinate).first_speed] += contact.force[axis];
+    }
+    if model.is_cross() {
+        for (coordinate, axis) in cross_axes(g, state, joint).into_iter().enumerate() {
+            let speed = moved_link(linkage, joint, coordinate).first_speed;
+            loads.joint[speed] += axis.dot(contact.moment);
+        }
+        return;
     }
     let Some(ball) = linkage.ball_of(joint) else {
         loads.joint[moved_link(linkage, joint, 0).first_speed] += contact.moment[2];

@@ -21,6 +21,7 @@ mod forward;
 mod frame;
 mod frame_inertia;
 mod geometry;
+mod guide_contacts;
 mod joint_coordinates;
 mod joint_markers;
 mod joint_rows;

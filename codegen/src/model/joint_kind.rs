@@ -8,6 +8,7 @@ use self::Coordinate::{Angle, Length};
 use self::Direction::{X, Y, Z};
 use self::Primitive::{Ball, Pose, Shift, Slide, Thread, Turn};
 use super::coordinate::Coordinate;
+use crate::spec::Ends;
 
 /// A direction of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,21 +99,31 @@ pub struct JointKind {
     pub primitives: &'static [Primitive],
     /// What clearance adds before them; none if such a joint cannot have clearance.
     pub clearance: &'static [Primitive],
+    /// Whether its axis may tilt within the clearance.
+    pub tilts: bool,
     /// What it demands of a place. Such a joint takes one freedom away and carries no body.
     pub place: PlaceKey,
 }
 
 const fn row(name: &'static str, axes: AxisKeys, primitives: &'static [Primitive]) -> JointKind {
-    JointKind { name, axes, primitives, clearance: &[], place: PlaceKey::None }
+    JointKind { name, axes, primitives, clearance: &[], tilts: false, place: PlaceKey::None }
 }
+
+/// A joint whose axis has room around it.
+const fn round(name: &'static str, primitives: &'static [Primitive]) -> JointKind {
+    JointKind { clearance: &[Slide(X), Slide(Y)], tilts: true, ..row(name, AxisKeys::Axis, primitives) }
+}
+
+/// What tilting adds behind the room around an axis.
+const TILTING: &[Primitive] = &[Turn(X), Turn(Y)];
 
 /// Every kind of joint.
 pub static JOINT_KINDS: &[JointKind] = &[
-    JointKind { clearance: &[Slide(X), Slide(Y)], ..row("revolute", AxisKeys::Axis, &[Turn(Z)]) },
-    row("prismatic", AxisKeys::Axis, &[Slide(Z)]),
-    row("cylindrical", AxisKeys::Axis, &[Turn(Z), Slide(Z)]),
+    round("revolute", &[Turn(Z)]),
+    round("prismatic", &[Slide(Z)]),
+    round("cylindrical", &[Turn(Z), Slide(Z)]),
     row("screw", AxisKeys::Axis, &[Thread]),
-    row("universal", AxisKeys::Axes, &[Turn(Z), Turn(X)]),
+    JointKind { clearance: &[Shift], ..row("universal", AxisKeys::Axes, &[Turn(Z), Turn(X)]) },
     JointKind { clearance: &[Shift], ..row("spherical", AxisKeys::None, &[Ball]) },
     row("inline", AxisKeys::Axis, &[Slide(Z), Ball]),
     row("planar", AxisKeys::AxisAndFirst, &[Slide(X), Slide(Y), Turn(Z)]),
@@ -170,6 +181,11 @@ impl JointKind {
         self.primitives.contains(&Slide(X)) && !self.primitives.contains(&Slide(Y))
     }
 
+    /// Whether its child slides along its axis.
+    pub fn slides_along_axis(&self) -> bool {
+        self.primitives.contains(&Slide(Z))
+    }
+
     /// What it looks like, by what it consists of.
     pub fn look(&self) -> Look {
         match self.primitives {
@@ -222,6 +238,8 @@ pub struct JointModel {
     pub lead: f64,
     /// Whether clearance adds its primitives. They have the last coordinates.
     pub clearance: bool,
+    /// Whether the axis tilts within it besides, and which side has the ends that touch.
+    pub tilt: Option<Ends>,
 }
 
 impl JointModel {
@@ -232,7 +250,7 @@ impl JointModel {
     #[expect(clippy::expect_used, reason = "documented: names are written in code, never read from files")]
     pub fn new(name: &str, axes: &[Axis]) -> Self {
         let kind = JointKind::named(name).expect("the name of a kind of joint");
-        Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false }
+        Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false, tilt: None }
     }
 
     /// A joint that takes nothing away.
@@ -242,7 +260,6 @@ impl JointModel {
 
     /// Its primitives from parent to child, each with the number of its first coordinate.
     pub fn primitives(&self) -> Vec<(usize, Primitive)> {
-        let play: &[Primitive] = if self.clearance { self.kind.clearance } else { &[] };
         let number = |list: &[Primitive], mut first: usize| -> Vec<(usize, Primitive)> {
             let mut numbered = Vec::new();
             for primitive in list {
@@ -251,7 +268,20 @@ impl JointModel {
             }
             numbered
         };
-        [number(play, self.start_values().len()), number(self.kind.primitives, 0)].concat()
+        let play = number(&self.play(), self.start_values().len());
+        // The ends of a journal go along with it: it slides along the axis of its bearing before it leaves that.
+        let before = |(_, primitive): &(usize, Primitive)| {
+            self.tilt == Some(Ends::Journal) && matches!(primitive, Slide(_))
+        };
+        let (inner, outer): (Vec<_>, Vec<_>) = number(self.kind.primitives, 0).into_iter().partition(before);
+        [inner, play, outer].concat()
+    }
+
+    /// What clearance adds.
+    fn play(&self) -> Vec<Primitive> {
+        let across = if self.clearance { self.kind.clearance } else { &[] };
+        let tilting = if self.tilt.is_some() { TILTING } else { &[] };
+        [across, tilting].concat()
     }
 
     /// The scalar coordinates; none for spherical and free joints, whose position is no list of scalars.
@@ -276,6 +306,23 @@ impl JointModel {
         first..first + if self.clearance { play } else { 0 }
     }
 
+    /// Numbers of the coordinates with which the axis tilts in its clearance: about the second direction, and about that at
+    /// right angles to both.
+    pub fn tilts(&self) -> Range<usize> {
+        let first = self.offsets().end;
+        first..first + if self.tilt.is_some() { TILTING.len() } else { 0 }
+    }
+
+    /// Numbers of all coordinates that clearance adds.
+    pub fn loose(&self) -> Range<usize> {
+        self.offsets().start..self.tilts().end
+    }
+
+    /// Whether it is loose along its whole length: a rod in a bush that touches round its axis and may slide along it or tilt.
+    pub fn is_loose_guide(&self) -> bool {
+        self.clearance && self.kind.tilts && (self.tilt.is_some() || !self.is_hinge())
+    }
+
     fn any(&self, wanted: impl Fn(Primitive) -> bool) -> bool {
         self.primitives().iter().any(|(_, primitive)| wanted(*primitive))
     }
@@ -293,6 +340,11 @@ impl JointModel {
     /// Whether the joint is a ball in a socket.
     pub fn is_ball(&self) -> bool {
         self.kind.primitives == [Ball]
+    }
+
+    /// Whether the joint is a cross that turns about two axes.
+    pub fn is_cross(&self) -> bool {
+        matches!(self.kind.primitives, [Turn(_), Turn(_)])
     }
 
     /// Whether the joint's only coordinate is a plain angle.
@@ -389,9 +441,14 @@ mod tests {
     #[test]
     fn rows_and_freedoms_are_six_together_and_coordinates_come_first() {
         for kind in JOINT_KINDS {
-            for clearance in [false, !kind.clearance.is_empty()] {
-                let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance };
-                let freedoms = model.start_values().len() + model.offsets().len();
+            let loose = [(!kind.clearance.is_empty(), None), (true, Some(Ends::Journal))];
+            for (clearance, tilt) in
+                [(false, None)].into_iter().chain(loose.into_iter().take(1 + usize::from(kind.tilts)))
+            {
+                let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance, tilt };
+                let freedoms = model.start_values().len() + model.offsets().len() + model.tilts().len();
+                let numbers: Vec<usize> = model.primitives().iter().map(|(number, _)| *number).collect();
+                assert_eq!(numbers.len(), numbers.iter().collect::<std::collections::BTreeSet<_>>().len());
                 let left = if model.holds_place() { 5 } else { freedoms };
                 assert_eq!(model.rows() + left, 6, "{}", kind.name);
                 let coordinates = model.coordinates();

@@ -4,14 +4,13 @@
 //! Everything is stated in one reference pose, in the ground frame W (docs/notation.md). A point may
 //! have one position per body, where branches of a loop are described open.
 
-use linkwear_runtime::ContactInfo;
-
 use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::{Sources, Span};
 use crate::spec::Dimension;
 
 mod body;
+mod clearance;
 mod coordinate;
 mod coupling;
 mod dry_friction;
@@ -27,8 +26,9 @@ mod state;
 mod stop;
 mod table;
 pub mod topology;
-pub use crate::spec::Closure;
+pub use crate::spec::{Closure, Ends};
 pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
+pub use clearance::{Clearance, ContactPlace, WearFactor};
 pub use coordinate::Coordinate;
 pub use coupling::{
     ByMultiplier, Compliance, CoupledCoordinate, Coupling, ForceColumn, MeshSide, PitchCircle,
@@ -191,28 +191,6 @@ pub struct Surface {
     pub equation: Formula,
 }
 
-/// A joint with clearance.
-#[derive(Clone, Debug)]
-pub struct Clearance {
-    /// Radial clearance [m], a formula over parameters.
-    pub radial: Formula,
-    /// Laws of contact, friction and wear with their constants.
-    pub laws: ContactInfo,
-    /// Worn volume of the journal over that of the bush, if it wears too.
-    pub journal: Option<f64>,
-    /// Factor on the wear coefficient, if it varies: over pressure and sliding speed, places 0 and 1.
-    pub factor: Option<WearFactor>,
-}
-
-/// A factor on a wear coefficient.
-#[derive(Clone, Debug)]
-pub struct WearFactor {
-    /// The formula.
-    pub formula: Formula,
-    /// Tunable parameters and inputs that it reads.
-    pub live: Vec<ParameterId>,
-}
-
 /// A prescribed coordinate of a joint.
 #[derive(Clone, Debug)]
 pub struct Drive {
@@ -354,7 +332,7 @@ impl Mechanism {
         closed.forces.clear();
         closed.stops.clear();
         for joint in &mut closed.joints {
-            joint.model.clearance = false;
+            (joint.model.clearance, joint.model.tilt) = (false, None);
             joint.clearance = None;
             joint.passive.clear();
         }

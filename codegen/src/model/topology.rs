@@ -1,7 +1,7 @@
 //! Which joints carry the bodies (the spanning tree) and which close loops (the cuts).
 //! In: [`Mechanism`]. Out: [`Topology`]. Never knows equations.
 //!
-//! The tree grows from the ground by the best joint at its rim: driven, coupled and stopped joints and those with clearance first (their
+//! The tree grows from the ground by the best joint at its rim: guides with clearance, then driven, coupled and stopped joints and others with clearance first (their
 //! coordinates are asked for, so they must be coordinates), then joints with start values, then those with more constraint
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
 //! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::id::{BodyId, JointId};
 
 /// Preference of a joint for the tree: smaller is better.
-type Class = (bool, bool, usize, bool);
+type Class = (bool, bool, bool, usize, bool);
 
 /// Chooses tree joints and cuts. The diagnostics have places but no file yet: see [`Diagnostics::located`].
 ///
@@ -37,6 +37,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
         faults.extend(driven_loops(mechanism, &topology));
         faults.extend(coupled_cuts(mechanism, &topology));
         faults.extend(stopped_cuts(mechanism, &topology));
+        faults.extend(loose_cuts(mechanism, &topology));
         faults.extend(starts_on_cuts(mechanism, &topology));
     }
     if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
@@ -82,6 +83,7 @@ fn classes(mechanism: &Mechanism) -> Vec<Class> {
     let class = |(position, joint): (usize, &Joint)| {
         let passive = !joint.passive.is_empty() || mentioned[position];
         (
+            !joint.model.is_loose_guide(),
             joint.drives.is_empty() && joint.clearance.is_none() && !coupled[position],
             !started[position],
             6 - joint.model.rows(),
@@ -254,6 +256,25 @@ fn stopped_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
             .help("open the loop at a joint that has no stop: write `cut = true` there")
     })
     .collect()
+}
+
+/// The offset of a rod in its bush is a coordinate: across a cut it would have the rounding of the whole loop.
+fn loose_cuts(mechanism: &Mechanism, topology: &Topology) -> Vec<Diagnostic> {
+    let cuts = topology.cuts.iter().map(|id| mechanism.joint(*id));
+    let loose = cuts.filter(|joint| joint.model.is_loose_guide() && mechanism.closure == Closure::Joint);
+    loose
+        .map(|joint| {
+            let why = if must_cut(mechanism, joint) {
+                why_cut(mechanism, joint)
+            } else {
+                "all joints of its loop are guides with clearance"
+            };
+            let message = format!("joint `{}` is a guide with clearance, but is cut: {why}", joint.name);
+            Diagnostic::new(Code::BadClearance, message)
+                .at(joint.span, "")
+                .help("open the loop at another of its joints: write `cut = true` there")
+        })
+        .collect()
 }
 
 impl Topology {

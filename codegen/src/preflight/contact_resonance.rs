@@ -85,7 +85,7 @@ fn warning(
         near.join(" and "),
         body.name
     );
-    let joint = mechanism.joints.iter().find(|joint| joint.name == name);
+    let joint = mechanism.joint_of_contact(name);
     let warning = Diagnostic::new(Code::ContactNearMode, message).at_each(joint.map(|joint| joint.span), "");
     Some(warning.help(
         "keep the modes up to twice that frequency, or compare a run with more of them: what is left out cannot answer the contact",

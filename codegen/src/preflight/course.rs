@@ -264,10 +264,10 @@ impl<'a> Course<'a> {
     }
 }
 
-/// Speed and coordinate of every offset that clearance adds.
+/// Speed and coordinate of every offset and tilt that clearance adds.
 fn play<'a>(case: &'a Case<'_>) -> impl Iterator<Item = (usize, usize)> + 'a {
     let joints = case.mechanism.joints.iter().enumerate();
-    let offsets = joints.flat_map(|(at, joint)| joint.model.offsets().map(move |offset| (at, offset)));
+    let offsets = joints.flat_map(|(at, joint)| joint.model.loose().map(move |offset| (at, offset)));
     offsets.filter_map(|(at, offset)| {
         let link = case.linkage.link_of_coordinate(JointId::new(at), offset)?;
         let link = &case.linkage.links[link];

@@ -14,7 +14,7 @@ use super::rank::{Lost, Rows};
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
 
 fn named<'a>(mechanism: &'a Mechanism, name: &str) -> Option<&'a Joint> {
-    mechanism.joints.iter().find(|joint| joint.name == name)
+    mechanism.joint_of_contact(name)
 }
 
 /// `R1`, `R2` and so on, in backticks.

@@ -254,7 +254,7 @@ fn loose(mechanism: &Mechanism, analysis: &Analysis) -> Option<Diagnostic> {
         return None;
     }
     let joints = mechanism.joints.iter();
-    let play: usize = joints.clone().map(|joint| joint.model.offsets().len()).sum();
+    let play: usize = joints.clone().map(|joint| joint.model.loose().len()).sum();
     let passive = joints.filter(|joint| !joint.passive.is_empty());
     let passive: usize = passive.map(|joint| joint.model.start_values().len()).sum();
     let started = mechanism.starts.iter().filter(|start| start.held).count();

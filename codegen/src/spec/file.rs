@@ -125,6 +125,12 @@ tables! {
         /// Length of the bearing.
         /// [m; above 0; required, of a ball twice its radius; e.g. "20 mm"]
         pub length: Option<Quantity>,
+        /// The journal may tilt in its bearing, and touches with the two ends of `length`.
+        /// [true or false; revolute, prismatic, cylindrical; default true of those that slide, else false; e.g. true]
+        pub tilt: Option<At<bool>>,
+        /// Which side has the ends of `length`; the other side is longer.
+        /// [word; required of joints that slide and tilt; default of a revolute "bearing"; e.g. "journal"]
+        pub ends: Option<At<Ends>>,
         /// Elastic modulus E* of the pair: 1/E* is the sum of (1 - nu^2)/E of both sides.
         /// [Pa; above 0; required; e.g. "115 GPa"]
         pub modulus: Option<Quantity>,
@@ -236,6 +242,17 @@ pub enum CellValues {
     /// One for each cell.
     #[serde(rename = "list")]
     Each(At<Vec<Quantity>>),
+}
+
+/// Which of two sides that lie in each other is the shorter one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Ends {
+    /// The bearing, a bush on a long rod: the joint's first body.
+    Bearing,
+    /// The journal, a piston in a long bore: the joint's second body.
+    Journal,
 }
 
 /// How loops are closed.
@@ -371,7 +388,7 @@ tables! {
     }
 }
 
-without_texts!(Restitution, Area, Measure);
+without_texts!(Restitution, Area, Measure, Ends);
 
 texts_of! {
     enum Parameter { Plain, Marked }

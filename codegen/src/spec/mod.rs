@@ -39,7 +39,7 @@ pub use compose::{Composed, composed};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
 pub use file::{
-    CellValues, CheckSpec, ClearanceSpec, Closure, File, Input, InputTable, Parameter, ParameterTable,
+    CellValues, CheckSpec, ClearanceSpec, Closure, Ends, File, Input, InputTable, Parameter, ParameterTable,
     RepeatSpec, WearSpec,
 };
 pub use force::{

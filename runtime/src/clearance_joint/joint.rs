@@ -4,13 +4,24 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::contact::{
-    Friction, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact, RevoluteMotion, SphericalContact,
-    SphericalMotion, Stiffness, Support, bearing_angle, positive,
+    Friction, GuideContact, GuideMotion, ImpactMemory, Laws, Normal, OutOfRange, RevoluteContact,
+    RevoluteMotion, SphericalContact, SphericalMotion, Stiffness, Support, bearing_angle, positive,
 };
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::tables::{ContactInfo, WearInfo};
 use crate::wear::{Archard, Grid, Load, MOST_LIVE, Pair, ScalarFeedback, Step, Surfaces, factor, is_sound};
+
+/// What touches what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Touch {
+    /// A journal its bearing, in which it turns.
+    Journal,
+    /// A rod its bush, which it may turn in, slide along and lean in.
+    Guide,
+    /// A ball its socket.
+    Ball,
+}
 
 /// A joint with clearance and its laws.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +31,7 @@ pub struct Clearance {
     radius: f64,
     length: f64,
     modulus: f64,
-    ball: bool,
+    touch: Touch,
     wear: Option<(Archard, WearInfo)>,
     /// Worn volume of the journal over that of the bush, if it wears.
     journal: Option<f64>,
@@ -47,7 +58,7 @@ pub struct ContactState {
     pub normal_force: f64,
     /// K at the clearance [N/m^n].
     pub stiffness: f64,
-    /// Sliding speed [m/s]; of a journal with its sign, of a ball the magnitude.
+    /// Sliding speed [m/s]; of a journal with its sign, of a ball or a rod in its bush the magnitude.
     pub sliding_speed: f64,
     /// Energy stored in the contact [J].
     pub elastic_energy: f64,
@@ -166,7 +177,7 @@ impl Clearance {
             radius: positive("journal radius", info.journal_radius)?,
             length: positive("bearing length", info.length)?,
             modulus: positive("contact modulus", info.modulus)?,
-            ball: info.ball,
+            touch: if info.ball { Touch::Ball } else { Touch::Journal },
             journal: None,
             factor: None,
             grid: wear.filter(|(_, wear)| wear.keeps_profile()).map(|(_, wear)| Grid::new(wear.bins)),
@@ -177,10 +188,10 @@ impl Clearance {
     /// The same with a journal that wears beside its bush, by its volume over that of the bush.
     ///
     /// # Errors
-    /// If the ratio is not above zero, or the joint does not wear, or is a ball.
+    /// If the ratio is not above zero, or the joint does not wear, or is no journal that turns in its bearing alone.
     pub fn with_journal(mut self, ratio: f64) -> Result<Self, OutOfRange> {
         let name = "wear of the journal over that of the bush";
-        let wear = self.wear.as_ref().filter(|_| !self.ball);
+        let wear = self.wear.as_ref().filter(|_| self.touch == Touch::Journal);
         let Some((_, wear)) = wear else {
             return Err(OutOfRange {
                 name,
@@ -193,12 +204,25 @@ impl Clearance {
         Ok(self)
     }
 
+    /// The same as a rod at one place of a bush along which it may slide and in which it may lean.
+    ///
+    /// # Errors
+    /// If it is a ball.
+    pub fn as_guide(mut self) -> Result<Self, OutOfRange> {
+        if self.touch == Touch::Ball {
+            let need = "left out: a ball has no axis to slide along";
+            return Err(OutOfRange { name: "guide", value: self.radius, need });
+        }
+        self.touch = Touch::Guide;
+        Ok(self)
+    }
+
     /// The same with a factor on its wear coefficient.
     ///
     /// # Errors
     /// If it makes no sense, or the joint does not wear.
     pub fn with_factor(mut self, steps: &[Step]) -> Result<Self, OutOfRange> {
-        let live = if self.ball { 0 } else { MOST_LIVE };
+        let live = if self.touch == Touch::Journal { MOST_LIVE } else { 0 };
         if self.wear.is_none() || !is_sound(steps, 2 + live) {
             let (name, need) = (
                 "steps of the factor on the wear coefficient",
@@ -232,7 +256,7 @@ impl Clearance {
 
     /// Directions in which the journal is free: two across the axis, or three of a ball.
     pub fn freedoms(&self) -> usize {
-        if self.ball { 3 } else { 2 }
+        if self.touch == Touch::Ball { 3 } else { 2 }
     }
 
     /// Radius of the journal or ball [m].
@@ -325,17 +349,28 @@ impl Clearance {
         let three = |at: usize| [motion[at], motion[at + 1], motion[at + 2]];
         let (offset, offset_rate, turning) = (three(0), three(3), three(6));
         let radius = T::constant(self.radius);
-        let ([penetration, penetration_rate, sliding_speed], force) = if self.ball {
-            let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
-            let contact = SphericalContact::new(&motion, radius, clearance);
-            let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
-            (geometry, contact.force(&self.laws, stiffness, memory))
-        } else {
-            let [[x, y, _], [vx, vy, _]] = [offset, offset_rate];
-            let motion = RevoluteMotion { offset: [x, y], offset_rate: [vx, vy], joint_speed: turning[2] };
-            let contact = RevoluteContact::new(&motion, radius, &support([x, y]));
-            let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
-            (geometry, contact.force(&self.laws, stiffness, memory))
+        let ([penetration, penetration_rate, sliding_speed], force) = match self.touch {
+            Touch::Ball => {
+                let motion = SphericalMotion { offset, offset_rate, angular_velocity: turning };
+                let contact = SphericalContact::new(&motion, radius, clearance);
+                let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
+                (geometry, contact.force(&self.laws, stiffness, memory))
+            }
+            Touch::Guide => {
+                let offset = [offset[0], offset[1]];
+                let motion = GuideMotion { offset, offset_rate, angular_velocity: turning };
+                let contact = GuideContact::new(&motion, radius, &support(offset));
+                let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
+                (geometry, contact.force(&self.laws, stiffness, memory))
+            }
+            Touch::Journal => {
+                let [[x, y, _], [vx, vy, _]] = [offset, offset_rate];
+                let motion =
+                    RevoluteMotion { offset: [x, y], offset_rate: [vx, vy], joint_speed: turning[2] };
+                let contact = RevoluteContact::new(&motion, radius, &support([x, y]));
+                let geometry = [contact.penetration, contact.penetration_rate, contact.sliding_speed];
+                (geometry, contact.force(&self.laws, stiffness, memory))
+            }
         };
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
         let (normal_force, damping_loss) = (force.normal.force, force.normal.damping_loss);
@@ -361,7 +396,8 @@ impl Clearance {
     /// Offset of the journal's centre from the bearing's: a journal leaves the axis, and does not slide along it.
     #[inline(always)]
     pub fn offset<T: Scalar>(&self, motion: &[T; CONTACT_MOTION]) -> [T; 3] {
-        [motion[0], motion[1], if self.ball { motion[2] } else { T::constant(0.0) }]
+        let along = if self.touch == Touch::Ball { motion[2] } else { T::constant(0.0) };
+        [motion[0], motion[1], along]
     }
 
     /// How far a journal that wears has turned: a journal does not slide along its axis, so that its angle has the place.

@@ -55,9 +55,10 @@ impl Clearances {
     /// # Errors
     /// [`SetupError::Contact`] if a constant is out of range.
     pub fn of(description: &Description) -> Result<Self, SetupError> {
-        let Description { contacts, journals, coefficients, .. } = description;
+        let Description { contacts, journals, coefficients, guides, .. } = description;
         let build = |(at, info): (usize, &ContactInfo)| {
             let joint = Clearance::new(info);
+            let joint = if guides.contains(&at) { joint.and_then(Clearance::as_guide) } else { joint };
             let journal = journals.iter().find(|journal| journal.contact == at);
             let joint = match journal {
                 Some(journal) => joint.and_then(|joint| joint.with_journal(journal.ratio)),

@@ -1,5 +1,5 @@
 //! Contact laws of joints with clearance: stiffness, normal force, friction, and their sum on a journal in
-//! its bearing (revolute) or a ball in its socket (spherical).
+//! its bearing (revolute), a ball in its socket (spherical) or a rod in its bush (guide).
 //! In: relative position and motion of the two centres, clearance, material. Out: forces on the journal or
 //! ball, sliding speed, and where the power goes. Never knows mechanisms, states or integrators.
 //!
@@ -11,6 +11,7 @@
 //! opposite at the same point. Components are in the bearing's frame.
 
 mod friction;
+mod guide;
 mod laws;
 mod memory;
 mod normal;
@@ -21,6 +22,7 @@ mod spherical;
 mod stiffness;
 
 pub use friction::{Friction, Onset, Strength};
+pub use guide::{GuideContact, GuideMotion};
 pub use laws::{ContactForce, Laws};
 pub use memory::{ImpactMemory, crossing_speed};
 pub use normal::{IMPACT_SPEED_FLOOR, Normal, NormalForce};

@@ -96,6 +96,7 @@ impl Journal {
             turn_driver: None,
             contacts: vec![contact].into(),
             journals: Vec::new().into(),
+            guides: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };

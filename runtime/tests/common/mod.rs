@@ -135,6 +135,7 @@ impl<M: Model> Dense<M> {
             turn_driver: (!prescribed.is_empty()).then_some(0),
             contacts: model.contacts().into(),
             journals: Vec::new().into(),
+            guides: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };

@@ -143,6 +143,8 @@ pub struct ClearanceAnswer<'a> {
     pub journal_radius_m: f64,
     /// Length of the bearing [m].
     pub length_m: f64,
+    /// Which side touches with both ends of that length, `bearing` or `journal`; null where the journal does not tilt.
+    pub ends: Option<&'a str>,
     /// Elastic modulus E* of the pair [Pa].
     pub modulus_Pa: f64,
     /// Stiffness K at this clearance, in F = K p^n [N/m^n]; null as `radial_m`.

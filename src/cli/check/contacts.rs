@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 
 use linkwear_codegen::Compiled;
-use linkwear_codegen::model::{Joint, Mechanism};
+use linkwear_codegen::model::{Ends, Joint, Mechanism};
 use linkwear_codegen::spec::{
     ClearanceSpec, Literal, Quantity, WearSpec, as_written, parse, parse_expression,
 };
@@ -36,7 +36,8 @@ pub fn contacts<'a>(compiled: &'a Compiled, clearances: &[f64]) -> Vec<Contact<'
     let description = compiled.description();
     let contacts = mechanism.joints.iter().filter_map(|joint| {
         let laws = &joint.clearance.as_ref()?.laws;
-        let at = description.contacts.iter().position(|known| *known.joint == *joint.name);
+        let place = joint.contact_places().into_iter().next()?;
+        let at = description.contacts.iter().position(|known| known.joint == place.laws.joint);
         let written = file.clearance.0.iter().find(|(name, _)| name.value == joint.name);
         let worn = file.wear.0.iter().find(|(name, _)| name.value == joint.name);
         Some(Contact {
@@ -133,6 +134,7 @@ impl Contact<'_> {
             ("radial", radial),
             ("journal_radius", self.quantity(written.journal_radius.as_ref(), laws.journal_radius, "mm")),
             ("length", self.quantity(written.length.as_ref(), laws.length, "mm")),
+            ("touches", self.ends().map_or_else(String::new, |side| format!("with both ends of the {side}"))),
             ("modulus", self.quantity(written.modulus.as_ref(), laws.modulus, "GPa")),
             ("stiffness", stiffness),
             ("law", laws.law.to_string()),
@@ -195,6 +197,14 @@ impl Contact<'_> {
         self.joint.clearance.as_ref()?.journal
     }
 
+    /// The side whose ends touch, if its journal tilts.
+    fn ends(&self) -> Option<&'static str> {
+        self.joint.model.tilt.map(|ends| match ends {
+            Ends::Bearing => "bearing",
+            Ends::Journal => "journal",
+        })
+    }
+
     /// For machines.
     pub fn clearance_answer(&self) -> ClearanceAnswer<'_> {
         let laws = self.laws;
@@ -206,6 +216,7 @@ impl Contact<'_> {
             radial_m: self.radial,
             journal_radius_m: laws.journal_radius,
             length_m: laws.length,
+            ends: self.ends(),
             modulus_Pa: laws.modulus,
             stiffness: self.stiffness(),
             stiffness_given: laws.stiffness.is_given(),

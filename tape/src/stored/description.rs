@@ -62,5 +62,5 @@ stored!(struct SegmentInfo { name, amount, values, factors });
 stored!(struct MissionInfo { name, ordered, segments, coarser });
 stored!(struct Description {
     name, parameters, inputs, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
-    journals, coefficients, missions,
+    journals, coefficients, guides, missions,
 });

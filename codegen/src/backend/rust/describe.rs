@@ -72,7 +72,10 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
         let steps = steps.iter().map(|one| step(one, runtime));
         quote!((#contact, &[#(#steps),*]))
     });
-    let has_more = !(own.journals.is_empty() && own.coefficients.is_empty());
+    let guides = own.guides.iter().map(|index| Literal::usize_unsuffixed(*index));
+    let guides: Vec<TokenStream> = guides.map(|index| quote!(#index)).collect();
+    let has_guides = !guides.is_empty();
+    let has_more = has_guides || !(own.journals.is_empty() && own.coefficients.is_empty());
     let wearing = has_more.then_some(quote!(JOURNALS, COEFFICIENTS));
     let more = wearing.as_ref().map(|_| {
         let journals = table("JOURNALS", quote!(#runtime::JournalWear), journals.collect());
@@ -85,10 +88,19 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
             pub #coefficients
         }
     });
-    let described = std::iter::once(quote!(TABLES)).chain(wearing);
+    let sliding = has_guides.then(|| {
+        let guides = table("GUIDES", quote!(usize), guides);
+        quote! {
+            /// Contacts of rods that slide along their bushes or tilt there.
+            pub #guides
+        }
+    });
+    let described =
+        std::iter::once(quote!(TABLES)).chain(wearing).chain(has_guides.then_some(quote!(GUIDES)));
     quote! {
         #(#tables)*
         #more
+        #sliding
         /// Names and units of parameters, coordinates, rows and output columns; laws of contact.
         pub static TABLES: #runtime::Tables = #runtime::Tables {
             name: #name,

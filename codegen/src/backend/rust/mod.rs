@@ -162,6 +162,7 @@ mod tests {
             turn_driver: None,
             contacts: Vec::new().into(),
             journals: Vec::new().into(),
+            guides: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         }

@@ -205,11 +205,18 @@ impl<'g> Deriver<'g> {
         let with_clearance =
             mechanism.joints.iter().enumerate().filter(|(_, joint)| joint.clearance.is_some());
         let contacts = with_clearance
-            .map(|(index, joint)| {
-                let part = |what: &str| {
-                    Vec3(["x", "y", "z"].map(|axis| g.symbol(format!("{}_contact_{what}{axis}", joint.name))))
-                };
-                ContactWrench { joint: JointId::new(index), force: part("f"), moment: part("m") }
+            .flat_map(|(index, joint)| {
+                let places = joint.contact_places();
+                let count = places.len();
+                places.into_iter().enumerate().map(move |(at, place)| {
+                    let number = if count > 1 { (at + 1).to_string() } else { String::new() };
+                    let symbol = |what: &str, axis: &str| {
+                        g.symbol(format!("{}_contact{number}_{what}{axis}", joint.name))
+                    };
+                    let part = |what: &str| Vec3(["x", "y", "z"].map(|axis| symbol(what, axis)));
+                    let (force, moment) = (part("f"), part("m"));
+                    ContactWrench { joint: JointId::new(index), along: place.along, force, moment }
+                })
             })
             .collect();
         Self {

@@ -85,6 +85,7 @@ impl Deriver<'_> {
             turn_driver,
             contacts: self.contact_infos().into(),
             journals: self.journals().into(),
+            guides: self.guides().into(),
             coefficients: self.coefficients().into(),
             missions: missions.into(),
         }
@@ -146,8 +147,16 @@ impl Deriver<'_> {
     }
 
     fn contact_infos(&self) -> Vec<ContactInfo> {
-        let joints = self.contacts.iter().map(|contact| self.geometry.mechanism.joint(contact.joint));
-        joints.filter_map(|joint| joint.clearance.as_ref()).map(|clearance| clearance.laws.clone()).collect()
+        let joints = self.geometry.mechanism.joints.iter();
+        joints.flat_map(|joint| joint.contact_places()).map(|place| place.laws).collect()
+    }
+
+    /// Contacts of rods that slide along their bushes or tilt there, by their places.
+    fn guides(&self) -> Vec<usize> {
+        let mechanism = self.geometry.mechanism;
+        let contacts = self.contacts.iter().enumerate();
+        let guides = contacts.filter(|(_, contact)| mechanism.joint(contact.joint).model.is_loose_guide());
+        guides.map(|(at, _)| at).collect()
     }
 
     /// Factors on wear coefficients, by the places of their joints there.

@@ -277,7 +277,7 @@ impl<'g> Deriver<'g> {
         for contact in &self.contacts {
             let name = &self.geometry.mechanism.joint(contact.joint).name;
             self.geometry.g.begin_section(format!("motion in the clearance of {name}"));
-            entries.extend(contact_motion(self.geometry.g, &instant.state, contact.joint));
+            entries.extend(contact_motion(self.geometry.g, &instant.state, contact));
         }
         let outputs = Block::matrix("contacts", (self.contacts.len(), 10), entries)
             .doc("Offset, its rate, relative angular velocity (3 each, bearing frame), clearance; SI.")

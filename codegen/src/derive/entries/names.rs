@@ -23,6 +23,12 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
                     speeds.push((format!("{name}.v{axis}"), "m/s"));
                     continue;
                 }
+                let tilt = joint.model.tilts().position(|number| number == link.joint_coordinate);
+                if let Some(axis) = tilt.map(|axis| ["x", "y"][axis]) {
+                    positions.push((format!("{name}.tilt_{axis}"), "rad"));
+                    speeds.push((format!("{name}.tilt_v{axis}"), "rad/s"));
+                    continue;
+                }
                 let coordinates = joint.model.coordinates();
                 let suffix = number_among(coordinates.len(), link.joint_coordinate);
                 let [unit, rate, _] = units(coordinates[link.joint_coordinate]);

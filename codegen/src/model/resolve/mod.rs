@@ -45,6 +45,7 @@ mod tabled;
 mod tables;
 mod term;
 mod turns;
+mod wear;
 mod wheels;
 
 pub use overrides::{OverrideError, Overrides};
