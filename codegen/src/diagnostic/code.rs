@@ -149,6 +149,8 @@ codes! {
     BadStop = "E0418",
     /// A stiffness or damping matrix that cannot be.
     BadMatrix = "E0419",
+    /// A controller that cannot act as it is written.
+    BadController = "E0420",
 
     /// Bodies that no joint connects to the ground.
     Disconnected = "E0501",
@@ -220,6 +222,8 @@ codes! {
     MassesApart = "W0119",
     /// A point that nothing says which body carries: it rests.
     UnplacedPoint = "W0120",
+    /// Dry friction that follows a force which redundant constraints leave undetermined.
+    FrictionNotUnique = "W0121",
 }
 
 impl Code {

@@ -11,6 +11,7 @@ mod contact_resonance;
 mod course;
 mod exactness;
 mod failures;
+mod friction;
 mod idle;
 mod immobile;
 mod own_units;
@@ -127,6 +128,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
+    warnings.extend(friction::remarks(mechanism, &analysis));
     let course = Course::follow(case, &positions, analysis.idle.len());
     if let Some(course) = &course {
         warnings.extend(turn::turn_remark(mechanism, course));

@@ -315,4 +315,22 @@ tip = ["1.2 m", 0, 0]"#,
         right: r#"[points]
 tip = { at = ["1.2 m", 0, 0], on = "bar" }"#,
     },
+    Explanation {
+        code: Code::FrictionNotUnique,
+        file: File::Swing,
+        text: "Dry friction follows the force in its joint, and redundant constraints leave that force undetermined: two hinges on \
+               one axis share a load in any proportion. One joint with `length` between its bearings stands for both. In a plane \
+               mechanism forces out of its plane are left unsaid: they are zero without loads there.",
+        wrong: r#"[points]
+P = [0, 0, "0.5 m"]
+
+[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], dry_friction = { coefficient = 0.1, radius = "10 mm" } }
+second = { revolute = ["ground", "bar"], at = "P", axis = [0, 0, 1] }"#,
+        right: r#"[points]
+P = [0, 0, "0.25 m"]
+
+[joints]
+hinge = { revolute = ["ground", "bar"], at = "P", axis = [0, 0, 1], dry_friction = { coefficient = 0.1, radius = "10 mm", length = "0.5 m" } }"#,
+    },
 ];
