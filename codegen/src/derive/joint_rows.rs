@@ -59,6 +59,7 @@ impl<'a, 'g> RowMaker<'a, 'g> {
             _ if joint.turns_freely() => {}
             0 => self.rotations(own),
             1 => self.tilts(own),
+            3 => {}
             _ => self.cross(geometry, joint.axes[1].child),
         }
         if let Some(advance) = joint.thread() {

@@ -135,6 +135,9 @@ pub static JOINT_KINDS: &[JointKind] = &[
     row("free", AxisKeys::None, &[Pose]),
 ];
 
+/// A spherical joint whose rotation is prescribed: three turns, about x, the turned y and the twice turned z.
+static DRIVEN_BALL: JointKind = row("spherical", AxisKeys::None, &[Turn(X), Turn(Y), Turn(Z)]);
+
 /// What a joint looks like in pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
@@ -194,7 +197,7 @@ impl JointKind {
             [Slide(_)] => Look::Slider,
             _ if self.place == PlaceKey::Length => Look::Strut,
             _ if self.place == PlaceKey::Equation => Look::Ball,
-            primitives if primitives.contains(&Ball) => Look::Ball,
+            primitives if primitives.contains(&Ball) || *self == DRIVEN_BALL => Look::Ball,
             [.., Turn(_)] => Look::Short,
             _ => Look::Rod,
         }
@@ -321,6 +324,17 @@ impl JointModel {
     /// Whether it is loose along its whole length: a rod in a bush that touches round its axis and may slide along it or tilt.
     pub fn is_loose_guide(&self) -> bool {
         self.clearance && self.kind.tilts && (self.tilt.is_some() || !self.is_hinge())
+    }
+
+    /// A spherical joint whose rotation is prescribed, by three angles about axes that are those of W at the reference pose.
+    pub fn driven_ball() -> Self {
+        let axes = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]].map(Axis::both).to_vec();
+        Self { kind: &DRIVEN_BALL, axes, lead: 0.0, clearance: false, tilt: None }
+    }
+
+    /// Whether it is one.
+    pub fn is_driven_ball(&self) -> bool {
+        *self.kind == DRIVEN_BALL
     }
 
     fn any(&self, wanted: impl Fn(Primitive) -> bool) -> bool {

@@ -85,7 +85,7 @@ tables! {
         /// Advance of a screw per turn.
         /// [m; not 0; required of a screw; e.g. "5 mm"]
         pub lead: Option<Quantity>,
-        /// Prescribed motion over parameters, inputs and t.
+        /// Prescribed motion over parameters, inputs and t; of a spherical joint three angles that follow each other, about x, y and z.
         /// [rad or m; twice differentiable; default none; e.g. "2*pi*speed*t"]
         pub drive: Option<ByCoordinate>,
         /// Viscous damping.

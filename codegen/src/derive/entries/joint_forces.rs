@@ -96,6 +96,15 @@ impl<'a, 'g> JointForces<'a, 'g> {
         }
     }
 
+    /// Moment of the drive of a ball on the child, in W; nothing of other joints.
+    pub(super) fn drive_moment(&self, joint: JointId, transmitted: &[Wrench<'g>]) -> Option<Vec3<'g>> {
+        let linkage = self.deriver.geometry.linkage;
+        let at = linkage.link_of_joint[joint.index()]?;
+        let is_driven = self.deriver.geometry.mechanism.joint(joint).model.is_driven_ball();
+        let moment = self.instant.state.motion.poses.world[at].rotation * transmitted[at].moment;
+        is_driven.then_some(if linkage.reversed[joint.index()] { -moment } else { moment })
+    }
+
     /// Forces of all couplings: multipliers, whose rows are behind those of the cuts, and what others give way with.
     fn coupling_forces(&self) -> Vec<Expr<'g>> {
         let (g, state) = (self.deriver.geometry.g, &self.instant.state);
@@ -125,8 +134,12 @@ impl<'a, 'g> JointForces<'a, 'g> {
             let place = poses.position(link, geometry.local(link, data.at));
             moment += (pose.offset - place).cross(force);
         }
+        if data.model.is_driven_ball() {
+            // Such a joint passes on no moment but that of its drive.
+            moment = geometry.g.zero_vector();
+        }
         for (driver, drive) in self.deriver.drivers.iter().zip(&self.deriver.drive) {
-            if driver.joint != joint {
+            if driver.joint != joint || data.model.is_driven_ball() {
                 continue;
             }
             let Some(link) = linkage.link_of_coordinate(joint, driver.joint_coordinate) else { continue };

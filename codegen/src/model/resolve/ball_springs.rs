@@ -18,7 +18,12 @@ impl Resolver<'_> {
     pub(super) fn ball_springs(&mut self, table: &Table<JointSpec>, joints: &[Joint]) -> Vec<Force> {
         let mut forces = Vec::new();
         for ((name, written), joint) in table.0.iter().zip(joints) {
-            let Some(spring) = written.value.spring.as_ref().filter(|_| joint.model.is_ball()) else {
+            let Some(spring) = written
+                .value
+                .spring
+                .as_ref()
+                .filter(|_| joint.model.is_ball() || joint.model.is_driven_ball())
+            else {
                 continue;
             };
             let [stiffness, preload] = self.ball_spring(name, spring);

@@ -6,7 +6,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel, PlaceKey};
-use crate::spec::{At, Dimension, JointSpec, Name, PerBody, Triple};
+use crate::spec::{At, ByCoordinate, Dimension, JointSpec, Name, PerBody, Triple};
 
 /// An axis in place of one that is wrong.
 const DUMMY: [f64; 3] = [0.0, 0.0, 1.0];
@@ -28,6 +28,10 @@ impl Resolver<'_> {
             self.refuse(Code::ConflictingKeys, name.span, message).help("make two joints of it");
         }
         let mut model = JointModel::new(key, &[]);
+        if model.is_ball() && matches!(spec.drive, Some(ByCoordinate::Each(_))) {
+            self.check_stray_axes(name, &model, spec);
+            return JointModel::driven_ball();
+        }
         self.check_stray_axes(name, &model, spec);
         model.axes = match model.kind.axes {
             AxisKeys::None => Vec::new(),

@@ -76,7 +76,22 @@ impl Resolver<'_> {
 
     fn drives(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Drive> {
         let what = place("drive", "joint", name);
+        if let (true, Some(drive)) = (model.is_ball(), &spec.drive) {
+            let span = match drive {
+                ByCoordinate::One(law) => law.span,
+                ByCoordinate::Each(each) => each.span,
+            };
+            self.refuse(Code::NoSuchCoordinate, span, format!("{what}: a rotation has three angles")).help(
+                "say all: `drive = { q1 = \"..\", q2 = \"..\", q3 = \"..\" }`, about x, the turned y and the twice turned z",
+            );
+            return Vec::new();
+        }
         let laws = self.by_coordinate(spec.drive.as_ref(), model, &what);
+        if model.is_driven_ball() && laws.len() < 3 {
+            let given = laws.first().map_or(name.span, |(_, law)| law.span);
+            self.refuse(Code::MissingKey, given, format!("{what}: the rotation of a ball is prescribed by three angles"))
+                .help("add the others, 0 if need be; a joint that turns about one or two axes is `revolute` or `universal`");
+        }
         laws.into_iter()
             .map(|(coordinate, law)| {
                 let is = model.coordinates()[coordinate];
@@ -109,6 +124,20 @@ impl Resolver<'_> {
 
     fn passive(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Passive> {
         let mut passive = Vec::new();
+        if model.is_driven_ball() {
+            let others = [("damping", &spec.damping), ("friction", &spec.friction), ("force", &spec.force)];
+            for (key, written) in others {
+                let Some(written) = written else { continue };
+                let span = match written {
+                    ByCoordinate::One(quantity) => quantity.span,
+                    ByCoordinate::Each(each) => each.span,
+                };
+                let message = format!("joint `{}` has a drive and `{key}`", name.value);
+                self.refuse(Code::ConflictingKeys, span, message)
+                    .help("the drive of a ball moves it whatever else acts: take it away, or write a torque in [forces], which the drive then carries");
+            }
+            return passive;
+        }
         for (key, written) in [("damping", &spec.damping), ("friction", &spec.friction)] {
             let what = place(key, "joint", name);
             if let (true, Some(ByCoordinate::One(quantity))) = (model.is_ball(), written) {
