@@ -101,7 +101,7 @@ proptest! {
 
     #[test]
     fn a_damaged_file_gives_a_mechanism_or_diagnostics(
-        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum", "../examples/data/servo_crank", "../examples/data/drop_hammer", "../examples/data/walker", "../examples/data/loose_guide", "../examples/data/tilting_bearing"]),
+        file in prop::sample::select(vec!["rssr_rigid", "rssr", "four_bar", "slider_crank", "pendulum", "../examples/data/servo_crank", "../examples/data/sampled_servo", "../examples/data/drop_hammer", "../examples/data/walker", "../examples/data/loose_guide", "../examples/data/tilting_bearing"]),
         damages in prop::collection::vec((0.0..1.0, 0usize..12, prop::sample::select(PIECES)), 1..4),
     ) {
         let path = format!("{}/../mechanisms/{file}.toml", env!("CARGO_MANIFEST_DIR"));

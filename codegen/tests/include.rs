@@ -47,6 +47,10 @@ warmth = { initial = "1 J", rate = "0.1*abs(R1.Mz*R2.v) - warmth/(2 s)" }
 
 [sensors]
 bend = "(0.001 kg m^2)*R2.a + (0.01 N m/J)*(0.001 J + 0.001*warmth)"
+
+[controllers]
+hold = { measured = "R1.q", setpoint = "10 deg", proportional = "k", integral = "k/(1 s)", upper = "3 N m", sample_time = "2 ms" }
+lead = { sample_time = "4 ms", output = "hold + (1 N m)*lead.rho", states = { rho = { initial = 0.1, next = "0.5*lead.rho + bend/(1 N m)" } } }
 "#;
 
 /// Two arms on a turntable.
@@ -143,6 +147,12 @@ right_warmth = { initial = "1 J", rate = "0.1*abs(right_R1.Mz*right_R2.v) - righ
 [sensors]
 left_bend = "(0.001 kg m^2)*left_R2.a + (0.01 N m/J)*(0.001 J + 0.001*left_warmth)"
 right_bend = "(0.001 kg m^2)*right_R2.a + (0.01 N m/J)*(0.001 J + 0.001*right_warmth)"
+
+[controllers]
+left_hold = { measured = "left_R1.q", setpoint = "10 deg", proportional = "left_k", integral = "left_k/(1 s)", upper = "3 N m", sample_time = "2 ms" }
+left_lead = { sample_time = "4 ms", output = "left_hold + (1 N m)*left_lead.rho", states = { rho = { initial = 0.1, next = "0.5*left_lead.rho + left_bend/(1 N m)" } } }
+right_hold = { measured = "right_R1.q", setpoint = "10 deg", proportional = "right_k", integral = "right_k/(1 s)", upper = "3 N m", sample_time = "2 ms" }
+right_lead = { sample_time = "4 ms", output = "right_hold + (1 N m)*right_lead.rho", states = { rho = { initial = 0.1, next = "0.5*right_lead.rho + right_bend/(1 N m)" } } }
 "#;
 
 /// A folder with files, removed at the end.

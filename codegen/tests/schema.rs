@@ -41,8 +41,8 @@ fn every_shipped_mechanism_fits_the_schema() {
 fn files_of_wrong_form_do_not_fit_the_schema_and_others_do() {
     let schema = json_schema();
     for (name, value) in files("tests/spec_fail") {
-        // E0103 to E0109 are about form, and so are the presence of the version and of a unit (E0304) and the rows of a matrix
-        // (E0419); NaN (E0308) is no JSON.
+        // E0103 to E0109 are about form, and so are the presence of the version and of a unit (E0304) the rows of a matrix (E0419)
+        // and the states of a controller (E0420); NaN (E0308) is no JSON.
         let form = [
             "E0102_no",
             "E0103",
@@ -55,6 +55,7 @@ fn files_of_wrong_form_do_not_fit_the_schema_and_others_do() {
             "E0304",
             "E0308_not",
             "E0419",
+            "E0420",
         ];
         // A mechanism name, a number of cells and the like are checked beyond the form; these files are well-formed.
         let wrong = form.iter().any(|code| name.starts_with(code));

@@ -71,6 +71,14 @@ pub struct Channel {
 /// How the names of columns begin whose signs say which pieces of formulas hold. `t` is no name that an element can have.
 pub const SWITCH: &str = "t.switch";
 
+/// How the names of columns begin that have the time from sample to sample [s] of a controller. Behind each stand columns of what
+/// the controller holds from its next sample on: `<name>` with [`NEXT`], held by the speed `<name>` with [`VALUE`].
+pub const SAMPLE: &str = "t.sample";
+/// How the name of a column ends that has what is held next.
+pub const NEXT: &str = ".next";
+/// How the name of a speed ends that is no speed but a value.
+pub const VALUE: &str = ".value";
+
 /// A factor on the wear coefficient of a joint, by the state of its contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoefficientFactor {
@@ -146,6 +154,25 @@ impl Description {
         let first = self.channels.iter().position(is_switch).unwrap_or(self.channels.len());
         let count = self.channels[first..].iter().take_while(|channel| is_switch(channel)).count();
         first..first + count
+    }
+
+    /// Whether controllers act at sampled times: whoever takes steps must know of them.
+    pub fn acts_at_samples(&self) -> bool {
+        self.channels.iter().any(|channel| channel.name.starts_with(SAMPLE))
+    }
+
+    /// Controllers that act at sampled times: the column of their sample time; columns of what they hold next, and the speeds
+    /// that hold it.
+    pub(crate) fn samplers(&self) -> Vec<(usize, Vec<(usize, usize)>)> {
+        let samples = |channel: &Channel| channel.name.starts_with(SAMPLE);
+        let all = self.channels.iter().enumerate().filter(|(_, channel)| samples(channel));
+        let speed =
+            |stem: &str| self.speeds.iter().position(|speed| speed.name.strip_suffix(VALUE) == Some(stem));
+        let held = |from: usize| {
+            let next = self.channels[from + 1..].iter().map_while(|channel| channel.name.strip_suffix(NEXT));
+            (from + 1..).zip(next).filter_map(|(column, stem)| Some((column, speed(stem)?))).collect()
+        };
+        all.map(|(column, _)| (column, held(column))).collect()
     }
 
     /// That of the mechanism in a segment of a mission: its laws of friction and wear.

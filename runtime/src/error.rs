@@ -96,6 +96,12 @@ pub enum SetupError {
         /// How far [m, rad, m/s or rad/s].
         jump: f64,
     },
+    /// Controllers that act at sampled times, where somebody else takes the steps.
+    #[error(
+        "the mechanism has controllers that act at sampled times, which an integrator from outside does not know; take steps of its \
+         own (co-simulation), or take `sample_time` out of [controllers] and let them act all the time"
+    )]
+    Sampled,
     /// A column is asked for that the run does not have.
     #[error(transparent)]
     NoColumn(#[from] NoColumn),

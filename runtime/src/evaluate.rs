@@ -5,7 +5,9 @@
 mod answers;
 mod closed;
 mod derivative;
+mod held;
 mod questions;
+mod sampled;
 
 pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};
@@ -19,6 +21,7 @@ use crate::signals::Signals;
 use crate::system::{CONTACT_MOTION, Entry, STATES, SideBySide, Sizes, System};
 use derivative::Derivative;
 use questions::Questions;
+use sampled::{Sampled, sampled};
 
 /// A mechanism with fixed parameters and the storage to evaluate it.
 pub struct Evaluator<'a> {
@@ -39,6 +42,8 @@ pub struct Evaluator<'a> {
     clearances: Clearances,
     /// Columns that tell which pieces of formulas hold.
     switches: std::ops::Range<usize>,
+    /// Controllers that act at sampled times.
+    sampled: Vec<Sampled>,
     /// Bits of a time at which contacts were taken over.
     contacts_known_at: Option<u64>,
     derivative: Derivative,
@@ -104,6 +109,7 @@ impl<'a> Evaluator<'a> {
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
             switches: description.switches(),
+            sampled: sampled(system, description, parameters)?,
             clearances: Clearances::of(description)?,
             contacts_known_at: None,
             derivative: Derivative::new(sizes, parameters),

@@ -135,6 +135,13 @@ impl Failure {
         Self::new("C0016", Some(file), message, help)
     }
 
+    /// Steps of C know nothing of controllers that act at sampled times.
+    pub fn samples_in_c(file: &Path) -> Self {
+        let message = "steps of C know nothing of controllers that act at sampled times";
+        let help = "take `sample_time` out of [controllers], so that they act all the time; or leave them to your program, which sets an input at its own samples; Rust and units of FMI (co-simulation) sample themselves";
+        Self::new("C0017", Some(file), message, help)
+    }
+
     /// A run that was interrupted cannot be gone on with.
     pub fn journal(error: JournalError) -> Self {
         let (file, help) = match &error {

@@ -21,6 +21,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let out = arguments.out.as_deref();
     let start = Instant::now();
     let (compiled, warnings) = load(&arguments.input)?;
+    if arguments.target == Target::C && compiled.description().acts_at_samples() {
+        return Err(Failure::samples_in_c(&arguments.input.file));
+    }
     let files = files(&compiled, arguments)?;
     if let (Target::CAbi, Some(folder), false) = (arguments.target, out, arguments.check) {
         let source = folder.join("src");

@@ -88,11 +88,16 @@ pub fn model_description(unit: &Unit, stop: f64) -> String {
         Integrator::adaptive(description, None).tolerance().unwrap_or(Integrator::SMOOTH_TOLERANCE);
     let version = env!("CARGO_PKG_VERSION");
     let can = r#"canGetAndSetFMUState="true" canSerializeFMUState="true" providesDirectionalDerivatives="true" providesAdjointDerivatives="true""#;
+    // An integrator from outside does not know of samples.
+    let exchange = if description.acts_at_samples() {
+        String::new()
+    } else {
+        format!("  <ModelExchange modelIdentifier=\"{name}\" {can} needsCompletedIntegratorStep=\"true\"/>\n")
+    };
     let mut xml = format!(
         r#"<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="3.0" modelName="{name}" instantiationToken="{token}" generationTool="linkwear {version}" variableNamingConvention="structured">
-  <ModelExchange modelIdentifier="{name}" {can} needsCompletedIntegratorStep="true"/>
-  <CoSimulation modelIdentifier="{name}" {can} canHandleVariableCommunicationStepSize="true" hasEventMode="true"/>
+{exchange}  <CoSimulation modelIdentifier="{name}" {can} canHandleVariableCommunicationStepSize="true" hasEventMode="true"/>
 "#
     );
     let units: BTreeSet<&str> = rows.iter().map(|row| &*row.unit).filter(|unit| *unit != "1").collect();

@@ -47,6 +47,7 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
         &["1"],
         "A condition of a formula with pieces, by number from 1: below zero where it holds",
     ),
+    ("t.sample<n>", &["s"], "Time from sample to sample of a controller, by number from 1"),
     (
         "<joint>.q",
         &["rad", "m"],
@@ -88,6 +89,11 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
         &["N m", "N"],
         "The same of a joint with several coordinates, by their number from 1",
     ),
+    (
+        "<joint>.drive_M<axis>",
+        &["N m"],
+        "Moment that the drive of a spherical joint exerts on the child, about the joint",
+    ),
     ("<joint>.lambda<n>", &["N m", "N"], "Multipliers of the rows that close a loop at a joint, from 1"),
     ("<coupling>.Ft", &["N"], "Tangential force on the second wheel of a pair; of a belt its pull"),
     ("<coupling>.Fr", &["N"], "Radial force on it, which parts the wheels"),
@@ -111,8 +117,17 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     ("<stop>.depth", &["m", "rad"], "How far a coordinate is beyond a stop; zero where it is free"),
     ("<force>.length", &["m"], "Distance of the ends of a cable"),
     ("<input>.u", &["<unit>"], "Value of an input of the mechanism"),
-    ("<state>.value", &["<unit>"], "Value of a state of the mechanism's own, or of a sensor"),
+    (
+        "<state>.value",
+        &["<unit>"],
+        "Value of a state of the mechanism's own or of a sensor; what a controller puts out",
+    ),
     ("<state>.rate", &["<unit>"], "Rate of a state"),
+    (
+        "<state>.next",
+        &["<unit>"],
+        "What a sampled controller would hold from here on, were there a sample now",
+    ),
     ("<body>.eta<n>", &["kg^0.5 m", "1"], "Modal coordinates of a flexible body, from 1"),
     ("<body>.u<axis>", &["m"], "Displacement at mid-span of a flexible link, in the link's own frame"),
     ("<body>.u<axis>_<station>", &["m"], "The same at its other stations, or at named nodes"),

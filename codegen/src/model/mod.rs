@@ -21,6 +21,7 @@ mod mission;
 mod piecewise;
 mod resolve;
 mod response;
+mod sampler;
 mod sensor;
 mod state;
 mod stop;
@@ -43,6 +44,7 @@ pub use mission::{Mission, Segment};
 pub use piecewise::{Piecewise, Value};
 pub use resolve::{OverrideError, Overrides, resolve};
 pub use response::Response;
+pub use sampler::Sampler;
 pub use sensor::Sensor;
 pub use state::StateVariable;
 pub use stop::{Stop, StopLoss};
@@ -78,9 +80,11 @@ pub struct Mechanism {
     pub stops: Vec<Stop>,
     /// Force elements in file order.
     pub forces: Vec<Force>,
-    /// State variables of the file's own, in file order.
+    /// State variables of the file's own, in file order, then those of its controllers.
     pub states: Vec<StateVariable>,
-    /// Named values of a run, in file order.
+    /// Controllers that act at sampled times, in the order in which they do where several act at once.
+    pub samplers: Vec<Sampler>,
+    /// Named values of a run, in file order, then what continuous controllers put out.
     pub sensors: Vec<Sensor>,
     /// Duty cycles in file order.
     pub missions: Vec<Mission>,

@@ -12,6 +12,8 @@ pub struct StateVariable {
     pub initial: Formula,
     /// Rate in time, over all that forces may depend on; its dimension is that of the value per second.
     pub rate: Formula,
+    /// What it is from the next sample of its controller on, of one that is held between samples: its rate is then zero.
+    pub next: Option<Formula>,
     /// Where it is written.
     pub span: Span,
 }

@@ -125,7 +125,7 @@ fn mentioned(mechanism: &Mechanism) -> Vec<bool> {
     for force in &mechanism.forces {
         force.formulas.iter().for_each(&mut note);
     }
-    mechanism.states.iter().for_each(|state| note(&state.rate));
+    mechanism.states.iter().flat_map(|state| [&state.rate].into_iter().chain(&state.next)).for_each(note);
     mentioned
 }
 

@@ -337,6 +337,7 @@ fn append(file: &mut File, part: File) {
         forces,
         states,
         sensors,
+        controllers,
         assembly,
         initial,
         clearance,
@@ -355,6 +356,7 @@ fn append(file: &mut File, part: File) {
     join(&mut file.forces, forces);
     join(&mut file.states, states);
     join(&mut file.sensors, sensors);
+    join(&mut file.controllers, controllers);
     join(&mut file.assembly, assembly);
     join(&mut file.initial, initial);
     join(&mut file.clearance, clearance);

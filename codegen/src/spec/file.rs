@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::body::BodySpec;
+use super::controller::ControllerSpec;
 use super::coupling::CouplingSpec;
 use super::doc::Doc;
 use super::force::ForceSpec;
@@ -74,6 +75,9 @@ pub struct File {
     /// Formulas with a name and a column of their own.
     /// [table]
     pub sensors: Table<Sensor>,
+    /// Controllers, continuous or at sampled times.
+    /// [table]
+    pub controllers: Table<ControllerSpec>,
     /// Guesses of joint coordinates from which assembly starts.
     /// [table]
     pub assembly: Table<StartSpec>,

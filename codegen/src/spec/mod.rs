@@ -3,6 +3,7 @@
 
 mod body;
 mod compose;
+mod controller;
 mod coupling;
 mod dimension;
 mod doc;
@@ -36,6 +37,7 @@ pub use body::{
     BodySpec, Centre, FlexibleSpec, HeldSpec, PointMassSpec, SectionSpec, StepSpec, TheorySpec, Widths,
 };
 pub use compose::{Composed, composed};
+pub use controller::{ControllerSpec, ControllerStateSpec};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
 pub use file::{

@@ -51,21 +51,21 @@ impl Scope {
         let mut words = words_of(file);
         let kept: Vec<Option<Name>> = words.iter_mut().map(|word| take(*word)).collect();
         // Values of cells are named in braces only.
-        let values: Vec<Vec<String>> = file
-            .repeat
-            .0
-            .iter()
-            .map(|(_, group)| keys(&group.value.values).map(str::to_owned).collect())
-            .collect();
+        let values: Vec<Vec<String>> =
+            file.repeat.0.iter().map(|(_, group)| names(&group.value.values)).collect();
+        // And states of a controller behind its name only.
+        let states: Vec<Vec<String>> =
+            file.controllers.0.iter().map(|(_, own)| names(&own.value.states)).collect();
         let mut asked = Vec::new();
         each(file, &mut |text, span| self.renamed(text, span, &mut asked));
         for (word, kept) in words_of(file).into_iter().zip(kept) {
             *word = kept;
         }
         for ((_, group), values) in file.repeat.0.iter_mut().zip(values) {
-            for ((name, _), kept) in group.value.values.0.iter_mut().zip(values) {
-                name.value = kept;
-            }
+            put_back(&mut group.value.values, values);
+        }
+        for ((_, own), states) in file.controllers.0.iter_mut().zip(states) {
+            put_back(&mut own.value.states, states);
         }
         asked
     }
@@ -110,7 +110,7 @@ pub(super) fn names_of(file: &File) -> Vec<&str> {
     names.extend(
         keys(&file.stops).chain(keys(&file.couplings)).chain(keys(&file.forces)).chain(keys(&file.include)),
     );
-    names.extend(keys(&file.states).chain(keys(&file.sensors)));
+    names.extend(keys(&file.states).chain(keys(&file.sensors)).chain(keys(&file.controllers)));
     names.extend(keys(&file.repeat));
     for (_, group) in &file.repeat.0 {
         let RepeatSpec { points, bodies, joints, couplings, stops, forces, .. } = &group.value;
@@ -124,6 +124,16 @@ pub(super) fn names_of(file: &File) -> Vec<&str> {
 
 fn keys<T>(table: &Table<T>) -> impl Iterator<Item = &str> {
     table.0.iter().map(|(name, _)| &*name.value)
+}
+
+fn names<T>(table: &Table<T>) -> Vec<String> {
+    keys(table).map(str::to_owned).collect()
+}
+
+fn put_back<T>(table: &mut Table<T>, names: Vec<String>) {
+    for ((name, _), kept) in table.0.iter_mut().zip(names) {
+        name.value = kept;
+    }
 }
 
 fn each(file: &mut File, change: Change<'_>) {
@@ -147,6 +157,7 @@ fn each(file: &mut File, change: Change<'_>) {
         forces,
         states,
         sensors,
+        controllers,
         assembly,
         initial,
         clearance,
@@ -165,6 +176,7 @@ fn each(file: &mut File, change: Change<'_>) {
     forces.each(nowhere, change);
     states.each(nowhere, change);
     sensors.each(nowhere, change);
+    controllers.each(nowhere, change);
     assembly.each(nowhere, change);
     initial.each(nowhere, change);
     clearance.each(nowhere, change);

@@ -49,6 +49,7 @@ impl Sketch {
             stops: Vec::new(),
             forces: Vec::new(),
             states: Vec::new(),
+            samplers: Vec::new(),
             sensors: Vec::new(),
             closure: Closure::Joint,
             allowed: Vec::new(),

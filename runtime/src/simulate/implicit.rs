@@ -3,6 +3,7 @@
 
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
+use super::samples;
 use super::schedule::steps_between;
 use crate::error::RunError;
 use crate::integrate::{GeneralizedAlpha, Problem, Rk4};
@@ -50,7 +51,8 @@ impl Implicit {
     ) -> Result<(), RunError> {
         let n = motion.first_integral();
         while self.t < to {
-            let target = to.min(sampler.hard_stop(self.t));
+            let stop = to.min(sampler.hard_stop(self.t));
+            let target = motion.dynamics.evaluator.stop_at_sample(self.t, stop);
             let (from, steps) = (self.t, steps_between(self.t, target, self.longest));
             // One step size up to the next stop; another one starts the method afresh, because its own
             // accelerations belong to times that depend on the step.
@@ -62,6 +64,7 @@ impl Implicit {
             let Some((method, h)) = &mut self.method else { break };
             motion.derivative(self.t, state, &mut self.derivative)?;
             self.before.copy_from_slice(&self.derivative[n..]);
+            let mut acted = false;
             for i in 1..=steps {
                 let next =
                     if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
@@ -78,11 +81,15 @@ impl Implicit {
                 sampler.note_loop_error(motion, next, open)?;
                 sampler.follow_angles(motion, next, state, None)?;
                 sampler.step_done(motion, next, state)?;
+                acted = i == steps && samples::act_behind(motion, sampler, (from, next), state)?;
                 if sampled && next == to {
                     self.sampled.copy_from_slice(state);
                     sampler.sample(motion, next, &mut self.sampled)?;
                 }
                 sampler.report(next, watch)?;
+            }
+            if acted {
+                self.method = None;
             }
         }
         Ok(())

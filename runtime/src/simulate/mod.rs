@@ -18,6 +18,7 @@ mod looks;
 mod motion;
 mod run;
 mod sampler;
+mod samples;
 mod schedule;
 mod settings;
 mod simulation;
@@ -100,6 +101,7 @@ fn run(mut evaluator: Evaluator<'_>, settings: &Settings, watch: Watch<'_>) -> R
     let mut motion = ConstrainedMotion::new(dynamics);
     motion.learn_sizes(0.0, &start);
     let mut state = motion.join(&start);
+    samples::begin(&mut motion, 0.0, &mut state)?;
     let mut sampler = Sampler::new(&mut motion, schedule, &state);
     sampler.collect_extremes(&motion);
     let stopped = record(&mut motion, &mut sampler, &mut state, settings.integrator, watch);

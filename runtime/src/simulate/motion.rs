@@ -247,6 +247,12 @@ impl<'a> ConstrainedMotion<'a> {
         (q, v, (work[0], work[1]))
     }
 
+    /// Coordinates, and speeds to be written to, of a flat state.
+    pub(super) fn split_mut<'y>(&self, y: &'y mut [f64]) -> (&'y [f64], &'y mut [f64]) {
+        let (q, rest) = y.split_at_mut(self.coordinates);
+        (q, &mut rest[..self.speeds])
+    }
+
     /// Names and values of all angles that count turns: free ones of a flat state, and those of drivers, prescribed last.
     pub(super) fn angles<'y>(&'y self, y: &'y [f64]) -> impl Iterator<Item = (&'y str, f64)> {
         let description = self.dynamics.evaluator.description();

@@ -7,6 +7,7 @@ use super::contact_event::ContactEvent;
 use super::motion::ConstrainedMotion;
 use super::run::Run;
 use super::sampler::Sampler;
+use super::samples;
 use super::schedule::Schedule;
 use super::settings::{Integrator, Settings};
 use super::steps::Steps;
@@ -107,6 +108,7 @@ impl<'a> Simulation<'a> {
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, settings.singular_pivot));
         motion.learn_sizes(begin, &start);
         let mut state = motion.join(&start);
+        samples::begin(&mut motion, begin, &mut state)?;
         let mut sampler = Sampler::new(&mut motion, schedule, &state);
         sampler.watch_angles();
         if let Some(follower) = &mut sampler.follower {

@@ -49,6 +49,9 @@ impl<'a> StateSpace<'a> {
         settings: &Settings,
     ) -> Result<Self, RunError> {
         let mut evaluator = Evaluator::new(system, description, parameters)?;
+        if evaluator.has_samplers() {
+            return Err(SetupError::Sampled.into());
+        }
         let start = assemble_static_contact(&mut evaluator, begin)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, settings.singular_pivot));
         motion.learn_sizes(begin, &start);

@@ -9,7 +9,7 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
-use super::{dead_point, events, switches};
+use super::{dead_point, events, samples, switches};
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43};
 use crate::watch::Watch;
@@ -171,7 +171,8 @@ fn advance_rk4(
     watch: Watch<'_>,
 ) -> Result<(), RunError> {
     while *t < to {
-        let target = to.min(sampler.hard_stop(*t));
+        let stop = to.min(sampler.hard_stop(*t));
+        let target = motion.dynamics.evaluator.stop_at_sample(*t, stop);
         let (from, steps) = (*t, steps_between(*t, target, longest));
         for i in 1..=steps {
             let next = if i == steps { target } else { from + (target - from) * (i as f64 / steps as f64) };
@@ -180,6 +181,9 @@ fn advance_rk4(
             sampler.note_loop_error(motion, *t, motion.projector.loop_error())?;
             sampler.follow_angles(motion, *t, state, None)?;
             sampler.step_done(motion, *t, state)?;
+            if i == steps {
+                samples::act_behind(motion, sampler, (from, *t), state)?;
+            }
             if sampled && *t == to {
                 sampler.sample(motion, *t, state)?;
             }
@@ -189,9 +193,9 @@ fn advance_rk4(
     Ok(())
 }
 
-/// Where the next step ends at the latest: no step leaps over a kink of an input.
+/// Where the next step ends at the latest: no step leaps over a kink of an input, or a sample of a controller.
 fn stop_at_kink(motion: &ConstrainedMotion<'_>, sampler: &Sampler<'_>, t: f64) -> f64 {
-    let stop = sampler.hard_stop(t);
+    let stop = motion.dynamics.evaluator.stop_at_sample(t, sampler.hard_stop(t));
     let Some(signals) = motion.dynamics.evaluator.signals() else { return stop };
     // Times that are the same but for rounding leave no step of a last bit.
     let slack = 1e-12 * sampler.duration();
@@ -248,6 +252,8 @@ impl<M: Method> AdaptiveSteps<M> {
     ) -> Result<(), RunError> {
         let Self { method, open, between } = self;
         loop {
+            // A row at a sample is behind it, however the time of either is rounded.
+            let to = if motion.dynamics.evaluator.is_same_time(method.t(), to) { method.t() } else { to };
             if *open && to < method.t() {
                 method.interpolate(to, state);
                 return if sampled { sampler.sample(motion, to, state) } else { Ok(()) };
@@ -255,8 +261,11 @@ impl<M: Method> AdaptiveSteps<M> {
             if *open {
                 *open = false;
                 sampler.step_done(motion, method.t(), method.y())?;
+                state.copy_from_slice(method.y());
+                if samples::act_behind(motion, sampler, (method.before(), method.t()), state)? {
+                    method.go_on_from(motion, method.t(), state)?;
+                }
                 if sampled && to == method.t() {
-                    state.copy_from_slice(method.y());
                     sampler.sample(motion, to, state)?;
                 }
                 sampler.report(method.t(), watch)?;

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::motion::ConstrainedMotion;
 use super::run::Statistics;
 use super::sampler::Sampler;
+use super::samples;
 use super::schedule::Schedule;
 use super::settings::{Integrator, Settings, Span};
 use super::steps;
@@ -92,9 +93,12 @@ impl<'a> TurnRunner<'a> {
             return Err(RunError::NoTurns);
         }
         let mut evaluator = Evaluator::new(system, description, parameters)?;
-        let state = assemble_static_contact(&mut evaluator, 0.0)?;
+        let mut state = assemble_static_contact(&mut evaluator, 0.0)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
         motion.learn_sizes(0.0, &state);
+        let mut flat = motion.join(&state);
+        samples::begin(&mut motion, 0.0, &mut flat)?;
+        state.v.copy_from_slice(motion.split(&flat).1);
         Ok(Self { motion, integrator, t: 0.0, state, alike: None, looked_at: Vec::new() })
     }
 

@@ -131,6 +131,14 @@ pub const COMMANDS: &[Command] = &[
         right: "linkwear simulate mechanisms/four_bar.toml --out curve.csv && linkwear identify mechanisms/four_bar.toml --free b=290mm..310mm --measured curve.csv --of R4.q",
     },
     Command {
+        code: "C0017",
+        title: "A target that knows no controllers at sampled times.",
+        text: "Steps of generated C know nothing of samples: a controller with `sample_time` would hold its first output for ever. Rust \
+               and units of FMI in co-simulation sample themselves; a program in C can set an input at its own samples.",
+        wrong: "linkwear generate examples/data/sampled_servo.toml --target c -o servo",
+        right: "linkwear generate examples/data/sampled_servo.toml -o servo.rs",
+    },
+    Command {
         code: "run",
         title: "A remark on a run.",
         text: "The numbers are there, and something about them is doubtful: a step too coarse for its contacts, a penetration that \

@@ -3,7 +3,7 @@
 
 use linkwear_runtime::{
     Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, InputRole, JournalWear, MissionInfo,
-    Motion as MotionInfo, ParameterInfo, RowInfo, SegmentInfo, Sizes, VariableInfo,
+    Motion as MotionInfo, ParameterInfo, RowInfo, SegmentInfo, Sizes, VALUE, VariableInfo,
 };
 
 use super::deriver::{Deriver, Instant};
@@ -74,7 +74,7 @@ impl Deriver<'_> {
             coordinates: [pick(&names.0, &self.free_q, &start.held_q), self.own_infos(".integral", 1)]
                 .concat()
                 .into(),
-            speeds: [pick(&names.1, &self.partition.free, &start.held_v), self.own_infos(".value", 0)]
+            speeds: [pick(&names.1, &self.partition.free, &start.held_v), self.own_infos(VALUE, 0)]
                 .concat()
                 .into(),
             motions: self.motions().into(),

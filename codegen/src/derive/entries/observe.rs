@@ -2,7 +2,7 @@
 //! In: link motion with true accelerations, multipliers, drive forces. Out: channels with expressions.
 //! Never knows files. Names and units follow the command line's contract for sampled output.
 
-use linkwear_runtime::{Channel, Text};
+use linkwear_runtime::{Channel, NEXT, SAMPLE, Text, VALUE};
 
 use super::deriver::{Deriver, Instant};
 use super::joint_forces::JointForces;
@@ -212,27 +212,46 @@ impl<'a, 'g> Channels<'a, 'g> {
             let [moment, force] = forces.wrench(JointId::new(index), &transmitted);
             self.vector(&joint.name, "F", "N", force);
             self.vector(&joint.name, "M", "N m", moment);
+            if let Some(moment) = forces.drive_moment(JointId::new(index), &transmitted) {
+                self.vector(&joint.name, "drive_M", "N m", moment);
+            }
         }
     }
 
-    /// Sensors, from the accelerations, multipliers and drive forces that are handed in.
+    /// Sensors, and what controllers do at their samples, from the accelerations, multipliers and drive forces that are handed in.
     fn sensors(&mut self, masses: &[LinkMass<'g>]) {
         let (deriver, instant) = (self.deriver, self.instant);
         let Geometry { g, mechanism, .. } = deriver.geometry;
-        if mechanism.sensors.is_empty() {
+        // Where positions alone are asked for, states are none.
+        let samplers = if deriver.own.is_empty() { &[][..] } else { &mechanism.samplers };
+        if mechanism.sensors.is_empty() && samplers.is_empty() {
             return;
         }
         let responses = Responses::default();
-        let lowered = mechanism.sensors.iter().map(|sensor| {
-            g.begin_section(format!("sensor {}", sensor.name));
-            instant.state.lower_asking(g, &sensor.value, &responses)
+        let sensors = mechanism.sensors.iter().map(|sensor| ("sensor", &sensor.name, &sensor.value));
+        // Of states that are held between samples: what they are from the next one on.
+        let held = mechanism
+            .states
+            .iter()
+            .take(deriver.own.len())
+            .filter_map(|state| Some(("sample of", &state.name, state.next.as_ref()?)));
+        let lowered = sensors.chain(held).map(|(what, name, formula)| {
+            g.begin_section(format!("{what} {name}"));
+            instant.state.lower_asking(g, formula, &responses)
         });
         let lowered: Vec<Expr<'g>> = lowered.collect();
         let asked = responses.asked();
         let values = deriver.responses_by_symbols(masses, &asked, instant);
         let by: Vec<_> = asked.iter().map(|(_, symbol)| *symbol).zip(values).collect();
-        for (sensor, value) in mechanism.sensors.iter().zip(g.with(&lowered, &by)) {
+        let mut values = g.with(&lowered, &by).into_iter();
+        for (sensor, value) in mechanism.sensors.iter().zip(&mut values) {
             self.push(format!("{}.value", sensor.name), sensor.value.dimension.si_unit(), value);
+        }
+        for (number, sampler) in samplers.iter().enumerate() {
+            self.push(format!("{SAMPLE}{}", number + 1), "s", g.number(sampler.sample_time));
+            for (state, next) in mechanism.states[sampler.states.clone()].iter().zip(&mut values) {
+                self.push(format!("{}{NEXT}", state.name), unit(state.initial.dimension, 0), next);
+            }
         }
     }
 
@@ -241,8 +260,10 @@ impl<'a, 'g> Channels<'a, 'g> {
         let deriver = self.deriver;
         for (state, own) in deriver.geometry.mechanism.states.iter().zip(&deriver.own) {
             let dimension = state.initial.dimension;
-            self.push(format!("{}.value", state.name), unit(dimension, 0), own.value);
-            self.push(format!("{}.rate", state.name), unit(dimension, -1), own.rate);
+            self.push(format!("{}{VALUE}", state.name), unit(dimension, 0), own.value);
+            if state.next.is_none() {
+                self.push(format!("{}.rate", state.name), unit(dimension, -1), own.rate);
+            }
         }
     }
 }

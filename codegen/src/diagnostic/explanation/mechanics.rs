@@ -249,4 +249,19 @@ stiffness_matrix = [
   [0, "2 kN", 0, 0, 0, "50 N m/rad"],
 ]"#,
     },
+    Explanation {
+        code: Code::BadController,
+        file: File::Swing,
+        text: "A controller that cannot act as it is written: limits that leave nothing between them, no time from sample to \
+               sample, an integral that gives way within less than a sample, controllers that ask for each other. \
+               `docs/controllers.md` has the laws.",
+        wrong: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "motor" }
+[controllers]
+motor = { measured = "hinge.q", setpoint = "30 deg", proportional = "40 N m/rad", lower = "10 N m", upper = "-10 N m", sample_time = "1 ms" }"#,
+        right: r#"[joints]
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], force = "motor" }
+[controllers]
+motor = { measured = "hinge.q", setpoint = "30 deg", proportional = "40 N m/rad", lower = "-10 N m", upper = "10 N m", sample_time = "1 ms" }"#,
+    },
 ];

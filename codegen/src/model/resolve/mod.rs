@@ -13,6 +13,7 @@ mod call;
 mod clearance;
 mod coaxial;
 mod connect;
+mod controllers;
 mod coupling_numbers;
 mod couplings;
 mod dry_friction;
@@ -22,6 +23,7 @@ mod inertia;
 mod inputs;
 mod joint_model;
 mod joints;
+mod known_controllers;
 mod lookup;
 mod matrices;
 mod mesh;
@@ -29,7 +31,10 @@ mod missions;
 mod modal_start;
 mod names;
 mod overrides;
+mod own_law;
 mod parameters;
+mod pid;
+mod pid_keys;
 mod points;
 mod quantity;
 mod resolver;
@@ -50,6 +55,7 @@ mod wheels;
 
 pub use overrides::{OverrideError, Overrides};
 
+use self::known_controllers::Controllers;
 use self::names::{Names, Thing};
 use self::quantity::Allowed;
 use self::resolver::Resolver;
@@ -86,6 +92,8 @@ pub fn resolve(
         driven: Vec::new(),
         states: Vec::new(),
         sensors: Vec::new(),
+        controllers: Controllers::default(),
+        reading_controller: false,
         attached: read,
         tables: Vec::new(),
         lost_tables: Vec::new(),
@@ -124,6 +132,7 @@ impl Resolver<'_> {
         self.note_drives(&file);
         self.declare_states(&file.states);
         self.resolve_sensors(&file.sensors);
+        self.resolve_controllers(&file.controllers);
         let mut bodies = self.resolve_bodies(&file.bodies);
         let mut joints = self.resolve_joints(&file.joints);
         self.resolve_clearances(&file, &mut joints);
@@ -131,7 +140,9 @@ impl Resolver<'_> {
         let couplings = self.resolve_couplings(&file, &joints);
         let mut forces = self.resolve_forces(&file.forces);
         forces.extend(self.ball_springs(&file.joints, &joints));
-        let states = self.resolve_states(&file.states);
+        let mut states = self.resolve_states(&file.states);
+        let (held, samplers, outputs) = self.take_controllers();
+        states.extend(held);
         self.check_responses(&joints, &forces, &states);
         let starts = self.resolve_starts(&file, &joints);
         let stops = self.resolve_stops(&file.stops, &joints, &starts);
@@ -150,7 +161,8 @@ impl Resolver<'_> {
             stops,
             forces,
             states,
-            sensors: self.take_sensors(&file.sensors),
+            samplers,
+            sensors: self.take_sensors(&file.sensors).into_iter().chain(outputs).collect(),
             missions,
             closure: file.closure.unwrap_or_default(),
             allowed: self.allowed(&file.check),

@@ -32,6 +32,8 @@ pub(super) enum Thing {
     State(StateId),
     /// By its place in the table.
     Sensor(usize),
+    /// By its place in the table.
+    Controller(usize),
 }
 
 impl Thing {
@@ -48,6 +50,7 @@ impl Thing {
             Self::Part => "part",
             Self::State(_) => "state",
             Self::Sensor(_) => "sensor",
+            Self::Controller(_) => "controller",
         }
     }
 
@@ -90,6 +93,7 @@ impl Names {
         self.foreseen.extend(file.joints.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.states.0.iter().map(|(name, _)| name.value.clone()));
         self.foreseen.extend(file.sensors.0.iter().map(|(name, _)| name.value.clone()));
+        self.foreseen.extend(file.controllers.0.iter().map(|(name, _)| name.value.clone()));
     }
 
     /// Whether a word in a formula is a name.
@@ -119,6 +123,7 @@ impl Names {
         self.declare_table(&file.forces, |_| Thing::Force, faults);
         self.declare_table(&file.states, |at| Thing::State(StateId::new(at)), faults);
         self.declare_table(&file.sensors, Thing::Sensor, faults);
+        self.declare_table(&file.controllers, Thing::Controller, faults);
         self.foreseen.clear();
     }
 
@@ -153,7 +158,7 @@ impl Names {
                 Diagnostic::new(Code::DuplicateName, message)
                     .at(name.span, "second")
                     .also(*span, "first")
-                    .help("parameters, inputs, points, bodies, joints, couplings, stops, forces, states, sensors and parts share one set of names"),
+                    .help("parameters, inputs, points, bodies, joints, couplings, stops, forces, states, sensors, controllers and parts share one set of names"),
             );
             self.lost.push(name.value.clone());
             return;

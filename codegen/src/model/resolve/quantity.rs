@@ -48,7 +48,7 @@ impl Allowed {
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
-            (_, true) => "parameters, inputs, t, joints, points, bodies and states",
+            (_, true) => "parameters, inputs, t, joints, points, bodies, states, sensors and controllers",
             (true, false) if !self.arguments.is_empty() => {
                 "parameters, inputs, `pressure` and `sliding_speed`"
             }

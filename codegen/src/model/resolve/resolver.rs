@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::known_controllers::Controllers;
 use super::modal_start::ModalStart;
 use super::names::Names;
 use super::tabled::Tabled;
@@ -37,6 +38,10 @@ pub(super) struct Resolver<'a> {
     pub(super) states: Vec<Option<Formula>>,
     /// Formulas of sensors so far; nothing of one without.
     pub(super) sensors: Vec<Option<Formula>>,
+    /// Controllers so far.
+    pub(super) controllers: Controllers,
+    /// Whether the last of them is being read.
+    pub(super) reading_controller: bool,
     /// Other files that were read.
     pub(super) attached: Vec<PathBuf>,
     /// Functions given by rows.

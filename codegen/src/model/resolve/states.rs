@@ -31,7 +31,13 @@ impl Resolver<'_> {
             let Some(initial) = self.states[at].clone() else { continue };
             let per_second = initial.dimension.over(Dimension::TIME);
             let rate = self.formula(rate, per_second, Allowed::STATE, &place("rate", "state", name));
-            states.push(StateVariable { name: name.value.clone(), initial, rate, span: name.span });
+            states.push(StateVariable {
+                name: name.value.clone(),
+                initial,
+                rate,
+                next: None,
+                span: name.span,
+            });
         }
         states
     }

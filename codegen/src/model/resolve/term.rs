@@ -87,6 +87,7 @@ impl Resolver<'_> {
                 Some((Term::State(id), dimension))
             }
             Some((Thing::Sensor(at), _)) if allowed.state => self.sensor_term(name, at, here),
+            Some((Thing::Controller(at), _)) if allowed.state => self.controller_term(name, at, here),
             Some((thing, span)) => {
                 let message = format!("`{name}` is {}, not a number", thing.a());
                 let help = match thing {
@@ -111,7 +112,11 @@ impl Resolver<'_> {
                     .known(|thing| {
                         matches!(
                             thing,
-                            Thing::Parameter(_) | Thing::Input(_) | Thing::State(_) | Thing::Sensor(_)
+                            Thing::Parameter(_)
+                                | Thing::Input(_)
+                                | Thing::State(_)
+                                | Thing::Sensor(_)
+                                | Thing::Controller(_)
                         )
                     })
                     .chain(["t", "pi"])
@@ -195,12 +200,16 @@ impl Resolver<'_> {
                 }
             }
             Some((Thing::Body(id), _)) => Self::body_member(id, member),
+            Some((Thing::Controller(at), _)) => match self.controller_member(at, member) {
+                Some(found) => found,
+                None => return None,
+            },
             Some((other, _)) => Err(format!("a {} has no members in formulas", other.what())),
             None if self.names.is_lost(thing) => return None,
             None => {
-                let known = self
-                    .names
-                    .known(|thing| matches!(thing, Thing::Joint(_) | Thing::Point(_) | Thing::Body(_)));
+                let known = self.names.known(|thing| {
+                    matches!(thing, Thing::Joint(_) | Thing::Point(_) | Thing::Body(_) | Thing::Controller(_))
+                });
                 let mut fault =
                     self.unknown(thing, "unknown joint, point or body", here).did_you_mean(thing, known);
                 if fault.help.is_empty() {

@@ -17,7 +17,7 @@ A mark is `assumed = true`, your own assumption and not from the source you cite
 ";
 
 /// Types with keys, in the order of the page, and where they stand in a file.
-const TABLES: [(&str, &str); 29] = [
+const TABLES: [(&str, &str); 31] = [
     ("", "Top level"),
     ("ParameterTable", "A parameter, where it is a table"),
     ("InputTable", "An input, where it is a table"),
@@ -38,6 +38,8 @@ const TABLES: [(&str, &str); 29] = [
     ("ByAxis", "`translation` and `rotation` of a bushing"),
     ("StateSpec", "A state"),
     ("SensorTable", "A sensor, where it is a table"),
+    ("ControllerSpec", "A controller"),
+    ("ControllerStateSpec", "A state of a controller"),
     ("StartTable", "Start values in `[assembly]` and `[initial]`, where they are a table"),
     ("ClearanceSpec", "`[clearance.<joint>]`"),
     ("WearSpec", "`[wear.<joint>]`"),

@@ -68,8 +68,8 @@ impl<'a> Trajectory<'a> {
         (lanes, lane): Place<'_, 'a, N>,
     ) -> Result<bool, RunError> {
         let Integrator::Rk43 { tolerance, max_step } = self.runner.integrator else { return Ok(false) };
-        // Steps that end at switches are a lone trajectory's.
-        if self.evaluator().has_switches() {
+        // Steps that end at switches and samples are a lone trajectory's.
+        if self.evaluator().has_switches() || self.evaluator().has_samplers() {
             return Ok(false);
         }
         self.runner.restore(from)?;
