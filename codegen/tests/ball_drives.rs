@@ -254,7 +254,7 @@ fn wrong_uses_are_answered() {
         let text = format!(
             "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nC = [\"1 m\", 0, 0]\n[bodies]\n{BODY}\n[joints]\nball = {{ spherical = [\"ground\", \"body\"], at = \"O\", {joint} }}\n"
         );
-        compile(&source(&text), &Options::default()).err().expect("it is refused").to_string()
+        compile(&source(&text), &Options::default()).expect_err("it is refused").to_string()
     };
     for (joint, code, cure) in [
         (r#"drive = "t/(1 s)""#, "E0409", "q2 ="),

@@ -200,10 +200,7 @@ impl Resolver<'_> {
                 }
             }
             Some((Thing::Body(id), _)) => Self::body_member(id, member),
-            Some((Thing::Controller(at), _)) => match self.controller_member(at, member) {
-                Some(found) => found,
-                None => return None,
-            },
+            Some((Thing::Controller(at), _)) => self.controller_member(at, member)?,
             Some((other, _)) => Err(format!("a {} has no members in formulas", other.what())),
             None if self.names.is_lost(thing) => return None,
             None => {
