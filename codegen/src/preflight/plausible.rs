@@ -130,7 +130,8 @@ fn sizes(mechanism: &Mechanism) -> Vec<Diagnostic> {
             }
             Inertia::Given { mass, inertia, .. } => {
                 let moment = inertia[..3].iter().filter_map(|own| own.value(&values)).fold(0.0, f64::max);
-                let gyration = mass.value(&values).map(|mass| (moment / mass).sqrt());
+                let mass = mass.value(&values).filter(|mass| *mass > 0.0);
+                let gyration = mass.map(|mass| (moment / mass).sqrt());
                 ("radius of gyration", gyration, [0.0, TOO_FAR_OUT * whole])
             }
         };
@@ -157,7 +158,8 @@ fn masses(mechanism: &Mechanism) -> Option<Diagnostic> {
         }
     };
     let bodies = mechanism.bodies.iter().enumerate();
-    let mut masses: Vec<(&Body, f64)> = bodies.filter_map(|body| Some((body.1, mass(body)?))).collect();
+    let mut masses: Vec<(&Body, f64)> =
+        bodies.filter_map(|body| Some((body.1, mass(body).filter(|mass| *mass > 0.0)?))).collect();
     masses.sort_by(|a, b| a.1.total_cmp(&b.1));
     let [.., (next, others), (heaviest, own)] = masses[..] else { return None };
     (own > TOO_HEAVY * others).then(|| {

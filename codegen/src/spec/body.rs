@@ -9,9 +9,10 @@ use super::texts::{tables, texts_of, without_texts};
 use super::written::{At, Name, Pair, Quantity, Triple};
 
 tables! {
-    /// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` with `centre`.
+    /// A moving body: exactly one of `rod`, `tube`, `box`, or `mass` or `massless` with `centre`.
     #[cfg_attr(test, schemars(extend("anyOf" = [
-        { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] }
+        { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] },
+        { "required": ["centre", "massless"] }
     ])))]
     pub struct BodySpec {
         /// Solid cylinder between two points.
@@ -42,6 +43,9 @@ tables! {
         /// Total mass.
         /// [kg; above 0; required without `density`; e.g. "0.35 kg"]
         pub mass: Option<Quantity>,
+        /// A part whose mass is neglected, between joints: the cross of a universal joint. Stands with `centre`, a point of it.
+        /// [mark]
+        pub massless: bool,
         /// Centre of mass: a point's name or coordinates.
         /// [point or coordinates; required without a shape; e.g. "A"]
         pub centre: Option<Centre>,

@@ -1,4 +1,4 @@
-//! Bodies: which of the four descriptions it is, and that its numbers are possible.
+//! Bodies: which of the descriptions it is, and that its numbers are possible.
 
 use super::inertia;
 use super::names::Thing;
@@ -33,6 +33,10 @@ impl Resolver<'_> {
             let message = format!("body `{}` is both a {kind} and a {other}", name.value);
             self.refuse(Code::ConflictingKeys, name.span, message).help("choose one");
         }
+        if spec.massless {
+            let message = format!("body `{}` is a {kind} and has no mass", name.value);
+            self.refuse(Code::ConflictingKeys, name.span, message).help("choose one");
+        }
         self.check_stray(name, kind, spec);
         let ends = self.ends(carrier, name, kind, pair);
         let amount = self.amount(name, body);
@@ -55,6 +59,7 @@ impl Resolver<'_> {
             (kind == "rod" || kind == "tube", kind == "tube", kind == "box", kind == "centre");
         for (key, span) in spec.written() {
             let (fits, owner) = match key {
+                "mass" | "inertia" | "axes" | "flexible" if spec.massless => (false, "a body that has mass"),
                 "radius" => (round, "a rod or tube"),
                 "inner_radius" => (tube, "a tube"),
                 "width" | "width_axis" => (cuboid, "a box"),
@@ -237,19 +242,22 @@ impl Resolver<'_> {
     /// Mass, centre and inertia as numbers from elsewhere.
     fn given(&mut self, carrier: Carrier, name: &Name, body: &At<BodySpec>) -> Inertia {
         let spec = &body.value;
-        if spec.centre.is_none() && spec.inertia.is_none() {
+        if spec.centre.is_none() && spec.inertia.is_none() && !spec.massless {
             let message = format!("nothing says what body `{}` is", name.value);
             self.missing(body.span, name.span, Code::NoKind, message)
                 .help("write `rod = [\"A\", \"B\"]`, `tube`, `box`, or `mass`, `centre` and `inertia`");
         } else {
             self.check_stray(name, "centre", spec);
         }
-        let mass = if spec.centre.is_none() && spec.mass.is_none() {
+        let mass = if spec.massless {
+            Formula::number(0.0, Dimension::MASS)
+        } else if spec.centre.is_none() && spec.mass.is_none() {
             Formula::number(f64::NAN, Dimension::MASS)
         } else {
-            self.required(name, body, &spec.mass, "mass", Dimension::MASS)
+            let mass = self.required(name, body, &spec.mass, "mass", Dimension::MASS);
+            self.check_positive(&mass, false, &place("mass", "body", name));
+            mass
         };
-        self.check_positive(&mass, false, &place("mass", "body", name));
         let centre = match &spec.centre {
             Some(Centre::Point(point)) => {
                 self.point_on(point, Some((carrier, name)), &format!("body `{}`", name.value))
@@ -264,7 +272,7 @@ impl Resolver<'_> {
                 Some(self.add_point(format!("{}_centre", name.value), position, carrier, triple.0.span))
             }
             None => {
-                if spec.inertia.is_some() {
+                if spec.inertia.is_some() || spec.massless {
                     let message = format!("body `{}` has no `centre`", name.value);
                     self.missing(body.span, name.span, Code::MissingKey, message)
                         .help("add `centre = \"P\"`, a point, or its coordinates");
