@@ -185,3 +185,49 @@ fn check_tells_the_other_way_to_close_the_loops_and_assembly_takes_it() {
     let none = assembly("mechanisms/pendulum.toml");
     assert_eq!(none["others"], Value::Array(Vec::new()), "no loop, no choice");
 }
+
+#[test]
+fn check_lists_couplings_stops_states_and_sensors() {
+    let asked = |name: &str| {
+        let file = format!("examples/data/{name}.toml");
+        (linkwear(&["check", &file]).out, linkwear(&["check", &file, "--format", "json"]).json())
+    };
+    let (text, gears) = asked("planetary_gear");
+    let inner = &gears["couplings"][0];
+    assert_eq!(
+        (&inner["name"], &inner["kind"], &inner["rigid"]),
+        (&"inner".into(), &"gears".into(), &true.into())
+    );
+    // Wheels of 20 teeth of 2 mm: pitch radii of 20 mm.
+    let radii = inner["terms"]
+        .as_array()
+        .expect("terms")
+        .iter()
+        .map(|term| term["factor"].as_f64().expect("a number"));
+    assert!(
+        radii
+            .into_iter()
+            .all(|radius| (radius.abs() - 0.02).abs() < 1e-12 || (radius.abs() - 0.04).abs() < 1e-12),
+        "{inner}"
+    );
+    assert!(text.contains("\nCouplings\n") && !text.contains("\nStops\n"), "{text}");
+    let (text, hammer) = asked("drop_hammer");
+    let blow = &hammer["stops"][0];
+    assert_eq!(
+        (&blow["coordinate"], &blow["upper"], &blow["unit"]),
+        (&"guide.q".into(), &0.3.into(), &"m".into())
+    );
+    assert_eq!((&blow["loss"], &hammer["stops"][1]["loss"]), (&"restitution".into(), &"damping".into()));
+    assert!(hammer["stops"][1]["upper"].is_null() && text.contains("\nStops\n"), "{text}");
+    let (text, crank) = asked("servo_crank");
+    let units: Vec<&Value> =
+        crank["states"].as_array().expect("states").iter().map(|state| &state["unit"]).collect();
+    assert_eq!(units, ["kg m^2 s^-2"; 3]);
+    assert_eq!(
+        (&crank["sensors"][0]["name"], &crank["sensors"][0]["unit"]),
+        (&"side".into(), &"kg m s^-2".into())
+    );
+    assert!(text.contains("\nStates\n") && text.contains("\nSensors\n"), "{text}");
+    let pendulum = linkwear(&["check", "mechanisms/pendulum.toml", "--format", "json"]).json();
+    assert!(["couplings", "stops", "states", "sensors"].iter().all(|key| pendulum[*key].is_null()));
+}

@@ -1,8 +1,10 @@
 //! `check`: what a mechanism is, before anything moves.
 
 mod contacts;
+mod elements;
 mod missions;
 mod start;
+mod unit;
 
 use std::fmt::Write as _;
 
@@ -12,7 +14,6 @@ use crate::provenance::Provenance;
 use crate::wear_measure::{paragraph, wear_measures};
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
 use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate, Redundant};
-use linkwear_codegen::spec::Dimension;
 use linkwear_codegen::{Compiled, Options};
 use serde_json::{Map, Value, json};
 
@@ -25,7 +26,9 @@ use super::input::{load, options};
 use super::options::Input;
 use super::table::{plural, short_table, table};
 use contacts::{Contact, contacts};
+use elements::Elements;
 use start::Start;
+use unit::unit;
 
 pub fn run(input: &Input) -> Result<Answer, Failure> {
     let (compiled, warnings) = load(input)?;
@@ -61,6 +64,7 @@ fn told_of<'a>(found: &'a Found<'_>, warnings: &'a [Value]) -> CheckAnswer<'a> {
         coordinates.iter().map(|at| (format!("{}.{}", at.joint, at.name), json!(at.value))).collect()
     };
     let (mechanism, analysis) = (&compiled.mechanism, &compiled.analysis);
+    let elements = Elements::of(mechanism);
     let redundant = analysis.redundant.iter();
     let redundant = redundant.map(|Redundant { joint, row, reason }| RedundantAnswer { joint, row, reason });
     let cuts = compiled.topology.cuts.iter().map(|id| mechanism.joint(*id).name.as_str());
@@ -86,6 +90,10 @@ fn told_of<'a>(found: &'a Found<'_>, warnings: &'a [Value]) -> CheckAnswer<'a> {
         start: start.as_ref().map(Start::by_column).unwrap_or_default(),
         clearances: contacts.iter().map(Contact::clearance_answer).collect(),
         wear: contacts.iter().filter_map(Contact::wear_answer).collect(),
+        couplings: elements.couplings(),
+        stops: elements.stops(),
+        states: elements.states(),
+        sensors: elements.sensors(),
         modal_coordinates: analysis.modes,
         flexible: mechanism.bodies.iter().filter_map(flexible_entry).collect(),
         parameters: parameters(compiled, false).map(parameter_entry).collect(),
@@ -181,6 +189,7 @@ fn text(Found { compiled, assemblies, start, contacts }: &Found<'_>) -> String {
         let head = ["name", "kind", "parent", "child", "start", ""];
         let _ = write!(text, "\nJoints\n{}", short_table(&head, rows));
     }
+    text.push_str(&Elements::of(mechanism).text());
     text.push_str(&contacts::text(contacts));
     text.push_str(&paragraph(&wear_measures(compiled.description())));
     text.push_str(&missions::text(compiled.description()));
@@ -323,27 +332,4 @@ fn parameter_row(parameter: &Parameter) -> Vec<String> {
         _ => (parameter.value, unit(parameter.dimension)),
     };
     vec![parameter.name.clone(), number(value), unit, marks.join(", ")]
-}
-
-/// SI unit of a dimension in base units: `kg m^-3`.
-fn unit(dimension: Dimension) -> String {
-    let parts = [("kg", dimension.mass), ("m", dimension.length), ("s", dimension.time)];
-    let shown: Vec<String> = parts
-        .into_iter()
-        .filter(|(_, exponent)| *exponent != 0)
-        .map(|(name, exponent)| if exponent == 1 { name.to_owned() } else { format!("{name}^{exponent}") })
-        .collect();
-    if shown.is_empty() { "1".to_owned() } else { shown.join(" ") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_are_written_in_base_units() {
-        assert_eq!(unit(Dimension { length: -3, mass: 1, time: 0 }), "kg m^-3");
-        assert_eq!(unit(Dimension { length: 1, mass: 0, time: -2 }), "m s^-2");
-        assert_eq!(unit(Dimension::default()), "1");
-    }
 }

@@ -51,6 +51,18 @@ pub struct CheckAnswer<'a> {
     pub clearances: Vec<ClearanceAnswer<'a>>,
     /// Joints that wear, as they were read.
     pub wear: Vec<WearAnswer<'a>>,
+    /// Couplings, as they were read; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub couplings: Vec<CouplingAnswer<'a>>,
+    /// End stops, as they were read; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stops: Vec<StopAnswer<'a>>,
+    /// States of the file's own; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<StateAnswer<'a>>,
+    /// Sensors; absent where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensors: Vec<SensorAnswer<'a>>,
     /// Modal coordinates of flexible bodies.
     pub modal_coordinates: usize,
     /// Flexible bodies.
@@ -67,6 +79,76 @@ pub struct CheckAnswer<'a> {
     /// Remarks on the file.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
     pub warnings: &'a [Value],
+}
+
+/// A coupling: the sum of its terms is its offset.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct CouplingAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its kind, as in the file.
+    pub kind: &'a str,
+    /// Coordinates with their factors.
+    pub terms: Vec<CoupledAnswer>,
+    /// What the sum is; null where that depends on what the file leaves open.
+    pub offset: Option<f64>,
+    /// Unit of the sum: rad or m.
+    pub unit: &'a str,
+    /// Whether it holds exactly; else it gives way as a spring.
+    pub rigid: bool,
+}
+
+/// A coordinate in a coupling.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct CoupledAnswer {
+    /// The coordinate, `R1.q`, or `C.q2` of a joint with several.
+    pub coordinate: String,
+    /// Its factor, in SI.
+    pub factor: Option<f64>,
+}
+
+/// End stops of a coordinate.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct StopAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The coordinate, `R1.q`, or `C.q2` of a joint with several.
+    pub coordinate: String,
+    /// Where it is stopped from below; null where it is not.
+    pub lower: Option<f64>,
+    /// Where it is stopped from above; null where it is not.
+    pub upper: Option<f64>,
+    /// Unit of the coordinate: rad or m.
+    pub unit: &'a str,
+    /// Force over depth [N m/rad or N/m].
+    pub stiffness: Option<f64>,
+    /// What takes energy of an impact: none, damping, restitution (at any speed) or law (made for an impact speed).
+    pub loss: &'a str,
+}
+
+/// A state of the file's own.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct StateAnswer<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Its value at the start.
+    pub initial: Option<f64>,
+    /// Its unit in SI.
+    pub unit: String,
+}
+
+/// A sensor.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct SensorAnswer<'a> {
+    /// Its name; its column is `NAME.value`.
+    pub name: &'a str,
+    /// Its unit in SI.
+    pub unit: String,
 }
 
 /// A duty cycle, as it was read.
