@@ -84,7 +84,7 @@ pub struct File {
     /// Start values of joint coordinates and speeds that are met exactly.
     /// [table]
     pub initial: Table<StartSpec>,
-    /// Clearance of revolute and spherical joints, by joint, with the laws of contact.
+    /// Clearance of joints, by joint, with the laws of contact.
     /// [table]
     pub clearance: Table<ClearanceSpec>,
     /// Wear of joints with clearance, by joint.
