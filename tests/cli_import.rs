@@ -1,6 +1,10 @@
 //! `import`: a robot by the command line, and its inverse dynamics by another program.
 
 mod command;
+#[path = "cli_import/mjcf.rs"]
+mod mjcf;
+#[path = "cli_import/parts.rs"]
+mod parts;
 
 use std::collections::BTreeMap;
 
@@ -114,9 +118,9 @@ fn what_holds_a_panda_against_gravity_is_what_pinocchio_says() {
 }
 
 /// What `import` writes of a file and tells.
-fn imported(folder: &Folder, urdf: &str) -> (String, serde_json::Value) {
-    let file = folder.path("robot.toml");
-    let told = linkwear(&["import", urdf, "--out", &file, "--format", "json"]).json();
+fn imported(folder: &Folder, robot: &str) -> (String, serde_json::Value) {
+    let file = folder.path(&format!("{}.toml", robot.rsplit('/').next().expect("a name")));
+    let told = linkwear(&["import", robot, "--out", &file, "--format", "json"]).json();
     (std::fs::read_to_string(&file).expect("written"), told)
 }
 

@@ -22,6 +22,14 @@ pub enum Reach {
 /// # Errors
 /// Those of the system; more bytes than `most`, of which no more are read; text that is not UTF-8.
 pub fn read_text(path: &Path, most: Limit) -> io::Result<String> {
+    text(read_bytes(path, most)?)
+}
+
+/// The bytes at a path that a person gives: a file, or a stream up to its end.
+///
+/// # Errors
+/// Those of the system; more bytes than `most`, of which no more are read.
+pub fn read_bytes(path: &Path, most: Limit) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     File::open(path)?.take(most.most as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > most.most {
@@ -31,6 +39,10 @@ pub fn read_text(path: &Path, most: Limit) -> io::Result<String> {
             format!("it has more than {most} {what}; {help}"),
         ));
     }
+    Ok(bytes)
+}
+
+fn text(bytes: Vec<u8>) -> io::Result<String> {
     String::from_utf8(bytes).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
@@ -39,6 +51,20 @@ pub fn read_text(path: &Path, most: Limit) -> io::Result<String> {
 /// # Errors
 /// As [`read_text`]; a file out of reach; what is no regular file, and could keep its reader waiting.
 pub fn read_named(from: &Path, name: &str, reach: Reach, most: Limit) -> io::Result<(PathBuf, String)> {
+    let (path, bytes) = read_named_bytes(from, name, reach, most)?;
+    Ok((path, text(bytes)?))
+}
+
+/// The bytes of a file that the file `from` names, and its path.
+///
+/// # Errors
+/// As [`read_bytes`]; a file out of reach; what is no regular file, and could keep its reader waiting.
+pub fn read_named_bytes(
+    from: &Path,
+    name: &str,
+    reach: Reach,
+    most: Limit,
+) -> io::Result<(PathBuf, Vec<u8>)> {
     let folder = from.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let path = folder.join(name);
     let real = path.canonicalize()?;
@@ -48,5 +74,5 @@ pub fn read_named(from: &Path, name: &str, reach: Reach, most: Limit) -> io::Res
     if !fs::metadata(&real)?.is_file() {
         return Err(io::Error::other("it is no regular file"));
     }
-    Ok((path, read_text(&real, most)?))
+    Ok((path, read_bytes(&real, most)?))
 }

@@ -23,6 +23,10 @@ pub const FILE_BYTES: Limit =
 pub const DATA_BYTES: Limit =
     Limit { what: "bytes", most: 32 << 20, help: "give fewer modes, nodes or readings" };
 
+/// A mesh: two million triangles of a binary file.
+pub const MESH_BYTES: Limit =
+    Limit { what: "bytes", most: 96 << 20, help: "export the mesh with fewer triangles" };
+
 /// Bodies after `[repeat]` groups have made their copies. Preflight factors matrices of speeds by rows, which takes
 /// a minute at six hundred.
 pub const BODIES: Limit =

@@ -5,6 +5,7 @@ mod measured;
 use std::num::NonZero;
 use std::path::PathBuf;
 
+use crate::import::LengthUnit;
 use crate::life::Shard;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use linkwear_codegen::render::TextFormat;
@@ -19,7 +20,7 @@ use super::starters::Starter;
 use super::study::StudyArguments;
 #[cfg(feature = "page")]
 use super::value::positive;
-use super::value::{one_of, output, threads};
+use super::value::{density, one_of, output, threads};
 pub use measured::{FitArguments, PlanArguments, PredictArguments};
 
 const NOTATIONS: [(&str, TextFormat); 3] =
@@ -136,9 +137,11 @@ pub enum Command {
     #[command(after_help = "Examples:\n  linkwear new four_bar && linkwear check four_bar.toml\n  \
                       linkwear new press --starter slider-crank && linkwear life press.toml")]
     New(NewArguments),
-    /// Make a mechanism file of a robot's URDF; what is not carried over is listed.
+    /// Make a mechanism file of a robot (URDF, MJCF), or of a part (STL) at a density; what is not carried over is listed.
     #[command(
-        after_help = "Example:\n  linkwear import examples/data/arm.urdf --out arm.toml && linkwear check arm.toml"
+        after_help = "Examples:\n  linkwear import examples/data/arm.urdf --out arm.toml && linkwear check arm.toml\n  \
+                      linkwear import examples/data/press/press.xml --out press.toml\n  \
+                      linkwear import examples/data/press/lever.stl --density \"7850 kg/m^3\" --out lever.toml"
     )]
     Import(ImportArguments),
     /// Say what two results of one kind, or two mechanism files, have different, and by how much.
@@ -358,14 +361,23 @@ pub struct NewArguments {
 
 #[derive(Debug, Args)]
 pub struct ImportArguments {
-    /// Robot (URDF; of a xacro file what `xacro` makes of it).
+    /// Robot (URDF, or MJCF of MuJoCo; of a xacro file what `xacro` makes of it), or a part (STL).
     pub file: PathBuf,
     /// Where the mechanism file goes; one that is there is not replaced.
     #[arg(short, long, value_name = "FILE.toml", value_parser = output())]
     pub out: PathBuf,
-    /// Let the root link move freely, as that of a robot that walks or flies; without it is the ground.
+    /// Let the root link of a URDF file move freely, as that of a robot that walks or flies; without it is the ground.
     #[arg(long)]
     pub floating: bool,
+    /// Density of a part, or of what a URDF file gives shapes and no mass: --density "7850 kg/m^3".
+    #[arg(long, value_name = "QUANTITY", value_parser = density)]
+    pub density: Option<f64>,
+    /// Unit of the coordinates of a part.
+    #[arg(long, value_name = "UNIT", value_parser = one_of(LengthUnit::ALL.map(|unit| (unit.name(), unit))), default_value = LengthUnit::default().name())]
+    pub unit: LengthUnit,
+    /// Let the robot name meshes and included files outside its folder.
+    #[arg(long)]
+    pub allow_outside_data: bool,
 }
 
 #[cfg(test)]

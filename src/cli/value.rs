@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::builder::{OsStringValueParser, PossibleValuesParser, TypedValueParser};
 use linkwear_codegen::limits::THREADS;
+use linkwear_codegen::spec::{Dimension, parse_expression};
 
 use crate::study::Axis;
 
@@ -78,6 +79,19 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err("a positive number is needed".to_owned()),
+    }
+}
+
+/// A density with its unit [kg/m^3].
+pub fn density(text: &str) -> Result<f64, String> {
+    let found = parse_expression(text, &|_| false).ok().and_then(|read| read.quantity());
+    match found {
+        Some((value, dimension))
+            if dimension == Dimension::of(-3, 1, 0) && value > 0.0 && value.is_finite() =>
+        {
+            Ok(value)
+        }
+        _ => Err("write a density with its unit, as \"7850 kg/m^3\" or \"2.7 t/m^3\"".to_owned()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Why a robot is no mechanism. Never knows its file.
+//! Why a file of another format is no mechanism.
 
 use thiserror::Error;
 
@@ -6,7 +6,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{message}")]
 pub struct ImportError {
-    /// Line from 1.
+    /// The file that it is in, as another one names it; None for the one that was given.
+    pub file: Option<String>,
+    /// Line from 1; 0 where the file has no lines.
     pub line: usize,
     /// What is wrong.
     pub message: String,
@@ -16,6 +18,6 @@ pub struct ImportError {
 
 impl ImportError {
     pub(super) fn new(line: usize, message: impl Into<String>, cure: impl Into<String>) -> Self {
-        Self { line, message: message.into(), cure: cure.into() }
+        Self { file: None, line, message: message.into(), cure: cure.into() }
     }
 }

@@ -2,15 +2,15 @@
 //! knows text.
 
 use super::error::ImportError;
-use super::place::Matrix;
-use super::robot::{Base, Kind, Mass, Robot};
+use super::mass::{Mass, together};
+use super::robot::{Base, Kind, Robot};
 
 /// Links that move as one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// The link nearest to the root, after which the body is called.
     pub first: usize,
-    /// All together, in the root's frame; None without mass.
+    /// All together, in the root's frame; None without mass: the ground, and links between two joints.
     pub mass: Option<Mass>,
 }
 
@@ -44,8 +44,7 @@ pub fn merged(robot: &Robot, base: Base, left_out: &mut Vec<String>) -> Result<B
     }
     for (link, place) in places.iter().enumerate() {
         let Some(mass) = robot.links[link].mass else { continue };
-        let moved =
-            Mass { mass: mass.mass, centre: place.point(mass.centre), inertia: place.tensor(&mass.inertia) };
+        let moved = mass.seen_from(place);
         let body = &mut bodies[own[link]];
         body.mass = Some(body.mass.map_or(moved, |before| together(&before, &moved)));
     }
@@ -67,23 +66,27 @@ pub fn merged(robot: &Robot, base: Base, left_out: &mut Vec<String>) -> Result<B
         }
         let link = &robot.links[bodies[body].first];
         let carries = (body + 1..bodies.len()).any(|other| kept[other] && parent(other) == Some(body));
+        if carries && link.is_between {
+            continue;
+        }
         if carries || body == 0 {
             let message = format!("link `{}` moves and has no mass", link.name);
             let cure = if body == 0 {
                 "give it an <inertial>, or hold it: without --floating it is the ground"
             } else {
-                "give it an <inertial> with its mass and inertia"
+                "give it an <inertial> with its mass and inertia, or its shapes a density (--density, for URDF)"
             };
             return Err(ImportError::new(link.line, message, cure));
         }
         kept[body] = false;
+        if link.is_between {
+            continue;
+        }
         left_out.push(format!("{}: a link without mass that carries nothing, with its joint", link.name));
     }
     if base == Base::Fixed && bodies[0].mass.is_some() {
-        left_out.push(format!(
-            "mass of {}: the root is the ground (--floating lets it move)",
-            robot.links[robot.root].name
-        ));
+        let cure = if robot.is_on_ground { "" } else { " (--floating lets it move)" };
+        left_out.push(format!("mass of {}: the root is the ground{cure}", robot.links[robot.root].name));
     }
     let mut number = Vec::new();
     let mut next = 0;
@@ -100,22 +103,4 @@ fn shortened(names: &[String]) -> String {
     let most = 6;
     let more = if names.len() > most { ", .." } else { "" };
     format!("{}{more}", names[..names.len().min(most)].join(", "))
-}
-
-/// Two masses as one: Steiner's theorem.
-fn together(a: &Mass, b: &Mass) -> Mass {
-    let mass = a.mass + b.mass;
-    let centre = std::array::from_fn(|i| (a.mass * a.centre[i] + b.mass * b.centre[i]) / mass);
-    let about = |part: &Mass| -> Matrix {
-        let d: [f64; 3] = std::array::from_fn(|i| part.centre[i] - centre[i]);
-        let square: f64 = d.iter().map(|x| x * x).sum();
-        let more = |i: usize, j: usize| part.mass * (if i == j { square } else { 0.0 } - d[i] * d[j]);
-        std::array::from_fn(|i| std::array::from_fn(|j| part.inertia[i][j] + more(i, j)))
-    };
-    let (first, second) = (about(a), about(b));
-    Mass {
-        mass,
-        centre,
-        inertia: std::array::from_fn(|i| std::array::from_fn(|j| first[i][j] + second[i][j])),
-    }
 }

@@ -1,6 +1,7 @@
 //! A robot as links and joints in a tree, whatever format it came from. Never knows text.
 
-use super::place::{Matrix, Place};
+use super::mass::Mass;
+use super::place::Place;
 
 /// Whether the root link is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -12,7 +13,7 @@ pub enum Base {
     Floating,
 }
 
-/// Links and joints.
+/// Links and joints, and what else moves them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     pub name: String,
@@ -21,6 +22,13 @@ pub struct Robot {
     pub joints: Vec<Joint>,
     /// Link of no joint's child.
     pub root: usize,
+    /// Whether the format says itself that the root is the ground.
+    pub is_on_ground: bool,
+    /// Acceleration of free fall [m/s^2]; None where the format has none.
+    pub gravity: Option<[f64; 3]>,
+    /// What closes loops.
+    pub closures: Vec<Closure>,
+    pub actuators: Vec<Actuator>,
 }
 
 /// A rigid part.
@@ -30,17 +38,8 @@ pub struct Link {
     pub line: usize,
     /// None where it has no mass.
     pub mass: Option<Mass>,
-}
-
-/// Mass of a part.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mass {
-    /// [kg]
-    pub mass: f64,
-    /// In the link's frame [m].
-    pub centre: [f64; 3],
-    /// About the centre, by axes parallel to the link's frame [kg m^2].
-    pub inertia: Matrix,
+    /// Whether it only stands between two joints of one body of the file, and so has no mass.
+    pub is_between: bool,
 }
 
 /// How links move.
@@ -49,6 +48,7 @@ pub enum Kind {
     Revolute,
     Prismatic,
     Planar,
+    Spherical,
     Free,
     Fixed,
 }
@@ -69,12 +69,20 @@ pub struct Joint {
     pub child: usize,
     /// Frame of the child link in that of the parent while the coordinate is 0.
     pub place: Place,
+    /// The joint's point in the child's frame [m].
+    pub at: [f64; 3],
     /// In the child's frame, of any length.
     pub axis: [f64; 3],
     /// Viscous [N m s/rad or N s/m]; 0: none.
     pub damping: f64,
+    /// Spring along the coordinate.
+    pub spring: Option<Spring>,
+    /// Inertia that the coordinate has besides that of the links [kg m^2 or kg]: of a rotor behind a gear.
+    pub armature: f64,
     /// The joint that it moves with.
     pub follows: Option<Follows>,
+    /// Where the coordinate is held [rad or m].
+    pub held: Option<f64>,
     /// What is told of it beside its equations.
     pub remarks: Vec<String>,
 }
@@ -87,7 +95,61 @@ pub struct Follows {
     pub plus: f64,
 }
 
+/// A spring along a coordinate, or about any axis of a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// [N m/rad or N/m]
+    pub stiffness: f64,
+    /// Coordinate at which it is unloaded [rad or m]; of a ball 0.
+    pub rest: f64,
+}
+
+/// A joint that closes a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    pub name: String,
+    /// What it is called in the file.
+    pub what: &'static str,
+    /// Spherical or fixed.
+    pub kind: Kind,
+    pub links: [usize; 2],
+    /// Its point in the frame of each link [m].
+    pub at: [[f64; 3]; 2],
+}
+
+/// What a signal u from outside makes a joint feel: g clamp(gain clamp(u) + b_0 + b_1 (g q + length_0) + b_2 g v).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Actuator {
+    pub name: String,
+    pub joint: usize,
+    /// g.
+    pub gear: f64,
+    pub gain: f64,
+    /// b.
+    pub bias: [f64; 3],
+    /// Length of the actuator while the coordinate is 0.
+    pub length: f64,
+    /// Limits of u.
+    pub control: Option<[f64; 2]>,
+    /// Limits of the force before the gear.
+    pub force: Option<[f64; 2]>,
+}
+
 impl Robot {
+    /// A tree of links and joints.
+    pub fn new(name: String, links: Vec<Link>, joints: Vec<Joint>, root: usize) -> Self {
+        Self {
+            name,
+            links,
+            joints,
+            root,
+            is_on_ground: false,
+            gravity: None,
+            closures: Vec::new(),
+            actuators: Vec::new(),
+        }
+    }
+
     /// Frame of every link in that of the root, all coordinates being 0. Links come behind their parents in `order`.
     pub fn places(&self) -> Vec<Place> {
         let mut places = vec![Place::default(); self.links.len()];

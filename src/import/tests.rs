@@ -4,6 +4,9 @@ use linkwear_codegen::{Options, SourceFile, compile};
 
 use super::*;
 
+mod meshes;
+mod mjcf;
+
 const ARM: &str = include_str!("../../examples/data/arm.urdf");
 
 /// One link on a joint, and what else stands within the joint.
@@ -139,7 +142,8 @@ fn files_that_are_no_robots_are_refused_with_line_and_cure() {
         (String::new(), "no XML", 1),
         ("<robot>\n<link></robot>".to_owned(), "no XML", 2),
         (deep, "no XML", 1),
-        ("<mujoco/>".to_owned(), "not of <robot>", 1),
+        ("<sdf/>".to_owned(), "not of <robot> or <mujoco>", 1),
+        (format!("{}{}", "<a>".repeat(1000), "</a>".repeat(1000)), "more than 300 deep", 1),
         ("<robot/>".to_owned(), "no links", 1),
         (loops.to_owned(), "circle", 1),
         ("<robot name=\"r\">\n<link/></robot>".to_owned(), "no `name`", 2),
@@ -169,16 +173,43 @@ fn files_that_are_no_robots_are_refused_with_line_and_cure() {
     assert!(error.message.contains("forearm"), "{error:?}");
 }
 
+/// A letter of a file in another place, the file cut there, a word in the place of a word: by a step that meets all parts.
+fn mutants(text: &str) -> impl Iterator<Item = [String; 3]> + '_ {
+    const WORDS: [&str; 9] =
+        ["", "0", "-1", "1e400", "nan", "1e-300 1e300 -1e300", "world", "\u{e9}", "true"];
+    let words: Vec<(usize, &str)> = text.match_indices('"').collect();
+    (0..600).map(move |at| {
+        let bytes = text.as_bytes();
+        let mut changed = bytes.to_vec();
+        let (to, from) = ((at * 7919) % bytes.len(), (at * 104_729) % bytes.len());
+        changed[to] = bytes[from];
+        let quoted = 2 * ((at * 7919) % (words.len() / 2));
+        let (start, end) = (words[quoted].0 + 1, words[quoted + 1].0);
+        let replaced = format!("{}{}{}", &text[..start], WORDS[at % WORDS.len()], &text[end..]);
+        let cut = text[..text.floor_char_boundary(to)].to_owned();
+        [String::from_utf8_lossy(&changed).into_owned(), cut, replaced]
+    })
+}
+
+/// An answer, or a fault with its place and cure; what is written is TOML.
+fn answered(text: &str, base: Base, files: &dyn Files) {
+    for density in [None, Some(1000.0)] {
+        match from_robot(text, base, density, files) {
+            Ok(found) => {
+                let made = found.text.parse::<toml::Table>();
+                assert!(made.is_ok(), "{made:?}\n{}\n{text}", found.text);
+            }
+            Err(error) => {
+                assert!(error.line > 0 && !error.message.is_empty() && !error.cure.is_empty(), "{error:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn cut_and_mutated_files_are_answered() {
-    // A letter of one file in another place: 2000 of them, by a step that meets all parts.
-    let bytes = ARM.as_bytes();
-    for at in 0..2000 {
-        let mut text = bytes.to_vec();
-        let (to, from) = ((at * 7919) % text.len(), (at * 104_729) % text.len());
-        text[to] = bytes[from];
-        let text = String::from_utf8_lossy(&text);
-        let _ = from_urdf(&text, Base::Fixed);
-        let _ = from_urdf(&text[..text.floor_char_boundary(to)], Base::Floating);
+    for mutant in mutants(ARM) {
+        mutant.iter().for_each(|text| answered(text, Base::Fixed, &NoFiles));
+        answered(&mutant[1], Base::Floating, &NoFiles);
     }
 }

@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use roxmltree::Node;
-
 use super::error::ImportError;
+use super::files::Files;
+use super::mass::{Mass, Shape, together};
+use super::meshes::Meshes;
 use super::place::Place;
-use super::robot::{Follows, Joint, Kind, Link, Mass, Robot};
-use super::xml::{child, children, document, line, needed, number, numbers};
+use super::robot::{Follows, Joint, Kind, Link, Robot};
+use super::xml::Element;
 
 /// Elements that say nothing of how a robot moves, and what they are.
 const IGNORED: [(&str, &str); 5] = [
@@ -19,62 +20,62 @@ const IGNORED: [(&str, &str); 5] = [
 ];
 
 /// The robot of a file, and what is not carried over.
-pub fn read(text: &str) -> Result<(Robot, Vec<String>), ImportError> {
-    let file = document(text)?;
-    let root = file.root_element();
-    if root.tag_name().name() != "robot" {
-        let message = format!("the file is of <{}>, not of <robot>", root.tag_name().name());
-        return Err(ImportError::new(line(root), message, "give a URDF file"));
-    }
-    if let Some(macros) = root
-        .descendants()
-        .find(|node| node.tag_name().namespace().is_some_and(|space| space.contains("xacro")))
-    {
+pub fn read(
+    root: &Element,
+    density: Option<f64>,
+    files: &dyn Files,
+) -> Result<(Robot, Vec<String>), ImportError> {
+    let meshes = Meshes::new(files);
+    let all = root.descendants();
+    if let Some(macros) = all.iter().find(|element| element.is_macro) {
         let cure = "write it out first: `xacro FILE.xacro > FILE.urdf`";
-        return Err(ImportError::new(line(macros), "the file has macros of xacro", cure));
+        return Err(macros.fault("the file has macros of xacro", cure));
     }
     let mut left_out = Vec::new();
+    let mut shaped = 0;
     let mut by_name = HashMap::new();
     let mut links = Vec::new();
-    for node in children(root, "link") {
-        let link = link(node)?;
+    for node in root.all("link") {
+        let mut link = link(node)?;
+        if let Some(density) = density.filter(|_| node.first("inertial").is_none()) {
+            link.mass = shapes(node, density, &meshes)?;
+            shaped += usize::from(link.mass.is_some());
+        }
         if by_name.insert(link.name.clone(), links.len()).is_some() {
             let message = format!("two links are called `{}`", link.name);
-            return Err(ImportError::new(line(node), message, "give each a name of its own"));
+            return Err(node.fault(message, "give each a name of its own"));
         }
         links.push(link);
     }
     let mut joints: Vec<Joint> = Vec::new();
-    for node in children(root, "joint") {
+    for node in root.all("joint") {
         let joint = joint(node, &by_name, &mut left_out)?;
         if joints.iter().any(|other| other.name == joint.name) {
             let message = format!("two joints are called `{}`", joint.name);
-            return Err(ImportError::new(line(node), message, "give each a name of its own"));
+            return Err(node.fault(message, "give each a name of its own"));
         }
         if let Some(other) = joints.iter().find(|other| other.child == joint.child) {
             let name = &links[joint.child].name;
             let message =
                 format!("link `{name}` is the child of the joints `{}` and `{}`", other.name, joint.name);
-            return Err(ImportError::new(
-                line(node),
-                message,
-                "URDF is for trees; close the loop in the mechanism file",
-            ));
+            return Err(node.fault(message, "URDF is for trees; close the loop in the mechanism file"));
         }
         joints.push(joint);
     }
-    for (at, node) in children(root, "joint").enumerate() {
+    for (at, node) in root.all("joint").enumerate() {
         joints[at].follows = follows(node, at, &joints, &mut left_out)?;
     }
-    let robot = Robot {
-        name: root.attribute("name").unwrap_or("robot").to_owned(),
-        root: tree(&links, &joints, line(root))?,
-        links,
-        joints,
-    };
+    let name = root.attribute("name").unwrap_or("robot").to_owned();
+    let tree_root = tree(&links, &joints, root)?;
+    let robot = Robot::new(name, links, joints, tree_root);
+    if let Some(density) = density {
+        left_out.push(format!(
+            "masses of {shaped} link(s) without <inertial>: of their shapes to touch, else to look at, at {density} kg/m^3"
+        ));
+    }
     let mut count: BTreeMap<&str, usize> = BTreeMap::new();
-    for node in root.descendants().filter(Node::is_element) {
-        *count.entry(node.tag_name().name()).or_default() += 1;
+    for element in all {
+        *count.entry(&element.tag).or_default() += 1;
     }
     for (name, what) in
         [("visual", "shapes to look at"), ("collision", "shapes to touch")].into_iter().chain(IGNORED)
@@ -87,7 +88,7 @@ pub fn read(text: &str) -> Result<(Robot, Vec<String>), ImportError> {
 }
 
 /// The link that everything hangs on.
-fn tree(links: &[Link], joints: &[Joint], at: usize) -> Result<usize, ImportError> {
+fn tree(links: &[Link], joints: &[Joint], at: &Element) -> Result<usize, ImportError> {
     let is_child = |link: usize| joints.iter().any(|joint| joint.child == link);
     let roots: Vec<usize> = (0..links.len()).filter(|link| !is_child(*link)).collect();
     let [root] = roots[..] else {
@@ -97,50 +98,41 @@ fn tree(links: &[Link], joints: &[Joint], at: usize) -> Result<usize, ImportErro
             0 => "every link is the child of another: the joints form a circle".to_owned(),
             _ => format!("{} links are the child of no joint: {}", roots.len(), names.join(", ")),
         };
-        return Err(ImportError::new(
-            at,
-            message,
-            "one link is the root, every other the child of one joint",
-        ));
+        return Err(at.fault(message, "one link is the root, every other the child of one joint"));
     };
-    let robot = Robot { name: String::new(), links: links.to_vec(), joints: joints.to_vec(), root };
+    let robot = Robot::new(String::new(), links.to_vec(), joints.to_vec(), root);
     if robot.order().len() < joints.len() {
         let message = "some joints hang on each other and not on the root: they form a circle";
-        return Err(ImportError::new(
-            at,
-            message,
-            "one link is the root, every other the child of one joint",
-        ));
+        return Err(at.fault(message, "one link is the root, every other the child of one joint"));
     }
     Ok(root)
 }
 
-fn place(node: Node<'_, '_>) -> Result<Place, ImportError> {
-    let Some(origin) = child(node, "origin") else { return Ok(Place::default()) };
+fn place(node: &Element) -> Result<Place, ImportError> {
+    let Some(origin) = node.first("origin") else { return Ok(Place::default()) };
     let zero = Some([0.0; 3]);
-    Ok(Place::of(numbers(origin, "xyz", zero)?, numbers(origin, "rpy", zero)?))
+    Ok(Place::of(origin.numbers("xyz", zero)?, origin.numbers("rpy", zero)?))
 }
 
-fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
-    let name = needed(node, "name")?.to_owned();
-    let mut link = Link { name, line: line(node), mass: None };
-    let Some(inertial) = child(node, "inertial") else { return Ok(link) };
+fn link(node: &Element) -> Result<Link, ImportError> {
+    let name = node.needed("name")?.to_owned();
+    let mut link = Link { name, line: node.line, mass: None, is_between: false };
+    let Some(inertial) = node.first("inertial") else { return Ok(link) };
     let part = |tag: &'static str| {
-        child(inertial, tag).ok_or_else(|| {
+        inertial.first(tag).ok_or_else(|| {
             let message = format!("<inertial> of link `{}` has no <{tag}>", link.name);
-            ImportError::new(line(inertial), message, "give mass and inertia, or take <inertial> away")
+            inertial.fault(message, "give mass and inertia, or take <inertial> away")
         })
     };
-    let mass = number(part("mass")?, "value", None)?;
+    let mass = part("mass")?.number("value", None)?;
     let tensor = part("inertia")?;
-    let entry = |key: &str| {
-        number(tensor, key, if key.as_bytes()[1] == key.as_bytes()[2] { None } else { Some(0.0) })
-    };
+    let entry =
+        |key: &str| tensor.number(key, if key.as_bytes()[1] == key.as_bytes()[2] { None } else { Some(0.0) });
     let (xx, yy, zz) = (entry("ixx")?, entry("iyy")?, entry("izz")?);
     let (xy, xz, yz) = (entry("ixy")?, entry("ixz")?, entry("iyz")?);
     if mass < 0.0 {
         let message = format!("the mass of link `{}` is {mass} kg", link.name);
-        return Err(ImportError::new(line(inertial), message, "a mass is positive"));
+        return Err(inertial.fault(message, "a mass is positive"));
     }
     if mass > 0.0 {
         let place = place(inertial)?;
@@ -148,18 +140,69 @@ fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
         link.mass = Some(Mass { mass, centre: place.origin, inertia });
     } else if [xx, yy, zz].iter().any(|value| *value != 0.0) {
         let message = format!("link `{}` has an inertia and no mass", link.name);
-        return Err(ImportError::new(line(inertial), message, "give both, or take <inertial> away"));
+        return Err(inertial.fault(message, "give both, or take <inertial> away"));
     }
     Ok(link)
 }
 
+/// Mass of the shapes of a link: those to touch, else those to look at.
+fn shapes(node: &Element, density: f64, meshes: &Meshes<'_>) -> Result<Option<Mass>, ImportError> {
+    let kind = if node.first("collision").is_some() { "collision" } else { "visual" };
+    let mut all: Option<Mass> = None;
+    for part in node.all(kind) {
+        let Some(shape) = part.first("geometry").and_then(|geometry| geometry.children.first()) else {
+            continue;
+        };
+        let place = place(part)?;
+        let positive = |key: &str| {
+            let value = shape.number(key, None)?;
+            let fault =
+                || shape.fault(format!("`{key}` of <{}> is {value}", shape.tag), "it is positive, in metres");
+            if value > 0.0 { Ok(value) } else { Err(fault()) }
+        };
+        let plain = |shape: Shape| shape.of_mass(density * shape.volume());
+        let mass = match &*shape.tag {
+            "box" => {
+                let size: [f64; 3] = shape.numbers("size", None)?;
+                if size.iter().any(|x| *x <= 0.0) {
+                    return Err(
+                        shape.fault("`size` of <box> is not positive", "give three lengths in metres")
+                    );
+                }
+                plain(Shape::Box { half: size.map(|x| 0.5 * x) })
+            }
+            "cylinder" => {
+                plain(Shape::Cylinder { radius: positive("radius")?, half: 0.5 * positive("length")? })
+            }
+            "sphere" => plain(Shape::Sphere { radius: positive("radius")? }),
+            "mesh" => {
+                let name = shape.needed("filename")?;
+                let scale: [f64; 3] = shape.numbers("scale", Some([1.0; 3]))?;
+                let moved = |corner: [f64; 3]| std::array::from_fn(|i| corner[i] * scale[i]);
+                let solid = meshes.solid(name, moved).map_err(|why| {
+                    let message = format!("the mass of the mesh `{name}` is not known: {why}");
+                    shape.fault(message, "give the link an <inertial> with its mass and inertia; files outside the folder are read with --allow-outside-data")
+                })?;
+                solid.of_density(density)
+            }
+            other => {
+                let cure = "shapes are box, cylinder, sphere and mesh; else give the link an <inertial>";
+                return Err(shape.fault(format!("a shape is a <{other}>"), cure));
+            }
+        };
+        let mass = mass.seen_from(&place);
+        all = Some(all.map_or(mass, |before| together(&before, &mass)));
+    }
+    Ok(all)
+}
+
 fn joint(
-    node: Node<'_, '_>,
+    node: &Element,
     links: &HashMap<String, usize>,
     left_out: &mut Vec<String>,
 ) -> Result<Joint, ImportError> {
-    let name = needed(node, "name")?.to_owned();
-    let kind = match needed(node, "type")? {
+    let name = node.needed("name")?.to_owned();
+    let kind = match node.needed("type")? {
         "revolute" | "continuous" => Kind::Revolute,
         "prismatic" => Kind::Prismatic,
         "fixed" => Kind::Fixed,
@@ -168,30 +211,26 @@ fn joint(
         other => {
             let message = format!("joint `{name}` is of the type \"{other}\"");
             let cure = "types are revolute, continuous, prismatic, fixed, floating, planar";
-            return Err(ImportError::new(line(node), message, cure));
+            return Err(node.fault(message, cure));
         }
     };
     let side = |tag: &'static str| {
-        let element = child(node, tag).ok_or_else(|| {
+        let element = node.first(tag).ok_or_else(|| {
             let message = format!("joint `{name}` has no <{tag}>");
-            ImportError::new(line(node), message, format!("add `<{tag} link=\"..\"/>`"))
+            node.fault(message, format!("add `<{tag} link=\"..\"/>`"))
         })?;
-        let link = needed(element, "link")?;
+        let link = element.needed("link")?;
         links.get(link).copied().ok_or_else(|| {
             let message = format!("joint `{name}` names the link `{link}`, which is not in the file");
-            ImportError::new(line(element), message, "names are case-sensitive")
+            element.fault(message, "names are case-sensitive")
         })
     };
     let (parent, child_link) = (side("parent")?, side("child")?);
-    let axis = child(node, "axis")
-        .map_or(Ok([1.0, 0.0, 0.0]), |axis| numbers(axis, "xyz", Some([1.0, 0.0, 0.0])))?;
+    let axis =
+        node.first("axis").map_or(Ok([1.0, 0.0, 0.0]), |axis| axis.numbers("xyz", Some([1.0, 0.0, 0.0])))?;
     let needs_axis = matches!(kind, Kind::Revolute | Kind::Prismatic | Kind::Planar);
     if needs_axis && axis == [0.0; 3] {
-        return Err(ImportError::new(
-            line(node),
-            format!("the axis of joint `{name}` is 0 0 0"),
-            "give its direction",
-        ));
+        return Err(node.fault(format!("the axis of joint `{name}` is 0 0 0"), "give its direction"));
     }
     let mut joint = Joint {
         name,
@@ -200,28 +239,28 @@ fn joint(
         child: child_link,
         place: place(node)?,
         axis,
+        at: [0.0; 3],
         damping: 0.0,
+        spring: None,
+        armature: 0.0,
         follows: None,
+        held: None,
         remarks: Vec::new(),
     };
     let is_one = kind.is_single();
-    if let Some(dynamics) = child(node, "dynamics").filter(|_| is_one) {
-        joint.damping = number(dynamics, "damping", Some(0.0))?;
+    if let Some(dynamics) = node.first("dynamics").filter(|_| is_one) {
+        joint.damping = dynamics.number("damping", Some(0.0))?;
         if joint.damping < 0.0 {
             let message = format!("the damping of joint `{}` is {}", joint.name, joint.damping);
-            return Err(ImportError::new(
-                line(dynamics),
-                message,
-                "damping takes energy away: it is positive",
-            ));
+            return Err(dynamics.fault(message, "damping takes energy away: it is positive"));
         }
-        let friction = number(dynamics, "friction", Some(0.0))?;
+        let friction = dynamics.number("friction", Some(0.0))?;
         if friction != 0.0 {
             left_out.push(format!("friction of {}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {}*tanh({}.v/(0.01 {}))\"", joint.name, force_unit(kind), joint.name, speed_unit(kind)));
         }
     }
-    if let Some(limit) = child(node, "limit").filter(|_| is_one) {
-        let of = |key: &str| number(limit, key, Some(0.0));
+    if let Some(limit) = node.first("limit").filter(|_| is_one) {
+        let of = |key: &str| limit.number(key, Some(0.0));
         let (effort, velocity) = (of("effort")?, of("velocity")?);
         let unit = if kind == Kind::Revolute { "rad" } else { "m" };
         let range = if node.attribute("type") == Some("continuous") {
@@ -240,15 +279,15 @@ fn joint(
 
 /// The joint that the joint `at` mimics.
 fn follows(
-    node: Node<'_, '_>,
+    node: &Element,
     at: usize,
     joints: &[Joint],
     left_out: &mut Vec<String>,
 ) -> Result<Option<Follows>, ImportError> {
-    let Some(mimic) = child(node, "mimic") else { return Ok(None) };
-    let (own, other) = (&joints[at], needed(mimic, "joint")?);
-    let (times, plus) = (number(mimic, "multiplier", Some(1.0))?, number(mimic, "offset", Some(0.0))?);
-    let wrong = |message: String| ImportError::new(line(mimic), message, "name the joint that it moves with");
+    let Some(mimic) = node.first("mimic") else { return Ok(None) };
+    let (own, other) = (&joints[at], mimic.needed("joint")?);
+    let (times, plus) = (mimic.number("multiplier", Some(1.0))?, mimic.number("offset", Some(0.0))?);
+    let wrong = |message: String| mimic.fault(message, "name the joint that it moves with");
     let leader = joints
         .iter()
         .position(|joint| joint.name == other)

@@ -146,6 +146,8 @@ fn equations_and_code_are_as_told() {
         asked(&[words, PENDULUM, "--out", &folder.path(words)]);
     }
     asked(&["import", "examples/data/arm.urdf", "--out", &folder.path("arm.toml")]);
+    let lever = "examples/data/press/lever.stl";
+    asked(&["import", lever, "--density", "7850 kg/m^3", "--out", &folder.path("lever.toml")]);
     asked(&["completions", "bash"]);
     asked(&["man"]);
     held("new", &folder.linkwear(&["new", "fresh", "--format", "json"]).json(), "new");

@@ -227,6 +227,29 @@ pub struct ImportAnswer {
     pub joints: usize,
     /// What was not carried over, or was changed on the way.
     pub left_out: Vec<String>,
+    /// What a part is; absent for robots.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<PartAnswer>,
+}
+
+/// A part made from a mesh.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct PartAnswer {
+    /// Triangles of the mesh.
+    pub triangles: usize,
+    /// Its extent along the axes of the mesh [m].
+    pub size_m: [f64; 3],
+    /// Volume [m^3].
+    pub volume_m3: f64,
+    /// Density [kg/m^3].
+    pub density_kg_m3: f64,
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Centre of mass, in the frame of the mesh [m].
+    pub centre_m: [f64; 3],
+    /// About the centre, along the axes of the mesh: xx, yy, zz, xy, xz, yz as entries of the matrix [kg m^2].
+    pub inertia_kg_m2: [f64; 6],
 }
 
 /// Manual pages.

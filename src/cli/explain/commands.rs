@@ -94,8 +94,8 @@ pub const COMMANDS: &[Command] = &[
     Command {
         code: "C0011",
         title: "A file with data or results that is wrong.",
-        text: "A CSV without the column that is asked for, a cell that is no number, times that fall, a fit that is none. The \
-               message has the line.",
+        text: "A CSV without the column that is asked for, a cell that is no number, times that fall, a fit that is none, a robot \
+               whose joints form a circle, a mesh that is not closed. The message has the line.",
         wrong: "linkwear fit examples/data/sliding_wear_100g.csv --unit unit --wear wear --exposure cycles",
         right: "linkwear fit examples/data/sliding_wear_100g.csv --unit unit --wear wear_um --exposure cycles --from-zero --power-law",
     },
