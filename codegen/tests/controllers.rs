@@ -428,3 +428,28 @@ motor = { measured = "shaft.q", setpoint = "1 rad", proportional = "2 N m", samp
         near(state.v[place("motor.value")], torque, RECURSION);
     }
 }
+
+#[test]
+fn a_setpoint_may_be_a_table_and_an_input() {
+    let text = rotor(
+        r#"damping = "0.3 N m s/rad""#,
+        r#"[inputs]
+shift = "0.2 rad"
+[tables]
+way = { argument = ["0 s", "0.4 s", "2 s"], value = ["0 rad", "1 rad", "-0.6 rad"], interpolation = "linear" }
+[controllers]
+motor = { measured = "shaft.q", setpoint = "way(t) + shift", proportional = "6 N m", sample_time = "30 ms" }"#,
+    );
+    let run = run_by(&text, 1.5, 17, ADAPTIVE);
+    let angles = run.column("shaft.q").unwrap();
+    for (at, t) in run.times.iter().enumerate() {
+        let mut k = 0.0;
+        let [q, ..] = held_rotor(*t, 0.03, |q, _| {
+            let now: f64 = 0.03 * k;
+            k += 1.0;
+            let way = if now < 0.4 { now / 0.4 } else { 1.0 - (now - 0.4) };
+            6.0 * (way + 0.2 - q)
+        });
+        near(angles[at], q, RECURSION);
+    }
+}
