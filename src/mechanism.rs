@@ -40,6 +40,37 @@ pub enum LoadError {
 }
 
 /// Equations with all that is known about them.
+///
+/// ```
+/// use linkwear::mechanism::Mechanism;
+/// use linkwear_runtime::{Settings, Span, Watch, simulate};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let file = std::env::temp_dir().join(format!("linkwear-mechanism-{}.toml", std::process::id()));
+/// # std::fs::write(&file, r#"
+/// # spec = 1
+/// # name = "swing"
+/// # gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+/// # [points]
+/// # O = ["0 m", "0 m", "0 m"]
+/// # E = ["1 m", "0 m", "0 m"]
+/// # [bodies]
+/// # bar = { rod = ["O", "E"], radius = "10 mm", density = "7850 kg/m^3" }
+/// # [joints]
+/// # R1 = { revolute = ["ground", "bar"], at = "O", axis = [0, -1, 0] }
+/// # "#)?;
+/// // A bar of 2.466 kg that is let go from the horizontal.
+/// let mechanism = Mechanism::read(&file)?;
+/// # std::fs::remove_file(&file)?;
+/// let settings = Settings { span: Span::Time(1.0), ..Settings::default() };
+/// let (system, description) = (mechanism.system(), &mechanism.description);
+/// let run = simulate(&*system, description, &mechanism.parameters, &settings, Watch::NONE)?;
+/// // At its lowest point the bearing carries 5/2 of the weight.
+/// let peak = run.range("R1.Fz")?.high.value;
+/// assert!((peak - 2.5 * 2.466_150_233 * 9.81).abs() < 1e-2, "{peak}");
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     /// Names, units, columns, laws of contact and wear. The equations do not know these laws: changed here, they are

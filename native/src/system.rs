@@ -14,6 +14,38 @@ use crate::refusal::Refusal;
 use crate::unsupported::Functions;
 
 /// A mechanism as machine code of this processor. Clones share the code.
+///
+/// ```
+/// use linkwear_codegen::{Options, SourceFile, compile};
+/// use linkwear_native::Native;
+/// use linkwear_runtime::{Entry, System};
+///
+/// let text = r#"
+/// spec = 1
+/// name = "swing"
+/// [points]
+/// O = ["0 m", "0 m", "0 m"]
+/// E = ["1 m", "0 m", "0 m"]
+/// [bodies]
+/// bar = { rod = ["O", "E"], radius = "10 mm", density = "7850 kg/m^3" }
+/// [joints]
+/// R1 = { revolute = ["ground", "bar"], at = "O", axis = [0, -1, 0] }
+/// "#;
+/// let source = SourceFile { name: "swing.toml".to_owned(), text: text.to_owned() };
+/// let swing = compile(&source, &Options::default())?;
+/// let answer = |system: &dyn System<f64>| {
+///     // Time, angle, speed.
+///     let (input, mut output) = ([0.0, 0.3, 2.0], vec![0.0; system.sizes().output(Entry::Energy)]);
+///     system.evaluate(Entry::Energy, &input, &mut output, &mut vec![0.0; system.sizes().workspace]);
+///     output
+/// };
+/// // Where this processor has no code, or a system forbids it, the reason is told.
+/// match Native::new(swing.tapes(), swing.sizes()) {
+///     Ok(native) => assert_eq!(answer(&native), answer(&swing.interpreter())),
+///     Err(refusal) => println!("{refusal}"),
+/// }
+/// # Ok::<(), linkwear_codegen::Diagnostics>(())
+/// ```
 #[derive(Clone)]
 pub struct Native {
     alone: Lanes<1>,

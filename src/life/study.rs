@@ -51,6 +51,21 @@ impl Trajectories {
 }
 
 /// A life to be lived, cycle by cycle, until the first joint has worn to its threshold.
+///
+/// Runs as `examples/life`, which compares what it prints with the README:
+/// ```no_run
+/// use linkwear::life::LifeStudy;
+/// use linkwear::mechanism::Mechanism;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mechanism = Mechanism::read("rssr.toml")?;
+/// let life = LifeStudy { seed: 7, ..LifeStudy::new(&mechanism) }.run()?;
+/// println!("{} fails after {:.3} cycles on the mean path", life.failed_joint().joint, life.end.cycles);
+/// let lives = life.statistics().ok_or("no random lives")?;
+/// println!("B10: {:.3} cycles", lives.quantile(0.1)?.value);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Debug)]
 pub struct LifeStudy<'m> {
     /// The mechanism, with at least one joint that wears.

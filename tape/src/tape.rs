@@ -33,6 +33,31 @@ impl Statement {
 }
 
 /// A function, ready to be run or written.
+///
+/// ```
+/// use linkwear_tape::{Binary, Block, Op, Operand, Statement, Tape};
+///
+/// // y = x^2
+/// let square = Tape {
+///     name: "square".to_owned(),
+///     doc: "The square of a number.".to_owned(),
+///     inputs: vec![Block::vector("x", 1)],
+///     input_names: vec!["x".to_owned()],
+///     outputs: vec![Block::vector("y", 1)],
+///     direct: Vec::new(),
+///     statements: vec![Statement {
+///         op: Op::Binary(Binary::Mul, Operand::Input(0), Operand::Input(0)),
+///         first: 0,
+///         labels: [None, None],
+///         section: 0,
+///         stores: vec![(0, Operand::Value(0))],
+///     }],
+///     sections: vec!["everything".to_owned()],
+///     values: 1,
+/// };
+/// assert_eq!((square.input_len(), square.output_len()), (1, 1));
+/// assert_eq!(square.operations().total, 1);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tape {
     /// Snake-case name.

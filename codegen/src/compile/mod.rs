@@ -39,6 +39,35 @@ pub struct Options {
 ///
 /// # Errors
 /// All that is wrong with the file, in one go.
+///
+/// ```
+/// use linkwear_codegen::{Options, SourceFile, compile};
+///
+/// let text = r#"
+/// spec = 1
+/// name = "swing"
+///
+/// [points]
+/// O = ["0 m", "0 m", "0 m"]
+/// E = ["1 m", "0 m", "0 m"]
+///
+/// [bodies]
+/// bar = { rod = ["O", "E"], radius = "10 mm", density = "7850 kg/m^3" }
+///
+/// [joints]
+/// R1 = { revolute = ["ground", "bar"], at = "O", axis = [0, -1, 0] }
+/// "#;
+/// let source = SourceFile { name: "swing.toml".to_owned(), text: text.to_owned() };
+/// let swing = compile(&source, &Options::default())?;
+/// assert_eq!(&*swing.description().coordinates[0].name, "R1.q");
+/// assert!(swing.rust_source().contains("pub struct Mechanism"));
+///
+/// // A mistake has its place, its cause and a cure.
+/// let wrong = SourceFile { text: text.replace("\"bar\"]", "\"barr\"]"), ..source };
+/// let errors = compile(&wrong, &Options::default()).unwrap_err();
+/// assert!(errors.to_string().contains("swing.toml:13"));
+/// # Ok::<(), linkwear_codegen::Diagnostics>(())
+/// ```
 pub fn compile(source: &SourceFile, options: &Options) -> Result<Compiled, Diagnostics> {
     within(source, [(limits::FILE_BYTES, source.text.len())])?;
     let spec = spec::parse(source)?;
