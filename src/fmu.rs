@@ -5,6 +5,7 @@
 mod archive;
 mod description;
 mod si;
+mod sources;
 
 use std::fs::File;
 use std::io::Read as _;
@@ -69,6 +70,9 @@ pub fn unit(mechanism: &Compiled) -> Result<Vec<u8>, UnitError> {
     archive.add("modelDescription.xml", description::model_description(&unit, stop).as_bytes());
     archive.add(&format!("binaries/{}/{name}{}", platform(), std::env::consts::DLL_SUFFIX), LIBRARY);
     archive.add(&format!("resources/{PROGRAM_FILE}"), &unit.to_bytes());
+    for (name, text) in sources::sources(mechanism, &unit, stop) {
+        archive.add(&format!("sources/{name}"), text.as_bytes());
+    }
     archive.add("documentation/index.html", description::documentation(&unit).as_bytes());
     Ok(archive.finish())
 }

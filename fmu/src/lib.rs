@@ -36,6 +36,6 @@ pub use fault::Fault;
 pub use instance::kept::Kept;
 pub use instance::{Instance, Interface, Times};
 pub use loaded::Loaded;
-pub use needs::belongs_to_start;
+pub use needs::{belongs_to_contacts, belongs_to_start};
 pub use unit::{Constant, PROGRAM_FILE, Unit};
 pub use variables::{Variable, Variables};

@@ -12,7 +12,7 @@ use super::si::{BASE, powers};
 const STEP: f64 = 1e-3;
 
 /// Text for XML and HTML, in quotation marks or not.
-fn escaped(text: impl Display) -> String {
+pub fn escaped(text: impl Display) -> String {
     let mut escaped = String::new();
     for letter in text.to_string().chars() {
         match letter {

@@ -167,6 +167,8 @@ int main(int argc, char **argv) {
         for (int round = 0; round < 3; round++) {
             if (round == 1) NEED(fmi3SetFMUState(unit, state), OK);
             if (round == 2) {
+                NEED(fmi3FreeFMUState(unit, &state), OK);
+                if (state) return 8;
                 fmi3FreeInstance(unit);
                 unit = fmi3InstantiateCoSimulation("v", token, resources, false, false, false, false, NULL, 0, NULL, hear, NULL);
                 NEED(fmi3DeserializeFMUState(unit, bytes, size, &other), OK);
@@ -271,6 +273,44 @@ int main(int argc, char **argv) {
         for (size_t i = 0; i < n; i++) { forth += seed[i] * dual[i]; back += seed[i] * adjoint[i]; }
         printf("%.3e\n", fabs(forth - back) / fmax(fabs(forth), 1.0));
         fmi3FreeInstance(unit);
+    } else if (!strcmp(mode, "sources")) {
+        /* A library out of the unit's sources: co-simulation alone. */
+        if (fmi3InstantiateModelExchange("u", token, resources, false, false, NULL, hear)) return 20;
+        if (fmi3InstantiateCoSimulation("u", "{no}", resources, 0, 0, 0, 0, NULL, 0, NULL, hear, NULL)) return 21;
+        if (fmi3InstantiateCoSimulation("u", NULL, resources, 0, 0, 0, 0, NULL, 0, NULL, NULL, NULL)) return 22;
+        Instance unit = fmi3InstantiateCoSimulation("u", token, NULL, false, true, false, false, NULL, 0, NULL, hear, NULL);
+        Ref known = first, none = 1000000, time = 0;
+        double value = 1.0;
+        const char *text;
+        NEED(fmi3DoStep(NULL, 0, 1e-3, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3DoStep(unit, 0, 1e-3, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3GetFloat64(unit, &known, 1, &value, 1), ERROR);
+        NEED(fmi3EnterInitializationMode(unit, true, tolerance, 1.0, true, 0.5), ERROR);
+        NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        NEED(fmi3GetFloat64(unit, &known, 1, &value, 1), OK);
+        NEED(fmi3ExitInitializationMode(unit), OK);
+        NEED(fmi3GetFloat64(unit, &none, 1, &value, 1), ERROR);
+        NEED(fmi3GetFloat64(unit, NULL, 1, &value, 1), ERROR);
+        NEED(fmi3GetFloat64(unit, &known, 1, &value, 2), ERROR);
+        NEED(fmi3SetFloat64(unit, &known, 1, &value, 1), ERROR);
+        NEED(fmi3GetString(unit, &known, 1, &text, 1), ERROR);
+        NEED(fmi3GetString(unit, NULL, 0, NULL, 0), OK);
+        NEED(fmi3GetDirectionalDerivative(unit, NULL, 0, NULL, 0, NULL, 0, NULL, 0), ERROR);
+        NEED(fmi3EnterConfigurationMode(unit), ERROR);
+        NEED(fmi3DoStep(unit, 0.1, 1e-3, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3DoStep(unit, 0.0, NAN, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3DoStep(unit, 0.0, 2 * stop, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3DoStep(unit, 0.0, 0.5 * stop, true, NULL, NULL, NULL, NULL), OK);
+        NEED(fmi3GetFloat64(unit, &time, 1, &value, 1), OK);
+        if (value != 0.5 * stop) return 23;
+        NEED(fmi3SetFMUState(unit, NULL), ERROR);
+        NEED(fmi3FreeFMUState(unit, NULL), OK);
+        NEED(fmi3Terminate(unit), OK);
+        NEED(fmi3DoStep(unit, 0.5 * stop, 1e-3, true, flag, flag, flag, &last), ERROR);
+        NEED(fmi3Reset(unit), OK);
+        fmi3FreeInstance(unit);
+        fmi3FreeInstance(NULL);
+        printf("%d\n", messages);
     } else if (!strcmp(mode, "wrong")) {
         /* Whatever is called wrongly is told. */
         if (fmi3InstantiateCoSimulation("u", "{no}", resources, 0, 0, 0, 0, NULL, 0, NULL, hear, NULL)) return 20;

@@ -36,7 +36,7 @@ pub(crate) struct Channels {
     /// Their names and units.
     pub(crate) channels: Vec<Channel>,
     /// Joint and value of those that contacts add.
-    sources: Vec<(usize, Value)>,
+    sources: Vec<(usize, &'static str, Value)>,
 }
 
 impl Channels {
@@ -51,7 +51,7 @@ impl Channels {
                 if list.channels.iter().all(|channel| channel.name != name) {
                     // The contact angle keeps to (-pi, pi]: a bearing has no turns.
                     list.channels.push(Channel { name: name.into(), unit: (*unit).into(), wraps: false });
-                    list.sources.push((joint, *value));
+                    list.sources.push((joint, *suffix, *value));
                 }
             }
         }
@@ -67,11 +67,17 @@ impl Channels {
 
     /// The values of the columns that contacts add.
     pub(crate) fn values<'c>(&'c self, contacts: &'c [ContactState]) -> impl Iterator<Item = f64> + 'c {
-        self.sources.iter().map(|(joint, of)| of(&contacts[*joint]))
+        self.sources.iter().map(|(joint, _, of)| of(&contacts[*joint]))
     }
 }
 
 /// All columns of a mechanism as runs have them: those of its equations, then those of its contacts.
 pub fn channels(description: &Description) -> Vec<Channel> {
     Channels::new(description).channels
+}
+
+/// Of the columns that contacts add, in order: index of the joint among those with clearance, and what it is: `x`, `y`, `z`, `gap`, `Fn`,
+/// `vt`, `contact_angle`, `journal_angle`.
+pub fn contact_columns(description: &Description) -> Vec<(usize, &'static str)> {
+    Channels::new(description).sources.iter().map(|(joint, quantity, _)| (*joint, *quantity)).collect()
 }

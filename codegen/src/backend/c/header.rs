@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use linkwear_runtime::{Description, Entry, Sizes};
+use linkwear_runtime::{CORRECTIONS, Description, Entry, Sizes};
 
 use crate::tape::{Split, Tape};
 
@@ -12,9 +12,6 @@ use super::function::declaration;
 use super::laws::{ANSWER, MEMORY};
 use super::names::Names;
 use super::text::{comment, number};
-
-/// Corrections of positions in a step at most.
-const CORRECTIONS: usize = 6;
 
 /// What is declared, without guards.
 pub fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape], splits: &[Split]) -> String {

@@ -12,6 +12,7 @@ mod header;
 mod laws;
 mod listing;
 mod names;
+mod outputs;
 mod recorder;
 mod step;
 mod text;
@@ -24,6 +25,7 @@ use linkwear_runtime::{Description, Sizes};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
+use super::start::Start;
 pub use names::prefix;
 use text::{comment, literal, number};
 
@@ -45,15 +47,6 @@ pub struct CInput<'a> {
     pub joints: &'a [Clearance],
     /// What a run begins with, if it is known.
     pub start: Option<&'a Start>,
-}
-
-/// A consistent start at t = 0.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Start {
-    /// Coordinates and speeds.
-    pub state: Vec<f64>,
-    /// Natural size of the motion along every speed.
-    pub sizes: Vec<f64>,
 }
 
 /// Both files.
@@ -90,6 +83,23 @@ pub fn emit(input: &CInput<'_>) -> CFiles {
         named(declared)
     );
     CFiles { source: format!("{banner}{}", source(input, &sizes, &splits, &named)), header }
+}
+
+/// A source of its own beside a mechanism's, with all columns of a run as a static function, `.._outputs`, and what `more` has behind
+/// it, where `pfx_` and `PFX_` stand for the prefix.
+pub fn emit_outputs(input: &CInput<'_>, more: &str) -> String {
+    let (text, called) = outputs::outputs(input.description, &input.sizes, input.joints);
+    let lower = prefix(&input.description.name);
+    let upper = lower.to_ascii_uppercase();
+    let named =
+        format!("{text}\n{more}").replace("pfx_", &format!("{lower}_")).replace("PFX_", &format!("{upper}_"));
+    let first = banner(input);
+    let first = first.lines().next().unwrap_or_default();
+    format!(
+        "{first}\n\n#include \"{}\"\n\n{PREAMBLE}{}\n{named}",
+        input.header_name,
+        elementary::functions(&called)
+    )
 }
 
 fn banner(input: &CInput<'_>) -> String {
