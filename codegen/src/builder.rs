@@ -24,6 +24,27 @@ const DEFAULT_RUNTIME: &str = "::linkwear_runtime";
 /// linkwear_codegen::Builder::new().mechanism("mechanisms/rssr.toml").write_or_exit();
 /// ```
 /// and in the crate: `mod rssr { linkwear_runtime::include_mechanism!("rssr"); }`.
+/// Elsewhere than in a build script it is told where to write:
+/// ```
+/// # let folder = std::env::temp_dir().join(format!("linkwear-builder-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let file = folder.join("swing.toml");
+/// std::fs::write(&file, r#"
+/// spec = 1
+/// name = "swing"
+/// [points]
+/// O = ["0 m", "0 m", "0 m"]
+/// E = ["1 m", "0 m", "0 m"]
+/// [bodies]
+/// bar = { rod = ["O", "E"], radius = "10 mm", density = "7850 kg/m^3" }
+/// [joints]
+/// R1 = { revolute = ["ground", "bar"], at = "O", axis = [0, -1, 0] }
+/// "#)?;
+/// let written = linkwear_codegen::Builder::new().mechanism(&file).with_start().out_dir(&folder).try_write()?;
+/// assert!(std::fs::read_to_string(&written.files[0])?.contains("pub static START"));
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 /// The name is the file's, without `.toml`. Options hold for every mechanism of one builder; use a
 /// second builder for other options.
 #[derive(Clone, Debug, Default)]
@@ -32,6 +53,7 @@ pub struct Builder {
     mechanisms: Vec<PathBuf>,
     options: Options,
     runtime_path: Option<String>,
+    with_start: bool,
     out_dir: Option<PathBuf>,
     emit_dir: Option<PathBuf>,
 }
@@ -125,6 +147,12 @@ impl Builder {
         self
     }
 
+    /// Adds a consistent start at t = 0 as a static, `START`: for programs without std, which cannot assemble one.
+    pub fn with_start(mut self) -> Self {
+        self.with_start = true;
+        self
+    }
+
     /// Folder to write to instead of `OUT_DIR`.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());
@@ -196,7 +224,11 @@ impl Builder {
         }
         written.read.extend(compiled.mechanism.attached.iter().cloned());
         let runtime = self.runtime_path.as_deref().unwrap_or(DEFAULT_RUNTIME);
-        let generated = compiled.rust_source_for(runtime);
+        let generated = if self.with_start {
+            compiled.rust_source_with_start(runtime).map_err(BuildError::Mechanism)?
+        } else {
+            compiled.rust_source_for(runtime)
+        };
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Ok((name, generated))
     }

@@ -1,3 +1,3 @@
 fn main() {
-    linkwear_codegen::Builder::new().mechanism("../../mechanisms/rssr_rigid.toml").write_or_exit();
+    linkwear_codegen::Builder::new().mechanism("../../mechanisms/rssr.toml").with_start().write_or_exit();
 }

@@ -5,29 +5,17 @@ mod laws;
 mod places;
 mod plan;
 
+pub use crate::system::{TOTALS, WORKS};
+
 use crate::system::Sizes;
 pub(crate) use laws::contact_state;
 pub(crate) use places::{CONTACT_ANSWER, CONTACT_MEMORY, Conclusion, Places};
 pub use plan::{Evaluate, StepPlan};
 
-/// Numbers that are integrated with a state for every mechanism: work supplied and work dissipated [J].
-pub const WORKS: usize = 2;
-
-/// Numbers that are integrated with a state for every joint with clearance: wear integral [J], depth by the contact area [m],
-/// integral of the normal force [N s], energy lost in damping and friction [J].
-pub const TOTALS: usize = 4;
-
 /// Whether what a joint integrates is judged by the energy of the mechanism. Depth and impulse are as smooth as the wear integral,
 /// and have no natural size of their own.
 pub(crate) const fn is_energy(total: usize) -> bool {
     matches!(total, 0 | 3)
-}
-
-impl Sizes {
-    /// Length of a flat state: coordinates, speeds, works, totals of every joint with clearance.
-    pub const fn flat_state(&self) -> usize {
-        self.coordinates + self.speeds + WORKS + TOTALS * self.contacts
-    }
 }
 
 /// Steps of `N` trajectories of one mechanism by [`crate::Integrator::Rk43`], as its [`StepPlan`] says. No wear by bearing angle.

@@ -6,7 +6,8 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use crate::mission::{MissionInfo, SegmentInfo};
-use crate::tables::{CoefficientRow, ContactInfo, InputRole, JournalWear, Motion, Tables};
+pub use crate::tables::SAMPLE;
+use crate::tables::{AllTables, CoefficientRow, ContactInfo, InputRole, JournalWear, Motion, Tables};
 use crate::text::Text;
 use crate::wear::Step;
 
@@ -71,9 +72,6 @@ pub struct Channel {
 /// How the names of columns begin whose signs say which pieces of formulas hold. `t` is no name that an element can have.
 pub const SWITCH: &str = "t.switch";
 
-/// How the names of columns begin that have the time from sample to sample [s] of a controller. Behind each stand columns of what
-/// the controller holds from its next sample on: `<name>` with [`NEXT`], held by the speed `<name>` with [`VALUE`].
-pub const SAMPLE: &str = "t.sample";
 /// How the name of a column ends that has what is held next.
 pub const NEXT: &str = ".next";
 /// How the name of a speed ends that is no speed but a value.
@@ -229,46 +227,24 @@ impl Description {
 /// The description of a mechanism in generated code, made of its tables when it is first asked for.
 #[derive(Debug)]
 pub struct TabledDescription {
-    tables: &'static Tables,
-    journals: &'static [JournalWear],
-    coefficients: &'static [CoefficientRow],
-    guides: &'static [usize],
+    all: &'static AllTables,
     made: OnceLock<Description>,
 }
 
 impl TabledDescription {
     /// Of these tables.
-    pub const fn new(tables: &'static Tables) -> Self {
-        Self::with_wear(tables, &[], &[])
-    }
-
-    /// Of these tables, with journals that wear and coefficients that vary.
-    pub const fn with_wear(
-        tables: &'static Tables,
-        journals: &'static [JournalWear],
-        coefficients: &'static [CoefficientRow],
-    ) -> Self {
-        Self::with_guides(tables, journals, coefficients, &[])
-    }
-
-    /// The same with guides among the contacts, by index.
-    pub const fn with_guides(
-        tables: &'static Tables,
-        journals: &'static [JournalWear],
-        coefficients: &'static [CoefficientRow],
-        guides: &'static [usize],
-    ) -> Self {
-        Self { tables, journals, coefficients, guides, made: OnceLock::new() }
+    pub const fn of(all: &'static AllTables) -> Self {
+        Self { all, made: OnceLock::new() }
     }
 
     /// The description.
     pub fn get(&self) -> &Description {
         let factor = |&(contact, steps): &CoefficientRow| CoefficientFactor { contact, steps: steps.into() };
         self.made.get_or_init(|| Description {
-            journals: self.journals.into(),
-            coefficients: self.coefficients.iter().map(factor).collect(),
-            guides: self.guides.into(),
-            ..Description::from_tables(self.tables)
+            journals: self.all.journals.into(),
+            coefficients: self.all.coefficients.iter().map(factor).collect(),
+            guides: self.all.guides.into(),
+            ..Description::from_tables(self.all.tables)
         })
     }
 }

@@ -10,7 +10,6 @@ use crate::linear::{is_finite, largest};
 use crate::passage::{Judge, Limit, Passage};
 use crate::singular_dynamics::SingularSolver;
 use pivots::LargestPivots;
-pub(crate) use pivots::note_pivots;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
 /// has had makes the runtime leave the generated elimination. At 1e-7 (a singular value of 3e-4) rounding

@@ -16,7 +16,7 @@ use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::layout::Layout;
-use crate::linear::dot;
+use crate::row_scales::{note_lengths, scale_rows};
 use crate::signals::Signals;
 use crate::system::{CONTACT_MOTION, Entry, STATES, SideBySide, Sizes, System};
 use derivative::Derivative;
@@ -337,28 +337,13 @@ impl<'a> Evaluator<'a> {
     }
 
     fn note_row_lengths(&mut self) {
-        let n = self.sizes.speeds.max(1);
+        let n = self.sizes.speeds;
         let first = self.sizes.all_rows + self.sizes.rows;
         let jacobian = &self.questions.last(Entry::Closure)[first..];
-        let mut grown = false;
-        for (length, row) in self.row_lengths.iter_mut().zip(jacobian.chunks_exact(n)) {
-            let now = dot(row, row).sqrt();
-            if now > *length {
-                (*length, grown) = (now, true);
-            }
-        }
-        if !grown {
-            return;
-        }
-        let mut most = [0.0_f64; 2];
-        for (length, row) in self.row_lengths.iter().zip(&self.kept) {
-            let kind = usize::from(self.description.rows[*row].angular);
-            most[kind] = most[kind].max(*length);
-        }
-        for ((scale, length), row) in self.row_scales.iter_mut().zip(&self.row_lengths).zip(&self.kept) {
-            let kind = usize::from(self.description.rows[*row].angular);
-            // A row that starts at a singular position has no length of its own yet.
-            *scale = 1.0 / length.max(1e-3 * most[kind]).max(f64::MIN_POSITIVE);
+        if note_lengths(&mut self.row_lengths, jacobian, n) {
+            let rows = &self.description.rows;
+            let kinds = self.kept.iter().enumerate().map(|(kept, row)| (kept, rows[*row].angular));
+            scale_rows(&mut self.row_scales, &self.row_lengths, kinds);
         }
     }
 

@@ -21,38 +21,48 @@ macro_rules! include_mechanism {
     };
 }
 
-/// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.
-#[cfg(feature = "std")]
+/// Declares `ALL_TABLES` and `description()` beside the `TABLES` of generated code; without the feature `std` the first alone.
 #[macro_export]
 macro_rules! describe_mechanism {
     ($tables:ident) => {
-        /// Names and units of parameters, coordinates, rows and output columns.
-        pub fn description() -> &'static $crate::Description {
-            static DESCRIPTION: $crate::TabledDescription = $crate::TabledDescription::new(&$tables);
-            DESCRIPTION.get()
-        }
+        $crate::describe_mechanism!(@all &$tables, &[], &[], &[]);
     };
     ($tables:ident, $journals:ident, $coefficients:ident) => {
-        /// Names and units of parameters, coordinates, rows and output columns.
-        pub fn description() -> &'static $crate::Description {
-            static DESCRIPTION: $crate::TabledDescription =
-                $crate::TabledDescription::with_wear(&$tables, &$journals, &$coefficients);
-            DESCRIPTION.get()
-        }
+        $crate::describe_mechanism!(@all &$tables, &$journals, &$coefficients, &[]);
     };
     ($tables:ident, $journals:ident, $coefficients:ident, $guides:ident) => {
+        $crate::describe_mechanism!(@all &$tables, &$journals, &$coefficients, &$guides);
+    };
+    (@all $tables:expr, $journals:expr, $coefficients:expr, $guides:expr) => {
+        /// All tables of the mechanism, for steps without std.
+        pub static ALL_TABLES: $crate::AllTables = $crate::AllTables {
+            tables: $tables,
+            journals: $journals,
+            coefficients: $coefficients,
+            guides: $guides,
+        };
+        $crate::describe_all_tables!();
+    };
+}
+
+/// Declares `description()` beside `ALL_TABLES`.
+#[cfg(feature = "std")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! describe_all_tables {
+    () => {
         /// Names and units of parameters, coordinates, rows and output columns.
         pub fn description() -> &'static $crate::Description {
-            static DESCRIPTION: $crate::TabledDescription =
-                $crate::TabledDescription::with_guides(&$tables, &$journals, &$coefficients, &$guides);
+            static DESCRIPTION: $crate::TabledDescription = $crate::TabledDescription::of(&ALL_TABLES);
             DESCRIPTION.get()
         }
     };
 }
 
-/// Declares `description()` beside the `TABLES` of generated code. Empty without the feature `std`.
+/// Nothing without the feature `std`.
 #[cfg(not(feature = "std"))]
+#[doc(hidden)]
 #[macro_export]
-macro_rules! describe_mechanism {
-    ($tables:ident $(, $more:ident)*) => {};
+macro_rules! describe_all_tables {
+    () => {};
 }

@@ -2,23 +2,10 @@
 //! In: the motions of a [`crate::Description`]. Out: index maps and updates on the manifold.
 //! Never knows equations.
 
-use crate::scalar::{Scalar, cross, dot};
+use crate::manifold::groups;
+pub use crate::manifold::{Group, turn};
+use crate::scalar::Scalar;
 use crate::tables::Motion;
-
-/// One group of coordinates and speeds, with its places.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Group {
-    /// How the coordinates move.
-    pub motion: Motion,
-    /// First place among all coordinates.
-    pub all_coordinate: usize,
-    /// First place among all speeds.
-    pub all_speed: usize,
-    /// First place among the free coordinates (of the next free group, if this one is driven).
-    pub coordinate: usize,
-    /// First place among the free speeds (of the next free group, if this one is driven).
-    pub speed: usize,
-}
 
 /// The groups of a mechanism in tree order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -35,37 +22,11 @@ pub struct Layout {
     pub all_speeds: usize,
 }
 
-impl Motion {
-    /// Number of coordinates and speeds.
-    pub const fn lengths(self) -> (usize, usize) {
-        match self {
-            Self::Scalar { .. } => (1, 1),
-            Self::Rotation => (4, 3),
-            Self::Pose => (7, 6),
-        }
-    }
-
-    /// Index of the driver that prescribes it.
-    pub const fn driver(self) -> Option<usize> {
-        match self {
-            Self::Scalar { driver } => driver,
-            _ => None,
-        }
-    }
-}
-
 impl Layout {
     /// Places the motions one behind the other.
     pub fn new(motions: &[Motion]) -> Self {
-        let mut layout = Self::default();
+        let mut layout = Self { groups: groups(motions).collect(), ..Self::default() };
         for motion in motions {
-            layout.groups.push(Group {
-                motion: *motion,
-                all_coordinate: layout.all_coordinates,
-                all_speed: layout.all_speeds,
-                coordinate: layout.coordinates,
-                speed: layout.speeds,
-            });
             let (coordinates, speeds) = motion.lengths();
             layout.all_coordinates += coordinates;
             layout.all_speeds += speeds;
@@ -79,7 +40,7 @@ impl Layout {
 
     /// The free groups.
     pub fn free(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter().filter(|group| group.motion.driver().is_none())
+        self.groups.iter().filter(|group| group.is_free())
     }
 
     /// Places among all speeds: of every free speed, and of every driver's speed.
@@ -97,25 +58,12 @@ impl Layout {
     /// Moves the free coordinates `q` as the constant speeds `delta` would in unit time (exponential map;
     /// quaternions come out with unit length if they went in so).
     pub fn advance(&self, q: &mut [f64], delta: &[f64]) {
-        for group in self.free() {
-            let (q, delta) = (&mut q[group.coordinate..], &delta[group.speed..]);
-            match group.motion {
-                Motion::Scalar { .. } => q[0] += delta[0],
-                Motion::Rotation => rotate(q, [delta[0], delta[1], delta[2]]),
-                Motion::Pose => displace(q, [delta[0], delta[1], delta[2]], [delta[3], delta[4], delta[5]]),
-            }
-        }
+        self.free().for_each(|group| group.advance(q, delta));
     }
 
     /// Scales the quaternions in `q` to unit length.
     pub fn normalize<T: Scalar>(&self, q: &mut [T]) {
-        for group in self.free() {
-            if matches!(group.motion, Motion::Rotation | Motion::Pose) {
-                let part = &mut q[group.coordinate..][..4];
-                let length = length([part[0], part[1], part[2], part[3]]);
-                part.iter_mut().for_each(|x| *x = *x / length);
-            }
-        }
+        self.free().for_each(|group| group.normalize(q));
     }
 
     /// Fills the slices of all coordinates and speeds from the free ones and the prescribed values
@@ -139,62 +87,10 @@ impl Layout {
     }
 }
 
-/// Unit quaternion (scalar first) times the rotation by the vector `angle` [rad] in the body's own frame.
-fn rotate(q: &mut [f64], angle: [f64; 3]) {
-    let [x, y, z] = angle;
-    let half = 0.5 * (x * x + y * y + z * z).sqrt();
-    let (sine, cosine) = Scalar::sin_cos(half);
-    // sin(half) / (2 half); below 1e-4 the next term of the series is 1e-18.
-    let factor = if half < 1e-4 { 0.5 - half * half / 12.0 } else { 0.5 * sine / half };
-    let [b0, b1, b2, b3] = [cosine, factor * x, factor * y, factor * z];
-    let [a0, a1, a2, a3] = [q[0], q[1], q[2], q[3]];
-    q[0] = a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3;
-    q[1] = a0 * b1 + a1 * b0 + a2 * b3 - a3 * b2;
-    q[2] = a0 * b2 - a1 * b3 + a2 * b0 + a3 * b1;
-    q[3] = a0 * b3 + a1 * b2 - a2 * b1 + a3 * b0;
-}
-
-/// Pose times the exponential of a twist in the body's own frame.
-fn displace(q: &mut [f64], angle: [f64; 3], shift: [f64; 3]) {
-    let square = dot(angle, angle);
-    let size = square.sqrt();
-    let (sine, cosine) = Scalar::sin_cos(size);
-    // (1 - cos)/x² and (x - sin)/x³; the series' next terms are 1e-13 of x⁴ below 1e-2.
-    let (a, b) = if size < 1e-2 {
-        (
-            0.5 - square / 24.0 + square * square / 720.0,
-            1.0 / 6.0 - square / 120.0 + square * square / 5_040.0,
-        )
-    } else {
-        ((1.0 - cosine) / square, (size - sine) / (square * size))
-    };
-    let once = cross(angle, shift);
-    let twice = cross(angle, once);
-    let moved: [f64; 3] = core::array::from_fn(|i| shift[i] + a * once[i] + b * twice[i]);
-    let global = turn([q[0], q[1], q[2], q[3]], moved);
-    for (position, step) in q[4..7].iter_mut().zip(global) {
-        *position += step;
-    }
-    rotate(q, angle);
-}
-
-/// Rotates a vector from the body's frame to W by a unit quaternion.
-pub fn turn(q: [f64; 4], x: [f64; 3]) -> [f64; 3] {
-    let axis = [q[1], q[2], q[3]];
-    let once = cross(axis, x);
-    let twice = cross(axis, once);
-    core::array::from_fn(|i| x[i] + 2.0 * (q[0] * once[i] + twice[i]))
-}
-
-/// Length of a quaternion.
-#[inline(always)]
-fn length<T: Scalar>(quaternion: [T; 4]) -> T {
-    dot(quaternion, quaternion).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::manifold::rotate;
 
     const MOTIONS: [Motion; 4] =
         [Motion::Scalar { driver: Some(0) }, Motion::Rotation, Motion::Scalar { driver: None }, Motion::Pose];

@@ -1,8 +1,8 @@
 //! Runtime of linkwear: what generated solver code stands on.
 //!
 //! Generated code knows this crate; this crate knows nobody. The core (scalar, intrinsics, the
-//! [`System`] contract, tables, laws of contact) is `no_std` and does not allocate; descriptions, integrators and recorders
-//! come with the default feature `std`.
+//! [`System`] contract, tables, laws of contact, [`FixedStep`]) is `no_std` and does not allocate; descriptions, adaptive
+//! integrators and recorders come with the default feature `std`.
 //!
 //! From a mechanism to numbers: [`simulate`] runs it, [`assemble`] only finds a consistent start,
 //! [`Run::table`] and [`write_csv`] record a [`Run`]. Below them: [`Evaluator`] asks a [`System`], [`Dynamics`] gives
@@ -21,17 +21,25 @@
 pub mod contact;
 mod dual;
 pub mod elementary;
+mod fixed_step;
 mod float;
 mod include;
 mod intrinsic;
+mod joint_laws;
+pub mod linear;
+mod manifold;
 mod named;
 #[cfg(test)]
 mod pair;
+mod regularity;
+mod row_scales;
+mod runge_kutta;
 mod scalar;
 mod sincos;
 mod system;
 mod tables;
 mod text;
+mod tolerances;
 pub mod wear;
 
 #[cfg(feature = "std")]
@@ -61,8 +69,6 @@ mod layout;
 #[cfg(feature = "std")]
 pub mod life;
 #[cfg(feature = "std")]
-pub mod linear;
-#[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
 mod passage;
@@ -80,13 +86,15 @@ mod singular_dynamics;
 mod watch;
 
 pub use dual::Dual;
+pub use fixed_step::{CORRECTIONS, FixedStep, Halt, StepContact};
 pub use intrinsic::{angle_over_sine, log_coefficient};
+pub use joint_laws::{JointLaws, Response};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
-pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System};
+pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System, TOTALS, WORKS};
 pub use tables::{
-    CoefficientRow, ContactInfo, GammaRates, InputRole, JournalWear, MissionRow, Motion, SegmentRow, Tables,
-    WearInfo,
+    AllTables, CoefficientRow, ContactInfo, GammaRates, InputRole, JournalWear, MissionRow, Motion,
+    SegmentRow, Start, Tables, WearInfo,
 };
 pub use text::Text;
 
@@ -96,7 +104,7 @@ pub use {
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops, motion_sizes,
         offset_columns, place, resting_contacts,
     },
-    bundle::{Bundle, Evaluate, StepPlan, TOTALS, WORKS},
+    bundle::{Bundle, Evaluate, StepPlan},
     clearance_joint::channels,
     column::Column,
     contact_frequency::contact_frequencies,

@@ -8,19 +8,9 @@
 
 use crate::evaluate::{CLOSED, Evaluator, LoopError};
 use crate::linear::{Cholesky, Orthogonal, add_scaled, largest};
-use crate::scalar::Scalar;
+pub use crate::tolerances::{POSITION_TOLERANCE, SPEED_TOLERANCE};
+use crate::tolerances::{SETTLED, TRUSTED_PIVOT, position_tolerance, speed_tolerance, untouched};
 
-/// Residual of the kept rows [m, rad] after a projection; large coordinates add their own rounding.
-pub const POSITION_TOLERANCE: f64 = 1e-14;
-
-/// Residual of the kept rows' speeds after a projection, per unit of the largest speed (at least 1).
-pub const SPEED_TOLERANCE: f64 = 1e-13;
-
-/// Newton that makes no more progress below this residual [m, rad] has met rounding, not an open loop.
-const SETTLED: f64 = 1e-11;
-
-/// Corrections that the normal equations may be trusted with: ratio of pivots, about 1e-4 in singular values.
-const TRUSTED_PIVOT: f64 = 1e-8;
 /// Singular values, relative to the largest, down to which directions are corrected, one after the other.
 const LEVELS: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 /// The first of them where nearly lost directions are to stay as they are: that of [`crate::SINGULAR_PIVOT`], its root. A residual
@@ -80,31 +70,6 @@ pub struct Projector {
     strictness: f64,
     /// Whether nearly lost directions stay untouched.
     keep_lost: bool,
-}
-
-/// Residual of positions up to which nothing is moved, by the largest coordinate.
-fn position_tolerance<T: Scalar>(strictness: T, largest: T) -> T {
-    // Rounding of a coordinate moves the loop by about its last place times an arm of a metre.
-    let rounding = T::constant(f64::EPSILON) * largest.max(T::constant(1.0));
-    let own = T::constant(POSITION_TOLERANCE) * strictness;
-    own.max(T::constant(0.5) * rounding) + rounding * strictness
-}
-
-/// Residual of speeds up to which nothing is moved, by the largest speed and what it is for small ones.
-fn speed_tolerance<T: Scalar>(least: T, largest: T) -> T {
-    least * largest.max(T::constant(1.0))
-}
-
-/// Residuals of positions and speeds up to which nothing is moved, by the largest coordinate and speed.
-pub(crate) fn tolerances<T: Scalar>(strictness: T, coordinate: T, speed: T) -> (T, T) {
-    let (_, least) = untouched(strictness);
-    (position_tolerance(strictness, coordinate), speed_tolerance(least, speed))
-}
-
-/// Residuals of positions and speeds up to which nothing is moved, whatever the coordinates' own size.
-fn untouched<T: Scalar>(regularity: T) -> (T, T) {
-    let speed = T::constant(SPEED_TOLERANCE) * regularity;
-    (T::constant(POSITION_TOLERANCE) * regularity, speed.max(T::constant(0.5 * f64::EPSILON)))
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

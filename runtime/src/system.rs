@@ -58,6 +58,13 @@ pub const CONTACT_MOTION: usize = 10;
 /// each end.
 pub const CONTACT_WRENCH: usize = 6;
 
+/// Numbers that are integrated with a state for every mechanism: work supplied and work dissipated [J].
+pub const WORKS: usize = 2;
+
+/// Numbers that are integrated with a state for every joint with clearance: wear integral [J], depth by the contact area [m],
+/// integral of the normal force [N s], energy lost in damping and friction [J].
+pub const TOTALS: usize = 4;
+
 impl Entry {
     /// Every entry, in the order in which generated code lists them.
     pub const ALL: [Self; 11] = [
@@ -138,6 +145,11 @@ impl Sizes {
         }
     }
 
+    /// Length of a flat state: coordinates, speeds, works, totals of every joint with clearance.
+    pub const fn flat_state(&self) -> usize {
+        self.coordinates + self.speeds + WORKS + TOTALS * self.contacts
+    }
+
     /// Length of the output slice of `entry`.
     pub const fn output(&self, entry: Entry) -> usize {
         let n = self.all_speeds;
@@ -158,6 +170,22 @@ impl Sizes {
 }
 
 /// Equations of one mechanism, evaluated on scalars of type `T`.
+///
+/// ```
+/// use linkwear_runtime::{Dual, Entry, System};
+///
+/// mod fall {
+///     // Generated code: `linkwear_runtime::include_mechanism!("fall")`. This one was written by hand.
+///     include!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/fall.rs.txt"));
+/// }
+///
+/// // Acceleration of a point at 3 m that moves at 2 m/s, and its derivative by g.
+/// let mechanism = fall::Mechanism::default();
+/// let input = [Dual::new(9.81, 1.0), Dual::new(0.0, 0.0), Dual::new(3.0, 0.0), Dual::new(2.0, 0.0)];
+/// let mut output = [Dual::new(0.0, 0.0); fall::SIZES.output(Entry::Accelerations)];
+/// mechanism.evaluate(Entry::Accelerations, &input, &mut output, &mut []);
+/// assert_eq!(output[0], Dual::new(-9.81, -1.0));
+/// ```
 pub trait System<T: Scalar> {
     /// The layout of inputs and outputs.
     fn sizes(&self) -> Sizes;

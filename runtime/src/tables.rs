@@ -142,6 +142,32 @@ pub type SegmentRow = (&'static str, f64, &'static [(usize, f64)], &'static [(f6
 /// A duty cycle: name, whether its amounts are durations in order, its segments, those in half as many bins.
 pub type MissionRow = (&'static str, bool, &'static [SegmentRow], &'static [SegmentRow]);
 
+/// How the names of columns begin that have the time from sample to sample [s] of a controller. Behind each stand columns of what
+/// the controller holds from its next sample on: `<name>` with `.next`, held by the speed `<name>` with `.value`.
+pub const SAMPLE: &str = "t.sample";
+/// All that generated code says about itself: its tables, and those that few mechanisms have.
+#[derive(Clone, Copy, Debug)]
+pub struct AllTables {
+    /// Names, units, rows, columns, laws of contact.
+    pub tables: &'static Tables,
+    /// Journals that wear beside their bushes.
+    pub journals: &'static [JournalWear],
+    /// Factors on wear coefficients.
+    pub coefficients: &'static [CoefficientRow],
+    /// Which of the contacts are rods in bushes along which they may slide and in which they may lean, by index.
+    pub guides: &'static [usize],
+}
+
+/// A consistent start, as generated code has it where it was asked for: found when the code was generated, with the values of the
+/// file, for programs that cannot assemble.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Coordinates and speeds at t = 0.
+    pub state: &'static [f64],
+    /// Natural size of the motion along every speed: small where it moves a journal in its bearing.
+    pub sizes: &'static [f64],
+}
+
 /// What generated code says about itself, as plain tables: names, units and flags a row for each. With the
 /// feature `std`, `description()` of generated code makes a `Description` of them.
 #[derive(Clone, Copy, Debug)]

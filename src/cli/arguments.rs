@@ -210,6 +210,9 @@ pub struct GenerateArguments {
     /// crate that makes a library with a header.
     #[arg(long, value_enum, default_value_t = Target::Rust, requires_ifs = [("c", "out"), ("c-abi", "out")])]
     pub target: Target,
+    /// For rust: with a consistent start as a static, for programs without std. C has it always.
+    #[arg(long)]
+    pub with_start: bool,
 }
 
 #[cfg(feature = "fmu")]

@@ -80,7 +80,14 @@ fn files(
     arguments: &GenerateArguments,
 ) -> Result<Vec<(Option<PathBuf>, String)>, Failure> {
     match (arguments.target, arguments.out.as_deref()) {
-        (Target::Rust, out) => Ok(vec![(out.map(Path::to_path_buf), compiled.rust_source())]),
+        (Target::Rust, out) => {
+            let source = if arguments.with_start {
+                compiled.rust_source_with_start("::linkwear_runtime")?
+            } else {
+                compiled.rust_source()
+            };
+            Ok(vec![(out.map(Path::to_path_buf), source)])
+        }
         (Target::C, Some(stem)) => {
             let name = stem.file_name().and_then(|name| name.to_str());
             // The source includes the header by this name, in which C has no escapes.

@@ -5,6 +5,9 @@ mod comment;
 mod interface;
 mod names;
 pub mod rust;
+mod start;
+
+pub use start::Start;
 
 /// Runs tapes without a compiler.
 pub mod interp {

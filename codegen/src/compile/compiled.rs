@@ -4,9 +4,10 @@
 use std::sync::OnceLock;
 
 use linkwear_runtime::clearance_joint::Clearances;
-use linkwear_runtime::{Description, Entry, Evaluator, Sizes, assemble_static_contact, motion_sizes};
+use linkwear_runtime::{Description, Entry, Sizes, motion_sizes};
 
-use crate::backend::c::{self, CFiles, CInput, Start};
+use crate::backend::Start;
+use crate::backend::c::{self, CFiles, CInput};
 use crate::backend::interp::Interpreted;
 use crate::backend::rust::{EmitInput, emit};
 use crate::derive::Equations;
@@ -129,12 +130,39 @@ impl Compiled {
 
     /// As [`Compiled::rust_source`], with another path to the runtime crate.
     pub fn rust_source_for(&self, runtime_path: &str) -> String {
+        self.rust(runtime_path, None)
+    }
+
+    /// As [`Compiled::rust_source_for`], with a consistent start as a static, `START`.
+    ///
+    /// # Errors
+    /// If a run could not start.
+    pub fn rust_source_with_start(&self, runtime_path: &str) -> Result<String, Diagnostics> {
+        let start = self.start()?;
+        Ok(self.rust(runtime_path, Some(&start)))
+    }
+
+    /// Where a run starts at t = 0, with the parameters as they are.
+    ///
+    /// # Errors
+    /// If it could not.
+    pub fn start(&self) -> Result<Start, Diagnostics> {
+        let (source, system) = (self.mechanism.sources.whole(), self.interpreter());
+        let assembled = preflight::assembled(source, &self.mechanism, &self.description, &system);
+        let (mut evaluator, start) =
+            assembled.map_err(|errors| errors.located_in(&self.mechanism.sources))?;
+        let sizes = motion_sizes(&mut evaluator, 0.0, &start);
+        Ok(Start { state: [start.q, start.v].concat(), sizes })
+    }
+
+    fn rust(&self, runtime_path: &str, start: Option<&Start>) -> String {
         emit(&EmitInput {
             source_name: self.file_name(),
             source_sha256: &self.sha256(),
             tapes: self.tapes(),
             description: &self.description,
             sizes: self.sizes(),
+            start,
             runtime_path,
         })
     }
@@ -149,6 +177,11 @@ impl Compiled {
         self.as_c(header_name, c::emit)
     }
 
+    /// A source of C99 beside them that has all columns of a run, and `more` behind it: see [`c::emit_outputs`].
+    pub fn c_outputs(&self, header_name: &str, more: &str) -> String {
+        self.as_c(header_name, |input| c::emit_outputs(input, more))
+    }
+
     /// A crate with an interface of C: where each file lies in its folder, what is in it.
     pub fn c_crate(&self) -> Vec<(String, String)> {
         self.as_c("", |input| c::emit_crate(input, self.rust_source()))
@@ -156,13 +189,7 @@ impl Compiled {
 
     fn as_c<R>(&self, header_name: &str, emit: impl FnOnce(&CInput<'_>) -> R) -> R {
         let clearances = Clearances::of(&self.description).unwrap_or_default();
-        let system = self.interpreter();
-        let start =
-            Evaluator::new(&system, &self.description, &self.parameters()).ok().and_then(|mut evaluator| {
-                let start = assemble_static_contact(&mut evaluator, 0.0).ok()?;
-                let sizes = motion_sizes(&mut evaluator, 0.0, &start);
-                Some(Start { state: [start.q, start.v].concat(), sizes })
-            });
+        let start = self.start().ok();
         emit(&CInput {
             source_name: self.file_name(),
             source_sha256: &self.sha256(),

@@ -39,7 +39,7 @@ pub use course::Waypoint;
 pub use failures::beyond_numbers;
 pub use own_units::OwnUnits;
 pub use prescribed::check_prescribed;
-pub use start::check_start;
+pub use start::{assembled, check_start};
 pub use without_play::check_without_play;
 
 use course::Course;

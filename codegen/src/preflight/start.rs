@@ -23,10 +23,23 @@ pub fn check_start<'a>(
     if description.contacts.is_empty() {
         return Ok(None);
     }
+    assembled(source, mechanism, description, system).map(Some)
+}
+
+/// Where a mechanism starts, assembled as every run does it.
+///
+/// # Errors
+/// If a run could not start.
+pub fn assembled<'a>(
+    source: &SourceFile,
+    mechanism: &Mechanism,
+    description: &'a Description,
+    system: &'a dyn System<f64>,
+) -> Result<(Evaluator<'a>, State), Diagnostics> {
     let parameters: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
     let start =
         Evaluator::new(system, description, &parameters).map_err(Into::into).and_then(|mut evaluator| {
-            assemble_static_contact(&mut evaluator, 0.0).map(|state| Some((evaluator, state)))
+            assemble_static_contact(&mut evaluator, 0.0).map(|state| (evaluator, state))
         });
     let refused =
         |error| Diagnostics::from_list(vec![failures::cannot_close(mechanism, &error)]).located(source);

@@ -1,36 +1,73 @@
-//! The spatial four-bar as a static library without std and without allocation, called from C (`main.c`).
+//! The case study, with a flexible coupler, a loose bearing and contact, stepped without std and without allocation: a static
+//! library that C calls (`main.c`).
 #![no_std]
 
-use linkwear_runtime::{Entry, System};
+use linkwear_runtime::{FixedStep, Halt};
 
 mod rssr {
-    linkwear_runtime::include_mechanism!("rssr_rigid");
+    linkwear_runtime::include_mechanism!("rssr");
 }
 
-const STATE: usize = rssr::SIZES.coordinates + rssr::SIZES.speeds;
-const BEFORE: usize = rssr::SIZES.parameters + 1;
-const WORKSPACE: usize = rssr::SIZES.workspace;
-/// Numbers of [`rssr_forward_dynamics`]: accelerations, multipliers, torque of the crank, pivots.
-const FORWARD: usize = rssr::SIZES.output(Entry::ForwardDynamics);
+/// A run: time [s], flat state, what the stepper works in. All of it is kept by the caller.
+#[repr(C)]
+pub struct Run {
+    t: f64,
+    y: [f64; rssr::SIZES.flat_state()],
+    numbers: [f64; rssr::SIZES.step_numbers()],
+}
 
-/// Coordinates and speeds that assembly starts from.
+/// Bytes of a run.
 #[unsafe(no_mangle)]
-pub extern "C" fn rssr_start(t: f64, state: &mut [f64; STATE]) {
-    evaluate(Entry::Start, t, &[], state);
-}
+pub static RSSR_RUN: usize = size_of::<Run>();
 
-/// Accelerations, multipliers, torque of the crank [N m] and pivots at a time [s] and a state.
+/// Puts a run at its start.
 #[unsafe(no_mangle)]
-pub extern "C" fn rssr_forward_dynamics(t: f64, state: &[f64; STATE], answer: &mut [f64; FORWARD]) {
-    evaluate(Entry::ForwardDynamics, t, state, answer);
+pub extern "C" fn rssr_begin(run: &mut Run) -> i32 {
+    *run = Run { t: 0.0, y: [0.0; rssr::SIZES.flat_state()], numbers: [0.0; rssr::SIZES.step_numbers()] };
+    act(run, |stepper, parameters, _, y| stepper.begin(parameters, y))
 }
 
-fn evaluate(entry: Entry, t: f64, state: &[f64], answer: &mut [f64]) {
+/// A step from the run's time to another one [s]. Not 0: why it cannot be made; the run is as it was.
+#[unsafe(no_mangle)]
+pub extern "C" fn rssr_step(run: &mut Run, end: f64) -> i32 {
+    act(run, |stepper, parameters, t, y| {
+        stepper.step(parameters, *t, end - *t, y)?;
+        *t = end;
+        Ok(())
+    })
+}
+
+/// Angle of the rocker [rad], normal force in the bearing [N], its wear integral since the start [J].
+#[unsafe(no_mangle)]
+pub extern "C" fn rssr_observe(run: &mut Run, answer: &mut [f64; 3]) -> i32 {
+    act(run, |stepper, parameters, t, y| {
+        let mut columns = [0.0; rssr::SIZES.channels];
+        stepper.observe(parameters, *t, y, &mut columns)?;
+        let rocker = rssr::TABLES.channels.iter().position(|(name, ..)| *name == "R4.q").ok_or(Halt::Length)?;
+        let bearing = stepper.contact(0).ok_or(Halt::Length)?;
+        // Behind coordinates and speeds: work supplied, work dissipated, then what the bearing has done.
+        let totals = rssr::SIZES.coordinates + rssr::SIZES.speeds + 2;
+        *answer = [columns[rocker], bearing.normal_force, y[totals]];
+        Ok(())
+    })
+}
+
+/// Does something with the run of a mechanism as its file has it.
+fn act(
+    run: &mut Run,
+    action: impl FnOnce(&mut FixedStep<'_, rssr::Mechanism>, &[f64], &mut f64, &mut [f64]) -> Result<(), Halt>,
+) -> i32 {
     let mechanism = rssr::Mechanism::default();
-    let mut input = [t; BEFORE + STATE];
-    input[..BEFORE - 1].copy_from_slice(&mechanism.parameters());
-    input[BEFORE..BEFORE + state.len()].copy_from_slice(state);
-    mechanism.evaluate(entry, &input, answer, &mut [0.0; WORKSPACE]);
+    let mut laws = [const { None }; rssr::SIZES.contacts];
+    let done = FixedStep::new(&mechanism, &rssr::ALL_TABLES, &rssr::START, &mut laws, &mut run.numbers)
+        .and_then(|mut stepper| action(&mut stepper, &mechanism.parameters(), &mut run.t, &mut run.y));
+    match done {
+        Ok(()) => 0,
+        Err(Halt::Length | Halt::Samples | Halt::Law(_)) => 1,
+        Err(Halt::NearlySingular) => 2,
+        Err(Halt::OpenLoop | Halt::Jumped) => 3,
+        Err(Halt::NotFinite) => 4,
+    }
 }
 
 /// The core library was compiled to unwind and names this; with `panic = "abort"` nothing calls it.

@@ -6,13 +6,13 @@ use super::places::{Conclusion, Places};
 use super::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::{Clearance, Clearances};
 use crate::description::Description;
-use crate::dynamics::note_pivots;
 use crate::error::SetupError;
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
 use crate::layout::Layout;
-use crate::projection::tolerances;
+use crate::regularity::note_pivots;
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, Entry, Sizes};
+use crate::tolerances::tolerances;
 
 /// Answers an entry, as [`crate::System::evaluate`] does.
 pub type Evaluate<'e, T> = &'e dyn Fn(Entry, &[T]) -> Vec<T>;

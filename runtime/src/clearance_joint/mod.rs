@@ -8,7 +8,8 @@ mod channels;
 mod joint;
 mod joints;
 
+pub use crate::joint_laws::{JointLaws, Response};
 pub(crate) use channels::Channels;
-pub use channels::channels;
-pub use joint::{Clearance, ContactState, Response};
+pub use channels::{channels, contact_columns};
+pub use joint::{Clearance, ContactState};
 pub use joints::{ClearanceState, Clearances};

@@ -1,40 +1,7 @@
-//! How regular loops are by their pivots. In: pivots at one state after the other. Out: the smallest one relative to the
-//! largest value it has had. Never knows what is done about it.
+//! Keeps the largest value that each pivot has had. In: pivots at one state after the other. Out: the smallest one relative to it.
+//! Never knows what is done about it.
 
-use crate::scalar::Scalar;
-
-/// Pivots below this part of the largest of all pivots are noise, whatever they were before.
-const NOISE_PIVOT: f64 = 1e-13;
-
-/// Keeps the largest value that each pivot has had, and says how regular these are: [`LargestPivots::note`] without branches.
-pub(crate) fn note_pivots<T: Scalar>(pivots: &[T], values: &mut [T]) -> T {
-    for (pivot, most) in pivots.iter().zip(&mut *values) {
-        *most = larger(*pivot, *most);
-    }
-    let noise = noise_of(values);
-    let all = pivots.iter().zip(values);
-    all.fold(T::constant(1.0), |smallest, (pivot, most)| smaller(smallest, (*pivot, *most), noise))
-}
-
-/// The larger of a pivot, if it is finite, and the largest value that it has had.
-#[inline]
-fn larger<T: Scalar>(pivot: T, most: T) -> T {
-    let finite = T::select(pivot.lt(T::constant(f64::INFINITY)), pivot, most);
-    T::select(most.lt(pivot), finite, most)
-}
-
-/// Up to where pivots are noise, by their largest values.
-fn noise_of<T: Scalar>(values: &[T]) -> T {
-    T::constant(NOISE_PIVOT) * values.iter().fold(T::constant(0.0), |most, value| most.max(value.abs()))
-}
-
-/// The smaller of a regularity and that of a pivot with the largest value that it has had.
-#[inline]
-fn smaller<T: Scalar>(smallest: T, (pivot, most): (T, T), noise: T) -> T {
-    let least = T::select(pivot.lt(smallest * most), pivot / most, smallest);
-    // A pivot that is not a positive number counts as lost rank.
-    T::select(noise.lt(pivot), least, T::constant(0.0))
-}
+use crate::regularity::{larger, noise_of, smaller};
 
 /// The largest value that each pivot has had.
 #[derive(Clone, Debug)]

@@ -3,10 +3,8 @@
 
 use super::Evaluator;
 use super::answers::LoopError;
+pub use crate::tolerances::CLOSED;
 
-/// Loops are closed up to this part of the longest lever arm, or of a radian. Projection leaves 1e-14; redundant rows
-/// that a mechanism meets up to the rounding of its drawing follow with the conditioning of the position.
-pub const CLOSED: f64 = 1e-7;
 /// The part that a start may use up: along the motion a loop that is not drawn exactly opens further.
 pub const CLOSED_AT_START: f64 = 0.1 * CLOSED;
 

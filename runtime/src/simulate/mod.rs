@@ -62,6 +62,27 @@ use steps::Steps;
 ///
 /// # Errors
 /// If it cannot start: settings, parameters, a span in turns without a turning driver, or assembly.
+///
+/// ```
+/// use linkwear_runtime::{Settings, Span, Watch, simulate};
+///
+/// mod fall {
+///     // Generated code: `linkwear_runtime::include_mechanism!("fall")`. This one was written by hand.
+///     include!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/fall.rs.txt"));
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mechanism = fall::Mechanism { g: 1.62 };
+/// let settings = Settings { span: Span::Time(2.0), samples: 5, ..Settings::default() };
+/// let run = simulate(&mechanism, fall::description(), &mechanism.parameters(), &settings, Watch::NONE)?;
+/// assert!(run.stopped.is_none());
+/// for (t, z) in run.times.iter().zip(run.column("z")?) {
+///     // At the tolerance of 1e-9, for heights of 20 m.
+///     assert!((z - (20.0 - 0.5 * 1.62 * t * t)).abs() < 2e-8);
+/// }
+/// # Ok(())
+/// # }
+/// ```
 pub fn simulate(
     system: &dyn System<f64>,
     description: &Description,

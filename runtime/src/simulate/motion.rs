@@ -13,18 +13,13 @@ use crate::evaluate::CLOSED;
 use crate::integrate::Problem;
 use crate::linear::{add_scaled, is_finite, largest};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
+pub(super) use crate::regularity::PROJECTED_STAGES;
 use crate::tables::Motion;
 
 /// A projection may move coordinates or speeds by this part of what the step itself moved them...
 pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
-
-/// Below this regularity (see [`Dynamics::nearness`]; about the square of a singular value) the stages of a
-/// step are put onto the constraints before they are evaluated. A stage is off the constraints by its own
-/// truncation error, which the nearly lost direction multiplies by the inverse of its singular value, twice;
-/// on the constraints the accelerations stay smooth right through a singular position.
-pub(super) const PROJECTED_STAGES: f64 = 0.05;
 
 /// Steps with a tolerance may leave loops open by this part of it [m, rad]. A turn with clearance of 4,200 steps at 1e-5 corrects
 /// its loops 16 times then, and its wear integral changes by 2e-7 of itself.

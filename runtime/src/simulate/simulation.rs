@@ -58,6 +58,31 @@ impl SimulationState {
 /// A mechanism on its way through time, advanced as far as somebody asks.
 ///
 /// [`super::simulate`] is a simulation advanced over its samples: both give the same bits.
+///
+/// ```
+/// use linkwear_runtime::{Settings, Simulation, Watch};
+///
+/// mod fall {
+///     // Generated code: `linkwear_runtime::include_mechanism!("fall")`. This one was written by hand.
+///     include!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/fall.rs.txt"));
+/// }
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mechanism = fall::Mechanism::default();
+/// let (description, settings) = (fall::description(), Settings::default());
+/// let mut run = Simulation::start(&mechanism, description, &mechanism.parameters(), &settings)?;
+/// run.advance(0.5, Watch::NONE)?;
+/// let kept = run.state();
+/// // What the moon would do from here on, then the earth again.
+/// run.set_parameters(&[1.62])?;
+/// run.advance(1.0, Watch::NONE)?;
+/// let high = run.values()[0];
+/// run.restore(&kept)?;
+/// run.advance(1.0, Watch::NONE)?;
+/// assert!((run.values()[0] - (20.0 - 0.5 * 9.81)).abs() < 2e-8 && run.values()[0] < high);
+/// # Ok(())
+/// # }
+/// ```
 pub struct Simulation<'a> {
     motion: ConstrainedMotion<'a>,
     sampler: Sampler<'a>,

@@ -8,6 +8,7 @@ use linkwear_runtime::{
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::super::start::Start;
 use super::contact::{contact, number, option};
 
 /// `TABLES` and `description()`. Lists are tables of plain tuples, which read and format well.
@@ -118,6 +119,15 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
             missions: &MISSIONS,
         };
         #runtime::describe_mechanism!(#(#described),*);
+    }
+}
+
+/// `START`.
+pub fn start(start: &Start, runtime: &TokenStream) -> TokenStream {
+    let [state, sizes] = [&start.state, &start.sizes].map(|values| values.iter().map(|value| number(*value)));
+    quote! {
+        /// A consistent start at t = 0, found when this was generated, with the values of the file.
+        pub static START: #runtime::Start = #runtime::Start { state: &[#(#state),*], sizes: &[#(#sizes),*] };
     }
 }
 

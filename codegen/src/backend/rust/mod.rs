@@ -15,6 +15,7 @@ use quote::{format_ident, quote};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
+use super::start::Start;
 use format::format_items;
 use names::Names;
 
@@ -30,6 +31,8 @@ pub struct EmitInput<'a> {
     pub description: &'a Description,
     /// Layout; the workspace is computed here.
     pub sizes: Sizes,
+    /// What a run can begin with, if it is wanted.
+    pub start: Option<&'a Start>,
     /// Path of the runtime crate in the user's program, normally `::linkwear_runtime`.
     pub runtime_path: &'a str,
 }
@@ -89,6 +92,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
     #[expect(clippy::expect_used, reason = "a name and whole numbers")]
     let sizes: TokenStream = format!("{sizes:?}").parse().expect("a literal");
     let description = describe::description(input.description, runtime);
+    let start = input.start.map(|start| describe::start(start, runtime));
     let arms = Entry::ALL.iter().map(|entry| {
         let variant = format_ident!("{}", format!("{entry:?}"));
         let function = format_ident!("{}", entry.name());
@@ -126,6 +130,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
             }
         }
         #description
+        #start
     }
 }
 
@@ -143,6 +148,7 @@ mod tests {
             tapes,
             description,
             sizes: Sizes::default(),
+            start: None,
             runtime_path: "::linkwear_runtime",
         })
     }
