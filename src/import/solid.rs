@@ -47,7 +47,7 @@ impl Solid {
             }
         }
         let volume = six / 6.0;
-        if !(volume.abs() > NO_VOLUME) {
+        if volume.is_nan() || volume.abs() <= NO_VOLUME {
             return Err("it encloses no volume".to_owned());
         }
         let centre = first.map(|x| x / volume);
@@ -88,9 +88,9 @@ impl Solid {
 pub fn bounds(triangles: &[Triangle]) -> ([f64; 3], [f64; 3]) {
     let mut bounds = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for corner in triangles.iter().flatten() {
-        for i in 0..3 {
-            bounds.0[i] = bounds.0[i].min(corner[i]);
-            bounds.1[i] = bounds.1[i].max(corner[i]);
+        for (i, x) in corner.iter().enumerate() {
+            bounds.0[i] = bounds.0[i].min(*x);
+            bounds.1[i] = bounds.1[i].max(*x);
         }
     }
     bounds
