@@ -238,21 +238,39 @@ impl Chart {
                 } else {
                     format!("<tspan class=\"now\" dx=\"5\" data-columns=\"{}\"></tspan>", columns.join(","))
                 };
+                series.key(out, x, y - 4.0);
                 let _ = write!(
                     out,
-                    "<rect class=\"f{}\" x=\"{x:.1}\" y=\"{:.1}\" width=\"12\" height=\"4\"/><text x=\"{:.1}\" y=\"{y:.1}\">{}{now}</text>",
-                    series.colour,
-                    y - 6.0,
-                    x + 17.0,
+                    "<text x=\"{:.1}\" y=\"{y:.1}\">{}{now}</text>",
+                    x + 21.0,
                     escaped(&series.name)
                 );
-                x += wide + if series.columns.is_empty() { 34.0 } else { 92.0 };
+                x += wide + if series.columns.is_empty() { 38.0 } else { 96.0 };
             }
         }
     }
 }
 
 impl Series {
+    /// What it looks like, before its name: 16 wide, about the height `y`.
+    fn key(&self, out: &mut String, x: f64, y: f64) {
+        let colour = self.colour;
+        let _ = match self.stroke {
+            Stroke::Line => write!(out, "<path class=\"s k{colour}\" d=\"M{x:.1} {y:.1}h16\"/>"),
+            Stroke::Dashed => write!(out, "<path class=\"s dashed k{colour}\" d=\"M{x:.1} {y:.1}h16\"/>"),
+            Stroke::Points => {
+                write!(out, "<circle class=\"f{colour}\" cx=\"{:.1}\" cy=\"{y:.1}\" r=\"2.6\"/>", x + 8.0)
+            }
+            Stroke::Band | Stroke::Bars => {
+                let top = y - 5.0;
+                write!(
+                    out,
+                    "<rect class=\"band f{colour}\" x=\"{x:.1}\" y=\"{top:.1}\" width=\"16\" height=\"10\"/>"
+                )
+            }
+        };
+    }
+
     fn draw(&self, out: &mut String, to_x: &dyn Fn(f64) -> f64, to_y: &dyn Fn(f64) -> f64, floor: f64) {
         let stride = if self.stroke == Stroke::Line { self.points.len().div_ceil(POINTS).max(1) } else { 1 };
         let shown =

@@ -9,7 +9,8 @@ use linkwear_runtime::Run;
 
 use super::chart::{STYLE, VERSION};
 use super::escape::escaped;
-use super::scene::{Scene, Shape, cross, dot, minus, norm, plus};
+use super::scene::{Scene, Shape};
+use super::vector::{cross, dot, minus, norm, plus};
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 600.0;
@@ -51,6 +52,7 @@ fn styled(compiled: &Compiled, run: &Run, style: &str) -> Option<String> {
     let row = run.rows.get((SHOWN * rows as f64) as usize)?;
     ground(&mut out, &scene, &camera);
     circles(&mut out, &scene, &camera, (row, &poses));
+    links(&mut out, &scene, &camera, (row, &poses));
     bodies(&mut out, &scene, &camera, (row, &poses), (6.0, 1.0));
     joints(&mut out, &scene, &camera, (row, &poses));
     axes(&mut out, &camera);
@@ -114,6 +116,8 @@ impl Camera {
         }
         let grounds = scene.joints.iter().flat_map(|joint| joint.sides).filter(|(body, _)| body.is_none());
         grounds.for_each(|(_, place)| see(place));
+        let held = scene.links.iter().flat_map(|link| link.sides).filter(|(body, _)| body.is_none());
+        held.for_each(|(_, place)| see(place));
         for row in run.rows.iter().step_by(stride) {
             for circle in &scene.circles {
                 circle.places().for_each(|place| see(moved(row, poses[circle.body], place)));
@@ -183,6 +187,29 @@ fn circles(out: &mut String, scene: &Scene, camera: &Camera, (row, poses): At<'_
                 y - 8.0
             );
         }
+    }
+}
+
+/// Belts, springs, cables.
+fn links(out: &mut String, scene: &Scene, camera: &Camera, (row, poses): At<'_>) {
+    let place = |(body, place): (Option<usize>, [f64; 3])| {
+        body.and_then(|body| poses.get(body)).map_or(place, |first| moved(row, *first, place))
+    };
+    let mut line = |corners: &[[f64; 2]]| {
+        let path: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let _ =
+            writeln!(out, "<polyline class=\"axis\" stroke-width=\"1.6\" points=\"{}\"/>", path.join(" "));
+    };
+    for belt in &scene.belts {
+        let circles = belt.circles.map(|at| &scene.circles[at]);
+        let [centre, tip] = [circles[0].centre, plus(circles[0].centre, circles[0].axis)]
+            .map(|at| place((Some(circles[0].body), at)));
+        let ends = circles.map(|circle| (place((Some(circle.body), circle.centre)), circle.radius));
+        let straights = belt.straights(minus(tip, centre), ends).into_iter().flatten();
+        straights.for_each(|straight| line(&straight.map(|place| camera.see(place))));
+    }
+    for link in &scene.links {
+        line(&link.corners(link.sides.map(|side| camera.see(place(side))), 7.0));
     }
 }
 

@@ -8,6 +8,7 @@ pub mod drawing;
 mod escape;
 mod fits;
 mod identified;
+mod links;
 mod lives;
 mod motion;
 mod plans;
@@ -15,6 +16,8 @@ mod plans;
 pub mod png;
 mod predictions;
 mod scene;
+mod vector;
+mod wheels;
 
 use linkwear_gamma::Prediction;
 use linkwear_gamma::data::Observations;

@@ -3,8 +3,14 @@
 
 use linkwear_codegen::Compiled;
 use linkwear_codegen::id::{BodyId, PointId};
-use linkwear_codegen::model::{Body, Carrier, Flexible, Formula, Inertia, Look, Mechanism};
+use linkwear_codegen::model::{
+    Body, Carrier, Coupling, Flexible, Force, Formula, Inertia, Look, Mechanism, MeshSide, PitchCircle,
+};
 use serde::{Serialize, Serializer};
+
+use super::links::Link;
+use super::vector::{cross, dot, minus, norm, plus};
+use super::wheels::{Belt, Circle};
 
 /// A mechanism at its reference pose; the motion of its bodies takes it from there.
 #[derive(Debug, Serialize)]
@@ -17,6 +23,12 @@ pub struct Scene {
     /// Pitch circles of wheels.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub circles: Vec<Circle>,
+    /// Pairs of circles that a belt goes round.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub belts: Vec<Belt>,
+    /// Springs and cables.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links: Vec<Link>,
     /// Points on moving bodies.
     pub traces: Vec<String>,
 }
@@ -44,34 +56,6 @@ pub struct LineNode {
     pub shape: Vec<[f64; 3]>,
     /// Its slope along the line.
     pub slope: Vec<[f64; 3]>,
-}
-
-/// A circle on a body.
-#[derive(Debug, Serialize)]
-pub struct Circle {
-    pub body: usize,
-    pub centre: [f64; 3],
-    /// Across its plane.
-    pub axis: [f64; 3],
-    pub radius: f64,
-}
-
-/// Points of a circle that is drawn.
-const ROUND: usize = 48;
-
-impl Circle {
-    /// Places around it, the last one the first.
-    pub fn places(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
-        let helper = if self.axis[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-        let across = cross(self.axis, helper);
-        let first = across.map(|x| x / norm(across));
-        let second = cross(self.axis, first);
-        (0..=ROUND).map(move |at| {
-            #[allow(clippy::cast_precision_loss, reason = "small whole numbers")]
-            let (sine, cosine) = (std::f64::consts::TAU * at as f64 / ROUND as f64).sin_cos();
-            [0, 1, 2].map(|i| self.centre[i] + self.radius * (cosine * first[i] + sine * second[i]))
-        })
-    }
 }
 
 /// A joint.
@@ -121,6 +105,8 @@ impl Scene {
             bodies: (0..mechanism.bodies.len()).map(|index| see.shape(index)).collect(),
             joints: see.joints(),
             circles: see.circles(),
+            belts: see.belts(),
+            links: see.links(),
             traces: moving.map(|point| point.name.clone()).collect(),
         }
     }
@@ -259,25 +245,57 @@ impl Eye<'_> {
     }
 
     fn circles(&self) -> Vec<Circle> {
-        let sides = self.mechanism.couplings.iter().flat_map(|coupling| &coupling.meshes);
-        let mut circles: Vec<Circle> = Vec::new();
-        for (side, circle) in sides.filter_map(|side| Some((side, side.pitch_circle?))) {
-            let axis = self.mechanism.joint(side.joint).model.axes[0].parent;
-            circles.push(Circle {
-                body: side.body.index(),
-                centre: circle.centre,
-                axis,
-                radius: circle.radius,
-            });
+        let couplings = self.mechanism.couplings.iter();
+        couplings
+            .flat_map(|coupling| pitch_circles(coupling).map(|side| self.circle(coupling, side)))
+            .collect()
+    }
+
+    fn circle(&self, coupling: &Coupling, (side, circle): (&MeshSide, PitchCircle)) -> Circle {
+        let within = |other: &PitchCircle| {
+            let apart = norm(minus(other.centre, circle.centre));
+            other.radius < circle.radius && apart + other.radius <= (1.0 + SAME) * circle.radius
+        };
+        Circle {
+            body: side.body.index(),
+            centre: circle.centre,
+            axis: self.axis(side),
+            radius: circle.radius,
+            hollow: coupling.kind == "gears" && pitch_circles(coupling).any(|(_, other)| within(&other)),
         }
-        circles
+    }
+
+    fn axis(&self, side: &MeshSide) -> [f64; 3] {
+        self.mechanism.joint(side.joint).model.axes[0].parent
+    }
+
+    fn belts(&self) -> Vec<Belt> {
+        let mut first = 0;
+        let mut belts = Vec::new();
+        for coupling in &self.mechanism.couplings {
+            let count = pitch_circles(coupling).count();
+            if coupling.kind == "belt" && count == 2 {
+                // Pulleys of a crossed belt turn against each other: both paths have one sign then, if both axes have one direction.
+                let paths: f64 = coupling.terms.iter().take(2).map(|term| self.value(&term.factor)).product();
+                let [one, other] = [0, 1].map(|i| self.axis(&coupling.meshes[i]));
+                let crossed = paths * dot(one, other) > 0.0;
+                belts.push(Belt { circles: [first, first + 1], crossed });
+            }
+            first += count;
+        }
+        belts
+    }
+
+    fn links(&self) -> Vec<Link> {
+        let between = self.mechanism.forces.iter().filter(|force| force.kind.points == 2);
+        let link = |force: &Force| Link {
+            kind: force.kind.name,
+            sides: [0, 1].map(|i| (body(force.bodies[i]), self.place(force.at[i], force.bodies[i]))),
+        };
+        between.map(link).collect()
     }
 
     fn joints(&self) -> Vec<JointMark> {
-        let body = |carrier: Carrier| match carrier {
-            Carrier::Ground => None,
-            Carrier::Body(id) => Some(id.index()),
-        };
         let mark = |joint: &linkwear_codegen::model::Joint| JointMark {
             name: joint.name.clone(),
             look: joint.model.kind.look(),
@@ -299,6 +317,18 @@ impl Eye<'_> {
     }
 }
 
+/// Which body; nothing for the ground.
+fn body(carrier: Carrier) -> Option<usize> {
+    match carrier {
+        Carrier::Ground => None,
+        Carrier::Body(id) => Some(id.index()),
+    }
+}
+
+fn pitch_circles(coupling: &Coupling) -> impl Iterator<Item = (&MeshSide, PitchCircle)> {
+    coupling.meshes.iter().filter_map(|side| Some((side, side.pitch_circle?)))
+}
+
 /// Where a place is in the list; new ones are added.
 fn add(places: &mut Vec<[f64; 3]>, place: [f64; 3]) -> usize {
     let size = places.iter().map(|known| norm(*known)).fold(norm(place), f64::max);
@@ -307,24 +337,4 @@ fn add(places: &mut Vec<[f64; 3]>, place: [f64; 3]) -> usize {
         places.push(place);
         places.len() - 1
     })
-}
-
-pub fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn norm(v: [f64; 3]) -> f64 {
-    dot(v, v).sqrt()
 }

@@ -86,7 +86,7 @@ gl_Position = camera * vec4(a + p.z * d + b.w * (p.x * x + p.y * y), 1.0); }`, "
     return mesh(list);
   };
   // What is drawn small has few sides.
-  const meshes = { rod: frustum(12, 1, true), thin: frustum(7, 1, true), box: frustum(4, 1, false), cone: frustum(10, 0, true), ball: sphere(12, 7) };
+  const meshes = { rod: frustum(12, 1, true), thin: frustum(7, 1, true), box: frustum(4, 1, false), cone: frustum(10, 0, true), ball: sphere(12, 7), disc: frustum(40, 1, true) };
   const put = (to, ax, ay, az, bx, by, bz, r, colour) => {
     if (ax === bx && ay === by && az === bz) return;
     let at = 10 * to.used++;

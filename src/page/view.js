@@ -129,6 +129,28 @@ function figure(when, bend, gap) {
   }
 }
 
+// Wheels, belts, springs and cables: where they are at an instant.
+const circles = scene.circles || [], belts = scene.belts || [], links = scene.links || [];
+for (const circle of circles) {
+  [circle.first] = across(V.unit(circle.axis));
+  Object.assign(circle, { now: new Float64Array(3), along: new Float64Array(3), x: new Float64Array(3), y: new Float64Array(3), belt: false });
+}
+belts.forEach(belt => belt.circles.forEach(at => { circles[at].belt = true; }));
+// Teeth of all wheels are as far apart.
+const pitch = Math.min(...circles.map(circle => circle.radius)) * Math.PI / 7;
+for (const link of links) link.ends = link.sides.map(([body, p]) => ({ body: body === null ? null : scene.bodies[body], p, at: Float64Array.from(p) }));
+const turned = (m, d, to) => { for (let i = 0; i < 3; i++) to[i] = m[3 * i] * d[0] + m[3 * i + 1] * d[1] + m[3 * i + 2] * d[2]; };
+function figure_parts() {
+  for (const circle of circles) {
+    const m = scene.bodies[circle.body].now, { along, x, y, now } = circle;
+    carry(m, circle.centre[0], circle.centre[1], circle.centre[2], now, 0);
+    turned(m, circle.axis, along);
+    turned(m, circle.first, x);
+    y[0] = along[1] * x[2] - along[2] * x[1]; y[1] = along[2] * x[0] - along[0] * x[2]; y[2] = along[0] * x[1] - along[1] * x[0];
+  }
+  for (const link of links) for (const end of link.ends) if (end.body) carry(end.body.now, end.p[0], end.p[1], end.p[2], end.at, 0);
+}
+
 // How large everything is over the run.
 const box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
 const include = p => p.forEach((x, i) => { box.low[i] = Math.min(box.low[i], x); box.high[i] = Math.max(box.high[i], x); });
@@ -145,7 +167,11 @@ for (let row = 0; row < times.length; row += Math.max(1, Math.floor(times.length
     if (joint.force !== undefined) force_most = Math.max(force_most, V.norm(vector_at(when, joint.force)));
   }
 }
-scene.joints.forEach(joint => joint.sides.forEach(([body, p]) => body === null && include(p)));
+scene.joints.concat(links).forEach(part => part.sides.forEach(([body, p]) => body === null && include(p)));
+for (const circle of circles) {
+  const [x, y] = across(V.unit(circle.axis));
+  for (const d of [x, y, V.by(-1, x), V.by(-1, y)]) include(moved([0, 0], scene.bodies[circle.body], V.add(circle.centre, V.by(circle.radius, d))));
+}
 const middle = V.by(0.5, V.add(box.low, box.high)), size = V.norm(V.sub(box.high, box.low)) || 1;
 const thick = body => Math.min(0.03 * size, Math.max(0.006 * size, body.radius || 0.011 * size));
 const knob = 0.014 * size * (scene.bodies.length > 20 ? 0.55 : 1);
@@ -214,6 +240,68 @@ const traces = scene.traces.map(name => {
   return gpu.lines(list);
 });
 
+// A place beside a wheel's centre: so far out at an angle, so far along its axis.
+const beside = (circle, out, angle, off, to) => {
+  const c = out * Math.cos(angle), s = out * Math.sin(angle);
+  for (let i = 0; i < 3; i++) to[i] = circle.now[i] + c * circle.x[i] + s * circle.y[i] + off * circle.along[i];
+};
+// Straight parts of a belt, as wheels.rs has them.
+const straight = (belt, side, from, to) => {
+  const [a, b] = belt.circles.map(at => circles[at]), n = a.along, gap = V.sub(b.now, a.now), apart = V.sub(gap, V.by(V.dot(n, gap), n));
+  const far = V.norm(apart), sign = belt.crossed ? -1 : 1, sine = (a.radius - sign * b.radius) / far, cosine = side * Math.sqrt(1 - sine * sine);
+  if (!(Math.abs(cosine) > 0)) return false;
+  const along = V.by(1 / far, apart), wide = V.cross(n, along), normal = V.add(V.by(sine, along), V.by(cosine, wide));
+  for (let i = 0; i < 3; i++) { from[i] = a.now[i] + a.radius * normal[i]; to[i] = b.now[i] + sign * b.radius * normal[i]; }
+  return true;
+};
+const COILS = 6, BEADS = 9;
+function paint_parts(put, { disc, thin, box }) {
+  figure_parts();
+  const segment = (shape, a, b, r, colour) => put(shape, a[0], a[1], a[2], b[0], b[1], b[2], r, colour);
+  for (const circle of circles) {
+    const { radius, hollow } = circle, colour = colours.bodies[circle.body % 8], half = Math.min(0.12 * radius, 0.6 * knob), teeth = Math.min(72, Math.round(2 * Math.PI * radius / pitch));
+    const high = Math.min(0.25 * pitch, 0.1 * radius);
+    if (hollow) {
+      for (let k = 0; k < 48; k++) {
+        beside(circle, radius + 2.2 * high, k * Math.PI / 24, 0, D);
+        beside(circle, radius + 2.2 * high, (k + 1) * Math.PI / 24, 0, E);
+        segment(thin, D, E, 1.4 * high, colour);
+      }
+    } else {
+      beside(circle, 0, 0, -half, D);
+      beside(circle, 0, 0, half, E);
+      segment(disc, D, E, circle.belt ? radius : radius - 0.6 * high, colour);
+    }
+    if (!circle.belt) for (let k = 0; k < teeth; k++) {
+      const angle = (k + (hollow ? 0.5 : 0)) * 2 * Math.PI / teeth;
+      beside(circle, radius - high, angle, 0, D);
+      beside(circle, radius + high, angle, 0, E);
+      segment(box, D, E, Math.min(1.2 * half, 0.28 * pitch), colour);
+    }
+    // A mark that turns with it.
+    if (!hollow) {
+      for (const side of [-1, 1]) {
+        beside(circle, 0.25 * radius, 0, side * half, D);
+        beside(circle, 0.8 * radius, 0, side * half, E);
+        segment(thin, D, E, 0.06 * radius, colours.soft);
+      }
+    }
+  }
+  for (const belt of belts) for (const side of [-1, 1]) if (straight(belt, side, D, E)) segment(thin, D, E, 0.3 * knob, colours.ink);
+  for (const { kind, ends } of links) {
+    const [a, b] = [ends[0].at, ends[1].at];
+    if (kind !== "spring") { segment(thin, a, b, 0.22 * knob, colours.ink); continue; }
+    const d = V.sub(b, a), n = V.norm(d), [x, y] = across(n > 0 ? V.by(1 / n, d) : [0, 0, 1]), wide = Math.min(1.3 * knob, 0.2 * n);
+    const coil = (k, to) => {
+      const part = Math.max(0, Math.min(1, k / (COILS * BEADS))), angle = 2 * Math.PI * k / BEADS;
+      for (let i = 0; i < 3; i++) to[i] = a[i] + (0.15 + 0.7 * part) * d[i] + wide * (Math.cos(angle) * x[i] + Math.sin(angle) * y[i]);
+    };
+    for (let k = 0; k < COILS * BEADS; k++) { coil(k, D); coil(k + 1, E); segment(thin, D, E, 0.22 * knob, colours.ink); }
+    coil(0, D); segment(thin, a, D, 0.22 * knob, colours.ink);
+    coil(COILS * BEADS, D); segment(thin, D, b, 0.22 * knob, colours.ink);
+  }
+}
+
 const F = new Float64Array(3);
 function paint(when, bend, gap, show) {
   const lens = projection(canvas.width / canvas.height), labels = show.names ? [] : null, { rod, thin, box, cone } = gpu.meshes, put = gpu.put, few = scene.bodies.length > 20;
@@ -237,6 +325,7 @@ function paint(when, bend, gap, show) {
     if (!rods.length && at.length) gpu.ball(at[0], at[1], at[2], 2 * r, colour);
     if (labels && at.length) { const [p, q] = rods[0] || [0, 0]; labels.push([body.name, [0, 1, 2].map(i => 0.5 * (at[3 * p + i] + at[3 * q + i])), b]); }
   });
+  paint_parts(put, gpu.meshes);
   for (const joint of scene.joints) {
     const [parent, child] = [joint.ends[0].at, joint.ends[1].at];
     if (joint.look === "strut") {
