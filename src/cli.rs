@@ -24,6 +24,7 @@ mod life;
 mod merge;
 mod new;
 mod options;
+mod own_file;
 mod packaging;
 #[cfg(feature = "page")]
 mod page;

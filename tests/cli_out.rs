@@ -30,6 +30,9 @@ const WRITERS: [&[&str]; 3] = [
     ],
 ];
 
+/// What linkwear wrote before.
+const OLD: &str = "<!-- linkwear 0.0.0 #before# -->";
+
 fn with<'a>(writer: &[&'a str], out: &'a str) -> Vec<&'a str> {
     [writer, &[out][..]].concat()
 }
@@ -49,7 +52,7 @@ fn shell(line: &str) -> std::process::Output {
 fn a_replaced_file_keeps_its_permissions_and_a_new_one_has_those_of_the_umask() {
     let folder = Folder::new("mode");
     for (at, writer) in WRITERS.iter().enumerate() {
-        let (old, new) = (folder.write(&format!("old{at}"), "#before#"), folder.path(&format!("new{at}")));
+        let (old, new) = (folder.write(&format!("old{at}"), OLD), folder.path(&format!("new{at}")));
         fs::set_permissions(&old, Permissions::from_mode(0o640)).expect("a mode");
         assert_eq!(linkwear(&with(writer, &old)).code, 0);
         assert_eq!((mode(&old), folder.read(&format!("old{at}")).contains("#before#")), (0o640, false));
@@ -62,15 +65,74 @@ fn a_replaced_file_keeps_its_permissions_and_a_new_one_has_those_of_the_umask() 
     assert_eq!(folder.names(), [&rows[..], &old].concat());
 }
 
+/// Somebody's own file, which may well be the data that a run was to be compared with.
+#[test]
+fn what_linkwear_did_not_make_is_replaced_by_force_alone() {
+    let folder = Folder::new("foreign");
+    let own = |name: &str| folder.path(name);
+    let mut writers: Vec<(Vec<&str>, String)> = WRITERS
+        .iter()
+        .zip(["a.csv", "a.rs", "a.json"])
+        .map(|(writer, name)| (writer.to_vec(), own(name)))
+        .collect();
+    let plot = ["simulate", PENDULUM, "--samples", "5", "--time", "0.1", "--plot"];
+    let arrays = &WRITERS[0];
+    let study = [
+        "study",
+        "mechanisms/rssr_rigid.toml",
+        "--vary",
+        "speed=1 Hz,2 Hz",
+        "--of",
+        "energy_error_J",
+        "--out",
+    ];
+    let unit = ["fmu", PENDULUM, "--out"];
+    for (writer, name) in [
+        (&plot[..], "a.svg"),
+        (arrays, "a.npy"),
+        (arrays, "a.parquet"),
+        (&study, "study.csv"),
+        (&unit, "a.fmu"),
+    ] {
+        writers.push((writer.to_vec(), own(name)));
+    }
+    for (writer, path) in &writers {
+        fs::write(path, "cycle,wear\n1,2.5\n").expect("a file");
+        let refused = linkwear(&with(writer, path));
+        assert!(
+            refused.code == 1 && refused.err.contains("C0004") && refused.err.contains("--force"),
+            "{path}"
+        );
+        assert_eq!(fs::read_to_string(path).expect("a file"), "cycle,wear\n1,2.5\n");
+        assert_eq!(linkwear(&[&with(writer, path)[..], &["--force"]].concat()).code, 0, "{path}");
+        // Now it is linkwear's own. A study that was left undone would stand beside it.
+        let _ = fs::remove_file(format!("{path}.journal"));
+        let again = linkwear(&with(writer, path));
+        assert_eq!(again.code, 0, "{path}: {}", again.err);
+    }
+    // Two files of one name, a crate of its own.
+    let stem = folder.path("pendulum");
+    let source = folder.write("pendulum.c", "int main(void) { return 0; }\n");
+    let c = ["generate", PENDULUM, "--target", "c", "-o", &stem];
+    assert_eq!(linkwear(&c).code, 1);
+    assert!(!fs::exists(folder.path("pendulum.h")).expect("a folder"), "nothing half-written");
+    assert!(fs::read_to_string(source).expect("a file").contains("main"));
+    let krate = folder.path("krate");
+    let c_abi = ["generate", PENDULUM, "--target", "c-abi", "-o", &krate];
+    (0..2).for_each(|_| assert_eq!(linkwear(&c_abi).code, 0));
+    fs::remove_file(folder.path("krate/src/mechanism.rs")).expect("a file");
+    assert_eq!(linkwear(&c_abi).code, 1, "somebody's crate");
+}
+
 #[test]
 fn a_symbolic_link_stays_and_the_file_that_it_names_is_replaced() {
     let folder = Folder::new("link");
     fs::create_dir(folder.path("far")).expect("a folder");
-    let target = folder.write("far/rows", "#before#");
+    let target = folder.write("far/rows", OLD);
     let link = folder.path("link");
     symlink("far/rows", &link).expect("a link");
     for writer in WRITERS {
-        fs::write(&target, "#before#").expect("a file");
+        fs::write(&target, OLD).expect("a file");
         assert_eq!(linkwear(&with(writer, &link)).code, 0);
         assert!(fs::symlink_metadata(&link).expect("a link").is_symlink());
         assert!(!folder.read("far/rows").contains("#before#"));
@@ -201,7 +263,7 @@ fn a_pipe_by_name_hands_the_rows_to_its_reader() {
 #[test]
 fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
     let folder = Folder::new("signal");
-    let out = folder.write("rows.csv", "#before#");
+    let out = folder.write("rows.csv", OLD);
     let mut child = command::start(&[
         "simulate",
         PENDULUM,

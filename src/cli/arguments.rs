@@ -13,7 +13,7 @@ use linkwear_codegen::render::TextFormat;
 use super::diff::DiffArguments;
 use super::identify::IdentifyArguments;
 use super::options::{
-    EquationsChoice, Input, LivesArguments, MotionArguments, RevolutionArguments, rows_help,
+    EquationsChoice, Input, LivesArguments, MotionArguments, Replace, RevolutionArguments, rows_help,
 };
 use super::shipped_schemas::SCHEMAS;
 use super::starters::Starter;
@@ -213,6 +213,8 @@ pub struct GenerateArguments {
     /// For rust: with a consistent start as a static, for programs without std. C has it always.
     #[arg(long)]
     pub with_start: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[cfg(feature = "fmu")]
@@ -223,9 +225,8 @@ pub struct FmuArguments {
     /// File to write.
     #[arg(short, long, value_name = "X.fmu", value_parser = output())]
     pub out: PathBuf,
-    /// Replace a file that is no unit.
-    #[arg(long)]
-    pub force: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[derive(Debug, Args)]
@@ -242,6 +243,8 @@ pub struct SimulateArguments {
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub equations: EquationsChoice,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[derive(Debug, Args)]
@@ -272,6 +275,9 @@ pub struct LifeArguments {
     pub threads: Option<NonZero<usize>>,
     #[command(flatten)]
     pub equations: EquationsChoice,
+    #[cfg(feature = "page")]
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[cfg(feature = "page")]
@@ -294,9 +300,8 @@ pub struct ReportArguments {
     /// File to write.
     #[arg(short, long, value_name = "PAGE.html", value_parser = output())]
     pub out: PathBuf,
-    /// Replace a file that linkwear did not make.
-    #[arg(long)]
-    pub force: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[cfg(feature = "page")]
@@ -311,9 +316,8 @@ pub struct ViewArguments {
     /// File to write.
     #[arg(short, long, value_name = "PAGE.html", value_parser = output())]
     pub out: PathBuf,
-    /// Replace a file that linkwear did not make.
-    #[arg(long)]
-    pub force: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[cfg(feature = "page")]
@@ -329,9 +333,8 @@ pub struct DrawArguments {
     /// File to write.
     #[arg(short, long, value_name = "PICTURE.svg|png", value_parser = output())]
     pub out: PathBuf,
-    /// Replace a file that linkwear did not make.
-    #[arg(long)]
-    pub force: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[derive(Debug, Args)]
@@ -343,6 +346,8 @@ pub struct MergeArguments {
     /// Of a life: folder for life.json, cycles.csv and lives.csv; must be new or empty. Of a study: file for the table.
     #[arg(long, value_name = "DIR|FILE", value_parser = output())]
     pub out: PathBuf,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 /// What `generate` writes.

@@ -125,6 +125,17 @@ impl Failure {
         Self::new("C0009", Some(file), message, help)
     }
 
+    /// A file is there that linkwear did not make.
+    pub fn foreign(file: &Path) -> Self {
+        let message = format!("`{}` exists, and linkwear did not make it", file.display());
+        Self::new(
+            "C0004",
+            Some(file),
+            message,
+            "nothing was changed; choose another name, or replace it by --force",
+        )
+    }
+
     /// Nothing could be run at any point of a study.
     pub fn empty_study(file: Option<&Path>, message: impl Display, help: impl Display) -> Self {
         Self::new("C0015", file, message, help)

@@ -29,9 +29,9 @@ use super::input::check_output;
 use super::picture;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
-    check_output(&arguments.file, arguments.out.as_deref())?;
+    check_output(&arguments.file, arguments.out.as_deref(), arguments.replace)?;
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.file, arguments.plot.as_deref())?;
+    picture::check_plot(&arguments.file, arguments.plot.as_deref(), arguments.replace)?;
     let Fitted { answer, file } = fitted(arguments, &CsvTable::read(&arguments.file)?, None)?;
     if let Some(out) = &arguments.out {
         write_whole(out, |out| out.write_all(file.as_bytes()))?;

@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::time::Instant;
 
-use crate::files::{WriteError, write_whole};
+use crate::files::write_whole;
 use crate::fmu;
 
 use super::answer::Answer;
@@ -15,10 +15,7 @@ use super::table::duration;
 
 pub fn run(arguments: &FmuArguments) -> Result<Answer, Failure> {
     let out = &arguments.out;
-    check_output(&arguments.input.file, Some(out))?;
-    if out.exists() && !arguments.force && !fmu::is_unit(out) {
-        return Err(WriteError::Exists(out.clone()).into());
-    }
+    check_output(&arguments.input.file, Some(out), arguments.replace)?;
     let start = Instant::now();
     let (compiled, warnings) = load(&arguments.input)?;
     let bytes = fmu::unit(&compiled).map_err(|error| Failure::usage(error, "see docs/fmi.md"))?;

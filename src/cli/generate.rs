@@ -15,6 +15,8 @@ use super::answer::equations::{FunctionAnswer, GenerateAnswer};
 use super::arguments::{GenerateArguments, Target};
 use super::failure::Failure;
 use super::input::{check_output, load};
+use super::options::Replace;
+use super::own_file::is_own;
 use super::table::{count, duration, plural, table};
 
 pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
@@ -29,8 +31,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         let source = folder.join("src");
         fs::create_dir_all(&source).map_err(WriteError::of(&source))?;
     }
+    let replace = replace(arguments);
     for (path, _) in &files {
-        check_output(&arguments.input.file, path.as_deref().filter(|_| !arguments.check))?;
+        check_output(&arguments.input.file, path.as_deref().filter(|_| !arguments.check), replace)?;
     }
     let seconds = start.elapsed().as_secs_f64();
     for (path, text) in &files {
@@ -72,6 +75,16 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         table(&["function", "operations", "statements", "parts"], &rows)
     );
     Ok(Answer::new(text, told, None))
+}
+
+/// A crate whose mechanism linkwear wrote is its own as a whole.
+fn replace(arguments: &GenerateArguments) -> Replace {
+    let known = |folder: &Path| {
+        let mechanism = folder.join("src/mechanism.rs");
+        mechanism.exists() && is_own(&mechanism)
+    };
+    let is_crate = arguments.target == Target::CAbi && arguments.out.as_deref().is_some_and(known);
+    Replace { force: arguments.replace.force || is_crate }
 }
 
 /// What is written where; without a place it goes to stdout.

@@ -25,7 +25,7 @@ use crate::study::{Cases, Points};
 pub fn run(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let file = &arguments.input.file;
     #[cfg(feature = "page")]
-    picture::check_plot(file, arguments.plot.as_deref())?;
+    picture::check_plot(file, arguments.plot.as_deref(), arguments.replace)?;
     let method = method(arguments.integrator, (arguments.step, arguments.tol))?;
     let free = free(arguments)?;
     let points = Points::sobol(arguments.free.clone(), 1, arguments.seed.into());

@@ -12,7 +12,8 @@ use serde_json::{Value, json};
 
 use super::colour;
 use super::failure::{Failure, entries};
-use super::options::{EquationsChoice, Input};
+use super::options::{EquationsChoice, Input, Replace};
+use super::own_file::is_own;
 
 /// Reads and compiles, with overrides and closure as asked; prints warnings, and returns them as machines read them.
 pub fn load(input: &Input) -> Result<(Compiled, Vec<Value>), Failure> {
@@ -69,8 +70,9 @@ fn print_warnings(warnings: &Diagnostics) {
     }
 }
 
-/// Refuses, before the work, what cannot be written and to write over the input. True if the output is a stream.
-pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure> {
+/// Refuses, before the work, what cannot be written, to write over the input, and to replace what linkwear did not make unless that
+/// is wanted. True if the output is a stream.
+pub fn check_output(input: &Path, output: Option<&Path>, replace: Replace) -> Result<bool, Failure> {
     let Some(output) = output else { return Ok(false) };
     if is_stdout(output) {
         return Ok(true);
@@ -81,7 +83,17 @@ pub fn check_output(input: &Path, output: Option<&Path>) -> Result<bool, Failure
     }
     match (input.canonicalize(), output.canonicalize()) {
         (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
-        _ => Ok(check_target(output)?),
+        _ => check_replaced(output, replace),
+    }
+}
+
+/// Refuses what cannot be written, and to replace what linkwear did not make. True for a stream.
+pub fn check_replaced(output: &Path, replace: Replace) -> Result<bool, Failure> {
+    let is_stream = check_target(output)?;
+    if is_stream || replace.force || !output.exists() || is_own(output) {
+        Ok(is_stream)
+    } else {
+        Err(Failure::foreign(output))
     }
 }
 

@@ -32,7 +32,7 @@ use super::picture;
 
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.input.file, arguments.plot.as_deref())?;
+    picture::check_plot(&arguments.input.file, arguments.plot.as_deref(), arguments.replace)?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let folder = arguments.out.as_deref();
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };

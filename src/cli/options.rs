@@ -44,6 +44,14 @@ pub struct Input {
     pub allow_outside_data: bool,
 }
 
+/// Whether a file may be replaced whatever it is.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct Replace {
+    /// Replace files that linkwear did not make, too.
+    #[arg(long)]
+    pub force: bool,
+}
+
 /// What runs the equations, and of which bodies.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct EquationsChoice {

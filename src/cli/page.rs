@@ -18,7 +18,7 @@ use super::arguments::{DrawArguments, ReportArguments, ViewArguments};
 use super::failure::Failure;
 use super::input::{options, print_remarks};
 use super::life;
-use super::options::{EquationsChoice, Input, LengthArguments, MotionArguments};
+use super::options::{EquationsChoice, Input, LengthArguments, MotionArguments, Replace};
 use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
@@ -53,8 +53,8 @@ pub struct Ear<'a> {
 }
 
 pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
-    let ReportArguments { input, out, force, .. } = arguments;
-    to_file(&input.file, (out, *force), |ear| {
+    let ReportArguments { input, out, replace, .. } = arguments;
+    to_file(&input.file, (out, *replace), |ear| {
         if input.file.is_dir() {
             return Ok((lived_page(arguments, ear)?.into_bytes(), ""));
         }
@@ -124,8 +124,8 @@ fn page(seen: &Seen, life: Option<&Value>, with_parameters: bool) -> String {
 }
 
 pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
-    let ViewArguments { input, out, force, .. } = arguments;
-    to_file(&input.file, (out, *force), |ear| {
+    let ViewArguments { input, out, replace, .. } = arguments;
+    to_file(&input.file, (out, *replace), |ear| {
         Ok((view_page(arguments, &read_source(&input.file)?, ear)?.into_bytes(), ""))
     })
 }
@@ -138,8 +138,8 @@ pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -
 }
 
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
-    let DrawArguments { input, out, force, .. } = arguments;
-    to_file(&input.file, (out, *force), |ear| {
+    let DrawArguments { input, out, replace, .. } = arguments;
+    to_file(&input.file, (out, *replace), |ear| {
         let svg = drawn(arguments, &read_source(&input.file)?, ear)?;
         Ok((picture::drawn(out, svg)?, ""))
     })
@@ -185,10 +185,10 @@ fn see(
 /// Writes what is made of a file, with a note for its reader.
 fn to_file(
     input: &Path,
-    (out, force): (&Path, bool),
+    (out, replace): (&Path, Replace),
     make: impl FnOnce(Ear<'_>) -> Result<(Vec<u8>, &'static str), Failure>,
 ) -> Result<Answer, Failure> {
-    may_write(input, out, force)?;
+    may_write(input, out, replace)?;
     let begin = Instant::now();
     let (bytes, note) = watched("run", |watch| make(Ear { watch, remarks: true }))?;
     write_whole(out, |file| file.write_all(&bytes))?;

@@ -1,34 +1,20 @@
 //! Where pages and pictures may be written. In: paths, text. Out: files. Never knows what is in them.
 
-use std::fs::File;
-use std::io::{Read as _, Write as _};
+use std::io::Write as _;
 use std::path::Path;
 
 use super::failure::Failure;
 use super::input::check_output;
-use crate::files::{WriteError, write_whole};
+use super::options::Replace;
+use crate::files::write_whole;
 
 /// Refuses, before the work, to replace what linkwear did not make.
-pub fn may_write(input: &Path, out: &Path, force: bool) -> Result<(), Failure> {
+pub fn may_write(input: &Path, out: &Path, replace: Replace) -> Result<(), Failure> {
     if cfg!(not(feature = "png")) && is_png(out) {
         let help = "give a name that ends in .svg, or build it with the feature `png`: cargo build --release --features png";
         return Err(Failure::usage("this program was built without PNG", help));
     }
-    let is_stream = check_output(input, Some(out))?;
-    let is_foreign = || out.is_file() && !is_own(out);
-    if !is_stream && !force && is_foreign() {
-        return Err(WriteError::Exists(out.to_path_buf()).into());
-    }
-    Ok(())
-}
-
-/// Whether linkwear made a page or a picture, by how it begins.
-fn is_own(file: &Path) -> bool {
-    let mut head = Vec::new();
-    let read = File::open(file).and_then(|file| file.take(600).read_to_end(&mut head));
-    let text = String::from_utf8_lossy(&head);
-    let marks = ["\"linkwear ", "<!-- linkwear ", "Software\0linkwear "];
-    read.is_ok() && (head.is_empty() || marks.iter().any(|mark| text.contains(mark)))
+    check_output(input, Some(out), replace).map(drop)
 }
 
 /// Whether a file is to be a PNG.
@@ -50,8 +36,8 @@ pub fn drawn(file: &Path, svg: String) -> Result<Vec<u8>, Failure> {
 }
 
 /// Refuses, before the work, a place where no charts may be written.
-pub fn check_plot(input: &Path, plot: Option<&Path>) -> Result<(), Failure> {
-    plot.map_or(Ok(()), |plot| may_write(input, plot, false))
+pub fn check_plot(input: &Path, plot: Option<&Path>, replace: Replace) -> Result<(), Failure> {
+    plot.map_or(Ok(()), |plot| may_write(input, plot, replace))
 }
 
 /// Writes charts where they are asked for.

@@ -38,9 +38,9 @@ const DEFAULT_RHO: f64 = 0.8;
 pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     integrator(&arguments.motion)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
-    let is_stream = check_output(file, out)?;
+    let is_stream = check_output(file, out, arguments.replace)?;
     #[cfg(feature = "page")]
-    picture::check_plot(file, arguments.plot.as_deref())?;
+    picture::check_plot(file, arguments.plot.as_deref(), arguments.replace)?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();

@@ -19,13 +19,13 @@ pub use self::arguments::StudyArguments;
 use super::answer::Answer;
 use super::arguments::MergeArguments;
 use super::failure::Failure;
-use super::input::{check_output, options, print_remarks};
+use super::input::{check_output, check_replaced, options, print_remarks};
 use super::life;
 use super::simulate::{Simulation, integrator};
 
 pub fn run(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
-    let is_stream = check_output(file, out)?;
+    let is_stream = check_output(file, out, arguments.replace)?;
     if is_stream && (arguments.resume || arguments.shard.is_some()) {
         let help = "give a file, so that what is finished has a place";
         return Err(Failure::usage("--out is a stream: nothing could go on or be merged from there", help));
@@ -68,6 +68,7 @@ pub fn kept(
 
 /// The points of all shards as one study.
 pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
+    check_replaced(&arguments.out, arguments.replace)?;
     let result = merge(&arguments.shards).map_err(Failure::merge)?;
     finished(&result, (None, Some(&arguments.out)))
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use linkwear_gamma::process::{PROCESSES, Process};
 
 use super::super::calendar::Calendar;
+use super::super::options::Replace;
 use super::super::value::{
     OtherJoint, covariate, from_zero, one_of, other_joint, output, part, positive, range, within_one,
 };
@@ -83,6 +84,9 @@ pub struct PredictArguments {
     #[cfg(feature = "page")]
     #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
     pub plot: Option<PathBuf>,
+    #[cfg(feature = "page")]
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[derive(Debug, Args)]
@@ -144,6 +148,9 @@ pub struct PlanArguments {
     #[cfg(feature = "page")]
     #[arg(long, value_name = "FILE.svg|png", value_parser = output())]
     pub plot: Option<PathBuf>,
+    #[cfg(feature = "page")]
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[derive(Debug, Args)]
@@ -219,6 +226,8 @@ pub struct FitArguments {
     /// Write the fit (JSON) for `predict`.
     #[arg(long, value_name = "FILE", value_parser = output())]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 impl FitArguments {

@@ -39,7 +39,8 @@ pub const COMMANDS: &[Command] = &[
     Command {
         code: "C0004",
         title: "A file or folder that exists already and is not written over.",
-        text: "linkwear replaces what it made itself, and of a mechanism file or a used folder of a life nothing at all.",
+        text: "linkwear replaces files that it made itself, others only with --force, and of a mechanism file or a used folder of a life \
+               nothing at all.",
         wrong: "linkwear new press && linkwear new press",
         right: "linkwear new press && linkwear new press2",
     },

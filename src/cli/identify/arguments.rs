@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+#[cfg(feature = "page")]
+use super::super::options::Replace;
 use super::super::options::{EquationsChoice, Input, IntegratorName};
 #[cfg(feature = "page")]
 use super::super::value::output;
@@ -71,4 +73,7 @@ pub struct IdentifyArguments {
     pub plot: Option<PathBuf>,
     #[command(flatten)]
     pub equations: EquationsChoice,
+    #[cfg(feature = "page")]
+    #[command(flatten)]
+    pub replace: Replace,
 }

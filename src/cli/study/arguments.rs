@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::super::options::{EquationsChoice, Input, LivesArguments, MotionArguments, rows_help};
+use super::super::options::{EquationsChoice, Input, LivesArguments, MotionArguments, Replace, rows_help};
 use super::super::value::{axis, sample, threads};
 use crate::shard::Shard;
 use crate::study::Axis;
@@ -43,4 +43,6 @@ pub struct StudyArguments {
     pub lives: LivesArguments,
     #[command(flatten)]
     pub equations: EquationsChoice,
+    #[command(flatten)]
+    pub replace: Replace,
 }
