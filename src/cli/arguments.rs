@@ -371,7 +371,7 @@ pub struct NewArguments {
 pub struct ImportArguments {
     /// Robot (URDF, or MJCF of MuJoCo; of a xacro file what `xacro` makes of it), or a part (STL).
     pub file: PathBuf,
-    /// Where the mechanism file goes; one that is there is not replaced.
+    /// Where the mechanism file goes; one that is there may have been edited, and is not replaced.
     #[arg(short, long, value_name = "FILE.toml", value_parser = output())]
     pub out: PathBuf,
     /// Let the root link of a URDF file move freely, as that of a robot that walks or flies; without it is the ground.
@@ -386,6 +386,8 @@ pub struct ImportArguments {
     /// Let the robot name meshes and included files outside its folder.
     #[arg(long)]
     pub allow_outside_data: bool,
+    #[command(flatten)]
+    pub replace: Replace,
 }
 
 #[cfg(test)]

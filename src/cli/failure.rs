@@ -127,7 +127,7 @@ impl Failure {
 
     /// A file is there that linkwear did not make.
     pub fn foreign(file: &Path) -> Self {
-        let message = format!("`{}` exists, and linkwear did not make it", file.display());
+        let message = format!("`{}` exists, and is not known to be made by linkwear", file.display());
         Self::new(
             "C0004",
             Some(file),

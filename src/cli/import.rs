@@ -11,16 +11,12 @@ use super::answer::equations::{ImportAnswer, PartAnswer};
 use super::arguments::ImportArguments;
 use super::failure::Failure;
 use super::input::check_output;
-use super::options::Replace;
-use crate::files::{WriteError, write_whole};
+use crate::files::write_whole;
 use crate::import::{Base, Files, ImportError, LengthUnit, from_robot, from_stl};
 
 pub fn run(arguments: &ImportArguments) -> Result<Answer, Failure> {
     let (file, out) = (&arguments.file, &arguments.out);
-    let is_stream = check_output(file, Some(out), Replace { force: true })?;
-    if !is_stream && out.exists() {
-        return Err(WriteError::Exists(out.clone()).into());
-    }
+    check_output(file, Some(out), arguments.replace)?;
     let is_part = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("stl"));
     if is_part { part(arguments) } else { robot(arguments) }
 }
