@@ -12,6 +12,8 @@ use crate::scalar::Scalar;
 
 /// What is left of a step that failed, however large its error.
 const AFTER_TROUBLE: f64 = 0.25;
+/// What is left of a step that had better not end where it would: the next one, of its full length, has that in its middle.
+const SHUNNING: f64 = 0.5;
 
 /// Where a step begins.
 #[derive(Clone, Copy)]
@@ -176,13 +178,24 @@ impl<M: Method> Adaptive<M> {
     /// # Errors
     /// [`RunError::StepTooSmall`], or what the problem reports however short the step.
     pub fn step(&mut self, problem: &mut dyn Problem, end: f64) -> Result<(), RunError> {
+        // Length of the step that is to lead across what this one would have ended in.
+        let mut across = None;
         loop {
             let (step, next_t) = self.control.propose(end);
             let outcome = self.attempt(problem, step, next_t);
             let is_smallest = self.control.is_smallest(step);
             match outcome {
+                Ok(estimate)
+                    if estimate.error <= 1.0 && across.is_none() && next_t < end && problem.shuns_end() =>
+                {
+                    across = Some(step);
+                    self.control.shorten(step, SHUNNING);
+                }
                 Ok(estimate) if estimate.error <= 1.0 => {
                     self.accept(problem, (step, next_t), estimate);
+                    if let Some(step) = across {
+                        self.control.set_step(step);
+                    }
                     return Ok(());
                 }
                 Ok(Estimate { error, worst, .. }) => {

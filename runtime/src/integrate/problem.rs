@@ -30,6 +30,11 @@ pub trait Problem {
         0.0
     }
 
+    /// Whether steps had better not end where the last derivative was taken: one of half the length, and then one across it, lose less.
+    fn shuns_end(&self) -> bool {
+        false
+    }
+
     /// Told of every state that counts, with its derivative.
     fn reached(&mut self, t: f64, derivative: &[f64]) {
         let _ = (t, derivative);

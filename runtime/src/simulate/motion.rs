@@ -21,6 +21,10 @@ pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
 
+/// Steps from regular states do not end below this regularity: put onto the constraints there, for rounding alone, the direction
+/// that is nearly lost turns the speeds. Of 240 tolerances of the N four-bar with two cells none is then off by more than 4e-9 m;
+/// without it, or at 1e-4, by 4e-8 to 6e-8.
+const SHUNNED_END: f64 = 1e-5;
 /// Steps with a tolerance may leave loops open by this part of it [m, rad]. A turn with clearance of 4,200 steps at 1e-5 corrects
 /// its loops 16 times then, and its wear integral changes by 2e-7 of itself.
 const LEFT_OPEN: f64 = 1e-5;
@@ -87,6 +91,8 @@ pub(super) struct ConstrainedMotion<'a> {
     looseness: f64,
     /// Kinetic and potential energy [J] at a time [s], if they were evaluated elsewhere.
     known_energy: Option<(f64, (f64, f64))>,
+    /// Regularity of the last state that counted.
+    regularity_reached: f64,
 }
 
 impl<'a> ConstrainedMotion<'a> {
@@ -109,6 +115,7 @@ impl<'a> ConstrainedMotion<'a> {
             energy_scale: ENERGY_FLOOR,
             looseness: 1.0,
             known_energy: None,
+            regularity_reached: 1.0,
         }
     }
 
@@ -121,6 +128,7 @@ impl<'a> ConstrainedMotion<'a> {
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.dynamics.visit_memory(visit);
         visit(&mut self.energy_scale);
+        visit(&mut self.regularity_reached);
     }
 
     /// Kinetic and potential energy of a flat state [J].
@@ -410,6 +418,10 @@ impl Problem for ConstrainedMotion<'_> {
         self.dynamics.nearness() < PROJECTED_STAGES
     }
 
+    fn shuns_end(&self) -> bool {
+        self.regularity_reached >= SHUNNED_END && self.dynamics.nearness() < SHUNNED_END
+    }
+
     /// What the accelerations differ by at a state that differs in the last place.
     fn noise(&mut self, t: f64, y: &[f64], derivative: &[f64]) -> f64 {
         let mut beside = std::mem::take(&mut self.beside);
@@ -428,6 +440,7 @@ impl Problem for ConstrainedMotion<'_> {
     }
 
     fn reached(&mut self, t: f64, derivative: &[f64]) {
+        self.regularity_reached = self.dynamics.nearness();
         self.dynamics.note_reference(t, &derivative[self.coordinates..][..self.speeds]);
     }
 
