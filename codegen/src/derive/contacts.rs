@@ -11,30 +11,10 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::JointId;
 use crate::model::Axis;
 
+use super::contact_wrench::ContactWrench;
 use super::guide_contacts::GuidePlace;
 use super::joint_state::JointStates;
-use super::linkage::{Link, Linkage};
 use super::loads::Loads;
-
-/// A wrench on a journal, handed in: force and moment about its centre, in the bearing's frame.
-#[derive(Clone, Copy, Debug)]
-pub struct ContactWrench<'g> {
-    /// The joint.
-    pub joint: JointId,
-    /// How far along the joint's axis [m].
-    pub along: f64,
-    /// [N].
-    pub force: Vec3<'g>,
-    /// [N m].
-    pub moment: Vec3<'g>,
-}
-
-/// The link that a coordinate of a tree joint moves.
-#[expect(clippy::expect_used, reason = "asked of joints in the tree only, which have all their coordinates")]
-pub(super) fn moved_link(linkage: &Linkage, joint: JointId, coordinate: usize) -> &Link {
-    let link = linkage.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
-    &linkage.links[link]
-}
 
 /// Offset, its rate, relative angular velocity, clearance: ten values of one joint, as [`linkwear_runtime::CONTACT_MOTION`] has
 /// them.
@@ -53,7 +33,7 @@ pub fn contact_motion<'g>(
         [offset, rate, turn] = GuidePlace::new(g, state, contact).motion(g);
     } else if linkage.link_of_joint[joint.index()].is_some() {
         for (axis, coordinate) in data.model.offsets().enumerate() {
-            let link = moved_link(linkage, joint, coordinate);
+            let link = linkage.moved_link(joint, coordinate);
             offset[axis] = state.q[link.first_coordinate];
             rate[axis] = state.v[link.first_speed];
         }
@@ -67,9 +47,9 @@ pub fn contact_motion<'g>(
         } else if data.model.is_cross() {
             turn = cross_rate(g, state, joint);
         } else {
-            turn[2] = state.v[moved_link(linkage, joint, 0).first_speed];
+            turn[2] = state.v[linkage.moved_link(joint, 0).first_speed];
             if wears {
-                offset[2] = state.q[moved_link(linkage, joint, 0).first_coordinate];
+                offset[2] = state.q[linkage.moved_link(joint, 0).first_coordinate];
             }
         }
     } else {
@@ -114,10 +94,10 @@ fn cross_axes<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> [Vec
     let linkage = state.geometry.linkage;
     let model = &state.geometry.mechanism.joint(joint).model;
     let reversed = linkage.reversed[joint.index()];
-    let frame = moved_link(linkage, joint, model.offsets().start).frame;
+    let frame = linkage.moved_link(joint, model.offsets().start).frame;
     let of = |axis: &Axis| g.vector(frame.local(if reversed { axis.child } else { axis.parent }));
     let [first, second] = [of(&model.axes[0]), of(&model.axes[1])];
-    let angle = state.q[moved_link(linkage, joint, 0).first_coordinate];
+    let angle = state.q[linkage.moved_link(joint, 0).first_coordinate];
     let (sine, cosine) = (angle.sin(), angle.cos());
     let along = first.dot(second) * first;
     [first, along + cosine * (second - along) + sine * first.cross(second)]
@@ -126,7 +106,7 @@ fn cross_axes<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> [Vec
 /// Angular velocity of the child of a universal joint in the tree, relative to the parent.
 fn cross_rate<'g>(g: &'g Scope, state: &JointStates<'g>, joint: JointId) -> Vec3<'g> {
     let [first, second] = cross_axes(g, state, joint);
-    let rate = |coordinate| state.v[moved_link(state.geometry.linkage, joint, coordinate).first_speed];
+    let rate = |coordinate| state.v[state.geometry.linkage.moved_link(joint, coordinate).first_speed];
     rate(0) * first + rate(1) * second
 }
 
@@ -159,17 +139,17 @@ pub fn contact_forces<'g>(
         return loads.pair(joint, &motion, moment, force);
     }
     for (axis, coordinate) in model.offsets().enumerate() {
-        loads.joint[moved_link(linkage, joint, coordinate).first_speed] += contact.force[axis];
+        loads.joint[linkage.moved_link(joint, coordinate).first_speed] += contact.force[axis];
     }
     if model.is_cross() {
         for (coordinate, axis) in cross_axes(g, state, joint).into_iter().enumerate() {
-            let speed = moved_link(linkage, joint, coordinate).first_speed;
+            let speed = linkage.moved_link(joint, coordinate).first_speed;
             loads.joint[speed] += axis.dot(contact.moment);
         }
         return;
     }
     let Some(ball) = linkage.ball_of(joint) else {
-        loads.joint[moved_link(linkage, joint, 0).first_speed] += contact.moment[2];
+        loads.joint[linkage.moved_link(joint, 0).first_speed] += contact.moment[2];
         return;
     };
     let rotation = state.motion.poses.relative[ball].rotation;

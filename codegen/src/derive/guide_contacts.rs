@@ -9,7 +9,7 @@
 use crate::expr::{Expr, Scope, Vec3};
 use crate::model::{Direction, Ends, JointModel, Primitive};
 
-use super::contacts::{ContactWrench, moved_link};
+use super::contact_wrench::ContactWrench;
 use super::joint_state::JointStates;
 use super::loads::Loads;
 
@@ -52,7 +52,7 @@ impl<'g> GuidePlace<'g> {
     /// Of a joint in the tree.
     pub fn new(g: &'g Scope, state: &JointStates<'g>, contact: &ContactWrench<'g>) -> Self {
         let model = &state.geometry.mechanism.joint(contact.joint).model;
-        let link = |number: usize| moved_link(state.geometry.linkage, contact.joint, number);
+        let link = |number: usize| state.geometry.linkage.moved_link(contact.joint, number);
         let place = |number: usize| state.q[link(number).first_coordinate];
         let moved = |number: usize| {
             let speed = link(number).first_speed;

@@ -244,4 +244,14 @@ impl Linkage {
             .take_while(|at| self.links[*at].joint == joint)
             .find(|at| self.links[*at].joint_coordinate == coordinate)
     }
+
+    /// The link that a coordinate of a tree joint moves.
+    #[expect(
+        clippy::expect_used,
+        reason = "asked of joints in the tree only, which have all their coordinates"
+    )]
+    pub fn moved_link(&self, joint: JointId, coordinate: usize) -> &Link {
+        let link = self.link_of_coordinate(joint, coordinate).expect("a tree joint has its coordinates");
+        &self.links[link]
+    }
 }

@@ -7,6 +7,7 @@
 mod accelerations;
 mod attachment;
 mod closure;
+mod contact_wrench;
 mod contacts;
 mod couplings;
 mod deformation;

@@ -4,7 +4,8 @@
 use crate::expr::Scope;
 use crate::id::JointId;
 
-use super::contacts::{ContactWrench, contact_forces};
+use super::contact_wrench::ContactWrench;
+use super::contacts::contact_forces;
 use super::element::Element;
 use super::joint_state::JointStates;
 use super::loads::Loads;

@@ -13,7 +13,7 @@ use super::names::{INPUT_RATES, variable_names};
 use super::own_states::{OwnState, own_states};
 use crate::derive::accelerations::accelerations;
 use crate::derive::closure::{CutRows, cut_rows, row_count};
-use crate::derive::contacts::ContactWrench;
+use crate::derive::contact_wrench::ContactWrench;
 use crate::derive::couplings::{CouplingRow, coupling_rows};
 use crate::derive::elements::loads;
 use crate::derive::formula_to_expr::Inputs;
