@@ -114,7 +114,7 @@ fn a_wrong_file_is_told_alike_through_every_door() {
             assert_eq!(found, &errors[0], "{door:?}");
         }
         let source = SourceFile { name: file.clone(), text: text.to_owned() };
-        let failure = ask::check(&[], &source).err().expect("wrong");
+        let failure = ask::check(&[], &source).expect_err("wrong");
         assert_eq!(failure.errors(), errors[0]);
     }
 }

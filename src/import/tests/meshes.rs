@@ -112,7 +112,7 @@ fn round_solids_come_near_to_their_formulas_as_their_sides_do() {
     let arc = |rings: usize, half: f64, radius: f64| -> Vec<[f64; 2]> {
         let angle = |ring: usize| PI * ring as f64 / rings as f64;
         let at = |ring: usize| {
-            let sine = if ring % rings == 0 { 0.0 } else { angle(ring).sin() };
+            let sine = if ring.is_multiple_of(rings) { 0.0 } else { angle(ring).sin() };
             let z = -radius * angle(ring).cos();
             [radius * sine, z + half * if 2 * ring < rings { -1.0 } else { 1.0 }]
         };
