@@ -277,25 +277,29 @@ impl<'a> Simulation<'a> {
         self.change(
             |evaluator| {
                 let state = &mut evaluator.clearances_mut().states_mut()[joint];
-                (state.worn, state.profile, state.journal) = (worn, profile, journal);
+                (state.worn, state.profile, state.journal) = (worn, profile.clone(), journal.clone());
                 Ok(())
             },
-            |evaluator| evaluator.clearances_mut().states_mut()[joint] = kept,
+            |evaluator| evaluator.clearances_mut().states_mut()[joint] = kept.clone(),
         )
     }
 
     /// Changes laws at the present time; `undo` takes that back where the mechanism does not bear it.
     fn change(
         &mut self,
-        change: impl FnOnce(&mut Evaluator<'a>) -> Result<(), SetupError>,
-        undo: impl FnOnce(&mut Evaluator<'a>),
+        change: impl Fn(&mut Evaluator<'a>) -> Result<(), SetupError>,
+        undo: impl Fn(&mut Evaluator<'a>),
     ) -> Result<(), RunError> {
         let Self { motion, sampler, steps, t, state, .. } = self;
         let (q, v, _) = motion.split(state);
         let mut now = State { q: q.to_vec(), v: v.to_vec() };
         let (evaluator, arm) = (&mut motion.dynamics.evaluator, motion.arm);
-        let before = changed_laws::change(evaluator, (*t, &now), arm, change, undo)?;
+        let before = changed_laws::change(evaluator, (*t, &now), arm, &change, &undo)?;
+        // The step that ends here is judged by the laws that it went by: its energy is not what it would be by others.
+        undo(evaluator);
         steps.cut(motion, sampler, *t, state)?;
+        change(&mut motion.dynamics.evaluator)?;
+        motion.dynamics.evaluator.evaluate_contacts(*t, &now.q, &now.v);
         surface::follow(&mut motion.dynamics.evaluator, *t, &mut now, &before);
         state[..now.q.len()].copy_from_slice(&now.q);
         state[now.q.len()..][..now.v.len()].copy_from_slice(&now.v);
