@@ -5,8 +5,8 @@ use serde::Serialize;
 /// A force element between two places.
 #[derive(Debug, Serialize)]
 pub struct Link {
-    /// The key of its kind.
-    pub kind: &'static str,
+    /// Whether it is a coil; else a straight line.
+    pub coiled: bool,
     /// Which body, nothing for the ground; where on it.
     pub sides: [(Option<usize>, [f64; 3]); 2],
 }
@@ -17,11 +17,11 @@ const COILS: usize = 6;
 const STRAIGHT: f64 = 0.15;
 
 impl Link {
-    /// Corners of its picture between two places of a drawing; a spring goes `wide` to both sides of its middle line.
+    /// Corners of its picture between two places of a drawing; a coil goes `wide` to both sides of its middle line.
     pub fn corners(&self, [from, to]: [[f64; 2]; 2], wide: f64) -> Vec<[f64; 2]> {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
-        if self.kind != "spring" || length == 0.0 {
+        if !self.coiled || length == 0.0 {
             return vec![from, to];
         }
         let across = [-along[1] / length * wide, along[0] / length * wide];

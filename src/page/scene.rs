@@ -289,7 +289,7 @@ impl Eye<'_> {
     fn links(&self) -> Vec<Link> {
         let between = self.mechanism.forces.iter().filter(|force| force.kind.points == 2);
         let link = |force: &Force| Link {
-            kind: force.kind.name,
+            coiled: force.kind.coiled,
             sides: [0, 1].map(|i| (body(force.bodies[i]), self.place(force.at[i], force.bodies[i]))),
         };
         between.map(link).collect()

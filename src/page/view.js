@@ -288,9 +288,9 @@ function paint_parts(put, { disc, thin, box }) {
     }
   }
   for (const belt of belts) for (const side of [-1, 1]) if (straight(belt, side, D, E)) segment(thin, D, E, 0.3 * knob, colours.ink);
-  for (const { kind, ends } of links) {
+  for (const { coiled, ends } of links) {
     const [a, b] = [ends[0].at, ends[1].at];
-    if (kind !== "spring") { segment(thin, a, b, 0.22 * knob, colours.ink); continue; }
+    if (!coiled) { segment(thin, a, b, 0.22 * knob, colours.ink); continue; }
     const d = V.sub(b, a), n = V.norm(d), [x, y] = across(n > 0 ? V.by(1 / n, d) : [0, 0, 1]), wide = Math.min(1.3 * knob, 0.2 * n);
     const coil = (k, to) => {
       const part = Math.max(0, Math.min(1, k / (COILS * BEADS))), angle = 2 * Math.PI * k / BEADS;

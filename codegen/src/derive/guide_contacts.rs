@@ -7,7 +7,7 @@
 //! forces, to the last digit.
 
 use crate::expr::{Expr, Scope, Vec3};
-use crate::model::{Direction, Ends, JointModel, Primitive};
+use crate::model::Ends;
 
 use super::contact_wrench::ContactWrench;
 use super::joint_state::JointStates;
@@ -42,12 +42,6 @@ pub struct GuidePlace<'g> {
     slope: Option<[Expr<'g>; 2]>,
 }
 
-/// The coordinate of a joint that is this primitive.
-fn number(model: &JointModel, wanted: Primitive) -> Option<usize> {
-    let found = model.primitives().into_iter().find(|(_, primitive)| *primitive == wanted);
-    found.map(|(number, _)| number)
-}
-
 impl<'g> GuidePlace<'g> {
     /// Of a joint in the tree.
     pub fn new(g: &'g Scope, state: &JointStates<'g>, contact: &ContactWrench<'g>) -> Self {
@@ -74,8 +68,8 @@ impl<'g> GuidePlace<'g> {
         Self {
             across: across.map(moved),
             tilts: tilts.map(|tilts| tilts.map(moved)),
-            turn: number(model, Primitive::Turn(Direction::Z)).map(moved),
-            slide: number(model, Primitive::Slide(Direction::Z)).map(moved),
+            turn: model.turn_about_axis().map(moved),
+            slide: model.slide_along_axis().map(moved),
             sliding: if in_bush { axis } else { sliding },
             axis,
             second,

@@ -261,6 +261,21 @@ impl JointModel {
         Self::new("free", &[])
     }
 
+    /// Number of its coordinate that turns about its axis.
+    pub fn turn_about_axis(&self) -> Option<usize> {
+        self.number_of(Turn(Z))
+    }
+
+    /// Number of its coordinate that slides along its axis.
+    pub fn slide_along_axis(&self) -> Option<usize> {
+        self.number_of(Slide(Z))
+    }
+
+    fn number_of(&self, wanted: Primitive) -> Option<usize> {
+        let found = self.primitives().into_iter().find(|(_, primitive)| *primitive == wanted);
+        found.map(|(number, _)| number)
+    }
+
     /// Its primitives from parent to child, each with the number of its first coordinate.
     pub fn primitives(&self) -> Vec<(usize, Primitive)> {
         let number = |list: &[Primitive], mut first: usize| -> Vec<(usize, Primitive)> {

@@ -141,6 +141,8 @@ pub struct ForceKind {
     pub points: usize,
     /// Whether bodies are turned at these points, not only pushed.
     pub turns: bool,
+    /// Whether it pushes as well as it pulls along the line between two points: a coil in pictures.
+    pub coiled: bool,
     /// Keys that it takes besides its own.
     pub keys: &'static [&'static str],
     /// The numbers that it consists of, in the order in which its equations take them.
@@ -249,6 +251,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         bodies: Bodies::Two(|spec| spec.spring.as_ref()),
         points: 2,
         turns: false,
+        coiled: true,
         keys: &["at", "stiffness", "length", "damping", "preload"],
         values: &[
             one("stiffness", STIFFNESS, true, |spec| spec.stiffness.as_ref()),
@@ -275,6 +278,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         bodies: Bodies::Two(|spec| spec.cable.as_ref()),
         points: 2,
         turns: false,
+        coiled: false,
         keys: &["at", "stiffness", "length", "damping", "preload"],
         values: &[
             ForceValue { zero: false, ..one("stiffness", STIFFNESS, false, |spec| spec.stiffness.as_ref()) },
@@ -297,6 +301,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         bodies: Bodies::Two(|spec| spec.bushing.as_ref()),
         points: 1,
         turns: true,
+        coiled: false,
         keys: &["at", "translation", "rotation", "stiffness_matrix", "damping_matrix", "directions"],
         values: &[
             three("stiffness", STIFFNESS, false, |spec| spec.translation.as_ref()?.value.stiffness.as_ref()),
@@ -333,6 +338,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         bodies: Bodies::One(|spec| spec.force.as_ref()),
         points: 1,
         turns: false,
+        coiled: false,
         keys: &["at", "components", "axes", "reaction"],
         values: &[three("components", Dimension::FORCE, true, |spec| spec.components.as_ref())],
         needs: &[(
@@ -347,6 +353,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
         bodies: Bodies::One(|spec| spec.torque.as_ref()),
         points: 0,
         turns: false,
+        coiled: false,
         keys: &["components", "axes", "reaction"],
         values: &[three("components", Dimension::TORQUE, true, |spec| spec.components.as_ref())],
         needs: &[(
