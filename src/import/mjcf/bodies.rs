@@ -1,4 +1,4 @@
-//! Bodies and joints of <worldbody>. In: elements. Out: links, joints, sites. Never knows what else moves them.
+//! Bodies and joints of `<worldbody>`. In: elements. Out: links, joints, sites. Never knows what else moves them.
 
 use std::collections::{HashMap, HashSet};
 

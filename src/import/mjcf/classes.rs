@@ -1,4 +1,4 @@
-//! Classes of defaults. In: the <default> elements of a file. Out: elements with what their class gives them. Never knows what attributes
+//! Classes of defaults. In: the `<default>` elements of a file. Out: elements with what their class gives them. Never knows what attributes
 //! mean, but which of them say one thing.
 
 use std::collections::HashMap;
@@ -10,7 +10,7 @@ use super::super::xml::{Element, numbers_of};
 const MAIN: &str = "main";
 /// Attributes that say how a thing is turned: an element's own counts alone.
 const TURNS: [&str; 6] = ["quat", "axisangle", "euler", "xyaxes", "zaxis", "fromto"];
-/// Elements that are one in <default>: any kind of actuator sets the defaults of all.
+/// Elements that are one in `<default>`: any kind of actuator sets the defaults of all.
 const ACTUATORS: [&str; 4] = ["general", "motor", "position", "velocity"];
 
 type Attributes = Vec<(String, String)>;

@@ -1,4 +1,4 @@
-//! Loops and couplings of <equality>. In: elements, links and joints. Out: joints that close loops, coordinates that follow others. Never
+//! Loops and couplings of `<equality>`. In: elements, links and joints. Out: joints that close loops, coordinates that follow others. Never
 //! knows text.
 
 use super::super::error::ImportError;

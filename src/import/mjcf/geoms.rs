@@ -1,4 +1,4 @@
-//! Masses of <geom> elements. In: elements with their defaults. Out: mass of each in the frame of its body. Never knows joints.
+//! Masses of `<geom>` elements. In: elements with their defaults. Out: mass of each in the frame of its body. Never knows joints.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! <joint> elements. In: elements with their defaults. Out: a joint, and its coordinate as drawn. Never knows bodies.
+//! `<joint>` elements. In: elements with their defaults. Out: a joint, and its coordinate as drawn. Never knows bodies.
 
 use super::super::error::ImportError;
 use super::super::place::Place;

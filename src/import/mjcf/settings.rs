@@ -1,4 +1,4 @@
-//! What <compiler> and <option> say of the whole file. In: elements. Out: settings. Never knows bodies.
+//! What `<compiler>` and `<option>` say of the whole file. In: elements. Out: settings. Never knows bodies.
 
 use super::super::error::ImportError;
 use super::super::mass::{Mass, diagonal_matrix};
