@@ -152,7 +152,7 @@ pub fn write_table(
 }
 
 /// Where readers of "CSV on the Web" look for what is said of a file.
-fn beside(file: &Path) -> PathBuf {
+pub(crate) fn beside(file: &Path) -> PathBuf {
     let mut name = OsString::from(file);
     name.push("-metadata.json");
     name.into()

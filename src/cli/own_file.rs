@@ -1,11 +1,12 @@
 //! Whether a file that is there was made by linkwear, so that it may be replaced. In: a path. Never knows what is written next.
 
-use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::Path;
 
 use serde_json::Value;
+
+use crate::table::beside;
 
 /// Bytes that are looked at, at the begin or the end.
 const SEEN: u64 = 4096;
@@ -59,9 +60,8 @@ fn seen(file: &Path, from: SeekFrom) -> Option<Vec<u8>> {
 
 /// Whether `FILE-metadata.json` says that linkwear made the table.
 fn is_told_beside(file: &Path) -> bool {
-    let mut beside = OsString::from(file);
-    beside.push("-metadata.json");
-    let about = fs::read_to_string(beside).ok().and_then(|text| serde_json::from_str::<Value>(&text).ok());
+    let about =
+        fs::read_to_string(beside(file)).ok().and_then(|text| serde_json::from_str::<Value>(&text).ok());
     about.is_some_and(|about| {
         let named = file.file_name().is_some_and(|name| about["url"].as_str() == name.to_str());
         named && about["notes"][0]["format"].is_u64()
