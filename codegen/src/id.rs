@@ -38,6 +38,10 @@ typed_index!(
     JointId
 );
 typed_index!(
+    /// A force element of a mechanism.
+    ForceId
+);
+typed_index!(
     /// A named point of a mechanism.
     PointId
 );

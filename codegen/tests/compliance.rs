@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use linkwear_codegen::compile::{Options, compile};
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
 
 fn run(text: &str, end: f64) -> Run {
     let text = format!("spec = 1\nname = \"m\"\n{text}");
@@ -277,6 +277,121 @@ fn a_preload_carries_its_weight_in_the_reference_pose() {
     assert!(worst(&run, "F.z", |_| 0.0) < 1e-12);
     // Both weights.
     assert!(worst(&run, "B.drive", |_| 3.0 * 9.81) < 1e-9);
+}
+
+/// Newton's and Euler's equations of both bodies that a mount of full matrices holds together, flying and tumbling under gravity: its
+/// columns are the force and the moment on the second about that one's point, and the first takes the reaction there.
+#[test]
+fn columns_of_a_mount_are_what_newton_and_euler_ask_of_both_bodies() {
+    let [x, y] = [[0.002, -0.003, 0.001, 0.3, -0.2, 0.4], [-0.001, 0.002, 0.004, -0.5, 0.1, 0.2]];
+    let k = stiffness();
+    let bodies = [(MASS, INERTIA, [0.03, -0.02, 0.05]), (2.0, [0.01, 0.02, 0.015], [-0.06, 0.04, 0.01])];
+    let mut text = "gravity = [0, \"1 m/s^2\", \"-9.81 m/s^2\"]\n[points]\nO = [0, 0, 0]\n".to_owned();
+    for (i, (.., c)) in bodies.iter().enumerate() {
+        let _ = writeln!(text, "C{i} = [\"{} m\", \"{} m\", \"{} m\"]", c[0], c[1], c[2]);
+    }
+    text += "[bodies]\n";
+    for (i, (m, j, _)) in bodies.iter().enumerate() {
+        let inertia = j.map(|j| format!("\"{j} kg m^2\"")).join(", ");
+        let _ = writeln!(text, "b{i} = {{ mass = \"{m} kg\", centre = \"C{i}\", inertia = [{inertia}] }}");
+    }
+    text += "[joints]\n";
+    for i in 0..2 {
+        let _ = writeln!(text, "F{i} = {{ free = [\"ground\", \"b{i}\"], at = \"O\" }}");
+    }
+    let _ = writeln!(
+        text,
+        "[forces.mount]\nbushing = [\"b0\", \"b1\"]\nat = \"O\"\ndirections = [[2, 1, 0], [-1, 2, 0]]\nstiffness_matrix = {}\n\
+         damping_matrix = {}\ntranslation = {{ preload = [\"20 N\", 0, \"-30 N\"] }}\nrotation = {{ preload = [0, \"4 N m\", 0] }}\n[sensors]",
+        matrix_text(&k, STIFFNESS),
+        matrix_text(&(1e-4 * k), DAMPING)
+    );
+    for i in 0..2 {
+        for axis in ["x", "y", "z"] {
+            let _ = writeln!(text, "a{i}{axis} = \"C{i}.a{axis}\"\nalpha{i}{axis} = \"b{i}.alpha_{axis}\"");
+        }
+    }
+    text += "[initial]\n";
+    for (i, x) in [x, y].iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "F{i} = [\"{} rad\", \"{} rad\", \"{} rad\", \"{} m\", \"{} m\", \"{} m\"]",
+            x[3], x[4], x[5], x[0], x[1], x[2]
+        );
+    }
+    let run = run(&text, 0.2);
+    let at = |column: String, row: usize| run.column(&column).expect(&column)[row];
+    let vector = |form: &dyn Fn(&str) -> String, row: usize| {
+        Vector3::from(["x", "y", "z"].map(|axis| at(form(axis), row)))
+    };
+    let gravity = Vector3::new(0.0, 1.0, -9.81);
+    let mut most = 0.0_f64;
+    for row in 0..run.times.len() {
+        let force = vector(&|axis| format!("mount.F{axis}"), row);
+        let moment = vector(&|axis| format!("mount.M{axis}"), row);
+        let place = vector(&|axis| format!("F1.{axis}"), row);
+        for (i, (m, j, _)) in bodies.iter().enumerate() {
+            let sign = if i == 0 { -1.0 } else { 1.0 };
+            let centre = vector(&|axis| format!("C{i}.{axis}"), row);
+            let acceleration = vector(&|axis| format!("a{i}{axis}.value"), row);
+            let off = *m * (acceleration - gravity) - sign * force;
+            // Sums of some products of forces of 1 kN.
+            assert!(off.amax() < 1e-9, "row {row}, body {i}: {off}");
+            let [w, alpha] = [
+                vector(&|axis| format!("b{i}.w{axis}"), row),
+                vector(&|axis| format!("alpha{i}{axis}.value"), row),
+            ];
+            let q = [0, 1, 2, 3].map(|n| at(format!("F{i}.q{n}"), row));
+            let turn = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
+            let turn = turn.to_rotation_matrix();
+            let inertia = turn * Matrix3::from_diagonal(&Vector3::from(*j)) * turn.inverse();
+            let off =
+                inertia * alpha + w.cross(&(inertia * w)) - sign * (moment + (place - centre).cross(&force));
+            // Moments of 100 N m.
+            assert!(off.amax() < 1e-10, "row {row}, body {i}: {off}");
+        }
+        most = most.max(moment.amax());
+    }
+    assert!(most > 10.0, "{most}");
+}
+
+/// A formula may ask for the force of a mount as for that in a joint, and it is known before the equations are solved: also beside a joint
+/// with clearance.
+#[test]
+fn formulas_ask_for_the_force_of_a_mount_and_the_pull_of_a_cable() {
+    let text = "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nW = [\"-1 m\", 0, 0]\n[bodies]\nload = { mass = \"2 kg\", centre = \"O\", \
+                inertia = [\"0.02 kg m^2\", \"0.02 kg m^2\", \"0.02 kg m^2\"] }\n[joints]\n\
+                S = { prismatic = [\"ground\", \"load\"], at = \"O\", axis = [1, 0, 0], force = \"2*mount.Fx - rope.F\" }\n\
+                [forces.mount]\nbushing = [\"ground\", \"load\"]\nat = \"O\"\ntranslation = { stiffness = [\"100 N/m\", 0, 0] }\n\
+                [forces.rope]\ncable = [\"ground\", \"load\"]\nat = [\"W\", \"O\"]\nstiffness = \"250 N/m\"\nlength = \"0.5 m\"\n\
+                [states]\npush = { initial = \"0 N s\", rate = \"mount.Fx\" }\n[sensors]\ntwice = \"2*mount.Fx\"\nspan = \"rope.length\"\n\
+                [initial]\nS = \"-250 mm\"\n";
+    let run = run(text, 1.0);
+    // 300 N/m by the mount and what follows it, 500 N/m by the rope, which is taut throughout, and 250 N of its stretch.
+    let (w, mean) = (20.0, -250.0 / 800.0);
+    let x = |t: f64| mean + (-0.25 - mean) * (w * t).cos();
+    // The tolerance of the run over three periods.
+    assert!(worst(&run, "S.q", x) < 1e-9);
+    assert!(worst(&run, "twice.value", |t| -200.0 * x(t)) < 1e-7);
+    assert!(worst(&run, "span.value", |t| 1.0 + x(t)) < 1e-9);
+    let sum = |t: f64| -100.0 * (mean * t + (-0.25 - mean) * (w * t).sin() / w);
+    assert!(worst(&run, "push.value", sum) < 1e-7);
+}
+
+/// The moment of a spring on a ball is beside the joint's own.
+#[test]
+fn a_spring_on_a_ball_tells_its_moment() {
+    let text = format!(
+        "{WHEEL}[joints]\nS = {{ spherical = [\"ground\", \"wheel\"], at = \"O\", spring = {{ stiffness = \"8 N m/rad\" }} }}\n[initial]\n\
+         S = [0, \"0.6 rad\", \"0.8 rad\"]\n"
+    );
+    let run = run(&text, 1.0);
+    for (axis, share) in [("x", 0.0), ("y", 0.6), ("z", 0.8)] {
+        // The tolerance of the run over three periods, times 8 N m.
+        assert!(worst(&run, &format!("S.spring_M{axis}"), |t| -8.0 * share * (20.0 * t).cos()) < 1e-8);
+        assert!(worst(&run, &format!("S.M{axis}"), |_| 0.0) < 1e-12);
+    }
+    assert!(run.column("S.spring_Fx").is_err());
 }
 
 /// The shipped example has a stop, a strap, a full mount and a preloaded spring at work, and loses no energy unseen.

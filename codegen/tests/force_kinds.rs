@@ -15,7 +15,7 @@ fn a_kind_is_named_in_the_table_and_with_its_equations_only() {
         // A joint has the keys `spring` and `force` too; and every element of the table [forces] is a force.
         let other = |line: &str| {
             let of_joints = ["\"joint\"", "(\"force\", &spec.force)"];
-            let of_elements = ["\"force\", name", "Force =>"];
+            let of_elements = ["\"force\", name", "Force(_) =>"];
             of_joints.iter().chain(&of_elements).any(|words| line.contains(words))
         };
         let found = files_with(|line| line.contains(&name) && !other(line) && !line.contains("made.append"));

@@ -43,7 +43,10 @@ pub(crate) fn check_responses(mechanism: &Mechanism) -> Result<(), OracleError> 
     let unknown = |formula: &Formula| {
         let mut found = false;
         formula.term.visit(&mut |term| {
-            found |= matches!(term, Term::Response(_) | Term::BodySpin(..) | Term::State(_));
+            found |= matches!(
+                term,
+                Term::Response(_) | Term::BodySpin(..) | Term::ForceValue(..) | Term::State(_)
+            );
         });
         found
     };

@@ -38,7 +38,9 @@ pub fn evaluate(term: &Term, parameters: &[f64], t: f64, state: &dyn State) -> J
         Term::PointSpeed(point, k) => Jet::constant(state.point_speed(*point, *k)),
         Term::Place(k) => state.place(*k),
         // Refused before a model is made.
-        Term::BodySpin(..) | Term::Response(_) | Term::State(_) => Jet::constant(f64::NAN),
+        Term::BodySpin(..) | Term::ForceValue(..) | Term::Response(_) | Term::State(_) => {
+            Jet::constant(f64::NAN)
+        }
         Term::Neg(a) => -down(a),
         Term::Add(a, b) => down(a) + down(b),
         Term::Sub(a, b) => down(a) - down(b),

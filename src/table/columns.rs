@@ -81,8 +81,17 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
         "Velocity of a point; of a free joint or one that holds a place, the rate of its displacement in the parent",
     ),
     ("<body>.w<axis>", &["rad/s"], "Angular velocity of a body, absolute"),
-    ("<joint>.F<axis>", &["N"], "Force by the parent on the child at the joint, drive not included"),
-    ("<joint>.M<axis>", &["N m"], "Moment of the same about the joint"),
+    (
+        "<element>.F<axis>",
+        &["N"],
+        "Force by the parent on the child at a joint, drive not included; by the first body on the second in a bushing",
+    ),
+    (
+        "<element>.M<axis>",
+        &["N m"],
+        "Moment of the same about the joint, or about the second body's point of a bushing",
+    ),
+    ("<joint>.spring_M<axis>", &["N m"], "Moment of the spring of a spherical joint on the child"),
     ("<joint>.drive", &["N m", "N"], "Moment or force that the drive exerts on the child"),
     (
         "<joint>.drive<n>",

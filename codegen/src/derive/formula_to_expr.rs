@@ -69,6 +69,7 @@ impl<'g> Inputs<'g> {
             | Term::PointPosition(..)
             | Term::Place(_)
             | Term::BodySpin(..)
+            | Term::ForceValue(..)
             | Term::Response(_)
             | Term::State(_)
             | Term::PointSpeed(..) => state(term),

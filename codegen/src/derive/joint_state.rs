@@ -7,6 +7,7 @@ use crate::expr::{Expr, Scope, Vec3};
 use crate::id::{BodyId, JointId, PointId};
 use crate::model::{Carrier, Formula, Term};
 
+use super::force_values::force_values;
 use super::geometry::Geometry;
 use super::joint_coordinates::{JointCoordinates, joint_coordinates};
 use super::joint_markers::{joint_in_child, joint_links, joint_markers};
@@ -106,6 +107,10 @@ impl<'g> JointStates<'g> {
             Term::PointPosition(point, i) => self.point(*point)[*i],
             Term::PointSpeed(point, i) => self.point_velocity(*point)[*i],
             Term::BodySpin(body, i) => self.spin(*body)[*i],
+            Term::ForceValue(force, at) => {
+                let element = &self.geometry.mechanism.forces[force.index()];
+                force_values(element, &self.motion)[*at]
+            }
             Term::State(id) => self.own[id.index()],
             Term::Response(response) => responses.symbol(g, *response),
             _ => g.zero(),

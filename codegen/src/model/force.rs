@@ -3,7 +3,7 @@
 use super::{Carrier, Formula};
 use crate::id::PointId;
 use crate::source::Span;
-use crate::spec::{Bodies, ForceKind};
+use crate::spec::{Bodies, Dimension, ForceKind};
 
 /// A force element between bodies.
 #[derive(Clone, Debug)]
@@ -22,6 +22,8 @@ pub struct Force {
     pub axes: Carrier,
     /// The kind's values in their order, SI; those by axis take three places.
     pub formulas: Vec<Formula>,
+    /// Whether it is the spring of a joint, after which it is called.
+    pub of_joint: bool,
     /// Where it is written.
     pub span: Span,
 }
@@ -41,6 +43,7 @@ impl Force {
             directions: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             axes: Carrier::Ground,
             formulas,
+            of_joint: false,
             span: Span::default(),
         }
     }
@@ -61,6 +64,14 @@ impl Force {
     /// Whether the formulas are over the state; else they are over parameters.
     pub const fn is_over_state(&self) -> bool {
         matches!(self.kind.bodies, Bodies::One(_))
+    }
+
+    /// Behind its own name, that of a column of its kind: springs of joints tell their moments, beside the joint's own.
+    pub fn column(&self, name: &str, dimension: Dimension) -> Option<String> {
+        match self.of_joint {
+            false => Some(name.to_owned()),
+            true => (dimension == Dimension::TORQUE).then(|| format!("spring_{name}")),
+        }
     }
 
     /// Points at which bodies are pushed.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::piecewise::{Piecewise, SMOOTH};
 use super::response::Response;
 use super::table::DataTable;
-use crate::id::{BodyId, JointId, ParameterId, PointId, StateId};
+use crate::id::{BodyId, ForceId, JointId, ParameterId, PointId, StateId};
 use crate::source::Span;
 use crate::spec::Dimension;
 
@@ -40,6 +40,8 @@ pub enum Term {
     PointSpeed(PointId, usize),
     /// Component of a body's angular velocity in W [rad/s].
     BodySpin(BodyId, usize),
+    /// Value of a force element, by its place among [`crate::spec::Told::columns`].
+    ForceValue(ForceId, usize),
     /// What only the solution of the instant tells.
     Response(Response),
     /// A state variable of the file's own.

@@ -149,6 +149,37 @@ pub struct ForceKind {
     pub values: &'static [ForceValue],
     /// What must not be missing.
     pub needs: &'static [Need],
+    /// What it tells of itself.
+    pub told: Told,
+}
+
+/// What a kind of force element tells of itself, in columns and in formulas. All of it follows from positions and speeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Nothing.
+    Nothing,
+    /// The pull between two points, and their distance.
+    Pull,
+    /// Force and moment by the first body on the second, about the second's point, along the axes of the ground.
+    Wrench,
+}
+
+impl Told {
+    /// Names behind that of the element, dimensions.
+    pub const fn columns(self) -> &'static [(&'static str, Dimension)] {
+        match self {
+            Self::Nothing => &[],
+            Self::Pull => &[("F", Dimension::FORCE), ("length", Dimension::LENGTH)],
+            Self::Wrench => &[
+                ("Fx", Dimension::FORCE),
+                ("Fy", Dimension::FORCE),
+                ("Fz", Dimension::FORCE),
+                ("Mx", Dimension::TORQUE),
+                ("My", Dimension::TORQUE),
+                ("Mz", Dimension::TORQUE),
+            ],
+        }
+    }
 }
 
 /// Whether something is missing, words that say so, advice.
@@ -271,6 +302,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
                 r#"add for example `stiffness = "500 N/m", length = "100 mm"`"#,
             ),
         ],
+        told: Told::Nothing,
     },
     ForceKind {
         name: "cable",
@@ -294,6 +326,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
             "has no `stiffness`",
             r#"add `stiffness = "50 kN/m"`: modulus times cross-section over length"#,
         )],
+        told: Told::Pull,
     },
     ForceKind {
         name: ELASTIC,
@@ -331,6 +364,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
             "has neither stiffness nor damping",
             r#"add for example `translation = { stiffness = ["1 kN/mm", "1 kN/mm", "2 kN/mm"] }`"#,
         )],
+        told: Told::Wrench,
     },
     ForceKind {
         name: "force",
@@ -346,6 +380,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
             "has no `components`",
             r#"add `components = [0, 0, "-10 N"]`"#,
         )],
+        told: Told::Nothing,
     },
     ForceKind {
         name: "torque",
@@ -361,6 +396,7 @@ pub static FORCE_KINDS: &[ForceKind] = &[
             "has no `components`",
             r#"add `components = [0, 0, "-10 N m"]`"#,
         )],
+        told: Told::Nothing,
     },
 ];
 
@@ -368,6 +404,12 @@ impl ForceKind {
     /// The kind with this key.
     pub fn named(name: &str) -> Option<&'static Self> {
         FORCE_KINDS.iter().find(|kind| kind.name == name)
+    }
+
+    /// The kind of what is written, if it is one.
+    pub fn of(spec: &ForceSpec) -> Option<&'static Self> {
+        let mut kinds = FORCE_KINDS.iter().filter(|kind| kind.is_written(spec));
+        kinds.next().filter(|_| kinds.next().is_none())
     }
 
     /// Whether this key is written.

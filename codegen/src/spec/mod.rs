@@ -45,7 +45,8 @@ pub use file::{
     RepeatSpec, WearSpec,
 };
 pub use force::{
-    Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Written,
+    Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Told,
+    Written,
 };
 pub use include::{IncludeSpec, RotationSpec};
 pub use joint::{ByCoordinate, DryFrictionSpec, EachCoordinate, JointSpec, SpringPart, SpringSpec};

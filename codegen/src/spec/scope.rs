@@ -84,8 +84,10 @@ impl Scope {
         found.sort_by_key(|(at, ..)| std::cmp::Reverse(*at));
         for (at, word, member) in found {
             let Some(name) = self.name(&word) else { continue };
-            // Forces and moments in joints have such components too.
-            let along = |member: &str| member.starts_with(['F', 'M']) || fits_one(&self.along_ground, &word);
+            // Forces and moments in joints and bushings have such components too; the pull of a cable has none.
+            let along = |member: &str| {
+                (member.starts_with(['F', 'M']) && member != "F") || fits_one(&self.along_ground, &word)
+            };
             if let Some(member) = member.filter(|member| along(member)) {
                 asked.push(Asked { span, place: member.starts_with(['x', 'y', 'z']) });
             }
@@ -345,9 +347,15 @@ mod tests {
 
     #[test]
     fn formulas_that_ask_where_a_point_is_are_told() {
-        for (text, count) in
-            [("A.x", 1), ("B{i}.x - B{i+1}.y", 2), ("R1.q", 0), ("R1.Fx", 1), ("2*R{i}.Mz", 1), ("L", 0)]
-        {
+        for (text, count) in [
+            ("A.x", 1),
+            ("B{i}.x - B{i+1}.y", 2),
+            ("R1.q", 0),
+            ("R1.Fx", 1),
+            ("R1.F", 0),
+            ("2*R{i}.Mz", 1),
+            ("L", 0),
+        ] {
             let mut asked = Vec::new();
             scope().renamed(&mut text.to_owned(), Span::default(), &mut asked);
             assert_eq!(asked.len(), count, "{text}");

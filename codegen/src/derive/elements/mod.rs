@@ -16,7 +16,6 @@ mod dry_friction;
 mod elasticity;
 mod forces;
 mod joint;
-mod mount;
 mod stop;
 
 pub use forces::force_columns;

@@ -33,6 +33,7 @@ impl Resolver<'_> {
             let mut force = Force::new(ELASTIC, [joint.parent, joint.child], [joint.at; 2], formulas);
             force.name.clone_from(&name.value);
             force.directions = inertia::AXES_OF_W;
+            force.of_joint = true;
             force.span = name.span;
             forces.push(force);
         }

@@ -87,6 +87,7 @@ impl Resolver<'_> {
             directions,
             axes,
             formulas,
+            of_joint: false,
             span: name.span,
         })
     }

@@ -63,7 +63,7 @@ use super::{Formula, Mechanism};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::input::Reach;
 use crate::source::{Sources, Span};
-use crate::spec::{CheckSpec, Composed, Dimension, File, Spec, composed};
+use crate::spec::{CheckSpec, Composed, Dimension, File, ForceKind, Spec, composed};
 
 /// Finds out what a file means; files that it names are read within reach.
 ///
@@ -90,6 +90,7 @@ pub fn resolve(
         joint_models: Vec::new(),
         modal_starts: Vec::new(),
         driven: Vec::new(),
+        force_kinds: Vec::new(),
         states: Vec::new(),
         sensors: Vec::new(),
         controllers: Controllers::default(),
@@ -130,6 +131,7 @@ impl Resolver<'_> {
         self.joint_models = models;
         self.add_clearance(&file);
         self.note_drives(&file);
+        self.force_kinds = file.forces.0.iter().map(|(_, force)| ForceKind::of(&force.value)).collect();
         self.declare_states(&file.states);
         self.resolve_sensors(&file.sensors);
         self.resolve_controllers(&file.controllers);

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::id::{BodyId, JointId, ParameterId, PointId, StateId};
+use crate::id::{BodyId, ForceId, JointId, ParameterId, PointId, StateId};
 use crate::source::Span;
 use crate::spec::{File, Name, Table};
 
@@ -26,7 +26,7 @@ pub(super) enum Thing {
     Joint(JointId),
     Coupling,
     Stop,
-    Force,
+    Force(ForceId),
     /// A file that is included.
     Part,
     State(StateId),
@@ -46,7 +46,7 @@ impl Thing {
             Self::Joint(_) => "joint",
             Self::Coupling => "coupling",
             Self::Stop => "stop",
-            Self::Force => "force",
+            Self::Force(_) => "force",
             Self::Part => "part",
             Self::State(_) => "state",
             Self::Sensor(_) => "sensor",
@@ -120,7 +120,7 @@ impl Names {
         self.declare_table(&file.joints, |at| Thing::Joint(JointId::new(at)), faults);
         self.declare_table(&file.couplings, |_| Thing::Coupling, faults);
         self.declare_table(&file.stops, |_| Thing::Stop, faults);
-        self.declare_table(&file.forces, |_| Thing::Force, faults);
+        self.declare_table(&file.forces, |at| Thing::Force(ForceId::new(at)), faults);
         self.declare_table(&file.states, |at| Thing::State(StateId::new(at)), faults);
         self.declare_table(&file.sensors, Thing::Sensor, faults);
         self.declare_table(&file.controllers, Thing::Controller, faults);

@@ -48,7 +48,9 @@ impl Allowed {
 
     pub(super) fn list(self) -> &'static str {
         match (self.time, self.state) {
-            (_, true) => "parameters, inputs, t, joints, points, bodies, states, sensors and controllers",
+            (_, true) => {
+                "parameters, inputs, t, joints, points, bodies, forces, states, sensors and controllers"
+            }
             (true, false) if !self.arguments.is_empty() => {
                 "parameters, inputs, `pressure` and `sliding_speed`"
             }

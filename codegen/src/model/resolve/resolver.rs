@@ -11,7 +11,7 @@ use crate::id::JointId;
 use crate::input::Reach;
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
 use crate::source::{SourceFile, Span};
-use crate::spec::{Dimension, Name, Turning};
+use crate::spec::{Dimension, ForceKind, Name, Turning};
 
 /// What the steps of the resolver share.
 pub(super) struct Resolver<'a> {
@@ -34,6 +34,8 @@ pub(super) struct Resolver<'a> {
     pub(super) modal_starts: Vec<ModalStart>,
     /// Coordinates of joints that drives prescribe.
     pub(super) driven: Vec<(JointId, usize)>,
+    /// Kinds of the force elements; nothing of one whose kind is wrong.
+    pub(super) force_kinds: Vec<Option<&'static ForceKind>>,
     /// Start values of the states; nothing of one whose start is wrong.
     pub(super) states: Vec<Option<Formula>>,
     /// Formulas of sensors so far; nothing of one without.

@@ -2,7 +2,7 @@
 
 use super::resolver::Resolver;
 use crate::diagnostic::Code;
-use crate::id::{BodyId, JointId, PointId};
+use crate::id::{BodyId, ForceId, JointId, PointId};
 use crate::model::{Coordinate, Force, Formula, Joint, Passive, Response, StateVariable, Term};
 use crate::spec::{ByCoordinate, Dimension, File};
 
@@ -67,6 +67,22 @@ impl Resolver<'_> {
                     .to_owned(),
             ),
         }
+    }
+
+    /// What a force element tells of itself; nothing of one whose kind is wrong, which is reported there.
+    pub(super) fn force_member(&self, force: ForceId, member: &str) -> Option<Member> {
+        let kind = (*self.force_kinds.get(force.index())?)?;
+        let columns = kind.told.columns();
+        let at = columns.iter().position(|(known, _)| *known == member);
+        Some(at.map(|at| (Term::ForceValue(force, at), columns[at].1)).ok_or_else(|| {
+            match columns.split_last() {
+                None => format!("a {} has no members in formulas", kind.name),
+                Some(((last, _), before)) => {
+                    let before: Vec<String> = before.iter().map(|(name, _)| format!("`{name}`")).collect();
+                    format!("a {} has {} and `{last}`", kind.name, before.join(", "))
+                }
+            }
+        }))
     }
 
     /// Acceleration of a coordinate of a joint, force and moment in it, force of its drive; nothing if it is none of these.

@@ -200,12 +200,20 @@ impl Resolver<'_> {
                 }
             }
             Some((Thing::Body(id), _)) => Self::body_member(id, member),
+            Some((Thing::Force(id), _)) => self.force_member(id, member)?,
             Some((Thing::Controller(at), _)) => self.controller_member(at, member)?,
             Some((other, _)) => Err(format!("a {} has no members in formulas", other.what())),
             None if self.names.is_lost(thing) => return None,
             None => {
                 let known = self.names.known(|thing| {
-                    matches!(thing, Thing::Joint(_) | Thing::Point(_) | Thing::Body(_) | Thing::Controller(_))
+                    matches!(
+                        thing,
+                        Thing::Joint(_)
+                            | Thing::Point(_)
+                            | Thing::Body(_)
+                            | Thing::Force(_)
+                            | Thing::Controller(_)
+                    )
                 });
                 let mut fault =
                     self.unknown(thing, "unknown joint, point or body", here).did_you_mean(thing, known);
