@@ -29,6 +29,10 @@ fn shipped(name: &str) -> Compiled {
     compiled(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../mechanisms/{name}.toml")))
 }
 
+fn example(name: &str) -> Compiled {
+    compiled(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../examples/data/{name}.toml")))
+}
+
 /// The driver that answers entry points, for one mechanism.
 fn driver(compiled: &Compiled, states: usize) -> String {
     let sizes = compiled.sizes();
