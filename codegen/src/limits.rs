@@ -40,9 +40,9 @@ pub const SPEEDS: Limit =
 pub const PARTS: Limit =
     Limit { what: "included files", most: 200, help: "include fewer parts, or repeat a group within one" };
 
-/// Points, joints, couplings, stops and forces each.
+/// Points, joints, couplings, stops, forces, states and sensors each.
 pub const ELEMENTS: Limit = Limit {
-    what: "points, joints, couplings, stops or forces",
+    what: "points, joints, couplings, stops, forces, states or sensors",
     most: 4_000,
     help: "split the mechanism, or repeat a group less often",
 };

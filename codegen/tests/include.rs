@@ -193,6 +193,26 @@ fn code(compiled: &Compiled) -> String {
 }
 
 #[test]
+fn what_a_part_s_group_makes_is_what_the_part_has() {
+    let arm = ARM.replace("S0 = { fixed = [\"ground\", \"base\"], at = \"O\" }\n", "");
+    let mut group = arm.clone();
+    for table in ["states", "sensors", "controllers"] {
+        group = group.replace(&format!("[{table}]"), &format!("[repeat.cell.{table}]"));
+    }
+    let group = group.replace("[repeat.cell.states]", "[repeat.cell]\ncount = 1\n\n[repeat.cell.states]");
+    // The names of some are made by the group.
+    let group = group.replace("lead = {", "\"lead{i}\" = {").replace("lead.rho", "lead{i}.rho");
+    let group = group.replace("bend =", "\"bend{i}\" =").replace("bend/", "bend{i}/");
+    let [plain, made] = [("plain", &arm), ("made", &group)].map(|(test, arm)| {
+        let folder = Folder::new(test, &[("host.toml", HOST), ("parts/arm.toml", arm)]);
+        let compiled = folder.compile("host.toml", &[]).unwrap_or_else(|errors| panic!("{errors}"));
+        code(&compiled).replace("lead1", "lead").replace("bend1", "bend")
+    });
+    let differ = plain.lines().zip(made.lines()).find(|(a, b)| a != b);
+    assert!(plain == made, "{differ:#?}");
+}
+
+#[test]
 fn a_mechanism_of_parts_is_the_code_of_the_same_in_one_file() {
     // Without the fixed joint of the arm's own stand, which the parts of the pair do not have.
     let arm = ARM.replace("S0 = { fixed = [\"ground\", \"base\"], at = \"O\" }\n", "");

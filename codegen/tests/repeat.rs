@@ -112,3 +112,97 @@ fn values_that_do_not_fit_are_refused_where_they_are() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
+
+const AXES: &str = r#"spec = 1
+name = "axes"
+gravity = [0, "-9.81 m/s^2", 0]
+
+[parameters]
+k = { value = "2 N m", tunable = true }
+
+[points]
+P0 = [0, 0, 0]
+
+[bodies]
+arm0 = { mass = "1 kg", centre = "P0", inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"] }
+
+[joints]
+R0 = { revolute = ["ground", "arm0"], at = "P0", axis = [0, 0, 1] }
+
+[sensors]
+total = "0.1*R0.q"
+"#;
+
+const CELLS: &str = r#"
+[repeat.axis]
+count = 2
+values = { goal = ["10 deg", "-20 deg"] }
+
+[repeat.axis.points]
+"P{i}" = ["{i}*0.2 m", 0, 0]
+
+[repeat.axis.bodies]
+"arm{i}" = { mass = "1 kg", centre = "P{i}", inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"] }
+
+[repeat.axis.joints]
+"R{i}" = { revolute = ["arm{i-1}", "arm{i}"], at = "P{i-1}", axis = [0, 0, 1], force = "hold{i} + lead{i} - heat{i}*(0.01 N m/J)" }
+
+[repeat.axis.states]
+"heat{i}" = { initial = "{i}*1 J", rate = "0.1*abs(R{i}.Mz*R{i}.v) - heat{i}/(2 s)" }
+
+[repeat.axis.sensors]
+"sum{i}" = "R{i}.q + R{i-1}.q"
+
+[repeat.axis.controllers]
+"hold{i}" = { measured = "sum{i}", setpoint = "{goal}", proportional = "k", integral = "k/({i}*1 s)", upper = "3 N m", sample_time = "2 ms" }
+"lead{i}" = { sample_time = "4 ms", output = "hold{i} + (1 N m)*lead{i}.x", states = { x = { initial = 0.1, next = "0.5*lead{i}.x + R{i}.q" } } }
+"#;
+
+const WRITTEN_OUT: &str = r#"
+[states]
+heat1 = { initial = "1*1 J", rate = "0.1*abs(R1.Mz*R1.v) - heat1/(2 s)" }
+heat2 = { initial = "2*1 J", rate = "0.1*abs(R2.Mz*R2.v) - heat2/(2 s)" }
+
+[controllers]
+hold1 = { measured = "sum1", setpoint = "10 deg", proportional = "k", integral = "k/(1*1 s)", upper = "3 N m", sample_time = "2 ms" }
+lead1 = { sample_time = "4 ms", output = "hold1 + (1 N m)*lead1.x", states = { x = { initial = 0.1, next = "0.5*lead1.x + R1.q" } } }
+hold2 = { measured = "sum2", setpoint = "-20 deg", proportional = "k", integral = "k/(2*1 s)", upper = "3 N m", sample_time = "2 ms" }
+lead2 = { sample_time = "4 ms", output = "hold2 + (1 N m)*lead2.x", states = { x = { initial = 0.1, next = "0.5*lead2.x + R2.q" } } }
+"#;
+
+/// Tables that the file has too: behind what stands there.
+const CELLS_WRITTEN_OUT: [(&str, &str); 4] = [
+    ("P0 = [0, 0, 0]\n", "P1 = [\"0.2 m\", 0, 0]\nP2 = [\"0.4 m\", 0, 0]\n"),
+    (
+        "\"0.1 kg m^2\"] }\n",
+        r#"arm1 = { mass = "1 kg", centre = "P1", inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"] }
+arm2 = { mass = "1 kg", centre = "P2", inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"] }
+"#,
+    ),
+    (
+        "axis = [0, 0, 1] }\n",
+        r#"R1 = { revolute = ["arm0", "arm1"], at = "P0", axis = [0, 0, 1], force = "hold1 + lead1 - heat1*(0.01 N m/J)" }
+R2 = { revolute = ["arm1", "arm2"], at = "P1", axis = [0, 0, 1], force = "hold2 + lead2 - heat2*(0.01 N m/J)" }
+"#,
+    ),
+    ("total = \"0.1*R0.q\"\n", "sum1 = \"R1.q + R0.q\"\nsum2 = \"R2.q + R1.q\"\n"),
+];
+
+#[test]
+fn cells_have_states_sensors_and_controllers_of_their_own() {
+    let mut flat = AXES.to_owned();
+    for (behind, more) in CELLS_WRITTEN_OUT {
+        flat = flat.replacen(behind, &format!("{behind}{more}"), 1);
+    }
+    let [group, flat] = [format!("{AXES}{CELLS}"), format!("{flat}{WRITTEN_OUT}")]
+        .map(|text| compiled(&text).unwrap_or_else(|errors| panic!("{errors}")));
+    let code = |compiled: &Compiled| compiled.rust_source().replace(&compiled.sha256(), "");
+    let (one, other) = (code(&group), code(&flat));
+    let differ = one.lines().zip(other.lines()).find(|(a, b)| a != b);
+    assert!(one == other, "{differ:#?}");
+    // A cell may not ask for what a later one puts out.
+    let early =
+        format!("{AXES}{CELLS}").replace("setpoint = \"{goal}\"", "setpoint = \"{goal} + hold{i+1}/k\"");
+    let errors = compiled(&early).err().expect("it asks for what comes later");
+    assert!(errors.to_string().contains("`hold2` acts later"), "{errors}");
+}

@@ -92,6 +92,8 @@ fn understood(
         mechanism.couplings.len(),
         mechanism.stops.len(),
         mechanism.forces.len(),
+        mechanism.states.len(),
+        mechanism.sensors.len(),
     ];
     within(source, [(limits::BODIES, mechanism.bodies.len())])?;
     within(source, counts.map(|count| (limits::ELEMENTS, count)))?;

@@ -383,6 +383,15 @@ tables! {
         /// Forces of a cell.
         /// [table]
         pub forces: Table<ForceSpec>,
+        /// States of a cell.
+        /// [table]
+        pub states: Table<StateSpec>,
+        /// Sensors of a cell; each may use those above it and those of the cells before.
+        /// [table]
+        pub sensors: Table<Sensor>,
+        /// Controllers of a cell; they act behind those of the file, cell by cell.
+        /// [table]
+        pub controllers: Table<ControllerSpec>,
         /// Guesses of a cell.
         /// [table]
         pub assembly: Table<StartSpec>,

@@ -25,6 +25,9 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
             (limits::ELEMENTS, group.value.couplings.0.len()),
             (limits::ELEMENTS, group.value.stops.0.len()),
             (limits::ELEMENTS, group.value.forces.0.len()),
+            (limits::ELEMENTS, group.value.states.0.len()),
+            (limits::ELEMENTS, group.value.sensors.0.len()),
+            (limits::ELEMENTS, group.value.controllers.0.len()),
         ];
         let times = usize::try_from(count).unwrap_or(usize::MAX);
         let broken = copies.iter().find_map(|(limit, own)| limit.broken_by(times.saturating_mul(*own)));
@@ -54,6 +57,9 @@ pub fn expand(file: &File, count_of: &mut dyn FnMut(&Quantity) -> Option<f64>) -
             made.append(&mut whole.couplings, copy.couplings, cell, "coupling");
             made.append(&mut whole.stops, copy.stops, cell, "stop");
             made.append(&mut whole.forces, copy.forces, cell, "force");
+            made.append(&mut whole.states, copy.states, cell, "state");
+            made.append(&mut whole.sensors, copy.sensors, cell, "sensor");
+            made.append(&mut whole.controllers, copy.controllers, cell, "controller");
             made.append(&mut whole.assembly, copy.assembly, cell, "guess");
             made.append(&mut whole.initial, copy.initial, cell, "start value");
         }

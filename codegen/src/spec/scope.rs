@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::mem::take;
 
+use super::controller::ControllerStateSpec;
 use super::file::{File, Input, RepeatSpec};
 use super::syntax::{Expression, Form, parse_expression};
 use super::texts::{Change, Texts as _};
@@ -54,8 +55,7 @@ impl Scope {
         let values: Vec<Vec<String>> =
             file.repeat.0.iter().map(|(_, group)| names(&group.value.values)).collect();
         // And states of a controller behind its name only.
-        let states: Vec<Vec<String>> =
-            file.controllers.0.iter().map(|(_, own)| names(&own.value.states)).collect();
+        let states: Vec<Vec<String>> = states_of(file).into_iter().map(|own| names(own)).collect();
         let mut asked = Vec::new();
         each(file, &mut |text, span| self.renamed(text, span, &mut asked));
         for (word, kept) in words_of(file).into_iter().zip(kept) {
@@ -64,8 +64,8 @@ impl Scope {
         for ((_, group), values) in file.repeat.0.iter_mut().zip(values) {
             put_back(&mut group.value.values, values);
         }
-        for ((_, own), states) in file.controllers.0.iter_mut().zip(states) {
-            put_back(&mut own.value.states, states);
+        for (own, states) in states_of(file).into_iter().zip(states) {
+            put_back(own, states);
         }
         asked
     }
@@ -115,11 +115,27 @@ pub(super) fn names_of(file: &File) -> Vec<&str> {
     names.extend(keys(&file.states).chain(keys(&file.sensors)).chain(keys(&file.controllers)));
     names.extend(keys(&file.repeat));
     for (_, group) in &file.repeat.0 {
-        let RepeatSpec { points, bodies, joints, couplings, stops, forces, .. } = &group.value;
-        names.extend(keys(stops));
-        names.extend(
-            keys(points).chain(keys(bodies)).chain(keys(joints)).chain(keys(couplings)).chain(keys(forces)),
-        );
+        // Without `..`, as in `each`: start values name joints, values stand in braces.
+        let RepeatSpec {
+            count: _,
+            index: _,
+            first: _,
+            values: _,
+            assembly: _,
+            initial: _,
+            points,
+            bodies,
+            joints,
+            couplings,
+            stops,
+            forces,
+            states,
+            sensors,
+            controllers,
+        } = &group.value;
+        names.extend(keys(points).chain(keys(bodies)).chain(keys(joints)));
+        names.extend(keys(stops).chain(keys(couplings)).chain(keys(forces)));
+        names.extend(keys(states).chain(keys(sensors)).chain(keys(controllers)));
     }
     names
 }
@@ -189,6 +205,13 @@ fn each(file: &mut File, change: Change<'_>) {
         change(&mut name.value, name.span);
         part.value.bodies.0.clear();
     }
+}
+
+/// States that controllers keep, those of groups included.
+fn states_of(file: &mut File) -> Vec<&mut Table<ControllerStateSpec>> {
+    let groups = file.repeat.0.iter_mut().flat_map(|(_, group)| &mut group.value.controllers.0);
+    let controllers = file.controllers.0.iter_mut().chain(groups);
+    controllers.map(|(_, own)| &mut own.value.states).collect()
 }
 
 /// Texts that are neither names nor formulas.
