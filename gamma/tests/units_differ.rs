@@ -1,4 +1,4 @@
-//! Whether units differ: how often the test says so where they do not.
+//! Whether units differ: how often the test says so where they do not, and how often the interval of their variation holds it.
 
 #![allow(clippy::disallowed_methods, reason = "nothing here has to have the same bits on every machine")]
 
@@ -7,21 +7,33 @@ use linkwear_gamma::fit::{Model, estimate_units};
 use linkwear_gamma::process::{Gamma, InverseGaussian, Process, Wiener};
 use linkwear_gamma::random::Stream;
 
-/// Units of equal increments of a process over exposure 1 each, all units alike.
-fn alike(process: &dyn Process, logs: [f64; 2], (units, readings): (usize, usize), run: u64) -> Observations {
-    let mut stream = Stream::new(31, run, 0);
-    let one = |at: usize| Increment {
-        unit: at / readings,
-        from: (at % readings) as f64,
-        to: (at % readings + 1) as f64,
-        wear: process.draw(logs, 1.0, &mut stream).max(if process.is_increasing() {
-            f64::MIN_POSITIVE
-        } else {
-            f64::MIN
-        }),
-        ln_covariates: Vec::new(),
-        row: 0,
-        ..Increment::default()
+/// Units of equal increments of a process over exposure 1 each, all units alike, or with such a coefficient of variation.
+fn drawn(
+    process: &dyn Process,
+    (logs, cv): ([f64; 2], Option<f64>),
+    (units, readings): (usize, usize),
+    run: u64,
+) -> Observations {
+    let (mut stream, mut of_units) = (Stream::new(31, run, 0), Stream::new(31, run, 1));
+    let mut own = logs;
+    let one = |at: usize| {
+        if at.is_multiple_of(readings) {
+            let effect = process.random_effect().expect("a law");
+            own = cv.map_or(logs, |cv| effect.draw(logs, cv, &mut of_units));
+        }
+        Increment {
+            unit: at / readings,
+            from: (at % readings) as f64,
+            to: (at % readings + 1) as f64,
+            wear: process.draw(own, 1.0, &mut stream).max(if process.is_increasing() {
+                f64::MIN_POSITIVE
+            } else {
+                f64::MIN
+            }),
+            ln_covariates: Vec::new(),
+            row: 0,
+            ..Increment::default()
+        }
     };
     let increments = (0..units * readings).map(one).collect();
     Observations { units: (0..units).map(|unit| unit.to_string()).collect(), increments }
@@ -38,7 +50,7 @@ fn sizes(
     let model = Model { process, power_law, ..Model::default() };
     let mut counts = [0.0; 6];
     for run in 0..runs {
-        let Ok(found) = estimate_units(&alike(process, logs, cell, run), &model) else {
+        let Ok(found) = estimate_units(&drawn(process, (logs, None), cell, run), &model) else {
             counts[5] += 1.0;
             continue;
         };
@@ -74,6 +86,49 @@ fn the_test_of_no_difference_is_wrong_as_often_as_it_says() {
         for cell in CELLS {
             let found = sizes(process, logs, cell, false, runs).map(|part| format!("{part:.2}"));
             println!("| {name} | {} x {} | {} |", cell.0, cell.1, found.join(" | "));
+        }
+    }
+}
+
+/// How many intervals of `runs` hold the coefficient of variation of units, and how many there are.
+fn held(process: &'static dyn Process, law: ([f64; 2], f64), cell: (usize, usize), runs: u64) -> [usize; 2] {
+    let model = Model { process, ..Model::default() };
+    let mut count = [0; 2];
+    for run in 0..runs {
+        let data = drawn(process, (law.0, Some(law.1)), cell, run);
+        let interval = estimate_units(&data, &model).and_then(|found| found.cv_interval(&data, 0.95));
+        let Ok(interval) = interval else { continue };
+        count[0] += usize::from(interval.contains(law.1));
+        count[1] += 1;
+    }
+    count
+}
+
+#[test]
+fn intervals_of_few_units_hold_their_variation() {
+    let [held, of] = held(&Gamma, ([2.0_f64.ln(); 2], 0.5), (10, 9), 100);
+    // Three standard errors below 95 %; the chi-square law has 92 %.
+    assert!(
+        of >= 99 && held as f64 >= 100.0 * (0.95 - 3.0 * (0.95_f64 * 0.05 / 100.0).sqrt()),
+        "{held} of {of}"
+    );
+}
+
+#[test]
+#[ignore = "minutes; run with --release --ignored --nocapture"]
+fn table_of_coverages_of_variation() {
+    println!(
+        "| process | units x readings | variation of units 0.1 | 0.3 | 0.6 | samples |\n|---|---|---|---|---|---|"
+    );
+    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1000);
+    for (name, process, logs) in processes() {
+        for cell in CELLS {
+            let part = [0.1, 0.3, 0.6].map(|cv| {
+                let [held, of] = held(process, (logs, cv), cell, runs);
+                let missing = if of < runs as usize { format!(" of {of}") } else { String::new() };
+                format!("{:.1}{missing}", 100.0 * held as f64 / of as f64)
+            });
+            println!("| {name} | {} x {} | {} | {runs} |", cell.0, cell.1, part.join(" | "));
         }
     }
 }

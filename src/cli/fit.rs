@@ -7,19 +7,23 @@ mod read;
 mod report;
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::Range;
 
 use crate::csv_table::CsvTable;
 use crate::files::write_whole;
+use crate::number::number;
 #[cfg(feature = "page")]
 use crate::page::fit_picture;
 use crate::provenance::{Provenance, sealed};
 use linkwear_gamma::data::{DataError, Gauge, Observations, Reading};
-use linkwear_gamma::fit::{Bootstrap, Fit, FitError, LikelihoodRatio, bootstrap, estimate, likelihood_ratio};
+use linkwear_gamma::fit::{
+    Bootstrap, Fit, FitError, LikelihoodRatio, bootstrap, estimate, hidden_scatter, likelihood_ratio,
+};
 use serde_json::json;
 
-use self::analysis::{Analysis, model, rounding};
+use self::analysis::{Analysis, LEVEL, model, rounding};
 use self::read::{Group, groups};
 use super::answer::Answer;
 use super::arguments::FitArguments;
@@ -66,7 +70,7 @@ pub fn fitted(
             None => Some(here(fit)),
         };
         Analysis::new(arguments, name, (data, last), replicates)
-            .map_err(|error| no_fit(arguments, name, error))
+            .map_err(|error| no_fit(arguments, (name, data), error))
     };
     let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
     let all = analysis(&pooled)?;
@@ -86,7 +90,8 @@ pub fn replicates(
 ) -> Result<Replicates, Failure> {
     let (pooled, groups) = observed(arguments, table)?;
     let drawn = std::iter::once(pooled).chain(groups).map(|Observed { name, data, .. }| {
-        let fit = estimate(&data, &model(arguments)).map_err(|error| no_fit(arguments, &name, error))?;
+        let fit =
+            estimate(&data, &model(arguments)).map_err(|error| no_fit(arguments, (&name, &data), error))?;
         Ok((name, bootstrap(&fit, &data, numbers.clone(), arguments.seed)))
     });
     drawn.collect()
@@ -193,9 +198,21 @@ fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
     Failure::data(&arguments.file, Some(first), message, help)
 }
 
-fn no_fit(arguments: &FitArguments, name: &str, error: FitError) -> Failure {
-    let message =
+fn no_fit(arguments: &FitArguments, (name, data): (&str, &Observations), error: FitError) -> Failure {
+    let mut message =
         if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
+    // What such readings say all the same.
+    let model = model(arguments);
+    let least = (error == FitError::ScatterBelowGauge).then(|| hidden_scatter(data, &model, LEVEL)).flatten();
+    if let Some([first, second]) = least {
+        let [one, other] = model.process.parameters();
+        let _ = write!(
+            message,
+            "; they say, at 95 %, that {one} is above {} and {other} above {}",
+            number(first.low),
+            number(second.low)
+        );
+    }
     Failure::data(&arguments.file, None, message, cure(error))
 }
 

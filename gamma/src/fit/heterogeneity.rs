@@ -3,13 +3,14 @@
 
 use super::error::FitError;
 use super::estimate::{Fit, estimate_increments, follows};
+use super::few_units::FewUnits;
 use super::interval::Interval;
 use super::maximise::{LARGEST_CV, maximise};
 use super::model::Model;
 use crate::data::Observations;
 use crate::matrix::Factor;
 use crate::process::RandomEffect;
-use crate::special::{f_above, normal_quantile, rising_root};
+use crate::special::rising_root;
 
 /// Coefficients of variation that a start is looked for among: powers of 2 times the least that is told from none.
 const LEAST_CV: f64 = 1e-5;
@@ -79,10 +80,10 @@ pub fn estimate_units(observations: &Observations, model: &Model) -> Result<Hete
     let boundary = found.is_none();
     let fit = found.unwrap_or_else(|| plain.clone());
     let statistic = if boundary { 0.0 } else { 2.0 * (fit.log_likelihood - plain.log_likelihood) };
-    let degrees = plain.increments as f64 - units as f64 - (plain.phi.len() - 2) as f64;
+    let few = few_units(&plain, effect, observations);
     let test = UnitsTest {
         statistic,
-        p_value: small_sample_p(statistic, equal_units(&plain, effect, observations), degrees),
+        p_value: if boundary { 1.0 } else { few.probability(statistic, 0.0) },
         asymptotic_p: if boundary { 1.0 } else { 0.5 * libm::erfc(libm::sqrt(0.5 * statistic)) },
     };
     Ok(Heterogeneity { fit, plain, boundary, test, units })
@@ -121,33 +122,15 @@ fn climb(observations: &Observations, wide: &Model, plain: &Fit) -> Result<Optio
 }
 
 /// How many units of equal exposures and normal totals say as much of differences as these, by the mean and the variance of the score.
-fn equal_units(plain: &Fit, effect: &dyn RandomEffect, observations: &Observations) -> f64 {
+fn few_units(plain: &Fit, effect: &dyn RandomEffect, observations: &Observations) -> FewUnits {
     let excess = effect.excess(plain.logs());
     let exposures = plain.model.exposures(&plain.phi, &observations.increments);
     let all: f64 = exposures.iter().sum();
     let squares: f64 = exposures.iter().map(|own| own * (own + excess)).sum();
     let count = exposures.len() as f64;
-    1.0 + all * all / squares * (count - 1.0) / count
-}
-
-/// Probability of a larger statistic if units do not differ: exact for a Wiener process whose units have equal exposures, where the
-/// statistic rises with the ratio F of the variances between and within units,
-///
-/// ```text
-/// statistic = n ln([k R + d] / n) - k ln R for R = F (k - 1) / k > 1, else 0; n = k + d
-/// ```
-///
-/// k units, d degrees of freedom within them. For many units and readings it goes over into half chi-square; the law of that is too
-/// wide for a few (C. M. Crainiceanu, D. Ruppert, J. R. Stat. Soc. B 66 (2004) 165). Elsewhere k is that of [`equal_units`]; the bench
-/// `gamma/tests/units_differ.rs` shows how well it does.
-fn small_sample_p(statistic: f64, units: f64, degrees: f64) -> f64 {
-    if statistic <= 0.0 {
-        return 1.0;
-    }
-    let n = units + degrees.max(1.0);
-    let rises = |more: f64| n * libm::log1p(units * more / n) - units * libm::log1p(more) - statistic;
-    let ratio = 1.0 + rising_root(&rises, libm::sqrt(2.0 * statistic / units));
-    f_above(units - 1.0, n - units, ratio * units / (units - 1.0))
+    let units = 1.0 + all * all / squares * (count - 1.0) / count;
+    let degrees = plain.increments as f64 - observations.units.len() as f64 - (plain.phi.len() - 2) as f64;
+    FewUnits { units, degrees: degrees.max(1.0) }
 }
 
 impl Heterogeneity {
@@ -167,35 +150,35 @@ impl Heterogeneity {
     }
 
     /// The coefficients of variation that a likelihood-ratio test at 1 - `level` does not reject, from 0 on if it does not reject
-    /// that, and without an upper end if it rejects none up to 1000.
+    /// that, and without an upper end if it rejects none up to 1000. Critical values are those of [`FewUnits`].
     ///
     /// # Errors
     /// [`FitError::NotConverged`] where the other parameters cannot be re-estimated.
     pub fn cv_interval(&self, observations: &Observations, level: f64) -> Result<Interval, FitError> {
-        let reach = normal_quantile(0.5 + 0.5 * level);
         let wide = Model { units_differ: true, ..self.fit.model };
         let top = self.fit.cv().unwrap_or(0.0);
+        let critical = self.critical(observations, level)?;
         let mut from = self.fit.phi.clone();
         if self.boundary {
             from.push(0.0);
         }
         let last = from.len() - 1;
-        let root = |cv: f64| {
+        let beyond = |cv: f64| {
             let mut phi = from.clone();
             phi[last] = libm::log(cv);
             let found = maximise(&wide, &observations.increments, &phi, Some(last));
             found.map_or(f64::INFINITY, |(_, point)| {
-                libm::sqrt((2.0 * (self.fit.log_likelihood - point.value)).max(0.0))
+                2.0 * (self.fit.log_likelihood - point.value) - critical(cv)
             })
         };
-        let low = match libm::sqrt(self.test.statistic) > reach {
+        let low = match self.test.p_value < 1.0 - level {
             // Falls towards the top: rises in 1 / cv.
-            true => 1.0 / rising_root(&|inverse| root(1.0 / inverse) - reach, 1.0 / top),
+            true => 1.0 / rising_root(&|inverse| beyond(1.0 / inverse), 1.0 / top),
             false => 0.0,
         };
-        let high = match self.is_flat_above(top, observations, reach) {
+        let high = match self.is_flat_above(top, observations, &critical) {
             true => f64::INFINITY,
-            false => top + rising_root(&|more| root(top + more) - reach, (0.5 * top).max(LEAST_CV)),
+            false => top + rising_root(&|more| beyond(top + more), (0.5 * top).max(LEAST_CV)),
         };
         if high < LARGEST_CV || high == f64::INFINITY {
             Ok(Interval { low, high })
@@ -204,8 +187,25 @@ impl Heterogeneity {
         }
     }
 
+    /// The fall of twice the log-likelihood to a coefficient of variation that is exceeded with probability 1 - `level`.
+    pub(super) fn critical(
+        &self,
+        observations: &Observations,
+        level: f64,
+    ) -> Result<impl Fn(f64) -> f64 + use<>, FitError> {
+        let effect = self.plain.model.process.random_effect().ok_or(FitError::NoRandomEffect)?;
+        let few = few_units(&self.plain, effect, observations);
+        let exposures = self.plain.model.exposures(&self.plain.phi, &observations.increments);
+        let exposure = exposures.iter().sum::<f64>() / exposures.len() as f64;
+        // Of the variance of a unit's total, what differences add to it, beside what is within units.
+        let (process, logs) = (self.fit.model.process, self.fit.logs());
+        let variance = process.variance(logs) * exposure;
+        let mean = libm::exp(process.ln_mean(logs)) * exposure;
+        Ok(move |cv: f64| few.critical(cv * cv * mean * mean / variance, level))
+    }
+
     /// Whether the test rejects no larger coefficient of variation, by doubling it and starting each time from the last best fit.
-    fn is_flat_above(&self, top: f64, observations: &Observations, reach: f64) -> bool {
+    fn is_flat_above(&self, top: f64, observations: &Observations, critical: &dyn Fn(f64) -> f64) -> bool {
         let wide = Model { units_differ: true, ..self.fit.model };
         let mut phi = self.fit.phi.clone();
         phi.truncate(wide.parameters() - 1);
@@ -218,7 +218,7 @@ impl Heterogeneity {
             let Ok((best, point)) = maximise(&wide, &observations.increments, &phi, Some(last)) else {
                 return false;
             };
-            if libm::sqrt((2.0 * (self.fit.log_likelihood - point.value)).max(0.0)) >= reach {
+            if 2.0 * (self.fit.log_likelihood - point.value) >= critical(cv) {
                 return false;
             }
             phi = best;

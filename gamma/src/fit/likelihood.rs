@@ -6,8 +6,11 @@ use super::model::{Model, Seen, units};
 use super::point::{Point, WIDTH};
 use super::rounded::{Differing, Laws, least_variance, ln_likelihood};
 use super::units::{Added, Total, added, value};
-use crate::data::Increment;
+use crate::data::{Increment, Rounding};
 use crate::process::Term;
+
+/// Variance that rounding adds to that of an increment, in steps squared: 1/12 for the reading on either side.
+const ROUNDING: f64 = 1.0 / 6.0;
 
 impl Model {
     /// Log-likelihood alone.
@@ -91,6 +94,14 @@ impl Model {
         let variance = |one: &Increment| self.process.variance(self.logs(phi, one));
         let largest = increments.iter().map(variance).fold(0.0, f64::max);
         libm::log(largest / least_variance(rounding))
+    }
+
+    /// Variance that the readings at both ends of an increment add to it, in the mean over that of its wear; None of exact readings.
+    pub fn hidden(&self, phi: &[f64], increments: &[Increment]) -> Option<f64> {
+        let Rounding { step, error } = self.resolution?;
+        let variance = |one: &Increment| self.process.variance(self.logs(phi, one));
+        let scatter = increments.iter().map(variance).sum::<f64>() / increments.len() as f64;
+        Some((ROUNDING * step * step + 2.0 * error * error) / scatter)
     }
 
     /// Value, gradient and information, but for a parameter that is held: its entries may be 0.

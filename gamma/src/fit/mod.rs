@@ -6,10 +6,13 @@
 
 mod bootstrap;
 mod bounds;
+mod drawn_falls;
 mod error;
 mod estimate;
+mod few_units;
 mod goodness;
 mod heterogeneity;
+mod hidden_scatter;
 mod interval;
 mod likelihood;
 mod maximise;
@@ -24,6 +27,7 @@ pub use error::FitError;
 pub use estimate::{Fit, LikelihoodRatio, likelihood_ratio};
 pub use goodness::{Goodness, goodness};
 pub use heterogeneity::{Heterogeneity, UnitsTest, estimate, estimate_units};
+pub use hidden_scatter::{hidden_scatter, interval};
 pub use interval::{Interval, profile_interval};
 pub use model::Model;
 pub(crate) use parameter_sets::parameter_sets;

@@ -24,8 +24,6 @@ const NEGLIGIBLE: f64 = 1e-7;
 const ENOUGH: f64 = 0.2;
 /// Rounds, two at least, after which the sets are no picture of the posterior.
 const ROUNDS: usize = 4;
-/// Variance that rounding adds to that of an increment, in steps squared: 1/12 for the reading on either side.
-const ROUNDING: f64 = 1.0 / 6.0;
 
 /// Logarithms of the process's parameters, of the exponent if it was estimated, then the powers of covariates; a probability.
 type Set = (Vec<f64>, f64);
@@ -109,12 +107,8 @@ fn ln_prior(model: &Model, phi: &[f64], increments: &[Increment]) -> f64 {
     // Flat in the units' coefficient of variation itself: flat in its logarithm, all weight would lie on no difference.
     let of_units = if model.units_differ { phi[phi.len() - 1] } else { 0.0 };
     let known = process.flat_prior_power() * phi[0] + process.ln_matching_weight(phi[0], &spans) + of_units;
-    let Some(rounding) = model.resolution else { return known };
-    let variance = |one: &Increment| process.variance(model.logs(phi, one));
-    let scatter = increments.iter().map(variance).sum::<f64>() / increments.len() as f64;
-    let blur = ROUNDING * rounding.step * rounding.step + 2.0 * rounding.error * rounding.error;
     // Root of the information on ln scatter, beside that of exact readings.
-    known - libm::log1p(blur / scatter)
+    known - libm::log1p(model.hidden(phi, increments).unwrap_or(0.0))
 }
 
 /// Point `k` of a lattice in the open unit cube, by powers of the root of x^(size + 1) = x + 1: its points fill the cube evenly,

@@ -3,7 +3,7 @@
 
 use super::age::{AgePlan, age_cost_rate, best_age};
 use super::condition::Monitored;
-use super::condition_search::{ConditionPlan, nearby};
+use super::condition_search::{ConditionPlan, cheapest};
 use super::costs::{Costs, Looks};
 use super::error::PlanError;
 use crate::life::{FirstPassage, Lifetime};
@@ -70,19 +70,11 @@ pub fn look_bands(
         .iter()
         .filter_map(|life| Monitored::new(*life.law(), life.clock().clone(), failure).ok())
         .collect();
-    let typical = |part: &Monitored| part.life().ok().and_then(|life| life.quantile(0.5).ok());
-    let mut lengths: Vec<f64> = parts.iter().filter_map(typical).collect();
-    if lengths.is_empty() {
-        return None;
-    }
-    lengths.sort_by(f64::total_cmp);
-    let middle = sorted_quantile(&lengths, 0.5);
-    let is_free = is_given.map(|given| !given);
+    let given = [plan.interval, plan.threshold].into_iter().zip(is_given);
+    let given: Vec<Option<f64>> = given.map(|(value, is_given)| is_given.then_some(value)).collect();
     let one = |part: &Monitored| -> Result<[f64; 3], PlanError> {
         let own = part.cost(costs, looks, plan.interval, plan.threshold)?.rate;
-        let length = typical(part).unwrap_or(middle);
-        let start = if is_free[0] { plan.interval * length / middle } else { plan.interval };
-        let (interval, threshold) = nearby(part, (costs, looks), (start, plan.threshold), is_free);
+        let (interval, threshold) = cheapest(part, (costs, looks), (given[0], given[1]))?;
         Ok([interval, threshold, own])
     };
     let left_out = lives.len() - parts.len();

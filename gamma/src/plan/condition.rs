@@ -26,11 +26,11 @@ use crate::quadrature::integrate;
 /// Parts that are still in use after so many looks are too few to count.
 const GONE: f64 = 1e-10;
 /// Looks of one cycle; more come only with an interval far below every life.
-const MOST: usize = 20_000;
+pub(super) const MOST: usize = 20_000;
 /// Accuracy of a probability: costs of failures are some ten times those of looks, and plans are told to four digits.
 const ACCURACY: f64 = 1e-7;
 /// Failures between two looks that are passed over: a thousandth of what is told, over a hundred looks.
-const SKIPPED: f64 = 1e-9;
+pub(super) const SKIPPED: f64 = 1e-9;
 /// From place to place of what differs between units, in standard deviations and in its logarithm, where its law is summed over; ln
 /// of its density below which no place counts: good to 1e-5 of a probability, and costs are told to four digits.
 const SPACING: (f64, f64) = (1.0, 0.5);
@@ -67,11 +67,37 @@ pub struct ConditionCost {
 
 /// Sums over a cycle: time in use, time with a failure that nobody has noticed, looks, failures.
 #[derive(Clone, Copy, Default)]
-struct Cycle {
-    used: f64,
-    unnoticed: f64,
-    looked: f64,
-    fail: f64,
+pub(super) struct Cycle {
+    pub used: f64,
+    pub unnoticed: f64,
+    pub looked: f64,
+    pub fail: f64,
+}
+
+impl Cycle {
+    /// Adds such a part of another.
+    pub fn add(&mut self, part: f64, other: Self) {
+        self.used += part * other.used;
+        self.unnoticed += part * other.unnoticed;
+        self.looked += part * other.looked;
+        self.fail += part * other.fail;
+    }
+
+    /// What it costs.
+    pub fn cost(self, (costs, looks): (&Costs, &Looks)) -> ConditionCost {
+        let Self { used, mut unnoticed, looked, fail } = self;
+        let preventive = 1.0 - fail;
+        let mut cost = looks.inspection * looked + costs.preventive * preventive + costs.failure * fail;
+        let mut cycle = used + costs.preventive_time * preventive + costs.failure_time * fail;
+        match looks.downtime {
+            Some(downtime) => {
+                cost += downtime * unnoticed;
+                cycle += unnoticed;
+            }
+            None => unnoticed = 0.0,
+        }
+        ConditionCost { rate: cost / cycle, cycle, looks: looked, fail, unnoticed }
+    }
 }
 
 /// Refuses a law by which the wear at a look does not say all that there is to know of a part.
@@ -133,6 +159,11 @@ impl Monitored {
         Ok(self.mean_cycle(&self.units, (costs, looks), interval, threshold))
     }
 
+    /// The clock of its wear, and laws of units with the probabilities of each, for a search.
+    pub(super) fn few(&self) -> (&Clock, &[(f64, Law)]) {
+        (&self.clock, &self.few)
+    }
+
     /// What a plan costs per unit of time, fast.
     pub(super) fn rate(&self, asked: (&Costs, &Looks), interval: f64, threshold: f64) -> f64 {
         self.mean_cycle(&self.few, asked, interval, threshold).rate
@@ -141,30 +172,15 @@ impl Monitored {
     fn mean_cycle(
         &self,
         units: &[(f64, Law)],
-        (costs, looks): (&Costs, &Looks),
+        asked: (&Costs, &Looks),
         interval: f64,
         threshold: f64,
     ) -> ConditionCost {
         let mut mean = Cycle::default();
         for (part, law) in units {
-            let own = self.cycle(law, looks, interval, threshold);
-            mean.used += part * own.used;
-            mean.unnoticed += part * own.unnoticed;
-            mean.looked += part * own.looked;
-            mean.fail += part * own.fail;
+            mean.add(*part, self.cycle(law, asked.1, interval, threshold));
         }
-        let Cycle { used, mut unnoticed, looked, fail } = mean;
-        let preventive = 1.0 - fail;
-        let mut cost = looks.inspection * looked + costs.preventive * preventive + costs.failure * fail;
-        let mut cycle = used + costs.preventive_time * preventive + costs.failure_time * fail;
-        match looks.downtime {
-            Some(downtime) => {
-                cost += downtime * unnoticed;
-                cycle += unnoticed;
-            }
-            None => unnoticed = 0.0,
-        }
-        ConditionCost { rate: cost / cycle, cycle, looks: looked, fail, unnoticed }
+        mean.cost(asked)
     }
 
     /// Of units of one law.

@@ -1,6 +1,7 @@
 //! The cheapest interval and threshold of looks. In: wear of a part, costs. Out: a plan. Never knows how a plan's cost is found.
 
 use super::condition::{ConditionCost, Monitored};
+use super::condition_levels::{SAME, least_rate};
 use super::costs::{Costs, Looks};
 use super::error::PlanError;
 use super::search::least;
@@ -11,16 +12,21 @@ use crate::life::Lifetime;
 const ACCURACY: f64 = 1e-7;
 /// The interval is looked for between the mean life over the first and times the second.
 const INTERVALS: (f64, f64) = (64.0, 3.0);
-/// Points of the first search along the interval and along the threshold.
-const TRIED: (usize, usize) = (14, 9);
+/// Ratios from interval to interval of the first search, from the mean life over this on and below it: a plan of one look is cheap within
+/// a few percent of its interval, and next to it one of two looks; many looks hardly differ from one more.
+const RATIOS: [f64; 2] = [1.1, 1.25];
+const MANY_LOOKS: f64 = 8.0;
+/// Thresholds of the first search, closer to each other near failure.
+const LEVELS: usize = 32;
+/// Cheapest intervals among their neighbours that are looked at closely, by cost beside the least.
+const RIVALS: usize = 3;
+const NEARLY_BEST: f64 = 1.05;
+/// Where that ends, in the logarithm of the interval: a plan is worth the same then.
+const CLOSE: f64 = 0.01;
 /// Turns of the search along both; each at least halves what is left to gain.
-const TURNS: usize = 4;
-/// Wear below the threshold of failure at which replacements are tried, as parts of it.
-const THRESHOLDS: (f64, f64) = (0.02, 1.0);
-/// Of the search nearby: first steps, of the logarithm of the interval and of the threshold over that of failure; where steps end.
-const FIRST_STEPS: [f64; 2] = [0.25, 0.06];
-const CLOSE: f64 = 0.02;
-const MOST_TURNS: usize = 20;
+const TURNS: usize = 6;
+/// Wear below the threshold of failure at which replacements are tried, as a part of it.
+const LOWEST: f64 = 0.02;
 
 /// A plan of looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,42 +53,25 @@ pub fn best_inspection(
     threshold: Option<f64>,
 ) -> Result<ConditionPlan, PlanError> {
     positive("the cost of an inspection", looks.inspection)?;
-    let mean = part.life()?.moments()?.mean;
-    let ends = (mean / INTERVALS.0, mean * INTERVALS.1);
-    let even = |(low, high): (f64, f64), count: usize| -> Vec<f64> {
-        (0..count).map(|i| low + (high - low) * i as f64 / (count - 1) as f64).collect()
-    };
-    // Intervals in even ratios.
-    let logs = interval.map_or_else(
-        || even((libm::log(ends.0), libm::log(ends.1)), TRIED.0),
-        |interval| vec![libm::log(interval)],
-    );
-    let levels = threshold.map_or_else(
-        || even((THRESHOLDS.0 * part.failure(), THRESHOLDS.1 * part.failure()), TRIED.1),
-        |threshold| vec![threshold],
-    );
+    let grid = Grid::new(part, interval, threshold)?;
     // The most looks that a life can have: if they can be counted, all can.
-    part.cost(costs, looks, libm::exp(logs[0]), levels[levels.len() - 1])?;
+    part.cost(costs, looks, libm::exp(grid.logs[0]), grid.levels[grid.levels.len() - 1])?;
     let rate = |log: f64, level: f64| part.rate((costs, looks), libm::exp(log), level);
-    let mut best = (f64::INFINITY, logs[0], levels[0]);
-    for log in &logs {
-        for level in &levels {
-            let found = rate(*log, *level);
-            if found < best.0 {
-                best = (found, *log, *level);
-            }
-        }
-    }
+    let tops = grid.rivals(part, (costs, looks));
+    let told = tops.into_iter().map(|(_, log, level)| (rate(log, level), log, level));
+    let mut best =
+        told.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, grid.logs[0], part.failure()));
+    let Grid { logs, levels, .. } = &grid;
     for _ in 0..TURNS {
         let before = best.0;
         if interval.is_none() {
-            let (log, found) = least(&around(&logs, best.1), &mut |log| rate(log, best.2));
+            let (log, found) = least(&around(logs, best.1), &mut |log| rate(log, best.2));
             if found < best.0 {
                 best = (found, log, best.2);
             }
         }
         if threshold.is_none() {
-            let (level, found) = least(&around(&levels, best.2), &mut |level| rate(best.1, level));
+            let (level, found) = least(&around(levels, best.2), &mut |level| rate(best.1, level));
             if found < best.0 {
                 best = (found, best.1, level);
             }
@@ -91,61 +80,123 @@ pub fn best_inspection(
             break;
         }
     }
+    if threshold.is_none() {
+        best.2 = highest(best, levels[grid.first], part.failure(), &rate);
+    }
     let (_, log, threshold) = best;
-    let near = |end: f64| (libm::exp(log) / end - 1.0).abs() < 1e-3;
+    let near = |end: Option<&f64>| end.is_some_and(|end| (log - end).abs() < 1e-3);
     let chosen = libm::exp(log);
     Ok(ConditionPlan {
         interval: chosen,
         threshold,
         cost: part.cost(costs, looks, chosen, threshold)?,
-        at_an_end: interval.is_none() && (near(ends.0) || near(ends.1)),
+        at_an_end: interval.is_none() && (near(logs.first()) || near(logs.last())),
     })
 }
 
-/// Interval and threshold of the least cost near a plan, each if it is free: by parabolas with steps that are halved until they are
-/// below a hundredth of the interval and of the threshold of failure.
-pub(super) fn nearby(
+/// Of thresholds that cost the same, as the lowest does, the highest.
+fn highest(best: (f64, f64, f64), lowest: f64, failure: f64, rate: &dyn Fn(f64, f64) -> f64) -> f64 {
+    let same = (1.0 + SAME) * best.0;
+    if rate(best.1, lowest) > same {
+        return best.2;
+    }
+    let (mut low, mut high) = (best.2, failure);
+    while high - low > 1e-4 * failure {
+        let middle = 0.5 * (low + high);
+        if rate(best.1, middle) <= same { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Interval and threshold of the least cost, each as it is given, good to a percent or so.
+///
+/// # Errors
+/// [`PlanError`].
+pub(super) fn cheapest(
     part: &Monitored,
     asked: (&Costs, &Looks),
-    from: (f64, f64),
-    is_free: [bool; 2],
-) -> (f64, f64) {
-    let mut at = [libm::log(from.0), from.1];
-    let mut steps = [FIRST_STEPS[0], FIRST_STEPS[1] * part.failure()];
-    let lowest = THRESHOLDS.0 * part.failure();
-    let rate = |at: [f64; 2]| match (lowest..=part.failure()).contains(&at[1]) {
-        true => part.rate(asked, libm::exp(at[0]), at[1]),
-        false => f64::INFINITY,
-    };
-    let mut best = rate(at);
-    for _ in 0..MOST_TURNS {
-        for k in (0..2).filter(|k| is_free[*k]) {
-            let moved = |by: f64| {
-                let mut next = at;
-                next[k] += by;
-                next
-            };
-            let (down, up) = (rate(moved(-steps[k])), rate(moved(steps[k])));
-            if down.min(up) < best {
-                at = moved(if down < up { -steps[k] } else { steps[k] });
-                best = down.min(up);
-                continue;
+    (interval, threshold): (Option<f64>, Option<f64>),
+) -> Result<(f64, f64), PlanError> {
+    let rivals = Grid::new(part, interval, threshold)?.rivals(part, asked);
+    let best = rivals.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let (_, log, level) = best.ok_or(PlanError::TooOften { interval: interval.unwrap_or(0.0), looks: 0 })?;
+    Ok((interval.unwrap_or_else(|| libm::exp(log)), threshold.unwrap_or(level)))
+}
+
+/// Where the first search looks.
+struct Grid {
+    /// Logarithms of intervals, ascending.
+    logs: Vec<f64>,
+    /// Wear at looks, ascending.
+    levels: Vec<f64>,
+    /// The first level that may be a threshold.
+    first: usize,
+}
+
+impl Grid {
+    fn new(part: &Monitored, interval: Option<f64>, threshold: Option<f64>) -> Result<Self, PlanError> {
+        let logs = match interval {
+            Some(interval) => vec![libm::log(interval)],
+            None => {
+                let mean = part.life()?.moments()?.mean;
+                let (low, few, high) = (mean / INTERVALS.0, mean / MANY_LOOKS, mean * INTERVALS.1);
+                let even = |(low, high): (f64, f64), ratio: f64| {
+                    let count = libm::ceil(libm::log(high / low) / libm::log(ratio)).max(1.0);
+                    (0..)
+                        .map(f64::from)
+                        .take_while(move |at| *at < count)
+                        .map(move |at| libm::log(low) + libm::log(high / low) * at / count)
+                };
+                let [few_looks, many] = RATIOS;
+                even((low, few), many).chain(even((few, high), few_looks)).chain([libm::log(high)]).collect()
             }
-            let bend = down + up - 2.0 * best;
-            let shift =
-                if bend > 0.0 && bend.is_finite() { 0.5 * steps[k] * (down - up) / bend } else { 0.0 };
-            let there = rate(moved(shift));
-            if there < best {
-                (at, best) = (moved(shift), there);
-            }
-            steps[k] *= 0.4;
-        }
-        let is_done = |k: usize| !is_free[k] || steps[k] < CLOSE * if k == 0 { 1.0 } else { part.failure() };
-        if is_done(0) && is_done(1) {
-            break;
-        }
+        };
+        // Half as far apart at the last as in the middle.
+        let most = threshold.unwrap_or(part.failure());
+        let level = |at: usize| {
+            let left = 1.0 - (at as f64 + 1.0) / LEVELS as f64;
+            most * (1.0 - 0.5 * left * (1.0 + left))
+        };
+        let levels: Vec<f64> = (0..LEVELS).map(level).collect();
+        let first = match threshold {
+            Some(_) => LEVELS - 1,
+            None => levels.partition_point(|level| *level < LOWEST * most),
+        };
+        Ok(Self { logs, levels, first })
     }
-    (libm::exp(at[0]), at[1])
+
+    /// The cheapest intervals among their neighbours: cost, logarithm of the interval, threshold.
+    fn rivals(&self, part: &Monitored, asked: (&Costs, &Looks)) -> Vec<(f64, f64, f64)> {
+        let Self { logs, levels, first } = self;
+        let at = |log: f64| least_rate(part, asked, libm::exp(log), (levels, *first));
+        let found: Vec<(f64, f64)> = logs.iter().map(|log| at(*log)).collect();
+        let rate = |at: usize| found.get(at).map_or(f64::INFINITY, |found| found.0);
+        let least = (0..logs.len()).map(rate).fold(f64::INFINITY, f64::min);
+        let is_top = |at: &usize| {
+            rate(*at) <= rate(at + 1)
+                && at.checked_sub(1).is_none_or(|before| rate(*at) < rate(before))
+                && rate(*at) <= NEARLY_BEST * least
+        };
+        let mut tops: Vec<usize> = (0..logs.len()).filter(is_top).collect();
+        tops.sort_by(|a, b| rate(*a).total_cmp(&rate(*b)));
+        tops.truncate(RIVALS);
+        let closely = |top: usize| {
+            let mut near = (rate(top), logs[top], found[top].1);
+            let ends = [top.saturating_sub(1), (top + 1).min(logs.len() - 1)].map(|at| logs[at]);
+            let mut width = 0.5 * (ends[1] - ends[0]);
+            while width > CLOSE {
+                width *= 0.5;
+                for log in [near.1 - width, near.1 + width] {
+                    let (rate, level) = at(log.clamp(ends[0], ends[1]));
+                    if rate < near.0 {
+                        near = (rate, log.clamp(ends[0], ends[1]), level);
+                    }
+                }
+            }
+            near
+        };
+        tops.into_iter().map(closely).collect()
+    }
 }
 
 /// The point and its neighbours on the grid.

@@ -82,6 +82,37 @@ fn a_plan_for_units_that_differ_is_cheaper_than_the_one_for_units_alike() {
 }
 
 #[test]
+fn a_plan_of_few_looks_is_found_where_it_is_cheapest() {
+    // Dear looks at parts that live much alike: one shortly before they fail, or two, each cheap within a few percent of its interval.
+    let costs = Costs::new(100.0, 900.0).expect("valid");
+    let looks = Looks::new(15.0, None).expect("valid");
+    for shape in [3.0_f64, 5.0] {
+        let part = Monitored::new(
+            Law::new(&Gamma, [shape; 2]).expect("valid"),
+            Clock::linear(1.0).expect("valid"),
+            20.0,
+        )
+        .expect("valid");
+        let plan = best_inspection(&part, &costs, &looks, None, None).expect("a plan");
+        // No plan of a grid is cheaper, but for its digits.
+        for at in 0..24 {
+            let interval = 5.0 * 1.06_f64.powi(at);
+            for threshold in [1.0, 3.0, 6.0, 9.0, 11.0, 13.0] {
+                let other = part.cost(&costs, &looks, interval, threshold).expect("valid").rate;
+                assert!(
+                    plan.cost.rate < other * (1.0 + 1e-4),
+                    "{shape}: {plan:?}, {interval} {threshold} {other}"
+                );
+            }
+        }
+        // Of thresholds that cost the same, since all parts are beyond them at the first look, the highest.
+        assert!(plan.threshold > 4.0, "{plan:?}");
+        let higher = part.cost(&costs, &looks, plan.interval, plan.threshold + 0.5).expect("valid").rate;
+        assert!(higher > plan.cost.rate, "{plan:?} {higher}");
+    }
+}
+
+#[test]
 fn the_best_looks_of_the_fastest_and_the_slowest_lives_are_the_ends() {
     let state = OperatingState::new(10.0).expect("valid");
     let lives: Vec<FirstPassage> = [0.5, 1.0, 2.0]

@@ -8,6 +8,7 @@
 mod age;
 mod bands;
 mod condition;
+mod condition_levels;
 mod condition_search;
 mod costs;
 mod error;

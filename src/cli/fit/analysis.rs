@@ -5,7 +5,7 @@ use linkwear_gamma::FitFile;
 use linkwear_gamma::data::{Known, Observations, Rounding};
 use linkwear_gamma::fit::{
     Bootstrap, Fit, FitError, Goodness, Heterogeneity, Interval, Model, estimate, estimate_units, goodness,
-    profile_interval,
+    interval as interval_of,
 };
 use linkwear_gamma::process::{PROCESSES, Process};
 
@@ -106,7 +106,7 @@ impl Analysis {
         let of_units = fit.cv().map(|_| fit.parameters().len() - 1);
         let interval = |at| match &units {
             Some(found) if Some(at) == of_units => found.cv_interval(data, LEVEL).ok(),
-            _ => profile_interval(&fit, data, at, LEVEL).ok(),
+            _ => interval_of(&fit, data, at, LEVEL).ok(),
         };
         Ok(Self {
             name: name.to_owned(),

@@ -25,7 +25,7 @@ use rand::distr::Open01;
 use crate::data::{Increment, Rounding};
 use crate::random::Stream;
 
-use self::chain::Chain;
+pub use self::chain::Chain;
 use self::kernel::Kernel;
 pub use self::kernel::Laws;
 pub use self::units::Differing;

@@ -126,7 +126,8 @@ fn transforms_of_a_fine_gauge_are_those_of_exact_readings() {
     }
 }
 
-/// How often likelihood-ratio intervals at 95 % hold alpha, beta and cv of drawn data, and how many data have a maximum inside.
+/// How often likelihood-ratio intervals at 95 %, that of cv by the law of few units, hold alpha, beta and cv of drawn data, and how many
+/// data have a maximum inside.
 fn coverage(
     (units, readings): (usize, usize),
     truth: [f64; 3],
@@ -161,8 +162,12 @@ fn coverage(
             }
             from[at] = phi[at];
             let (_, point) = maximise(&own, &data.increments, &from, Some(at)).ok()?;
-            // chi-square at 95 %, 1 degree.
-            Some(2.0 * (found.fit.log_likelihood - point.value) < 3.841_458_820_694_124)
+            let critical = match at {
+                2 => found.critical(&data, 0.95).ok()?(truth[2]),
+                // chi-square at 95 %, 1 degree.
+                _ => 3.841_458_820_694_124,
+            };
+            Some(2.0 * (found.fit.log_likelihood - point.value) < critical)
         };
         let [Some(first), Some(second), Some(third)] = [0, 1, 2].map(below) else { continue };
         fitted += 1;
