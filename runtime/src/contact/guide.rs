@@ -6,11 +6,8 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use super::revolute::Support;
+use super::revolute::{AT_REST, Support};
 use crate::scalar::{Scalar, dot};
-
-/// Squared sliding speeds [m²/s²] below this count as this: the root has no derivative at zero.
-const AT_REST: f64 = 1e-40;
 
 /// Motion of a rod at one place of its bush, as the bush sees it; the third axis is that of the bush.
 #[derive(Clone, Copy, Debug, PartialEq)]

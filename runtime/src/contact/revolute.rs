@@ -20,6 +20,9 @@ pub struct RevoluteMotion<T> {
     pub joint_speed: T,
 }
 
+/// Squared sliding speeds [m²/s²] below this count as this where sliding has several components: the root has no derivative at zero.
+pub(super) const AT_REST: f64 = 1e-40;
+
 /// How a bearing meets the centre of its journal: the penetration as a function of the offset.
 ///
 /// The gradient of a round bearing is the unit vector from its centre to that of the journal. A worn bearing has its

@@ -6,11 +6,8 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use super::revolute::direction;
+use super::revolute::{AT_REST, direction};
 use crate::scalar::{Scalar, cross, dot};
-
-/// Squared sliding speeds [m²/s²] below this count as this: the root has no derivative at zero.
-const AT_REST: f64 = 1e-40;
 
 /// Motion of a ball as its socket sees it; components in the socket's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
