@@ -166,8 +166,9 @@ impl<'m, S: System<f64>> FixedStep<'m, S> {
         self.check(parameters, y)?;
         let mut stage = core::mem::take(&mut self.storage.stage);
         let mut slopes = core::mem::take(&mut self.storage.slopes);
-        let outcome =
-            self.advance((parameters, t, length), y, stage, slopes.each_mut().map(|slope| &mut **slope));
+        let (front, back) = slopes.split_at_mut(2 * y.len());
+        let ((first, second), (third, fourth)) = (front.split_at_mut(y.len()), back.split_at_mut(y.len()));
+        let outcome = self.advance((parameters, t, length), y, stage, [first, second, third, fourth]);
         if outcome.is_ok() {
             y.copy_from_slice(stage);
         }

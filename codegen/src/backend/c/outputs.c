@@ -21,13 +21,7 @@ static void pfx_outputs(const double *parameters, double t, const double *y, con
     const int state_end = PFX_PARAMETERS + 1 + PFX_COORDINATES + PFX_SPEEDS;
     double *next = asked + state_end;
     int i;
-    for (i = 0; i < PFX_PARAMETERS; ++i) {
-        x[i] = parameters[i];
-    }
-    x[PFX_PARAMETERS] = t;
-    for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
-        x[PFX_PARAMETERS + 1 + i] = y[i];
-    }
+QUESTION
 //? contacts
     {
         const double *const motions = x + PFX_FORWARD_DYNAMICS_IN;

@@ -10,7 +10,7 @@ use linkwear_runtime::{CONTACT_MOTION, Description, Sizes};
 
 use super::laws::ANSWER;
 use super::recorder::{Function, Recorder};
-use super::step::chosen;
+use super::step::asking;
 
 /// The function, and what it calls; `pfx_` and `PFX_` stand for the prefix.
 pub fn outputs(
@@ -25,7 +25,7 @@ pub fn outputs(
         "journals" => has_journal,
         _ => sizes.all_rows > 0,
     };
-    (chosen(include_str!("outputs.c"), &has).replace("CONTACT_COLUMNS\n", &columns), called)
+    (asking(include_str!("outputs.c"), &has).replace("CONTACT_COLUMNS\n", &columns), called)
 }
 
 /// Statements that write the columns of contacts.

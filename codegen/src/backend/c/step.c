@@ -5,13 +5,7 @@ static void pfx_slope(const double *parameters, double t, const double *y, const
     double x[PFX_DERIVATIVE_IN];
     double w[PFX_WORKSPACE + 1];
     int i;
-    for (i = 0; i < PFX_PARAMETERS; ++i) {
-        x[i] = parameters[i];
-    }
-    x[PFX_PARAMETERS] = t;
-    for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
-        x[PFX_PARAMETERS + 1 + i] = y[i];
-    }
+QUESTION
 //? contacts
     pfx_contacts(x, x + PFX_FORWARD_DYNAMICS_IN, w);
     pfx_contact_laws(x + PFX_FORWARD_DYNAMICS_IN, contacts, laws);
@@ -129,13 +123,7 @@ static void pfx_loops(const double *parameters, double t, const double *y, doubl
     double w[PFX_WORKSPACE + 1];
     const double *const jacobian = loops + PFX_ALL_ROWS + PFX_ROWS;
     int i;
-    for (i = 0; i < PFX_PARAMETERS; ++i) {
-        x[i] = parameters[i];
-    }
-    x[PFX_PARAMETERS] = t;
-    for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
-        x[PFX_PARAMETERS + 1 + i] = y[i];
-    }
+QUESTION
     pfx_closure(x, loops, w);
     for (i = 0; i < PFX_ROWS; ++i) {
         const double *const row = jacobian + PFX_SPEEDS * i;

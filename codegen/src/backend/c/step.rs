@@ -25,6 +25,11 @@ pub fn chosen(template: &str, has: &dyn Fn(&str) -> bool) -> String {
     text
 }
 
+/// The same, with the statements that put a flat state into the input of an entry point.
+pub fn asking(template: &str, has: &dyn Fn(&str) -> bool) -> String {
+    chosen(template, has).replace("QUESTION\n", include_str!("question.c"))
+}
+
 /// The functions, and what they call; `pfx_` and `PFX_` stand for the prefix.
 pub fn functions(
     description: &Description,
@@ -69,7 +74,7 @@ pub fn functions(
             "void pfx_contact_laws(const double *motions, const double *contacts, double *answers)\n{{\n{statements}}}\n\n"
         );
     }
-    text.push_str(&chosen(include_str!("step.c"), &has));
+    text.push_str(&asking(include_str!("step.c"), &has));
     (text, called)
 }
 
