@@ -20,13 +20,14 @@ fn a_kind_is_named_in_the_table_and_in_the_file_format_only() {
 }
 
 #[test]
-fn what_a_kind_consists_of_is_matched_in_two_files_besides_the_table() {
+fn what_a_kind_consists_of_is_matched_by_the_rules_and_in_two_files_besides() {
     assert_eq!(
         files_with(|line| line.contains("Primitive::")),
         [
             "codegen/src/derive/joint_coordinates.rs",
             "codegen/src/derive/linkage_build.rs",
-            "codegen/src/model/joint_kind.rs"
+            "codegen/src/model/joint_kind.rs",
+            "codegen/src/model/joint_model.rs"
         ]
     );
 }

@@ -17,6 +17,7 @@ mod dry_friction;
 mod force;
 mod formula;
 mod joint_kind;
+mod joint_model;
 mod mission;
 mod piecewise;
 mod resolve;
@@ -37,9 +38,8 @@ pub use coupling::{
 pub use dry_friction::DryFriction;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
-pub use joint_kind::{
-    Axis, AxisKeys, Direction, JOINT_KINDS, JointKind, JointModel, Look, PlaceKey, Primitive,
-};
+pub use joint_kind::{AxisKeys, Direction, JOINT_KINDS, JointKind, Look, PlaceKey, Primitive};
+pub use joint_model::{Axis, JointModel};
 pub use mission::{Mission, Segment};
 pub use piecewise::{Piecewise, Value};
 pub use resolve::{OverrideError, Overrides, resolve};
