@@ -110,6 +110,15 @@ fn what_linkwear_did_not_make_is_replaced_by_force_alone() {
         let again = linkwear(&with(writer, path));
         assert_eq!(again.code, 0, "{path}: {}", again.err);
     }
+    // What is left of a run that stops has a file beside it.
+    let partial = folder.write("rows.partial.csv", "cycle,wear\n1,2.5\n");
+    let rows = folder.path("rows.csv");
+    let simulate = ["simulate", PENDULUM, "--samples", "5", "--time", "0.1", "--out", &rows];
+    let refused = linkwear(&simulate);
+    assert!(refused.code == 1 && refused.err.contains("C0004") && refused.err.contains("rows.partial.csv"));
+    assert!(!fs::exists(&rows).expect("a folder"), "before the work");
+    assert_eq!(linkwear(&[&simulate[..], &["--force"]].concat()).code, 0);
+    assert_eq!(fs::read_to_string(partial).expect("a file"), "cycle,wear\n1,2.5\n", "it did not stop");
     // Two files of one name, a crate of its own.
     let stem = folder.path("pendulum");
     let source = folder.write("pendulum.c", "int main(void) { return 0; }\n");

@@ -23,7 +23,7 @@ use super::answer::Answer;
 use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
-use super::input::{check_output, load_mechanism};
+use super::input::{check_output, check_replaced, load_mechanism};
 use super::options::{IntegratorName, MotionArguments};
 #[cfg(feature = "page")]
 use super::picture;
@@ -39,6 +39,9 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     integrator(&arguments.motion)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
     let is_stream = check_output(file, out, arguments.replace)?;
+    // What is computed before a run stops goes there: a file that it was meant for is left as it was.
+    let kept = out.map(|out| if is_stream { out.to_path_buf() } else { partial_name(out) });
+    kept.as_deref().map_or(Ok(true), |kept| check_replaced(kept, arguments.replace))?;
     #[cfg(feature = "page")]
     picture::check_plot(file, arguments.plot.as_deref(), arguments.replace)?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
@@ -47,9 +50,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let run = watched("run", |watch| asked.run(watch))?;
     let (settings, wall_seconds) = (asked.settings, start.elapsed().as_secs_f64());
     if let Some(error) = &run.stopped {
-        // A file that they were meant for is left as it was.
-        let name = |out: &Path| if is_stream { out.to_path_buf() } else { partial_name(out) };
-        let partial = out.filter(|_| !run.rows.is_empty()).map(name);
+        let partial = kept.filter(|_| !run.rows.is_empty());
         partial
             .as_deref()
             .map_or(Ok(()), |partial| write_table(partial, &run.table(), Some(&asked.provenance())))?;
