@@ -1,23 +1,15 @@
 //! Drives of balls and of universal joints: a body whose rotation is prescribed, against Euler's equations by hand.
 
-use linkwear_codegen::compile::{Options, compile};
-use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
+mod simulated;
 
-fn source(text: &str) -> SourceFile {
-    SourceFile { name: "drives".into(), text: format!("spec = 1\nname = \"m\"\n{text}") }
-}
+use linkwear_runtime::{Integrator, Run, Settings, Span};
+use simulated::{refused, run_with};
 
 fn run(text: &str, end: f64) -> Run {
-    let compiled =
-        compile(&source(text), &Options::default()).unwrap_or_else(|errors| panic!("{errors}\n{text}"));
-    let method = Integrator::Dopri5 { tolerance: 1e-10, max_step: None };
-    let settings = Settings::new(method, Span::Time(end), 13);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
-        .expect("it starts");
-    assert!(run.stopped.is_none(), "{:?}", run.stopped);
-    run
+    run_with(
+        text,
+        &Settings::new(Integrator::Dopri5 { tolerance: 1e-10, max_step: None }, Span::Time(end), 13),
+    )
 }
 
 /// Rounding of some hundred operations.
@@ -250,12 +242,6 @@ cross = {{ q{free} = "0.6 rad" }}
 
 #[test]
 fn wrong_uses_are_answered() {
-    let refused = |joint: &str| {
-        let text = format!(
-            "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nC = [\"1 m\", 0, 0]\n[bodies]\n{BODY}\n[joints]\nball = {{ spherical = [\"ground\", \"body\"], at = \"O\", {joint} }}\n"
-        );
-        compile(&source(&text), &Options::default()).expect_err("it is refused").to_string()
-    };
     for (joint, code, cure) in [
         (r#"drive = "t/(1 s)""#, "E0409", "q2 ="),
         (r#"drive = { q1 = "t/(1 s)" }"#, "E0103", "add the others"),
@@ -263,7 +249,9 @@ fn wrong_uses_are_answered() {
         (r#"drive = { q1 = 0, q2 = 0, q3 = 0 }, damping = "1 N m s""#, "E0107", "take it away"),
         (r#"drive = { q1 = 0, q2 = 0, q3 = "1 m" }"#, "E0303", ""),
     ] {
-        let told = refused(joint);
+        let told = refused(&format!(
+            "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nC = [\"1 m\", 0, 0]\n[bodies]\n{BODY}\n[joints]\nball = {{ spherical = [\"ground\", \"body\"], at = \"O\", {joint} }}\n"
+        ));
         assert!(told.contains(code) && told.contains(cure), "{joint}\n{told}");
     }
 }

@@ -1,24 +1,21 @@
 //! Elastic mounts with full matrices, torsion springs, springs of ball and universal joints, against closed forms and the generalised
 //! eigenvalue problem.
 
+mod simulated;
+
 use std::fmt::Write as _;
 
 use linkwear_codegen::compile::{Options, compile};
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
 use nalgebra::{Matrix3, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector6};
+use simulated::run_with;
 
 fn run(text: &str, end: f64) -> Run {
-    let text = format!("spec = 1\nname = \"m\"\n{text}");
-    let source = SourceFile { name: "compliance".into(), text };
-    let compiled = compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
-    let method = Integrator::Dopri5 { tolerance: 1e-12, max_step: None };
-    let settings = Settings::new(method, Span::Time(end), 101);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
-        .expect("it starts");
-    assert_eq!(run.stopped, None);
-    run
+    run_with(
+        text,
+        &Settings::new(Integrator::Dopri5 { tolerance: 1e-12, max_step: None }, Span::Time(end), 101),
+    )
 }
 
 /// Largest distance of a column from a function of time.

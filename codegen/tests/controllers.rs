@@ -1,27 +1,14 @@
 //! Controllers, continuous and at sampled times, against transfer functions, recursions in closed form and integrations written here.
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Integrator, Run, Settings, Simulation, Span, Watch, simulate};
+mod simulated;
 
-fn source(text: &str) -> SourceFile {
-    SourceFile { name: "controllers".into(), text: format!("spec = 1\nname = \"m\"\n{text}") }
-}
-
-fn compiled(text: &str) -> Compiled {
-    compile(&source(text), &Options::default()).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
-}
+use linkwear_runtime::{Integrator, Run, Settings, Simulation, Span, Watch};
+use simulated::{compiled, run_with};
 
 const ADAPTIVE: Integrator = Integrator::Dopri5 { tolerance: 1e-10, max_step: None };
 
 fn run_by(text: &str, end: f64, samples: usize, method: Integrator) -> Run {
-    let compiled = compiled(text);
-    let settings = Settings::new(method, Span::Time(end), samples);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
-        .expect("it starts");
-    assert!(run.stopped.is_none(), "{:?}", run.stopped);
-    run
+    run_with(text, &Settings::new(method, Span::Time(end), samples))
 }
 
 #[track_caller]

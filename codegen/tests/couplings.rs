@@ -1,44 +1,21 @@
 //! Gears, belts, planetary sets and relations: ratios, forces and bearing loads against textbooks and closed forms.
 
+mod simulated;
+
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
+use linkwear_runtime::{Integrator, Run, Settings, Span};
+use simulated::{at_end, refused, run_with};
 
-fn compiled(text: &str) -> Compiled {
-    let source = SourceFile {
-        name: "couplings".into(),
-        text: format!("spec = 1\nname = \"m\"\ngravity = [0, 0, 0]\n{text}"),
-    };
-    compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
-}
-
-fn refused(text: &str) -> String {
-    let source = SourceFile {
-        name: "couplings".into(),
-        text: format!("spec = 1\nname = \"m\"\ngravity = [0, 0, 0]\n{text}"),
-    };
-    match compile(&source, &Options::default()) {
-        Ok(_) => panic!("taken:\n{text}"),
-        Err(errors) => errors.to_string(),
-    }
+/// Without gravity.
+fn text_of(text: &str) -> String {
+    format!("gravity = [0, 0, 0]\n{text}")
 }
 
 fn run(text: &str, end: f64) -> Run {
-    let compiled = compiled(text);
     let method = Integrator::Dopri5 { tolerance: 1e-10, max_step: None };
-    let settings = Settings::new(method, Span::Time(end), 11);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
-        .expect("it starts");
-    assert_eq!(run.stopped, None);
-    run
-}
-
-fn at_end(run: &Run, column: &str) -> f64 {
-    *run.column(column).expect(column).last().expect("rows")
+    run_with(&text_of(text), &Settings::new(method, Span::Time(end), 11))
 }
 
 /// Within a part of the expected size.
@@ -484,7 +461,7 @@ fn what_cannot_be_is_refused_with_its_reason() {
             "several kinds",
         ),
     ] {
-        let told = refused(&pair(axis, &coupling));
+        let told = refused(&text_of(&pair(axis, &coupling)));
         assert!(told.contains(code) && told.contains(words), "{coupling}: {told}");
     }
 }

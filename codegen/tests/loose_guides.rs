@@ -1,34 +1,16 @@
 //! Clearance in guides and in bearings whose journal tilts, against closed forms: forces at both ends, wear by hand, energy, limits.
 
+mod simulated;
+
 use std::f64::consts::PI;
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
-
-fn compiled(text: &str) -> Compiled {
-    let text = format!("spec = 1\nname = \"m\"\n{text}");
-    let source = SourceFile { name: "guides".into(), text };
-    compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn run_with(text: &str, settings: &Settings) -> Run {
-    let compiled = compiled(text);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), settings, Watch::NONE)
-        .expect("it starts");
-    assert_eq!(run.stopped, None);
-    run
-}
+use linkwear_runtime::{Integrator, Run, Settings, Span};
+use simulated::{at_end, run_with};
 
 const FINE: Integrator = Integrator::Dopri5 { tolerance: 1e-10, max_step: None };
 
 fn run(text: &str, end: f64) -> Run {
     run_with(text, &Settings::new(FINE, Span::Time(end), 11))
-}
-
-fn at_end(run: &Run, column: &str) -> f64 {
-    *run.column(column).expect(column).last().expect("rows")
 }
 
 #[track_caller]

@@ -203,6 +203,6 @@ fn cells_have_states_sensors_and_controllers_of_their_own() {
     // A cell may not ask for what a later one puts out.
     let early =
         format!("{AXES}{CELLS}").replace("setpoint = \"{goal}\"", "setpoint = \"{goal} + hold{i+1}/k\"");
-    let errors = compiled(&early).err().expect("it asks for what comes later");
+    let errors = compiled(&early).expect_err("it asks for what comes later");
     assert!(errors.to_string().contains("`hold2` acts later"), "{errors}");
 }

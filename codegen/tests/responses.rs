@@ -1,43 +1,20 @@
 //! Forces that depend on accelerations and joint forces of the same instant, dry friction, and states of a file's own,
 //! against closed forms and integrations written here.
 
-use linkwear_codegen::compile::{Compiled, Options, compile};
-use linkwear_codegen::source::SourceFile;
+mod simulated;
+
+use linkwear_codegen::compile::{Options, compile};
 use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
-
-fn source(text: &str) -> SourceFile {
-    SourceFile { name: "responses".into(), text: format!("spec = 1\nname = \"m\"\n{text}") }
-}
-
-fn compiled(text: &str) -> Compiled {
-    compile(&source(text), &Options::default()).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
-}
-
-fn refused(text: &str) -> String {
-    match compile(&source(text), &Options::default()) {
-        Ok(_) => panic!("taken:\n{text}"),
-        Err(errors) => errors.to_string(),
-    }
-}
+use simulated::{at_end, refused, run_with, source};
 
 const ADAPTIVE: Integrator = Integrator::Dopri5 { tolerance: 1e-10, max_step: None };
 
 fn run_by(text: &str, end: f64, samples: usize, method: Integrator) -> Run {
-    let compiled = compiled(text);
-    let settings = Settings::new(method, Span::Time(end), samples);
-    let system = compiled.interpreter();
-    let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE)
-        .expect("it starts");
-    assert!(run.stopped.is_none(), "{:?}", run.stopped);
-    run
+    run_with(text, &Settings::new(method, Span::Time(end), samples))
 }
 
 fn run(text: &str, end: f64) -> Run {
     run_by(text, end, 11, ADAPTIVE)
-}
-
-fn at_end(run: &Run, column: &str) -> f64 {
-    *run.column(column).expect(column).last().expect("rows")
 }
 
 #[track_caller]
