@@ -15,6 +15,9 @@ macro_rules! named {
             /// Every one of them.
             pub const ALL: &[Self] = &[$(Self::$Variant),+];
 
+            /// Their words, in the same order.
+            pub const NAMES: &[&str] = &[$($word),+];
+
             /// Its word in files.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$Variant => $word),+ }

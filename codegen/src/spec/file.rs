@@ -22,6 +22,7 @@ use super::state::StateSpec;
 use super::stop::StopSpec;
 use super::table::TableSpec;
 use super::texts::{tables, texts_of, without_texts};
+use super::word::Word;
 use super::written::{At, Name, Quantity, Table, Triple};
 
 /// A mechanism file.
@@ -143,7 +144,7 @@ tables! {
         pub stiffness: Option<Quantity>,
         /// Law of restitution.
         /// [word; default "lankarani_nikravesh"; e.g. "exact"]
-        pub law: Option<At<Restitution>>,
+        pub law: Option<At<Word<Restitution>>>,
         /// Coefficient of restitution.
         /// [1; above 0, up to 1; default 1; e.g. 0.9]
         pub restitution: Option<Quantity>,
@@ -198,7 +199,7 @@ tables! {
         pub journal_coefficient: Option<Quantity>,
         /// Area that carries the load.
         /// [word; default "hertz"; e.g. "conformal"]
-        pub area: Option<At<Area>>,
+        pub area: Option<At<Word<Area>>>,
         /// Wear depth at which the joint has failed.
         /// [m; above 0; required; e.g. "80 um"]
         pub threshold: Option<Quantity>,
@@ -213,7 +214,7 @@ tables! {
         pub bins: Option<At<i64>>,
         /// What of the depth by bearing angle counts as wear.
         /// [word; default the depth by the area, with `profile` "mean"; e.g. "maximum"]
-        pub measure: Option<At<Measure>>,
+        pub measure: Option<At<Word<Measure>>>,
         /// Revolutions that one cycle stands for.
         /// [1; above 0; default 1; e.g. 1e6]
         pub revolutions_per_cycle: Option<Quantity>,
@@ -401,7 +402,7 @@ tables! {
     }
 }
 
-without_texts!(Restitution, Area, Measure, Ends);
+without_texts!(Ends);
 
 texts_of! {
     enum Parameter { Plain, Marked }

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::dimension::Dimension;
 use super::doc::Doc;
 use super::texts::{tables, texts_of};
+use super::told::Told;
 use super::written::{At, Name, Pair, Quantity, Triple};
 use crate::source::Span;
 
@@ -151,35 +152,6 @@ pub struct ForceKind {
     pub needs: &'static [Need],
     /// What it tells of itself.
     pub told: Told,
-}
-
-/// What a kind of force element tells of itself, in columns and in formulas. All of it follows from positions and speeds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
-    /// Nothing.
-    Nothing,
-    /// The pull between two points, and their distance.
-    Pull,
-    /// Force and moment by the first body on the second, about the second's point, along the axes of the ground.
-    Wrench,
-}
-
-impl Told {
-    /// Names behind that of the element, dimensions.
-    pub const fn columns(self) -> &'static [(&'static str, Dimension)] {
-        match self {
-            Self::Nothing => &[],
-            Self::Pull => &[("F", Dimension::FORCE), ("length", Dimension::LENGTH)],
-            Self::Wrench => &[
-                ("Fx", Dimension::FORCE),
-                ("Fy", Dimension::FORCE),
-                ("Fz", Dimension::FORCE),
-                ("Mx", Dimension::TORQUE),
-                ("My", Dimension::TORQUE),
-                ("Mz", Dimension::TORQUE),
-            ],
-        }
-    }
 }
 
 /// Whether something is missing, words that say so, advice.

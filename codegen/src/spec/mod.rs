@@ -29,8 +29,11 @@ mod stop;
 mod syntax;
 mod table;
 mod texts;
+mod told;
 mod turning;
 mod unit;
+mod word;
+mod words;
 mod written;
 
 pub use body::{
@@ -45,8 +48,7 @@ pub use file::{
     RepeatSpec, WearSpec,
 };
 pub use force::{
-    Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Told,
-    Written,
+    Bodies, ByAxis, ELASTIC, FORCE_KINDS, ForceKind, ForceSpec, ForceValue, Need, Places, SixNumbers, Written,
 };
 pub use include::{IncludeSpec, RotationSpec};
 pub use joint::{ByCoordinate, DryFrictionSpec, EachCoordinate, JointSpec, SpringPart, SpringSpec};
@@ -60,5 +62,7 @@ pub use state::StateSpec;
 pub use stop::StopSpec;
 pub use syntax::{Expression, Form, Operator, Relation, SyntaxError, as_written, parse_expression};
 pub use table::{Interpolation, Outside, TableSpec};
+pub use told::Told;
 pub use turning::Turning;
+pub use word::Word;
 pub use written::{At, Literal, Name, Pair, PerBody, Quantity, Table, Triple};

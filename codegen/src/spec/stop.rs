@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use super::doc::Doc;
 use super::texts::{tables, texts_of};
+use super::word::Word;
 use super::written::{At, Name, Quantity};
 
 tables! {
@@ -33,7 +34,7 @@ tables! {
         pub restitution: Option<Quantity>,
         /// Law of restitution at `impact_speed`, instead of the one that holds at any speed.
         /// [word; default none; e.g. "hunt_crossley"]
-        pub law: Option<At<Restitution>>,
+        pub law: Option<At<Word<Restitution>>>,
         /// Impact speed that the damping of `law` is made for.
         /// [rad/s or m/s; above 0; required with `law`; e.g. "0.5 m/s"]
         pub impact_speed: Option<Quantity>,

@@ -170,7 +170,7 @@ impl Resolver<'_> {
             length: positive("length", &own.length, Dimension::LENGTH, 2.0 * journal_radius),
             modulus,
             stiffness: Stiffness::new(given, modulus),
-            law: own.law.as_ref().map_or_else(Restitution::default, |law| law.value),
+            law: own.law.as_ref().map_or_else(Restitution::default, |law| law.value.0),
             restitution: positive("restitution", &own.restitution, Dimension::NONE, 1.0),
             exponent: positive("exponent", &own.exponent, Dimension::NONE, 1.5),
             impact_speed_floor: positive(

@@ -214,7 +214,7 @@ impl Resolver<'_> {
             return None;
         }
         let impact_speed = self.stop_speed(draft, "impact_speed", &spec.impact_speed, f64::NAN)?;
-        match law.value.damping_factor(restitution) {
+        match law.value.0.damping_factor(restitution) {
             Ok(factor) => Some(StopLoss::BySpeed { factor, impact_speed }),
             Err(fault) => {
                 let at = spec.restitution.as_ref().map_or(name.span, |written| written.span);

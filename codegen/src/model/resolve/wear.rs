@@ -167,8 +167,8 @@ impl Resolver<'_> {
         WearInfo {
             coefficient: positive("coefficient", &own.coefficient, Dimension::NONE, f64::NAN),
             hardness: positive("hardness", &own.hardness, PRESSURE, f64::NAN),
-            area: own.area.as_ref().map_or_else(Area::default, |area| area.value),
-            measure: own.measure.as_ref().map(|measure| measure.value),
+            area: own.area.as_ref().map_or_else(Area::default, |area| area.value.0),
+            measure: own.measure.as_ref().map(|measure| measure.value.0),
             feedback,
             profile: own.profile.unwrap_or(false),
             bins,
