@@ -7,7 +7,7 @@ use std::sync::Arc;
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Compiled, Options};
 use linkwear_native::{Native, NativeBundle, Refusal};
-use linkwear_runtime::{StepPlan, System};
+use linkwear_runtime::{StepPlan, System, WideBundle};
 use thiserror::Error;
 
 use crate::mechanisms::{SHIPPED, Shipped};
@@ -59,6 +59,22 @@ impl Lanes {
         let eight = NativeBundle::new(tapes, plan).map(Self::Eight);
         eight.or_else(|_| NativeBundle::new(tapes, plan).map(Self::Four)).ok()
     }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            Self::Eight(_) => 8,
+            Self::Four(_) => 4,
+        }
+    }
+
+    /// For who runs turns in them.
+    pub(crate) fn wide(&self) -> WideBundle<'_> {
+        match self {
+            Self::Eight(bundle) => WideBundle::Eight(bundle),
+            Self::Four(bundle) => WideBundle::Four(bundle),
+        }
+    }
 }
 
 /// How machine code that was written when the mechanism was read is called.
@@ -98,6 +114,7 @@ impl Equations {
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
         let system = Native::new(mechanism.tapes(), mechanism.sizes())?;
+        let system = system.with_laws(mechanism.tapes(), mechanism.description())?;
         Ok(Self { name: NATIVE, make: Arc::new(move || Box::new(system.clone())), refusal: None })
     }
 

@@ -27,7 +27,9 @@ pub struct Loaded {
 impl Loaded {
     /// A unit as machine code, else interpreted.
     pub fn new(unit: Unit) -> Self {
-        let native = Native::new(unit.program.tapes(), unit.program.sizes());
+        let (tapes, description) = (unit.program.tapes(), unit.program.description());
+        let native = Native::new(tapes, unit.program.sizes());
+        let native = native.and_then(|native| native.with_laws(tapes, description));
         let refusal = native.as_ref().err().map(ToString::to_string);
         let (interpreter, fixed) = (unit.program.interpreter(), belongs_to_start(&unit.program));
         Self { interpreter, fixed, native: native.ok(), refusal, unit }

@@ -12,7 +12,7 @@ use crate::aarch64 as processor;
 use crate::memory::code::Code;
 use crate::refusal::Refusal;
 use crate::straight::allocate::Processor;
-use crate::straight::fuse;
+use crate::straight::fuse::{Part, fuse};
 use crate::straight::write::{Named, write};
 #[cfg(target_arch = "x86_64")]
 use crate::x86 as processor;
@@ -78,14 +78,27 @@ impl Functions {
 
     /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
     pub(crate) fn of_steps<const LANES: usize>(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+        Self::of_parts::<LANES>(tapes, plan, &[("attempt", Part::Attempt), ("conclude", Part::Conclude)])
+    }
+
+    /// The derivative with the laws of contact inside: see [`linkwear_runtime::WithLaws`].
+    pub(crate) fn of_laws(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+        Self::of_parts::<1>(tapes, plan, &[("derivative", Part::Derivative)])
+    }
+
+    fn of_parts<const LANES: usize>(
+        tapes: &[Tape],
+        plan: &StepPlan,
+        parts: &[(&'static str, Part)],
+    ) -> Result<Self, Refusal> {
         if let Some(entry) = Entry::ALL.get(tapes.len()) {
             return Err(Refusal::missing(*entry));
         }
         let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
-        let attempt = Named { name: "attempt", operations: fuse::attempt(tapes, plan) };
-        let conclude = Named { name: "conclude", operations: fuse::conclude(tapes, plan) };
-        let written = [attempt, conclude].map(|part| write(part, target, &functions));
-        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+        let written = parts.iter().map(|(name, part)| {
+            write(Named { name, operations: fuse(tapes, plan, *part) }, target, &functions)
+        });
+        Code::new(written.collect::<Result<_, _>>()?).map(Self)
     }
 
     /// Length of the scratch slice that every function is content with, in numbers.

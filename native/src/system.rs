@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use linkwear_runtime::clearance_joint::Clearance;
-use linkwear_runtime::{Bundle, Entry, STATES, SideBySide, Sizes, StepPlan, System};
+use linkwear_runtime::{Bundle, Description, Entry, STATES, SideBySide, Sizes, StepPlan, System, WithLaws};
 use linkwear_tape::Tape;
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
@@ -50,7 +50,12 @@ use crate::unsupported::Functions;
 pub struct Native {
     alone: Lanes<1>,
     observer: Observer,
+    laws: Option<Laws>,
 }
+
+/// The derivative with the laws of contact inside.
+#[derive(Clone)]
+struct Laws(Arc<Functions>);
 
 /// The columns of several states side by side.
 #[derive(Clone)]
@@ -166,7 +171,20 @@ impl Native {
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
         let alone = Lanes::new(tapes, sizes)?;
         let observer = Functions::new::<STATES>(&tapes[Entry::Observe as usize..][..1])?;
-        Ok(Self { alone, observer: Observer(Arc::new(observer)) })
+        Ok(Self { alone, observer: Observer(Arc::new(observer)), laws: None })
+    }
+
+    /// The same with the laws of contact inside the derivative, if the mechanism has joints with clearance. Wear by bearing angle
+    /// stays outside, and so do laws with constants out of range, which runs are told of where they begin.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_laws(self, tapes: &[Tape], description: &Description) -> Result<Self, Refusal> {
+        let Ok(plan) = StepPlan::new(description, self.alone.sizes) else { return Ok(self) };
+        if plan.joints().is_empty() || plan.joints().iter().any(Clearance::keeps_profiles) {
+            return Ok(self);
+        }
+        Ok(Self { laws: Some(Laws(Arc::new(Functions::of_laws(tapes, &plan)?))), ..self })
     }
 }
 
@@ -181,6 +199,20 @@ impl System<f64> for Native {
 
     fn side_by_side(&self) -> Option<&dyn SideBySide<f64>> {
         Some(&self.observer)
+    }
+
+    fn laws_inside(&self) -> Option<&dyn WithLaws<f64>> {
+        self.laws.as_ref().map(|laws| laws as &dyn WithLaws<f64>)
+    }
+}
+
+impl WithLaws<f64> for Laws {
+    fn workspace(&self) -> usize {
+        self.0.workspace()
+    }
+
+    fn derivative(&self, question: &[f64], answer: &mut [f64], workspace: &mut [f64]) {
+        self.0.run(0, question, answer, workspace);
     }
 }
 

@@ -18,6 +18,10 @@ impl Functions {
         Self::new::<LANES>(&[])
     }
 
+    pub(crate) fn of_laws(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
+        Self::new::<1>(&[])
+    }
+
     pub(crate) fn of_columns<const LANES: usize>(_: &[Tape]) -> Result<Self, Refusal> {
         Self::new::<LANES>(&[])
     }

@@ -78,7 +78,8 @@ impl StateSpace {
         x: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.go(t, &x)?;
-        let slope = self.equations.derivatives().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let slope =
+            self.equations.derivatives().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(PyArray1::from_slice(py, slope))
     }
 
@@ -112,11 +113,12 @@ fn loaded(py: Python<'_>, mechanism: &Mechanism) -> PyResult<&'static Loaded> {
     }
     let compiled = ask::compile(words, source).map_err(|failure| raised(py, &failure))?;
     let description = compiled.description().clone();
-    let system: Box<dyn System<f64> + Send + Sync> =
-        match linkwear::native::Native::new(compiled.tapes(), compiled.sizes()) {
-            Ok(native) => Box::new(native),
-            Err(_) => Box::new(compiled.interpreter()),
-        };
+    let native = linkwear::native::Native::new(compiled.tapes(), compiled.sizes());
+    let native = native.and_then(|native| native.with_laws(compiled.tapes(), &description));
+    let system: Box<dyn System<f64> + Send + Sync> = match native {
+        Ok(native) => Box::new(native),
+        Err(_) => Box::new(compiled.interpreter()),
+    };
     let made: &'static Loaded = Box::leak(Box::new(Loaded { system, description }));
     known.insert(key, made);
     Ok(made)

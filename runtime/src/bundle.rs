@@ -1,15 +1,13 @@
 //! The contract with code that tries steps of several trajectories side by side, a lane each. Every lane has the bits that its
 //! trajectory has alone. Never knows how long steps are, nor where machine code comes from.
 
-mod laws;
 mod places;
 mod plan;
 
 pub use crate::system::{TOTALS, WORKS};
 
 use crate::system::Sizes;
-pub(crate) use laws::contact_state;
-pub(crate) use places::{CONTACT_ANSWER, CONTACT_MEMORY, Conclusion, Places};
+pub(crate) use places::{Conclusion, Places};
 pub use plan::{Evaluate, StepPlan};
 
 /// Whether what a joint integrates is judged by the energy of the mechanism. Depth and impulse are as smooth as the wear integral,

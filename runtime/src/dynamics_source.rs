@@ -1,16 +1,20 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod settling;
 mod steadiness;
 
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
 use crate::life::{JointLife, JointWear, SettingsError, WearOf, WearSource};
+use crate::linear::largest_of;
 use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState};
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+pub use settling::Orbit;
+use settling::Settling;
 pub use steadiness::Steadiness;
 
 /// How revolutions are run.
@@ -18,14 +22,14 @@ pub use steadiness::Steadiness;
 pub struct RevolutionSettings {
     /// The method.
     pub integrator: Integrator,
-    /// Turns after each change of wear before one is measured. Nothing: until two turns wear alike.
+    /// Turns after each change of wear before one is measured. Nothing: until later turns would wear alike.
     pub settle: Option<u32>,
     /// Turns whose mean is taken, at least 1. One is enough for a periodic motion; one that chatters needs 20 or more.
     pub average: u32,
 }
 
 impl Default for RevolutionSettings {
-    /// Adaptive Runge-Kutta, until two turns wear alike.
+    /// Adaptive Runge-Kutta, until later turns would wear alike.
     ///
     /// The wear of a revolution is off by 1e-6 to 1e-5 of itself then in the case study, the more the looser the joint has
     /// become; its life by 3e-6 of itself.
@@ -34,9 +38,6 @@ impl Default for RevolutionSettings {
     }
 }
 
-/// Turns that wear alike but for this part of it have settled: a motion settles by a constant factor each turn (of 500 in the
-/// case study), so that the next one differs by far less.
-const SETTLED: f64 = 1e-5;
 /// A motion that has not settled after so many turns is taken as one that never does, ...
 const MOST_TO_SETTLE: u32 = 4;
 /// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
@@ -66,10 +67,10 @@ pub struct DynamicsSource<'a> {
 /// A measurement that will be asked for again: every life begins with the same.
 struct Known {
     joints: Vec<JointWear>,
-    from: Option<TurnState>,
+    from: Option<Orbit>,
     measured: Vec<ContactMeasure>,
     steadiness: Vec<Steadiness>,
-    state: Option<TurnState>,
+    state: Option<Orbit>,
 }
 
 /// So many are kept: those of a first cycle, in steps as long as it.
@@ -164,16 +165,23 @@ impl<'a> DynamicsSource<'a> {
     }
 
     /// Settles, then measures turn by turn; the last that settled comes first, if there is one.
-    fn turns(&mut self) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
+    fn turns(
+        &mut self,
+        settling: &mut Settling,
+    ) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
         let average = self.settings.average.max(1);
-        let Some(settle) = self.settings.settle else { return self.turns_alike(average) };
+        let Some(settle) = self.settings.settle else { return self.turns_alike(average, settling) };
         let part = f64::from(settle) / f64::from(settle + average);
         let settled = self.run(settle, (0.0, part))?.pop();
         Ok((settled, self.run(average, (part, 1.0))?))
     }
 
-    /// The same until two turns wear alike: the second of them is the first that is measured.
-    fn turns_alike(&mut self, average: u32) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
+    /// The same until a turn wears as later ones would: it is the first that is measured.
+    fn turns_alike(
+        &mut self,
+        average: u32,
+        settling: &mut Settling,
+    ) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
         // Nobody knows how many there will be: every turn is half of what is left.
         let mut done = 0.5;
         let mut last = self.run(1, (0.0, done))?.pop();
@@ -181,7 +189,8 @@ impl<'a> DynamicsSource<'a> {
             let next = 0.5 * (1.0 + done);
             let mut turns = self.run(1, (done, next))?;
             done = next;
-            if last.iter().zip(&turns).all(|(last, now)| self.wear_alike(last, now)) {
+            let differs = last.iter().zip(&turns).map(|(last, now)| self.differs(last, now));
+            if settling.has_settled(differs.fold(0.0, f64::max)) {
                 turns.extend(self.run(average - 1, (done, 1.0))?);
                 return Ok((last, turns));
             }
@@ -212,12 +221,14 @@ impl<'a> DynamicsSource<'a> {
         self.watch.piece(from, to).pieces(turns).map(one).collect()
     }
 
-    /// Whether all joints wear alike in two turns.
-    fn wear_alike(&self, last: &TurnMeasures, now: &TurnMeasures) -> bool {
-        self.wearing.iter().all(|(at, _)| {
+    /// By how much of its wear a turn differs from the one before, of the joint where that is most.
+    fn differs(&self, last: &TurnMeasures, now: &TurnMeasures) -> f64 {
+        let part = |(at, _): &(usize, f64)| {
             let (last, now) = (self.wear(*at, last), self.wear(*at, now));
-            (now - last).abs() <= SETTLED * now.abs()
-        })
+            // What does not wear at all is settled.
+            if now == last { 0.0 } else { ((now - last) / now).abs() }
+        };
+        largest_of(self.wearing.iter().map(part))
     }
 
     /// W per turn [m] of a wearing joint.
@@ -239,7 +250,7 @@ impl<'a> DynamicsSource<'a> {
 }
 
 impl WearSource for DynamicsSource<'_> {
-    type State = Option<TurnState>;
+    type State = Option<Orbit>;
     type Error = RunError;
 
     fn measure(
@@ -254,13 +265,14 @@ impl WearSource for DynamicsSource<'_> {
             return Ok(known.measured.clone());
         }
         let from = state.clone();
-        self.runner.restore(from.as_ref().unwrap_or(&self.start))?;
+        self.runner.restore(from.as_ref().map_or(&self.start, |orbit| &orbit.turn))?;
+        let mut settling = Settling::new(from.as_ref());
         for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
             let surfaces = [joint.profile.clone(), joint.journal.clone()];
             self.runner.set_worn_pair(*at, joint.clearance - unworn, surfaces)?;
         }
-        let (settled, turns) = self.turns()?;
-        *state = Some(self.runner.state());
+        let (settled, turns) = self.turns(&mut settling)?;
+        *state = Some(Orbit { turn: self.runner.state(), contraction: settling.contraction() });
         self.note(&turns);
         let steady = |(at, _): &(usize, f64)| {
             let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();

@@ -6,6 +6,7 @@ mod answers;
 mod closed;
 mod derivative;
 mod held;
+mod inside;
 mod questions;
 mod sampled;
 
@@ -46,7 +47,7 @@ pub struct Evaluator<'a> {
     sampled: Vec<Sampled>,
     /// Bits of a time at which contacts were taken over.
     contacts_known_at: Option<u64>,
-    derivative: Derivative,
+    derivative: Derivative<'a>,
     questions: Questions<'a>,
 }
 
@@ -112,7 +113,7 @@ impl<'a> Evaluator<'a> {
             sampled: sampled(system, description, parameters)?,
             clearances: Clearances::of(description)?,
             contacts_known_at: None,
-            derivative: Derivative::new(sizes, parameters),
+            derivative: Derivative::new(sizes, system.laws_inside(), parameters),
             questions: Questions::new(system, parameters, description.inputs.len()),
         })
     }

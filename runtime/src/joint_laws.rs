@@ -50,6 +50,8 @@ pub struct Response<T> {
     pub loss: T,
     /// Rate of the wear integral.
     pub wear_power: T,
+    /// Mean pressure by the joint's contact area; zero if it does not wear.
+    pub pressure: T,
     /// Rate of the depth.
     pub depth_rate: T,
     /// Factor on the wear coefficient, where there is one.
@@ -205,8 +207,12 @@ impl JointLaws {
         let ([fx, fy, fz], [mx, my, mz]) = (force.force, force.moment);
         let (normal_force, damping_loss) = (force.normal.force, force.normal.damping_loss);
         let load = Load { normal_force, penetration, sliding_speed };
-        let depth_rate =
-            |(archard, _): &(Archard, WearInfo)| archard.rates(&load, &self.pair(clearance)).depth;
+        let zero = T::constant(0.0);
+        let pair = self.pair(clearance);
+        let (pressure, depth_rate) = self.wear.as_ref().map_or((zero, zero), |(archard, _)| {
+            let pressure = archard.area().pressure(&load, &pair);
+            (pressure, archard.depth_rate(pressure, sliding_speed))
+        });
         Response {
             penetration,
             penetration_rate,
@@ -215,7 +221,8 @@ impl JointLaws {
             elastic_energy: force.normal.elastic_energy,
             loss: damping_loss + force.friction_loss,
             wear_power: normal_force * sliding_speed.abs(),
-            depth_rate: self.wear.as_ref().map_or(T::constant(0.0), depth_rate),
+            pressure,
+            depth_rate,
             wear_factor: None,
             wrench: [fx, fy, fz, mx, my, mz],
         }
@@ -227,13 +234,9 @@ impl JointLaws {
         &self,
         steps: &[Step],
         response: Response<T>,
-        clearance: T,
         motion: &[T; CONTACT_MOTION],
     ) -> Response<T> {
-        let Some((archard, _)) = &self.wear else { return response };
-        let Response { normal_force, penetration, sliding_speed, .. } = response;
-        let load = Load { normal_force, penetration, sliding_speed };
-        let pressure = archard.area().pressure(&load, &self.pair(clearance));
+        let Response { normal_force, pressure, sliding_speed, .. } = response;
         let given = [pressure, sliding_speed.abs(), motion[5], motion[6], motion[7]];
         let zero = T::constant(0.0);
         let factor = T::select(zero.lt(normal_force), factor(steps, &given), zero);

@@ -63,6 +63,8 @@ mod error;
 #[cfg(feature = "std")]
 mod evaluate;
 #[cfg(feature = "std")]
+mod flat_laws;
+#[cfg(feature = "std")]
 pub mod integrate;
 #[cfg(feature = "std")]
 mod layout;
@@ -91,7 +93,9 @@ pub use intrinsic::{angle_over_sine, log_coefficient};
 pub use joint_laws::{JointLaws, Response};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
-pub use system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System, TOTALS, WORKS};
+pub use system::{
+    CONTACT_MOTION, CONTACT_WRENCH, Entry, STATES, SideBySide, Sizes, System, TOTALS, WORKS, WithLaws,
+};
 pub use tables::{
     AllTables, CoefficientRow, ContactInfo, GammaRates, InputRole, JournalWear, MissionRow, Motion,
     SegmentRow, Start, Tables, WearInfo,
@@ -113,7 +117,7 @@ pub use {
         SWITCH, TabledDescription, VALUE, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
-    dynamics_source::{DynamicsSource, RevolutionSettings, Steadiness},
+    dynamics_source::{DynamicsSource, Orbit, RevolutionSettings, Steadiness},
     error::{AssemblyError, NoColumn, RunError, SetupError},
     evaluate::{
         Accelerations, CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates,
@@ -127,7 +131,7 @@ pub use {
         At, BRANCH_PART, ContactEvent, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR,
         KnownAngles, Peak, Run, RunWarning, Settings, Simulation, SimulationState, Span, StateSpace,
         Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue, TurnRequests, TurnRunner, TurnState,
-        simulate, simulate_with_inputs, turn_queue,
+        WideBundle, simulate, simulate_with_inputs, turn_queue,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

@@ -200,6 +200,24 @@ pub trait System<T: Scalar> {
     fn side_by_side(&self) -> Option<&dyn SideBySide<T>> {
         None
     }
+
+    /// What answers [`Entry::Derivative`] with the laws of contact inside, if there is such code.
+    fn laws_inside(&self) -> Option<&dyn WithLaws<T>> {
+        None
+    }
+}
+
+/// From a state to its derivative in one call, the laws of contact in the middle: see `StepPlan::derivative`, in whose bits it
+/// answers.
+pub trait WithLaws<T: Scalar> {
+    /// Length of the scratch slice that [`Self::derivative`] wants.
+    fn workspace(&self) -> usize;
+
+    /// Evaluates the derivative. Does not allocate.
+    ///
+    /// # Panics
+    /// If a slice is shorter than the plan says, or the scratch slice than [`Self::workspace`].
+    fn derivative(&self, question: &[T], answer: &mut [T], workspace: &mut [T]);
 }
 
 /// States that [`SideBySide`] observes at once.

@@ -128,7 +128,7 @@ pub struct LivesArguments {
     /// Wear does not open the clearance.
     #[arg(long)]
     pub no_feedback: bool,
-    /// Revolutions to settle after each change of clearance, before measuring [default: until two of them wear alike].
+    /// Revolutions to settle after each change of clearance, before measuring [default: until later ones would wear alike].
     #[arg(long, value_name = "N")]
     pub settle: Option<u32>,
     /// Revolutions to average, at least; of a motion that never settles more are taken, unless --settle is given.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use linkwear_runtime::life::FailureEvent;
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{RunWarning, Steadiness, TurnState};
+use linkwear_runtime::{Orbit, RunWarning, Steadiness};
 use serde::{Deserialize, Serialize};
 
 use super::paths::LifePath;
@@ -31,7 +31,7 @@ pub(super) struct Measurement {
     pub measured: Vec<ContactMeasure>,
     /// How steady the turns were, joint by joint.
     pub steadiness: Vec<Steadiness>,
-    pub state: Option<TurnState>,
+    pub state: Option<Orbit>,
     /// All that was doubtful until then.
     pub warnings: Vec<RunWarning>,
 }

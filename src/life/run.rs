@@ -13,7 +13,7 @@ use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, IncrementModel, JointLife, LifeError as Stop, LifeOutcome, LifeSettings,
     LifeState, MeanIncrement, MissionError, MissionSource, WearSource, WearStep, WearTable, run_life,
 };
-use linkwear_runtime::{DynamicsSource, RunError, System, TurnState, Watch};
+use linkwear_runtime::{DynamicsSource, Orbit, RunError, System, Watch};
 
 use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
@@ -24,10 +24,9 @@ use super::result::{LifeResult, WornPair};
 use super::source::{KeptSource, Log};
 use super::steady::TurnErrors;
 use super::study::{Coupling, LifeStudy};
-use crate::backend::Lanes;
 
 /// Runs with a source of wear that was made for it.
-pub(super) type Body<'b, E = MissionError<RunError>, S = Vec<Option<TurnState>>> =
+pub(super) type Body<'b, E = MissionError<RunError>, S = Vec<Option<Orbit>>> =
     &'b mut dyn FnMut(&mut dyn WearSource<State = S, Error = E>);
 
 impl LifeStudy<'_> {
@@ -212,8 +211,7 @@ impl<'s> Plan<'s> {
         self.know_process(&mut result);
         self.know_mission(&mut result, source)?;
         match self.lanes() {
-            Some(Lanes::Eight(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
-            Some(Lanes::Four(bundle)) => self.draw_in_lanes(&mut result, &bundle)?,
+            Some(lanes) => self.draw_in_lanes(&mut result, &lanes)?,
             None => {
                 let scale = |body: Body<'_>| {
                     let system = self.study.mechanism.system();

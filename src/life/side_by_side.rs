@@ -5,9 +5,8 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{Builder, scope};
 
-use linkwear_native::NativeBundle;
 use linkwear_runtime::{
-    Integrator, SINGULAR_PIVOT, TurnBundle, TurnQueue, TurnRequests, TurnRunner, turn_queue,
+    Integrator, SINGULAR_PIVOT, TurnQueue, TurnRequests, TurnRunner, WideBundle, turn_queue,
 };
 
 use super::error::LifeError;
@@ -26,19 +25,16 @@ impl Plan<'_> {
     }
 
     /// The random lives, in the lanes of a bundle for each thread.
-    pub(super) fn draw_in_lanes<const N: usize>(
-        &self,
-        result: &mut LifeResult,
-        bundle: &NativeBundle<N>,
-    ) -> Result<(), LifeError> {
+    pub(super) fn draw_in_lanes(&self, result: &mut LifeResult, bundle: &Lanes) -> Result<(), LifeError> {
         scope(|scope| {
             // A few lives go on as many threads as there are, in a lane each.
             let wanted = usize::try_from(self.trajectories.unwrap_or(0)).unwrap_or(usize::MAX).max(1);
             let (queues, requests): (Vec<TurnQueue>, Vec<TurnRequests>) =
                 (0..self.threads.get().min(wanted)).map(|_| turn_queue()).unzip();
             // Where the system gives no thread, or it ends, turns are run by those who ask for them.
-            let spawn =
-                |requests| Builder::new().spawn_scoped(scope, move || self.serve(bundle, requests)).ok();
+            let spawn = |requests| {
+                Builder::new().spawn_scoped(scope, move || self.serve(bundle.wide(), requests)).ok()
+            };
             let servers: Vec<_> = requests.into_iter().filter_map(spawn).collect();
             let next = AtomicUsize::new(0);
             let scale = |body: Body<'_>| {
@@ -47,7 +43,8 @@ impl Plan<'_> {
                 body(&mut self.source(&*system, &|source| source.through(queue.clone()))?);
                 Ok(())
             };
-            let lanes = self.threads.saturating_mul(NonZero::new(N).unwrap_or(NonZero::<usize>::MIN));
+            let lanes =
+                self.threads.saturating_mul(NonZero::new(bundle.count()).unwrap_or(NonZero::<usize>::MIN));
             let drawn = self.draw(result, &scale, lanes);
             drop(queues);
             for server in servers {
@@ -57,7 +54,7 @@ impl Plan<'_> {
         })
     }
 
-    fn serve<const N: usize>(&self, bundle: &NativeBundle<N>, requests: TurnRequests) {
+    fn serve(&self, bundle: WideBundle<'_>, requests: TurnRequests) {
         let mechanism = self.study.mechanism;
         let system = mechanism.system();
         let integrator = self.study.revolutions.integrator;
@@ -65,8 +62,7 @@ impl Plan<'_> {
             let (description, parameters) = (&mechanism.description, &mechanism.parameters);
             TurnRunner::new(&*system, description, parameters, integrator, SINGULAR_PIVOT)
         };
-        if let Ok(mut turns) = TurnBundle::new(bundle, runner) {
-            turns.serve(requests);
-        }
+        // Requests that no lane serves are run by who asks.
+        let _ = bundle.serve(&runner, requests);
     }
 }

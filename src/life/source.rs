@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use linkwear_runtime::life::{JointWear, MissionError, MissionSource, SegmentsMeasured, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, RunError, Steadiness, TurnState};
+use linkwear_runtime::{DynamicsSource, Orbit, RunError, Steadiness};
 
 use super::journal::{LifeJournal, Measurement};
 use super::mission::Duty;
@@ -90,7 +90,7 @@ impl<'a> KeptSource<'a> {
 }
 
 impl WearSource for KeptSource<'_> {
-    type State = Vec<Option<TurnState>>;
+    type State = Vec<Option<Orbit>>;
     type Error = MissionError<RunError>;
 
     fn measure(
@@ -106,7 +106,7 @@ impl WearSource for KeptSource<'_> {
 }
 
 impl WearSource for KeptSegment<'_> {
-    type State = Option<TurnState>;
+    type State = Option<Orbit>;
     type Error = RunError;
 
     fn measure(

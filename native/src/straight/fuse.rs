@@ -1,40 +1,47 @@
-//! Both parts of a step as functions of their own, from tapes. In: the tapes of all entries, a plan. Out: [`Lowered`]. Never knows
+//! Parts of a plan of steps as functions of their own, from tapes. In: the tapes of all entries, a plan. Out: [`Lowered`]. Never knows
 //! what is computed: it is the runtime's, run on numbers that write down what is done with them.
 
 use std::cell::RefCell;
 
-use linkwear_runtime::{Entry, StepPlan};
+use linkwear_runtime::{Entry, Evaluate, StepPlan};
 use linkwear_tape::{Tape, verify};
 
 use super::lower::{Lowered, run};
 use super::number::{Number, Recorder};
 
-/// What [`linkwear_runtime::Bundle::attempt`] asks for; `tapes` are those of all entries.
+/// A part of a plan that is a function of its own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Part {
+    /// [`linkwear_runtime::Bundle::attempt`].
+    Attempt,
+    /// [`linkwear_runtime::Bundle::conclude`].
+    Conclude,
+    /// [`linkwear_runtime::WithLaws::derivative`].
+    Derivative,
+}
+
+/// What a part of a plan asks for; `tapes` are those of all entries.
 ///
 /// # Errors
 /// A tape's first defect.
-pub(crate) fn attempt(tapes: &[Tape], plan: &StepPlan) -> Result<Lowered, String> {
+pub(crate) fn fuse(tapes: &[Tape], plan: &StepPlan, part: Part) -> Result<Lowered, String> {
     tapes.iter().try_for_each(verify)?;
     let recorder = Recorder::default();
     let answers = RefCell::default();
-    let inputs = inputs(&recorder, plan.question());
-    let outputs = plan.attempt(&|entry, input| ask(tapes, &answers, entry, input), &inputs);
+    let evaluate: Evaluate<'_, Number<'_>> = &|entry, input| ask(tapes, &answers, entry, input);
+    let count = match part {
+        Part::Attempt => plan.question(),
+        Part::Conclude => plan.arena(),
+        Part::Derivative => plan.derivative_question(),
+    };
+    let inputs = inputs(&recorder, count);
+    let outputs = match part {
+        Part::Attempt => plan.attempt(evaluate, &inputs),
+        Part::Conclude => plan.conclude(evaluate, &inputs),
+        Part::Derivative => plan.derivative(evaluate, &inputs),
+    };
     let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
-    Ok(Lowered { graph: recorder.into_graph(), inputs: plan.question(), first, outputs })
-}
-
-/// What [`linkwear_runtime::Bundle::conclude`] asks for.
-///
-/// # Errors
-/// As [`attempt`].
-pub(crate) fn conclude(tapes: &[Tape], plan: &StepPlan) -> Result<Lowered, String> {
-    tapes.iter().try_for_each(verify)?;
-    let recorder = Recorder::default();
-    let answers = RefCell::default();
-    let inputs = inputs(&recorder, plan.arena());
-    let outputs = plan.conclude(&|entry, input| ask(tapes, &answers, entry, input), &inputs);
-    let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
-    Ok(Lowered { graph: recorder.into_graph(), inputs: plan.arena(), first, outputs })
+    Ok(Lowered { graph: recorder.into_graph(), inputs: count, first, outputs })
 }
 
 fn inputs(recorder: &Recorder, count: usize) -> Vec<Number<'_>> {

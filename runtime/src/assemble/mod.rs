@@ -18,4 +18,5 @@ mod within_clearance;
 pub use consistent::{assemble, assemble_with, close_loops};
 pub use offset::{motion_sizes, offset_columns};
 pub use state::State;
+pub(crate) use static_contact::place_moving;
 pub use static_contact::{assemble_static_contact, check_clearances, place, resting_contacts};

@@ -102,11 +102,21 @@ pub fn check_clearances(evaluator: &mut Evaluator<'_>, t: f64, state: &State) ->
 /// Moves journals to wanted offsets, at rest in their bearings, and everything else as little as possible.
 /// Returns whether that was possible; if not, the state is as it was.
 pub fn place(evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, targets: &Targets) -> bool {
+    place_moving(evaluator, t, state, (targets, &vec![[0.0; 3]; targets.len()]))
+}
+
+/// As [`place`], with journals that move in their bearings at these rates [m/s].
+pub(crate) fn place_moving(
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+    state: &mut State,
+    (targets, rates): (&Targets, &[[f64; 3]]),
+) -> bool {
     let mut placed = state.clone();
     let mut solver = Placing::new(evaluator, targets);
     let fits = solver.close(evaluator, t, &mut placed, targets);
     if fits {
-        solver.stop(evaluator, t, &mut placed, targets);
+        solver.steer(evaluator, t, &mut placed, rates);
         *state = placed;
     }
     fits
@@ -254,9 +264,8 @@ impl Placing {
         false
     }
 
-    /// Speeds nearest to the present ones with closed loops and journals at rest in their bearings.
-    fn stop(&mut self, evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, targets: &Targets) {
-        debug_assert_eq!(targets.len(), evaluator.sizes().contacts);
+    /// Speeds nearest to the present ones with closed loops and journals that move in their bearings at these rates [m/s].
+    fn steer(&mut self, evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, rates: &[[f64; 3]]) {
         let m = evaluator.sizes().rows;
         // The second pass removes what rounding of a large first correction left.
         for _ in 0..2 {
@@ -266,7 +275,7 @@ impl Placing {
             }
             let motion = evaluator.contact_motion(t, &state.q, &state.v);
             for (right, (joint, axis)) in self.right[m..].iter_mut().zip(&self.places) {
-                *right = -motion[joint * CONTACT_MOTION + 3 + axis];
+                *right = rates[*joint][*axis] - motion[joint * CONTACT_MOTION + 3 + axis];
             }
             self.solver.solve(&self.right, &mut self.delta);
             add_scaled(&mut state.v, 1.0, &self.delta);

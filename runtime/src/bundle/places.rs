@@ -4,16 +4,8 @@
 use std::ops::Range;
 
 use super::{TOTALS, WORKS};
-use crate::system::{CONTACT_WRENCH, Entry, Sizes};
-
-/// Numbers per joint with clearance that laws want besides its motion: how far it is worn [m], on top of its clearance;
-/// stiffness K there [N/m^n]; whether it touches (1) and the speed at which its gap closed [m/s], as in
-/// [`crate::contact::ImpactMemory`].
-pub(crate) const CONTACT_MEMORY: usize = 4;
-
-/// Numbers per joint with clearance that tell what a contact is like, besides the rates of its totals: offset (3) [m], penetration
-/// [m], its rate [m/s], sliding speed [m/s], energy stored [J], wrench as [`crate::CONTACT_WRENCH`].
-pub(crate) const CONTACT_ANSWER: usize = 7 + CONTACT_WRENCH;
+use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY};
+use crate::system::{Entry, Sizes};
 
 /// Places in the arena, in order.
 #[derive(Clone, Debug)]

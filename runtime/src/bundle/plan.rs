@@ -1,12 +1,15 @@
-//! What is computed in a step of [`crate::Integrator::Rk43`], over any scalar: machine code for lanes is written by running it on
-//! numbers that write down what is done with them. In: answers of entries. Out: ends of steps, errors. Never knows machine code.
+//! What is computed in a step of [`crate::Integrator::Rk43`], and in a derivative with the laws of contact inside, over any scalar:
+//! machine code is written by running it on numbers that write down what is done with them. In: answers of entries. Out: ends of
+//! steps, errors, derivatives. Never knows machine code.
 
-use super::laws::{contact_answer, round_response, total_rates};
 use super::places::{Conclusion, Places};
 use super::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::{Clearance, Clearances};
 use crate::description::Description;
 use crate::error::SetupError;
+use crate::flat_laws::{
+    CONTACT_MEMORY, LawsPlaces, contact_answer, round_response, total_rates, worn_clearance,
+};
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
 use crate::layout::Layout;
 use crate::regularity::note_pivots;
@@ -38,8 +41,20 @@ struct Slope<T> {
     /// Multipliers and drive forces.
     forces: Vec<T>,
     pivots: Vec<T>,
-    /// [`super::CONTACT_ANSWER`] numbers of every joint.
+    /// [`crate::flat_laws::CONTACT_ANSWER`] numbers of every joint.
     contacts: Vec<T>,
+}
+
+/// What the equations and the laws say at a state.
+struct Answer<T> {
+    /// The answer of [`Entry::Derivative`].
+    equations: Vec<T>,
+    /// Rates of the [`TOTALS`] of every joint.
+    totals: Vec<T>,
+    /// [`crate::flat_laws::CONTACT_ANSWER`] numbers of every joint.
+    contacts: Vec<T>,
+    /// Radial clearance of every joint with its wear [m].
+    clearances: Vec<T>,
 }
 
 impl StepPlan {
@@ -160,29 +175,54 @@ impl StepPlan {
         [&arena[self.places.parameters.clone()], &[t], state].concat()
     }
 
-    /// The derivative of a flat state, laws of contact in the middle.
-    fn slope<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T], t: T, state: &[T]) -> Slope<T> {
-        let mut question = self.ask(arena, t, state);
-        let moved = evaluate(Entry::Contacts, &question);
+    /// The answer of [`Entry::Derivative`] to a state, laws of contact in the middle, and what [`LawsPlaces`] has behind it.
+    /// In: the question of [`Entry::Contacts`], then [`CONTACT_MEMORY`] numbers of every joint with clearance.
+    pub fn derivative<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
+        let (state, memory) = question.split_at(self.sizes.input(Entry::Contacts));
+        let Answer { equations, totals, contacts, clearances } = self.answer(evaluate, state, memory);
+        let answer = [equations, totals, contacts, clearances].concat();
+        debug_assert_eq!(answer.len(), LawsPlaces::new(&self.sizes).all());
+        answer
+    }
+
+    /// Length of the question of [`Self::derivative`].
+    pub fn derivative_question(&self) -> usize {
+        self.sizes.input(Entry::Contacts) + CONTACT_MEMORY * self.sizes.contacts
+    }
+
+    /// What equations and laws say at a state, the question of [`Entry::Contacts`].
+    fn answer<T: Scalar>(&self, evaluate: Evaluate<'_, T>, state: &[T], memory: &[T]) -> Answer<T> {
+        let moved = evaluate(Entry::Contacts, state);
         let (motions, _) = moved.as_chunks::<CONTACT_MOTION>();
-        let (memories, _) = arena[self.places.memory.clone()].as_chunks();
+        let (memories, _) = memory.as_chunks();
         let each = self.joints.iter().zip(motions).zip(memories);
         let responses: Vec<_> =
             each.map(|((joint, motion), memory)| round_response(joint, motion, *memory)).collect();
-        question.extend(responses.iter().flat_map(|response| response.wrench));
-        question.extend(&moved);
-        let answer = evaluate(Entry::Derivative, &question);
-        let (rates, rest) = answer.split_at(self.sizes.coordinates + self.sizes.speeds);
-        let (rest, powers) = rest.split_at(rest.len() - WORKS);
-        let (forces, pivots) = rest.split_at(rest.len() - self.sizes.rows);
-        let totals: Vec<_> = responses.iter().flat_map(total_rates).collect();
+        let wrenches = responses.iter().flat_map(|response| response.wrench).collect();
+        let question = [state.to_vec(), wrenches, moved.clone()].concat();
         let each = self.joints.iter().zip(motions).zip(&responses);
         let contacts = each.flat_map(|((joint, motion), response)| contact_answer(joint, motion, response));
+        let clearances = motions.iter().zip(memories).map(|(motion, memory)| worn_clearance(motion, memory));
+        Answer {
+            equations: evaluate(Entry::Derivative, &question),
+            totals: responses.iter().flat_map(total_rates).collect(),
+            contacts: contacts.collect(),
+            clearances: clearances.collect(),
+        }
+    }
+
+    /// The derivative of a flat state, laws of contact in the middle.
+    fn slope<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T], t: T, state: &[T]) -> Slope<T> {
+        let question = self.ask(arena, t, state);
+        let answer = self.answer(evaluate, &question, &arena[self.places.memory.clone()]);
+        let (rates, rest) = answer.equations.split_at(self.sizes.coordinates + self.sizes.speeds);
+        let (rest, powers) = rest.split_at(rest.len() - WORKS);
+        let (forces, pivots) = rest.split_at(rest.len() - self.sizes.rows);
         Slope {
-            state: [rates, powers, &totals].concat(),
+            state: [rates, powers, &answer.totals].concat(),
             forces: forces.to_vec(),
             pivots: pivots.to_vec(),
-            contacts: contacts.collect(),
+            contacts: answer.contacts,
         }
     }
 

@@ -47,6 +47,8 @@ pub struct ContactState {
     pub loss: f64,
     /// Rate of the wear integral, F_n |v_t| [W].
     pub wear_power: f64,
+    /// Mean pressure by the joint's contact area [Pa]; zero if it does not wear.
+    pub pressure: f64,
     /// Rate of the depth by the joint's contact area [m/s]; zero if it does not wear.
     pub depth_rate: f64,
     /// Factor on the wear coefficient [1]; nothing is known of it where it is one throughout.
@@ -75,6 +77,7 @@ impl ContactState {
             elastic_energy: response.elastic_energy,
             loss: response.loss,
             wear_power: response.wear_power,
+            pressure: response.pressure,
             depth_rate: response.depth_rate,
             wear_factor: response.wear_factor,
             wrench: response.wrench,
@@ -253,7 +256,7 @@ impl Clearance {
     ) -> Response<T> {
         let response = self.laws.respond(motion, support, (clearance, stiffness), memory);
         match &self.factor {
-            Some(steps) => self.laws.with_factor(steps, response, clearance, motion),
+            Some(steps) => self.laws.with_factor(steps, response, motion),
             None => response,
         }
     }

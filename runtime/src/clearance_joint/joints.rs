@@ -157,6 +157,10 @@ impl Clearances {
     /// within it remembers the speed at the crossing, both taken as linear.
     pub fn remember(&mut self, before: &[ContactState]) {
         for ((state, before), now) in self.states.iter_mut().zip(before).zip(&self.contacts) {
+            // A contact that goes on keeps what it remembers, and one that is apart has nothing to.
+            if (state.memory.touching > 0.5) == (now.penetration() > 0.0) {
+                continue;
+            }
             let at = |touch: &ContactState| (touch.penetration(), touch.penetration_rate);
             let speed = crossing_speed(at(before), at(now));
             let memory = state.memory.updated(now.penetration(), speed);

@@ -3,36 +3,45 @@
 //! asked twice at the same state.
 
 use super::answers::Forward;
+use super::inside::Inside;
 use super::questions::Questions;
 use crate::clearance_joint::Clearances;
 use crate::linear::same_bits;
-use crate::system::{CONTACT_MOTION, Entry, Sizes};
+use crate::system::{CONTACT_MOTION, Entry, Sizes, WORKS, WithLaws};
 
 /// The last answer of [`Entry::Derivative`] with its input.
-pub(super) struct Derivative {
+pub(super) struct Derivative<'a> {
     sizes: Sizes,
+    /// Code with the laws inside, if the system has it.
+    inside: Option<Inside<'a>>,
     /// Parameters, time, coordinates, speeds; wrenches; the answer of the contacts.
     input: Vec<f64>,
     /// Where time, coordinates, speeds end and wrenches begin, and where these end.
     state_end: usize,
     wrenches_end: usize,
     output: Vec<f64>,
-    /// Whether the answer of the contacts is that at the state of the input.
+    /// Whether the motions of journals are those at the state of the input.
+    has_motions: bool,
+    /// Whether the contacts are.
     has_contacts: bool,
     /// Whether the output is the system's answer to the input.
     has_answer: bool,
 }
 
-impl Derivative {
-    pub(super) fn new(sizes: Sizes, parameters: &[f64]) -> Self {
+impl<'a> Derivative<'a> {
+    pub(super) fn new(sizes: Sizes, laws: Option<&'a dyn WithLaws<f64>>, parameters: &[f64]) -> Self {
+        let inside = laws.map(|code| Inside::new(sizes, code));
+        let output = sizes.output(Entry::Derivative).max(inside.as_ref().map_or(0, Inside::answer));
         let mut input = vec![0.0; sizes.input(Entry::Derivative)];
         input[..parameters.len()].copy_from_slice(parameters);
         Self {
             sizes,
+            inside,
             input,
             state_end: sizes.input(Entry::Contacts),
             wrenches_end: sizes.input(Entry::ForwardDynamics),
-            output: vec![0.0; sizes.output(Entry::Derivative)],
+            output: vec![0.0; output],
+            has_motions: false,
             has_contacts: false,
             has_answer: false,
         }
@@ -54,11 +63,12 @@ impl Derivative {
         }
         let (state, answers) = self.input.split_at_mut(self.state_end);
         let (wrenches, contacts) = answers.split_at_mut(self.wrenches_end - self.state_end);
-        if !self.has_contacts {
+        if !self.has_motions {
             let Questions { system, workspace, .. } = questions;
             system.evaluate(Entry::Contacts, state, contacts, workspace);
-            self.has_contacts = true;
+            self.has_motions = true;
         }
+        self.has_contacts = true;
         clearances.evaluate(&contacts[..CONTACT_MOTION * self.sizes.contacts]);
         // What contacts remember, and how far they are worn, changes at the same state.
         self.has_answer = self.has_answer && same_bits(wrenches, clearances.wrenches());
@@ -73,7 +83,7 @@ impl Derivative {
 
     /// Contacts were put in place of those at the state of the input.
     pub(super) fn forget(&mut self) {
-        (self.has_contacts, self.has_answer) = (false, false);
+        (self.has_motions, self.has_contacts, self.has_answer) = (false, false, false);
     }
 
     /// Evaluates everything at a state.
@@ -84,15 +94,33 @@ impl Derivative {
         (t, q, v): (f64, &[f64], &[f64]),
     ) {
         if self.sizes.contacts > 0 {
+            if self.inside.is_some() && !self.is_at(t, q, v) {
+                self.move_to(questions, (t, q, v));
+                if self.answer_inside(clearances) {
+                    return;
+                }
+            }
             self.contacts(questions, clearances, (t, q, v));
         } else if !self.is_at(t, q, v) {
             self.move_to(questions, (t, q, v));
         }
         if !self.has_answer {
             let Questions { system, workspace, .. } = questions;
-            system.evaluate(Entry::Derivative, &self.input, &mut self.output, workspace);
+            let output = &mut self.output[..self.sizes.output(Entry::Derivative)];
+            system.evaluate(Entry::Derivative, &self.input, output, workspace);
             self.has_answer = true;
         }
+    }
+
+    /// Everything at the state of the input by one call. Whether that is what the laws say: not before stiffnesses are known.
+    fn answer_inside(&mut self, clearances: &mut Clearances) -> bool {
+        let Some(inside) = &mut self.inside else { return false };
+        let done = inside.derivative(&mut self.input[..self.wrenches_end], &mut self.output, clearances);
+        if done {
+            self.input[self.state_end..self.wrenches_end].copy_from_slice(clearances.wrenches());
+            (self.has_contacts, self.has_answer) = (true, true);
+        }
+        done
     }
 
     #[inline]
@@ -118,7 +146,7 @@ impl Derivative {
         let (coordinates, speeds) = state[1..].split_at_mut(q.len());
         coordinates.copy_from_slice(q);
         speeds.copy_from_slice(v);
-        (self.has_contacts, self.has_answer) = (false, false);
+        (self.has_motions, self.has_contacts, self.has_answer) = (false, false, false);
     }
 
     /// Accelerations, multipliers, drive forces, pivots.
@@ -151,7 +179,7 @@ impl Derivative {
     /// the system's.
     pub(super) fn rates(&self) -> Option<(&[f64], [f64; 2])> {
         let state = &self.output[..self.sizes.coordinates + self.sizes.speeds];
-        self.has_answer
-            .then(|| (state, [self.output[self.output.len() - 2], self.output[self.output.len() - 1]]))
+        let powers = self.sizes.output(Entry::Derivative) - WORKS;
+        self.has_answer.then(|| (state, [self.output[powers], self.output[powers + 1]]))
     }
 }

@@ -61,7 +61,7 @@ impl<S: System<f64>> FixedStep<'_, S> {
             let support = |offset| Support::round(offset, clearance);
             let response = laws.respond(motion, support, (clearance, laws.stiffness(clearance)), &memory);
             let response = match factor {
-                Some(steps) => with_factor(laws, steps, response, (clearance, motion)),
+                Some(steps) => with_factor(laws, steps, response, motion),
                 None => response,
             };
             *wrench = response.wrench;
@@ -113,7 +113,7 @@ fn with_factor(
     laws: &JointLaws,
     steps: &[Step],
     response: Response<f64>,
-    (clearance, motion): (f64, &[f64; CONTACT_MOTION]),
+    motion: &[f64; CONTACT_MOTION],
 ) -> Response<f64> {
-    laws.with_factor(steps, response, clearance, motion)
+    laws.with_factor(steps, response, motion)
 }

@@ -208,7 +208,12 @@ impl Follower {
             track.journal = empty_journal(joint);
             track.observed = joint.wear().map(|(archard, _)| {
                 let mut observed = Observed::nothing(touch.clearance, joint.journal_radius());
-                observed.include(archard.area(), &Clearance::load(touch), &joint.pair(touch.clearance));
+                observed.include(
+                    archard.area(),
+                    touch.pressure,
+                    &Clearance::load(touch),
+                    &joint.pair(touch.clearance),
+                );
                 observed
             });
         }
@@ -303,7 +308,7 @@ impl Track {
         }
         let Some((archard, _)) = joint.wear() else { return };
         if let Some(observed) = &mut self.observed {
-            observed.include(archard.area(), &Clearance::load(now), &joint.pair(now.clearance));
+            observed.include(archard.area(), now.pressure, &Clearance::load(now), &joint.pair(now.clearance));
         }
         let volume = archard.volume_rate() * done.wear * mean_factor(before, now);
         if let Some(deposit) = &mut self.deposit

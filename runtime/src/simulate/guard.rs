@@ -7,7 +7,6 @@ use super::motion::ConstrainedMotion;
 use super::run::Statistics;
 use crate::error::RunError;
 use crate::evaluate::{CLOSED, LoopError};
-use crate::linear::largest;
 
 /// Part of the energy that went through which may be missing before a run draws a warning: coarse legitimate runs lose
 /// 2e-4 of it at most, and forces go wrong about as the energy does.
@@ -36,8 +35,8 @@ pub(super) struct Guard {
     /// Largest speed of any coordinate so far, and of those that turn.
     fastest: f64,
     fastest_turning: f64,
-    /// Places of the free speeds that turn.
-    turning: Vec<usize>,
+    /// All bits for every free speed that turns, none for others.
+    turning: Vec<u64>,
     /// Largest part of the energy so far [J].
     energy: f64,
     next_balance: f64,
@@ -54,9 +53,9 @@ impl Guard {
         statistics: &Statistics,
     ) -> Self {
         let span = end - begin;
-        let speeds = motion.dynamics.evaluator.description().speeds.iter().enumerate();
+        let speeds = motion.dynamics.evaluator.description().speeds.iter();
         let mut guard = Self {
-            turning: speeds.filter(|(_, info)| turns(&info.unit)).map(|(place, _)| place).collect(),
+            turning: speeds.map(|info| if turns(&info.unit) { u64::MAX } else { 0 }).collect(),
             end,
             span,
             fastest: 0.0,
@@ -121,18 +120,14 @@ impl Guard {
 
     fn note_speeds(&mut self, motion: &ConstrainedMotion<'_>, state: &[f64]) {
         let (_, v, _) = motion.split(state);
-        let most = largest(v);
-        self.fastest = self.fastest.max(most);
-        // Mostly nothing is faster than something was before.
-        if most <= self.fastest_turning {
-            return;
+        // Magnitudes are ordered as their bits are: no branches.
+        let (mut most, mut turning) = (self.fastest.to_bits(), self.fastest_turning.to_bits());
+        for (speed, turns) in v.iter().zip(&self.turning) {
+            let size = speed.abs().to_bits();
+            most = most.max(size);
+            turning = turning.max(size & turns);
         }
-        for place in &self.turning {
-            let speed = v[*place].abs();
-            if speed > self.fastest_turning {
-                self.fastest_turning = speed;
-            }
-        }
+        (self.fastest, self.fastest_turning) = (f64::from_bits(most), f64::from_bits(turning));
     }
 
     /// Largest speed of anything that turns so far [rad/s], the driver at the begin included.

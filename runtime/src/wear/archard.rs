@@ -50,13 +50,19 @@ impl Archard {
         T::constant(self.rate) * load.normal_force * load.sliding_speed.abs() / surface
     }
 
+    /// Rate of the depth [m/s] at a mean pressure [Pa] and a sliding speed [m/s], [CS (19)].
+    #[inline]
+    pub fn depth_rate<T: Scalar>(&self, pressure: T, sliding_speed: T) -> T {
+        T::constant(self.rate) * pressure * sliding_speed.abs()
+    }
+
     /// Rates at one instant, [CS (19)]; zero without contact, [CS (20)].
     #[inline]
     pub fn rates<T: Scalar>(&self, load: &Load<T>, pair: &Pair<T>) -> WearRates<T> {
         let speed = load.sliding_speed.abs();
         WearRates {
             wear_integral: load.normal_force * speed,
-            depth: T::constant(self.rate) * self.area.pressure(load, pair) * speed,
+            depth: self.depth_rate(self.area.pressure(load, pair), load.sliding_speed),
         }
     }
 }

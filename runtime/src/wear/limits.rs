@@ -62,17 +62,17 @@ impl Observed {
         }
     }
 
-    /// Accumulates what acts at one instant. The depth per cycle is for the caller to set.
-    pub fn include(&mut self, area: Area, load: &Load<f64>, pair: &Pair<f64>) {
-        let pressure = area.pressure(load, pair);
+    /// Accumulates what acts at one instant, with the mean pressure there [Pa]. The depth per cycle is for the caller to set.
+    pub fn include(&mut self, area: Area, pressure: f64, load: &Load<f64>, pair: &Pair<f64>) {
         let raise = |largest: &mut f64, value: f64| *largest = Scalar::max(value, *largest);
-        raise(&mut self.pressure, pressure);
-        raise(&mut self.pressure_speed, pressure * Scalar::abs(load.sliding_speed));
-        raise(&mut self.penetration, load.penetration);
-        if area.is_half_space() {
+        // Width and pressure of a line contact grow together, with the root of the force.
+        if area.is_half_space() && pressure > self.pressure {
             let half_width = area.half_angle(load, pair) * (pair.journal_radius + pair.clearance);
             raise(&mut self.hertz_half_width, half_width);
         }
+        raise(&mut self.pressure, pressure);
+        raise(&mut self.pressure_speed, pressure * Scalar::abs(load.sliding_speed));
+        raise(&mut self.penetration, load.penetration);
     }
 }
 
@@ -243,7 +243,7 @@ mod tests {
         let load = |normal_force, sliding_speed| Load { normal_force, penetration: 2e-7, sliding_speed };
         let mut seen = Observed::nothing(1e-5, 0.01);
         for load in [load(10.0, -3.0), load(40.0, 0.1), load(0.0, 9.0)] {
-            seen.include(Area::Hertz, &load, &pair);
+            seen.include(Area::Hertz, Area::Hertz.pressure(&load, &pair), &load, &pair);
         }
         let pressure = |force: f64| Area::Hertz.pressure(&load(force, 0.0), &pair);
         assert_eq!(seen.pressure, pressure(40.0));

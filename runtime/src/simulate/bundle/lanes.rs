@@ -2,10 +2,11 @@
 //! In: lengths of steps. Out: ends of steps, their errors, which lanes are still ordinary. Never knows turns.
 
 use super::room::Room;
-use crate::bundle::{Bundle, CONTACT_ANSWER, CONTACT_MEMORY, Conclusion, Places, contact_state};
+use crate::bundle::{Bundle, Conclusion, Places};
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::dynamics::Dynamics;
 use crate::evaluate::Evaluator;
+use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, contact_state};
 use crate::simulate::motion::{ConstrainedMotion, PROJECTED_STAGES};
 use crate::system::Sizes;
 

@@ -10,8 +10,10 @@ mod outcome;
 mod queue;
 mod room;
 mod trajectory;
+mod wide;
 
 pub use outcome::TurnOutcome;
+pub use wide::WideBundle;
 
 pub use queue::{TurnQueue, TurnRequests, turn_queue};
 

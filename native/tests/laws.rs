@@ -1,0 +1,88 @@
+//! A derivative with the laws of contact inside has the bits of one with them outside: rows, turns, parameters that change.
+
+use std::path::Path;
+
+use linkwear_codegen::{Compiled, Options, SourceFile, compile};
+use linkwear_native::{Native, NativeBundle, Refusal};
+use linkwear_runtime::{
+    Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System, TurnRunner, Watch,
+    simulate,
+};
+
+const METHODS: [Integrator; 2] =
+    [Integrator::Rk43 { tolerance: 1e-5, max_step: None }, Integrator::Rk4 { step: 4e-5 }];
+
+fn compiled(name: &str) -> Compiled {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    let text = std::fs::read_to_string(&file).expect("a file of this repository");
+    compile(&SourceFile { name: name.to_owned(), text }, &Options::default()).expect("it compiles")
+}
+
+/// Machine code with the laws outside, and inside.
+fn both(mechanism: &Compiled) -> Option<[Native; 2]> {
+    let native = match Native::new(mechanism.tapes(), mechanism.sizes()) {
+        Err(Refusal::Processor { .. }) => return None,
+        written => written.expect("machine code"),
+    };
+    let with_laws = native.clone().with_laws(mechanism.tapes(), mechanism.description());
+    let with_laws = with_laws.expect("machine code");
+    Some([native, with_laws])
+}
+
+fn bits(run: &Run) -> Vec<Vec<u64>> {
+    run.rows.iter().map(|row| row.iter().map(|value| value.to_bits()).collect()).collect()
+}
+
+#[test]
+fn runs_have_the_same_bits() {
+    for name in ["mechanisms/rssr.toml", "mechanisms/rssr_ball_wear.toml", "examples/data/loose_guide.toml"] {
+        let mechanism = compiled(name);
+        let Some([outside, inside]) = both(&mechanism) else { return };
+        assert!(outside.laws_inside().is_none() && inside.laws_inside().is_some(), "{name}");
+        for method in METHODS {
+            let settings = Settings::new(method, Span::Time(0.02), 11);
+            let run = |system: &Native| {
+                let (description, parameters) = (mechanism.description(), mechanism.parameters());
+                simulate(system, description, &parameters, &settings, Watch::NONE).expect("a run")
+            };
+            let (expected, found) = (run(&outside), run(&inside));
+            assert!(expected.rows.len() == 11 && bits(&expected) == bits(&found), "{name} {method:?}");
+            assert_eq!(expected.statistics.steps, found.statistics.steps, "{name} {method:?}");
+        }
+    }
+}
+
+/// Another clearance has another stiffness: laws inside are told of it by an evaluation outside.
+#[test]
+fn wear_and_parameters_change_under_way() {
+    let mechanism = compiled("mechanisms/rssr.toml");
+    let Some(systems) = both(&mechanism) else { return };
+    let (description, parameters) = (mechanism.description(), mechanism.parameters());
+    let [expected, found] = systems.each_ref().map(|system| {
+        let settings = Settings::new(METHODS[0], Span::Time(0.02), 0);
+        let mut simulation = Simulation::start(system, description, &parameters, &settings).expect("a start");
+        simulation.advance(0.01, Watch::NONE).expect("a motion");
+        let mut others = parameters.clone();
+        others[0] *= 2.0;
+        simulation.set_parameters(&others).expect("another clearance");
+        simulation.advance(0.02, Watch::NONE).expect("a motion");
+        let mut runner =
+            TurnRunner::new(system, description, &parameters, METHODS[0], SINGULAR_PIVOT).expect("a start");
+        runner.set_worn(0, 3e-5, None).expect("a clearance");
+        (simulation.state().memory, runner.measure(Watch::NONE).expect("a turn").joints)
+    });
+    let bits = |memory: &[f64]| memory.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&expected.0), bits(&found.0));
+    assert_eq!(expected.1, found.1);
+}
+
+/// Wear by bearing angle is kept outside.
+#[test]
+fn laws_with_profiles_stay_outside() {
+    let mechanism = compiled("examples/data/worn_journal.toml");
+    let plan = StepPlan::new(mechanism.description(), mechanism.sizes()).expect("laws");
+    let kept = plan.joints().iter().any(linkwear_runtime::clearance_joint::Clearance::keeps_profiles);
+    let Some([_, inside]) = both(&mechanism) else { return };
+    assert_eq!(inside.laws_inside().is_none(), kept);
+    assert_eq!(matches!(NativeBundle::<4>::new(mechanism.tapes(), &plan), Err(Refusal::Profile)), kept);
+}

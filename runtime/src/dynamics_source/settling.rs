@@ -1,0 +1,86 @@
+//! When turns have settled. In: by how much of their wear turns differ from the ones before. Out: whether the last one counts. Never
+//! runs anything.
+//!
+//! A motion settles by a factor a turn: of some fifty for a tight joint of the case study, of two or three for a loose one. So the
+//! difference of two turns tells that of the second from all later ones, once the factor is known.
+
+use crate::simulate::TurnState;
+
+/// A turn counts if later ones would differ by no more than this part of their wear, ...
+const SETTLED: f64 = 1e-5;
+/// ... and that although they may differ by so many times what the factor lets expect.
+const SAFETY: f64 = 2.0;
+/// A factor grows by this from one measurement to the next where none was seen: it is looked at every few measurements, ...
+const GROWS: f64 = 1.5;
+/// ... and is forgotten this fast where smaller ones are seen.
+const FORGETS: f64 = 0.25;
+
+/// What a life's motion goes on from.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Orbit {
+    /// The end of its last turn.
+    pub turn: TurnState,
+    /// By which factor turns differ less than the ones before, at most 1.
+    pub contraction: f64,
+}
+
+/// The settling of one measurement.
+pub(super) struct Settling {
+    /// The factor known before.
+    known: f64,
+    /// The largest seen.
+    seen: Option<f64>,
+    last: Option<f64>,
+}
+
+impl Settling {
+    /// Of a motion that goes on from an orbit, or begins.
+    pub(super) fn new(from: Option<&Orbit>) -> Self {
+        Self { known: from.map_or(1.0, |orbit| orbit.contraction), seen: None, last: None }
+    }
+
+    /// Whether a turn counts that differs by this part of its wear from the one before.
+    pub(super) fn has_settled(&mut self, differs: f64) -> bool {
+        if let Some(last) = self.last.filter(|last| *last > 0.0) {
+            let factor = (differs / last).min(1.0);
+            self.seen = Some(self.seen.map_or(factor, |seen| seen.max(factor)));
+        }
+        self.last = Some(differs);
+        differs <= SETTLED || SAFETY * self.contraction() * differs <= SETTLED
+    }
+
+    /// The factor to go on with.
+    pub(super) fn contraction(&self) -> f64 {
+        match self.seen {
+            Some(seen) => seen.max(FORGETS * self.known),
+            None if self.last.is_some() => (GROWS * self.known).min(1.0),
+            None => self.known,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_count_once_their_factor_tells_that_later_ones_are_alike() {
+        let mut first = Settling::new(None);
+        // Nothing is known: two turns have to be alike themselves.
+        assert!(!first.has_settled(1e-3));
+        // By a factor of 0.02, and so do the next ones: 4e-7.
+        assert!(first.has_settled(2e-5));
+        assert_eq!(first.contraction(), 0.25);
+        let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
+        let from = |contraction| Orbit { turn: turn.clone(), contraction };
+        let mut next = Settling::new(Some(&from(0.02)));
+        // 2 times 0.03 times 1e-4.
+        assert!(next.has_settled(1e-4) && next.contraction() == 0.03);
+        let mut slow = Settling::new(Some(&from(0.02)));
+        assert!(!slow.has_settled(1e-3) && !slow.has_settled(5e-4));
+        assert_eq!(slow.contraction(), 0.5);
+        let mut still = Settling::new(Some(&from(0.5)));
+        assert!(still.has_settled(0.0) && !still.has_settled(f64::NAN));
+    }
+}

@@ -1,0 +1,104 @@
+//! Laws of contact as code wants them that has them inside: answers to motions as flat numbers, and back. In: motions, memories.
+//! Out: wrenches, rates, what a contact is like; their places. Never knows steps.
+
+use std::ops::Range;
+
+use crate::clearance_joint::{Clearance, ContactState};
+use crate::contact::{ImpactMemory, Support};
+use crate::joint_laws::Response;
+use crate::scalar::Scalar;
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, TOTALS};
+
+/// Numbers per joint with clearance that laws want besides its motion: how far it is worn [m], on top of its clearance;
+/// stiffness K there [N/m^n]; whether it touches (1) and the speed at which its gap closed [m/s], as in
+/// [`crate::contact::ImpactMemory`].
+pub(crate) const CONTACT_MEMORY: usize = 4;
+
+/// Numbers per joint with clearance that tell what a contact is like, besides the rates of its totals: offset (3) [m], penetration
+/// [m], its rate [m/s], sliding speed [m/s], energy stored [J], mean pressure [Pa], wrench as [`crate::CONTACT_WRENCH`].
+pub(crate) const CONTACT_ANSWER: usize = 8 + CONTACT_WRENCH;
+
+/// Places in the answer of a derivative with the laws inside, in order, behind the answer of [`Entry::Derivative`].
+#[derive(Clone, Debug)]
+pub(crate) struct LawsPlaces {
+    /// Rates of the [`TOTALS`] of every joint with clearance.
+    pub(crate) totals: Range<usize>,
+    /// [`CONTACT_ANSWER`] numbers of every joint.
+    pub(crate) contacts: Range<usize>,
+    /// Radial clearance of every joint with its wear [m].
+    pub(crate) clearances: Range<usize>,
+}
+
+impl LawsPlaces {
+    pub(crate) fn new(sizes: &Sizes) -> Self {
+        let behind = |first: usize, numbers: usize| first..first + numbers * sizes.contacts;
+        let totals = behind(sizes.output(Entry::Derivative), TOTALS);
+        let contacts = behind(totals.end, CONTACT_ANSWER);
+        Self { clearances: behind(contacts.end, 1), totals, contacts }
+    }
+
+    /// Length of all.
+    pub(crate) fn all(&self) -> usize {
+        self.clearances.end
+    }
+}
+
+/// What a round bearing answers to a motion, by the numbers that a question has of it.
+pub(crate) fn round_response<T: Scalar>(
+    joint: &Clearance,
+    motion: &[T; CONTACT_MOTION],
+    memory: [T; CONTACT_MEMORY],
+) -> Response<T> {
+    let clearance = worn_clearance(motion, &memory);
+    let [_, stiffness, touching, closing_speed] = memory;
+    let memory = ImpactMemory { touching, closing_speed };
+    joint.respond(motion, |offset| Support::round(offset, clearance), (clearance, stiffness), &memory)
+}
+
+/// Radial clearance with its wear [m].
+pub(crate) fn worn_clearance<T: Scalar>(motion: &[T; CONTACT_MOTION], memory: &[T; CONTACT_MEMORY]) -> T {
+    motion[CONTACT_MOTION - 1] + memory[0]
+}
+
+/// What a response adds to the totals of its joint in a second.
+pub(crate) fn total_rates<T: Scalar>(response: &Response<T>) -> [T; TOTALS] {
+    [response.wear_power, response.depth_rate, response.normal_force, response.loss]
+}
+
+/// What the contact is like, besides.
+pub(crate) fn contact_answer<T: Scalar>(
+    joint: &Clearance,
+    motion: &[T; CONTACT_MOTION],
+    response: &Response<T>,
+) -> [T; CONTACT_ANSWER] {
+    let [x, y, z] = joint.offset(motion);
+    let Response { penetration, penetration_rate, sliding_speed, elastic_energy, pressure, .. } = *response;
+    let [fx, fy, fz, mx, my, mz] = response.wrench;
+    [x, y, z, penetration, penetration_rate, sliding_speed, elastic_energy, pressure, fx, fy, fz, mx, my, mz]
+}
+
+/// The contact as laws tell it alone, by both of its answers; `before`: at another instant of the same wear.
+pub(crate) fn contact_state(
+    before: &ContactState,
+    rates: [f64; TOTALS],
+    answer: [f64; CONTACT_ANSWER],
+) -> ContactState {
+    let [wear_power, depth_rate, normal_force, loss] = rates;
+    let [x, y, z, penetration, penetration_rate, sliding_speed, elastic_energy, pressure, wrench @ ..] =
+        answer;
+    let response = Response {
+        penetration,
+        penetration_rate,
+        normal_force,
+        sliding_speed,
+        elastic_energy,
+        pressure,
+        loss,
+        wear_power,
+        depth_rate,
+        // Of wear by angle alone, which runs one trajectory at a time.
+        wear_factor: None,
+        wrench,
+    };
+    ContactState::of(([x, y, z], before.turned), (before.clearance, before.stiffness), &response)
+}
