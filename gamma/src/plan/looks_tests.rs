@@ -105,6 +105,11 @@ fn a_plan_of_few_looks_is_found_where_it_is_cheapest() {
                 );
             }
         }
+        // The band of one possible life is its own plan, also beside a plan of two looks.
+        let other = ConditionPlan { interval: 0.5 * plan.interval, threshold: 10.0, ..plan };
+        let lives = [part.life().expect("valid")];
+        let band = look_bands(&lives, 20.0, (&costs, &looks), (&other, [false; 2]), 0.95).expect("a life");
+        assert!((band.interval.0 / plan.interval - 1.0).abs() < 0.02, "{plan:?} {band:?}");
         // Of thresholds that cost the same, since all parts are beyond them at the first look, the highest.
         assert!(plan.threshold > 4.0, "{plan:?}");
         let higher = part.cost(&costs, &looks, plan.interval, plan.threshold + 0.5).expect("valid").rate;
