@@ -76,8 +76,7 @@ impl Entries {
         let input = input.as_slice().map_err(wrong_arrays)?;
         let slopes = py.detach(|| batch.derivatives(entry, input, &by)).map_err(wrong_arrays)?;
         let answers = batch.sizes().output(entry);
-        let transposed: Vec<f64> =
-            (0..answers).flat_map(|row| slopes.iter().map(move |slope| slope[row])).collect();
+        let transposed: Vec<f64> = (0..answers).flat_map(|row| slopes.iter().map(move |slope| slope[row])).collect();
         numpy::PyArray1::from_vec(py, transposed).reshape([answers, by.len()])
     }
 }

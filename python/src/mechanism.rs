@@ -60,12 +60,7 @@ impl Mechanism {
 
     /// The JSON of `life`, and its lives.
     #[pyo3(signature = (words, progress=None))]
-    fn life(
-        &self,
-        py: Python<'_>,
-        words: Vec<String>,
-        progress: Option<Py<PyAny>>,
-    ) -> PyResult<(String, Lives)> {
+    fn life(&self, py: Python<'_>, words: Vec<String>, progress: Option<Py<PyAny>>) -> PyResult<(String, Lives)> {
         let words = [&self.words[..], &words].concat();
         let lived = watched(py, progress.as_ref(), |watch| ask::life(&words, &self.source, watch))?;
         let lived = lived.map_err(|failure| raised(py, &failure))?;
@@ -84,9 +79,8 @@ impl Mechanism {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(u64, Lives)> {
         let words = [&self.words[..], &words].concat();
-        let lived = watched(py, progress.as_ref(), |watch| {
-            ask::shard(&words, &self.source, (&shard, &folder), watch)
-        })?;
+        let lived =
+            watched(py, progress.as_ref(), |watch| ask::shard(&words, &self.source, (&shard, &folder), watch))?;
         let part = lived.map_err(|failure| raised(py, &failure))?;
         Ok((part.shard.numbers(part.trajectories).start, Lives::of(py, &part.result)))
     }
@@ -101,8 +95,7 @@ impl Mechanism {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
         let words = [&self.words[..], &words].concat();
-        let page =
-            watched(py, progress.as_ref(), |watch| ask::page(subcommand, &words, &self.source, watch))?;
+        let page = watched(py, progress.as_ref(), |watch| ask::page(subcommand, &words, &self.source, watch))?;
         page.map_err(|failure| raised(py, &failure))
     }
 
@@ -125,9 +118,8 @@ impl Mechanism {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
         let words = [&self.words[..], &words].concat();
-        let studied = watched(py, progress.as_ref(), |watch| {
-            ask::study_shard(&words, &self.source, (&shard, &file), watch)
-        })?;
+        let studied =
+            watched(py, progress.as_ref(), |watch| ask::study_shard(&words, &self.source, (&shard, &file), watch))?;
         studied.map(|json| json.to_string()).map_err(|failure| raised(py, &failure))
     }
 }

@@ -78,8 +78,7 @@ impl StateSpace {
         x: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.go(t, &x)?;
-        let slope =
-            self.equations.derivatives().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let slope = self.equations.derivatives().map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         Ok(PyArray1::from_slice(py, slope))
     }
 

@@ -56,10 +56,7 @@ pub fn watched<T: Send>(
 }
 
 /// Work that cannot be asked to end: after Ctrl-C it is left alone, and its result is dropped.
-pub fn abandoned<T: Send + 'static>(
-    py: Python<'_>,
-    work: impl FnOnce() -> T + Send + 'static,
-) -> PyResult<T> {
+pub fn abandoned<T: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> T + Send + 'static) -> PyResult<T> {
     py.detach(|| {
         let (hand_over, handed) = channel();
         let worker = Builder::new().stack_size(STACK).spawn(move || drop(hand_over.send(work())));
