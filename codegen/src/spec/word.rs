@@ -16,6 +16,12 @@ use super::texts::without_texts;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word<T>(pub T);
 
+impl<T: fmt::Display> fmt::Display for Word<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
 /// Laws with words.
 pub(super) trait Words: Copy + 'static {
     const TYPE: &'static str;
