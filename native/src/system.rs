@@ -55,7 +55,11 @@ pub struct Native {
 
 /// The derivative with the laws of contact inside.
 #[derive(Clone)]
-struct Laws(Arc<Functions>);
+struct Laws {
+    functions: Arc<Functions>,
+    /// See [`WithLaws::laws`].
+    words: Arc<str>,
+}
 
 /// The columns of several states side by side.
 #[derive(Clone)]
@@ -184,7 +188,8 @@ impl Native {
         if plan.joints().is_empty() || plan.joints().iter().any(Clearance::keeps_profiles) {
             return Ok(self);
         }
-        Ok(Self { laws: Some(Laws(Arc::new(Functions::of_laws(tapes, &plan)?))), ..self })
+        let functions = Arc::new(Functions::of_laws(tapes, &plan)?);
+        Ok(Self { laws: Some(Laws { functions, words: plan.laws().into() }), ..self })
     }
 }
 
@@ -207,12 +212,16 @@ impl System<f64> for Native {
 }
 
 impl WithLaws<f64> for Laws {
+    fn laws(&self) -> &str {
+        &self.words
+    }
+
     fn workspace(&self) -> usize {
-        self.0.workspace()
+        self.functions.workspace()
     }
 
     fn derivative(&self, question: &[f64], answer: &mut [f64], workspace: &mut [f64]) {
-        self.0.run(0, question, answer, workspace);
+        self.functions.run(0, question, answer, workspace);
     }
 }
 

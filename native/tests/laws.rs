@@ -5,8 +5,8 @@ use std::path::Path;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
-    Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System, TurnRunner, Watch,
-    simulate,
+    Description, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System, TurnRunner,
+    Watch, simulate,
 };
 
 const METHODS: [Integrator; 2] =
@@ -74,6 +74,25 @@ fn wear_and_parameters_change_under_way() {
     let bits = |memory: &[f64]| memory.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&expected.0), bits(&found.0));
     assert_eq!(expected.1, found.1);
+}
+
+/// Laws of another description, as segments of missions have them, are not those of the code.
+#[test]
+fn other_laws_are_evaluated_outside() {
+    let mechanism = compiled("mechanisms/rssr.toml");
+    let Some(systems) = both(&mechanism) else { return };
+    let parameters = mechanism.parameters();
+    let mut description = mechanism.description().clone();
+    let turn = |system: &Native, description: &Description| {
+        let runner = TurnRunner::new(system, description, &parameters, METHODS[0], SINGULAR_PIVOT);
+        runner.expect("a start").measure(Watch::NONE).expect("a turn").joints[0].clone()
+    };
+    let before = turn(&systems[1], &description);
+    description.contacts.to_mut()[0].wear.as_mut().expect("R1 wears").coefficient *= 1.5;
+    let [expected, found] = systems.each_ref().map(|system| turn(system, &description));
+    assert_eq!(expected, found);
+    // The depth goes with the coefficient: a rounding or two in every step.
+    assert!((found.depth / before.depth - 1.5).abs() < 1e-12, "{} {}", found.depth, before.depth);
 }
 
 /// Wear by bearing angle is kept outside.

@@ -16,6 +16,7 @@ pub use closed::{CLOSED, CLOSED_AT_START};
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;
 use crate::error::SetupError;
+use crate::flat_laws::in_words;
 use crate::layout::Layout;
 use crate::row_scales::{note_lengths, scale_rows};
 use crate::signals::Signals;
@@ -99,6 +100,9 @@ impl<'a> Evaluator<'a> {
         same("channels with the rates of angles", rates.max(sizes.channels), sizes.channels)?;
         same("described joints with clearance", sizes.contacts, description.contacts.len())?;
         check_parameters(description, parameters)?;
+        let clearances = Clearances::of(description)?;
+        // Segments of missions and studies change laws, not equations.
+        let inside = system.laws_inside().filter(|code| code.laws() == in_words(clearances.joints()));
         Ok(Self {
             description,
             layout,
@@ -111,9 +115,9 @@ impl<'a> Evaluator<'a> {
             has_dropped: false,
             switches: description.switches(),
             sampled: sampled(system, description, parameters)?,
-            clearances: Clearances::of(description)?,
+            clearances,
             contacts_known_at: None,
-            derivative: Derivative::new(sizes, system.laws_inside(), parameters),
+            derivative: Derivative::new(sizes, inside, parameters),
             questions: Questions::new(system, parameters, description.inputs.len()),
         })
     }

@@ -9,6 +9,11 @@ use crate::joint_laws::Response;
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, TOTALS};
 
+/// Laws with all their constants, in words that are equal for equal laws alone: numbers are written to the last place.
+pub(crate) fn in_words(joints: &[Clearance]) -> String {
+    format!("{joints:?}")
+}
+
 /// Numbers per joint with clearance that laws want besides its motion: how far it is worn [m], on top of its clearance;
 /// stiffness K there [N/m^n]; whether it touches (1) and the speed at which its gap closed [m/s], as in
 /// [`crate::contact::ImpactMemory`].

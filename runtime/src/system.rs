@@ -210,6 +210,9 @@ pub trait System<T: Scalar> {
 /// From a state to its derivative in one call, the laws of contact in the middle: see `StepPlan::derivative`, in whose bits it
 /// answers.
 pub trait WithLaws<T: Scalar> {
+    /// What its laws are, as `StepPlan::laws` has it: constants of laws are part of the code, and a description may have others.
+    fn laws(&self) -> &str;
+
     /// Length of the scratch slice that [`Self::derivative`] wants.
     fn workspace(&self) -> usize;
 

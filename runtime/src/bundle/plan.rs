@@ -8,7 +8,7 @@ use crate::clearance_joint::{Clearance, Clearances};
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::{
-    CONTACT_MEMORY, LawsPlaces, contact_answer, round_response, total_rates, worn_clearance,
+    CONTACT_MEMORY, LawsPlaces, contact_answer, in_words, round_response, total_rates, worn_clearance,
 };
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
 use crate::layout::Layout;
@@ -80,6 +80,11 @@ impl StepPlan {
     /// The joints with clearance.
     pub fn joints(&self) -> &[Clearance] {
         &self.joints
+    }
+
+    /// The laws of these joints, in words that are equal for equal laws alone.
+    pub fn laws(&self) -> String {
+        in_words(&self.joints)
     }
 
     /// Length of the question of [`Self::attempt`].
