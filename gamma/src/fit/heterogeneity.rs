@@ -150,7 +150,7 @@ impl Heterogeneity {
     }
 
     /// The coefficients of variation that a likelihood-ratio test at 1 - `level` does not reject, from 0 on if it does not reject
-    /// that, and without an upper end if it rejects none up to 1000. Critical values are those of [`FewUnits`].
+    /// that, and without an upper end if it rejects none up to 1000. Critical values are those of the law of few units, which the test goes by.
     ///
     /// # Errors
     /// [`FitError::NotConverged`] where the other parameters cannot be re-estimated.
