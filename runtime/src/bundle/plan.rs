@@ -180,8 +180,11 @@ impl StepPlan {
         [&arena[self.places.parameters.clone()], &[t], state].concat()
     }
 
-    /// The answer of [`Entry::Derivative`] to a state, laws of contact in the middle, and what [`LawsPlaces`] has behind it.
-    /// In: the question of [`Entry::Contacts`], then [`CONTACT_MEMORY`] numbers of every joint with clearance.
+    /// The answer of [`Entry::Derivative`] to a state, laws of contact in the middle. Behind it, of all joints with clearance: rates of
+    /// the [`TOTALS`] of each; what each contact is like (14: offset (3) [m], penetration [m], its rate [m/s], sliding speed [m/s],
+    /// energy stored [J], mean pressure [Pa], wrench as [`crate::CONTACT_WRENCH`]); the radial clearance with its wear of each [m].
+    /// In: the question of [`Entry::Contacts`], then of every joint how far it is worn [m], its stiffness [N/m^n], whether it touches
+    /// (1), the speed at which its gap closed [m/s].
     pub fn derivative<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
         let (state, memory) = question.split_at(self.sizes.input(Entry::Contacts));
         let Answer { equations, totals, contacts, clearances } = self.answer(evaluate, state, memory);
