@@ -113,8 +113,7 @@ impl Equations {
     /// # Errors
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
-        let system = Native::new(mechanism.tapes(), mechanism.sizes())?;
-        let system = system.with_laws(mechanism.tapes(), mechanism.description())?;
+        let system = Native::with_laws(mechanism.tapes(), mechanism.sizes(), mechanism.description())?;
         Ok(Self { name: NATIVE, make: Arc::new(move || Box::new(system.clone())), refusal: None })
     }
 

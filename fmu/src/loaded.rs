@@ -27,9 +27,8 @@ pub struct Loaded {
 impl Loaded {
     /// A unit as machine code, else interpreted.
     pub fn new(unit: Unit) -> Self {
-        let (tapes, description) = (unit.program.tapes(), unit.program.description());
-        let native = Native::new(tapes, unit.program.sizes());
-        let native = native.and_then(|native| native.with_laws(tapes, description));
+        let program = &unit.program;
+        let native = Native::with_laws(program.tapes(), program.sizes(), program.description());
         let refusal = native.as_ref().err().map(ToString::to_string);
         let (interpreter, fixed) = (unit.program.interpreter(), belongs_to_start(&unit.program));
         Self { interpreter, fixed, native: native.ok(), refusal, unit }

@@ -2,6 +2,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "nothing here has to have the same bits on every machine")]
 
+mod runs;
+
 use linkwear_gamma::data::{Gauge, Observations, Reading};
 use linkwear_gamma::fit::{Model, estimate};
 use linkwear_gamma::life::{Estimate, OperatingState};
@@ -11,6 +13,7 @@ use linkwear_gamma::plan::{
 use linkwear_gamma::process::{Gamma, Process};
 use linkwear_gamma::random::Stream;
 use linkwear_gamma::{FitFile, Prediction};
+use runs::runs_or;
 
 /// Of increments of mean 1.
 const SHAPE: f64 = 2.0;
@@ -128,7 +131,7 @@ fn bands_of_looks_hold_what_is_cheapest() {
 #[test]
 #[ignore = "ten minutes: the second table of docs/plans.md"]
 fn table_of_coverages_of_looks() {
-    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(500);
+    let runs = runs_or(500);
     println!(
         "| increments | interval | threshold | cost of the looks told | samples |\n|---|---|---|---|---|"
     );
@@ -142,7 +145,7 @@ fn table_of_coverages_of_looks() {
 #[test]
 #[ignore = "minutes: the table of docs/plans.md"]
 fn table_of_coverages() {
-    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1000);
+    let runs = runs_or(1000);
     println!("| increments | best age | cost at the age told | cost of failures |\n|---|---|---|---|");
     for (units, readings) in [(3, 4), (5, 8), (10, 12)] {
         let part = held(units, readings, runs, 200)

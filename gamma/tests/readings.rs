@@ -3,11 +3,14 @@
 
 #![allow(clippy::disallowed_methods, reason = "nothing here has to have the same bits on every machine")]
 
+mod runs;
+
 use linkwear_gamma::data::{Gauge, Observations, Reading, Reset, Rounding, Seen};
 use linkwear_gamma::fit::{Interval, Model, estimate, estimate_units, profile_interval};
 use linkwear_gamma::process::{Gamma, Process};
 use linkwear_gamma::random::{StandardNormal, Stream};
 use rand::RngExt;
+use runs::runs_or;
 
 /// How a population is read. Increments over exposure 1 have the mean 1.
 #[derive(Clone, Copy)]
@@ -242,7 +245,7 @@ fn a_likelihood_that_stays_flat_leaves_an_end_open() {
 #[test]
 #[ignore = "minutes to an hour: the table of docs/readings.md"]
 fn table_of_coverages_of_field_data() {
-    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(2000);
+    let runs = runs_or(2000);
     let only = std::env::var("ONLY").unwrap_or_default();
     println!("| data | alpha | beta | exponent or cv | with intervals | runs |\n|---|---|---|---|---|---|");
     for field in TRUNCATED.into_iter().chain(others()).filter(|field| field.name.contains(&only)) {

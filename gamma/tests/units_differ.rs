@@ -2,10 +2,13 @@
 
 #![allow(clippy::disallowed_methods, reason = "nothing here has to have the same bits on every machine")]
 
+mod runs;
+
 use linkwear_gamma::data::{Increment, Observations};
 use linkwear_gamma::fit::{Model, estimate_units};
 use linkwear_gamma::process::{Gamma, InverseGaussian, Process, Wiener};
 use linkwear_gamma::random::Stream;
+use runs::runs_or;
 
 /// Units of equal increments of a process over exposure 1 each, all units alike, or with such a coefficient of variation.
 fn drawn(
@@ -81,7 +84,7 @@ fn the_test_of_no_difference_is_wrong_as_often_as_it_says() {
     println!(
         "| process | units x readings | 1 % | 5 % | 10 % | 5 % asymptotic | boundary | refused |\n|---|---|---|---|---|---|---|---|"
     );
-    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(4000);
+    let runs = runs_or(4000);
     for (name, process, logs) in processes() {
         for cell in CELLS {
             let found = sizes(process, logs, cell, false, runs).map(|part| format!("{part:.2}"));
@@ -120,7 +123,7 @@ fn table_of_coverages_of_variation() {
     println!(
         "| process | units x readings | variation of units 0.1 | 0.3 | 0.6 | samples |\n|---|---|---|---|---|---|"
     );
-    let runs = std::env::var("RUNS").ok().and_then(|runs| runs.parse().ok()).unwrap_or(1000);
+    let runs = runs_or(1000);
     for (name, process, logs) in processes() {
         for cell in CELLS {
             let part = [0.1, 0.3, 0.6].map(|cv| {

@@ -78,25 +78,26 @@ impl Functions {
 
     /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
     pub(crate) fn of_steps<const LANES: usize>(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
-        Self::of_parts::<LANES>(tapes, plan, &[("attempt", Part::Attempt), ("conclude", Part::Conclude)])
+        Self::of_parts::<LANES>(tapes, plan, &[Part::Attempt, Part::Conclude])
     }
 
     /// The derivative with the laws of contact inside: see [`linkwear_runtime::WithLaws`].
     pub(crate) fn of_laws(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
-        Self::of_parts::<1>(tapes, plan, &[("derivative", Part::Derivative)])
+        Self::of_parts::<1>(tapes, plan, &[Part::Derivative])
     }
 
     fn of_parts<const LANES: usize>(
         tapes: &[Tape],
         plan: &StepPlan,
-        parts: &[(&'static str, Part)],
+        parts: &[Part],
     ) -> Result<Self, Refusal> {
         if let Some(entry) = Entry::ALL.get(tapes.len()) {
             return Err(Refusal::missing(*entry));
         }
         let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
-        let written = parts.iter().map(|(name, part)| {
-            write(Named { name, operations: fuse(tapes, plan, *part) }, target, &functions)
+        let written = parts.iter().map(|part| {
+            let named = Named { name: part.name(), operations: fuse(tapes, plan, *part) };
+            write(named, target, &functions)
         });
         Code::new(written.collect::<Result<_, _>>()?).map(Self)
     }

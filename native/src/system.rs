@@ -183,13 +183,14 @@ impl Native {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn with_laws(self, tapes: &[Tape], description: &Description) -> Result<Self, Refusal> {
-        let Ok(plan) = StepPlan::new(description, self.alone.sizes) else { return Ok(self) };
+    pub fn with_laws(tapes: &[Tape], sizes: Sizes, description: &Description) -> Result<Self, Refusal> {
+        let outside = Self::new(tapes, sizes)?;
+        let Ok(plan) = StepPlan::new(description, sizes) else { return Ok(outside) };
         if plan.joints().is_empty() || plan.joints().iter().any(Clearance::keeps_profiles) {
-            return Ok(self);
+            return Ok(outside);
         }
         let functions = Arc::new(Functions::of_laws(tapes, &plan)?);
-        Ok(Self { laws: Some(Laws { functions, words: plan.laws().into() }), ..self })
+        Ok(Self { laws: Some(Laws { functions, words: plan.laws().into() }), ..outside })
     }
 }
 

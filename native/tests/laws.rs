@@ -24,9 +24,8 @@ fn both(mechanism: &Compiled) -> Option<[Native; 2]> {
         Err(Refusal::Processor { .. }) => return None,
         written => written.expect("machine code"),
     };
-    let with_laws = native.clone().with_laws(mechanism.tapes(), mechanism.description());
-    let with_laws = with_laws.expect("machine code");
-    Some([native, with_laws])
+    let inside = Native::with_laws(mechanism.tapes(), mechanism.sizes(), mechanism.description());
+    Some([native, inside.expect("machine code")])
 }
 
 fn bits(run: &Run) -> Vec<Vec<u64>> {

@@ -112,8 +112,7 @@ fn loaded(py: Python<'_>, mechanism: &Mechanism) -> PyResult<&'static Loaded> {
     }
     let compiled = ask::compile(words, source).map_err(|failure| raised(py, &failure))?;
     let description = compiled.description().clone();
-    let native = linkwear::native::Native::new(compiled.tapes(), compiled.sizes());
-    let native = native.and_then(|native| native.with_laws(compiled.tapes(), &description));
+    let native = linkwear::native::Native::with_laws(compiled.tapes(), compiled.sizes(), &description);
     let system: Box<dyn System<f64> + Send + Sync> = match native {
         Ok(native) => Box::new(native),
         Err(_) => Box::new(compiled.interpreter()),

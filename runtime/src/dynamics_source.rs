@@ -190,7 +190,7 @@ impl<'a> DynamicsSource<'a> {
             let mut turns = self.run(1, (done, next))?;
             done = next;
             let differs = last.iter().zip(&turns).map(|(last, now)| self.differs(last, now));
-            if settling.has_settled(differs.fold(0.0, f64::max)) {
+            if settling.has_settled(differs) {
                 turns.extend(self.run(average - 1, (done, 1.0))?);
                 return Ok((last, turns));
             }

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::clearance_joint::{Clearance, ContactState};
+use crate::clearance_joint::{Clearance, ClearanceState, ContactState};
 use crate::contact::{ImpactMemory, Support};
 use crate::joint_laws::Response;
 use crate::scalar::Scalar;
@@ -46,6 +46,11 @@ impl LawsPlaces {
     pub(crate) fn all(&self) -> usize {
         self.clearances.end
     }
+}
+
+/// The [`CONTACT_MEMORY`] numbers of a joint; `touch`: its contact at any instant of the same wear.
+pub(crate) fn contact_memory(state: &ClearanceState, touch: &ContactState) -> [f64; CONTACT_MEMORY] {
+    [state.worn, touch.stiffness, state.memory.touching, state.memory.closing_speed]
 }
 
 /// What a round bearing answers to a motion, by the numbers that a question has of it.

@@ -57,8 +57,7 @@ pub struct LookBands {
 }
 
 /// Intervals of probability `level` around a plan of looks; parts fail at wear `failure`. What is given of the plan is kept: interval,
-/// threshold. The cheapest plan of each life is looked for from this one on, its interval in the ratio of the mean lives. None as in
-/// [`age_bands`].
+/// threshold. The cheapest plan of each life is its own, wherever it lies. None as in [`age_bands`].
 pub fn look_bands(
     lives: &[FirstPassage],
     failure: f64,

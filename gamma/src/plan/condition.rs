@@ -83,6 +83,15 @@ impl Cycle {
         self.fail += part * other.fail;
     }
 
+    /// Adds an interval that begins with such a part of the units in use: by its end `failed` have failed, for a time of `late` in all.
+    pub fn add_interval(&mut self, looks: &Looks, interval: f64, alive: f64, (failed, late): (f64, f64)) {
+        self.used += interval * alive - late;
+        self.unnoticed += late;
+        self.fail += failed;
+        // What has failed at once is not looked at any more.
+        self.looked += if looks.downtime.is_none() { alive - failed } else { alive };
+    }
+
     /// What it costs.
     pub fn cost(self, (costs, looks): (&Costs, &Looks)) -> ConditionCost {
         let Self { used, mut unnoticed, looked, fail } = self;
@@ -189,12 +198,8 @@ impl Monitored {
         let mut alive = 1.0;
         for k in 0..MOST {
             let start = interval * k as f64;
-            let (failed, late) = self.within(law, start, interval, (threshold, alive));
-            sums.used += interval * alive - late;
-            sums.unnoticed += late;
-            sums.fail += failed;
-            // What has failed at once is not looked at any more.
-            sums.looked += if looks.downtime.is_none() { alive - failed } else { alive };
+            let failures = self.within(law, start, interval, (threshold, alive));
+            sums.add_interval(looks, interval, alive, failures);
             alive = law.survival(self.clock.exposure(start + interval), threshold);
             if alive < GONE {
                 break;

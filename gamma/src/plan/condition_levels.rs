@@ -103,8 +103,7 @@ fn cycles(
                 late += 0.5 * (alive - last) * (low.1 + high.1);
                 last = *alive;
             }
-            let looked = if looks.downtime.is_none() { alive - failed } else { *alive };
-            sum.add(1.0, Cycle { used: interval * alive - late, unnoticed: late, looked, fail: failed });
+            sum.add_interval(looks, interval, *alive, (failed, late));
         }
         let reached = clock.exposure(start + interval);
         alive.iter_mut().zip(levels).for_each(|(alive, level)| *alive = law.survival(reached, *level));

@@ -20,6 +20,17 @@ pub(crate) enum Part {
     Derivative,
 }
 
+impl Part {
+    /// What messages call it.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Attempt => "attempt",
+            Self::Conclude => "conclude",
+            Self::Derivative => "derivative",
+        }
+    }
+}
+
 /// What a part of a plan asks for; `tapes` are those of all entries.
 ///
 /// # Errors

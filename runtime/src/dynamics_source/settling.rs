@@ -4,6 +4,7 @@
 //! A motion settles by a factor a turn: of some fifty for a tight joint of the case study, of two or three for a loose one. So the
 //! difference of two turns tells that of the second from all later ones, once the factor is known.
 
+use crate::linear::largest_of;
 use crate::simulate::TurnState;
 
 /// A turn counts if later ones would differ by no more than this part of their wear, ...
@@ -40,8 +41,9 @@ impl Settling {
         Self { known: from.map_or(1.0, |orbit| orbit.contraction), seen: None, last: None }
     }
 
-    /// Whether a turn counts that differs by this part of its wear from the one before.
-    pub(super) fn has_settled(&mut self, differs: f64) -> bool {
+    /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
+    pub(super) fn has_settled(&mut self, differs: impl Iterator<Item = f64>) -> bool {
+        let differs = largest_of(differs);
         if let Some(last) = self.last.filter(|last| *last > 0.0) {
             let factor = (differs / last).min(1.0);
             self.seen = Some(self.seen.map_or(factor, |seen| seen.max(factor)));
@@ -68,19 +70,19 @@ mod tests {
     fn turns_count_once_their_factor_tells_that_later_ones_are_alike() {
         let mut first = Settling::new(None);
         // Nothing is known: two turns have to be alike themselves.
-        assert!(!first.has_settled(1e-3));
+        assert!(!first.has_settled([1e-3].into_iter()));
         // By a factor of 0.02, and so do the next ones: 4e-7.
-        assert!(first.has_settled(2e-5));
+        assert!(first.has_settled([2e-5].into_iter()));
         assert_eq!(first.contraction(), 0.25);
         let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
         let from = |contraction| Orbit { turn: turn.clone(), contraction };
         let mut next = Settling::new(Some(&from(0.02)));
         // 2 times 0.03 times 1e-4.
-        assert!(next.has_settled(1e-4) && next.contraction() == 0.03);
+        assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);
         let mut slow = Settling::new(Some(&from(0.02)));
-        assert!(!slow.has_settled(1e-3) && !slow.has_settled(5e-4));
+        assert!(!slow.has_settled([1e-3].into_iter()) && !slow.has_settled([5e-4].into_iter()));
         assert_eq!(slow.contraction(), 0.5);
         let mut still = Settling::new(Some(&from(0.5)));
-        assert!(still.has_settled(0.0) && !still.has_settled(f64::NAN));
+        assert!(still.has_settled([0.0].into_iter()) && !still.has_settled([f64::NAN, 0.0].into_iter()));
     }
 }

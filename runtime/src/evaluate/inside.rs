@@ -2,7 +2,7 @@
 //! the contacts. Never knows which states follow each other.
 
 use crate::clearance_joint::{Clearances, ContactState};
-use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_state};
+use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_memory, contact_state};
 use crate::system::{Entry, Sizes, TOTALS, WithLaws};
 
 /// The code, and what it needs.
@@ -41,10 +41,9 @@ impl<'a> Inside<'a> {
         clearances: &mut Clearances,
     ) -> bool {
         let (memories, _) = question[self.state_end..self.memories_end].as_chunks_mut::<CONTACT_MEMORY>();
-        for (memory, (state, touch)) in
-            memories.iter_mut().zip(clearances.states().iter().zip(clearances.contacts()))
-        {
-            *memory = [state.worn, touch.stiffness, state.memory.touching, state.memory.closing_speed];
+        let joints = clearances.states().iter().zip(clearances.contacts());
+        for (memory, (state, touch)) in memories.iter_mut().zip(joints) {
+            *memory = contact_memory(state, touch);
         }
         self.code.derivative(&question[..self.memories_end], answer, &mut self.workspace);
         let known = clearances.contacts().iter().zip(&answer[self.places.clearances.clone()]);

@@ -4,6 +4,7 @@
 use crate::assemble::{State, place_moving};
 use crate::clearance_joint::ContactState;
 use crate::evaluate::Evaluator;
+use crate::scalar::dot;
 use crate::system::CONTACT_MOTION;
 
 /// Moves every journal that touched so that its penetration is what it was, and lets it go on with the angular speed about the
@@ -39,15 +40,11 @@ pub(super) fn follow(evaluator: &mut Evaluator<'_>, t: f64, state: &mut State, b
 /// Rate [m/s] of an offset that was another one: the same towards the surface, and the same angular speed.
 fn turned_on(before: &ContactState, rate: [f64; 3], offset: [f64; 3]) -> [f64; 3] {
     let normal = before.normal();
-    let along = inner(rate, normal);
-    let distance = inner(before.offset, normal);
-    let larger = if distance > 0.0 { inner(offset, normal) / distance } else { 1.0 };
+    let along = dot(rate, normal);
+    let distance = dot(before.offset, normal);
+    let larger = if distance > 0.0 { dot(offset, normal) / distance } else { 1.0 };
     std::array::from_fn(|axis| {
         let towards = along * normal[axis];
         towards + larger * (rate[axis] - towards)
     })
-}
-
-fn inner(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -1,14 +1,19 @@
 //! What the lanes of a bundle have in common: their steps, told where they begin, read where they end.
 //! In: lengths of steps. Out: ends of steps, their errors, which lanes are still ordinary. Never knows turns.
 
+use std::ops::Range;
+
 use super::room::Room;
 use crate::bundle::{Bundle, Conclusion, Places};
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::dynamics::Dynamics;
 use crate::evaluate::Evaluator;
-use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, contact_state};
+use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, contact_memory, contact_state};
 use crate::simulate::motion::{ConstrainedMotion, PROJECTED_STAGES};
 use crate::system::Sizes;
+
+/// Of the numbers that a contact remembers, so many stay the same in a turn: how far it is worn, stiffness.
+const STEADY: usize = 2;
 
 /// Steps that are tried, one in each lane.
 #[derive(Clone, Copy, Debug)]
@@ -63,19 +68,21 @@ impl<'a, const N: usize> Lanes<'a, N> {
         self.arena.put(lane, self.places.looseness, &[motion.looseness()]);
         self.arena.put(lane, self.places.tolerance, &[tolerance]);
         self.arena.put(lane, self.places.scales.start, motion.state_scales());
-        let joints = motion.dynamics.evaluator.clearances();
-        for (joint, (state, touch)) in joints.states().iter().zip(joints.contacts()).enumerate() {
-            let place = self.places.memory.start + CONTACT_MEMORY * joint;
-            self.arena.put(lane, place, &[state.worn, touch.stiffness]);
+        self.put_memories(lane, motion.dynamics.evaluator.clearances(), 0..STEADY);
+    }
+
+    /// These of the numbers that contacts remember.
+    fn put_memories(&mut self, lane: usize, clearances: &Clearances, numbers: Range<usize>) {
+        let joints = clearances.states().iter().zip(clearances.contacts());
+        for (joint, (state, touch)) in joints.enumerate() {
+            let place = self.places.memory.start + CONTACT_MEMORY * joint + numbers.start;
+            self.arena.put(lane, place, &contact_memory(state, touch)[numbers.clone()]);
         }
     }
 
     /// Takes over what steps change: what contacts remember, how large energies are, the error of the last step.
     pub(super) fn put_memory(&mut self, lane: usize, clearances: &Clearances, energy: f64, last_error: f64) {
-        for (joint, state) in clearances.states().iter().enumerate() {
-            let place = self.places.memory.start + CONTACT_MEMORY * joint + 2;
-            self.arena.put(lane, place, &[state.memory.touching, state.memory.closing_speed]);
-        }
+        self.put_memories(lane, clearances, STEADY..CONTACT_MEMORY);
         let all = self.arena.all_mut();
         all[self.places.energy_scale][lane] = energy;
         all[self.places.last_error][lane] = last_error;
