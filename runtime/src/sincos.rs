@@ -33,7 +33,9 @@ pub fn sin_cos<T: Scalar>(x: T) -> (T, T) {
     let odd = (quadrant.abs() - c(1.0)).abs().lt(c(0.5));
     let sine_sign = T::select((quadrant - c(0.5)).abs().lt(c(1.0)), c(1.0), c(-1.0));
     let cosine_sign = T::select((quadrant + c(0.5)).abs().lt(c(1.0)), c(1.0), c(-1.0));
-    (sine_sign * T::select(odd, cosine, sine), cosine_sign * T::select(odd, sine, cosine))
+    // Both choices before both products: compilers make no branch of two that belong together, and vectors of several angles.
+    let (first, second) = (T::select(odd, cosine, sine), T::select(odd, sine, cosine));
+    (sine_sign * first, cosine_sign * second)
 }
 
 /// `x - turns * pi/2` as an unevaluated sum of a number in about [-pi/4, pi/4] and its low part.

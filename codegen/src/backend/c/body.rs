@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use crate::tape::{Binary, Op, Operand, Part, Statement, Tape, Unary};
 
+use super::angles::{self, Group};
 use super::names::Names;
 use super::text::{comment, number};
 
@@ -37,9 +38,11 @@ pub fn read(tape: &Tape) -> Vec<bool> {
 pub fn part(tape: &Tape, part: &Part, read: &[bool]) -> String {
     let mut writer = Writer {
         read,
+        groups: angles::groups(tape, part),
         names: Names::default(),
         inputs: HashMap::new(),
         values: HashMap::new(),
+        arrays: HashMap::new(),
         text: String::new(),
     };
     let statements = &tape.statements[part.statements.clone()];
@@ -62,9 +65,12 @@ pub fn part(tape: &Tape, part: &Part, read: &[bool]) -> String {
 
 struct Writer<'a> {
     read: &'a [bool],
+    groups: Vec<Group>,
     names: Names,
     inputs: HashMap<u32, String>,
     values: HashMap<u32, String>,
+    /// By group that is computed: its sines, its cosines.
+    arrays: HashMap<usize, [String; 2]>,
     text: String,
 }
 
@@ -91,11 +97,8 @@ impl Writer<'_> {
     fn statement(&mut self, statement: &Statement) {
         match statement.op {
             Op::SinCos(a) => {
-                let angle = self.operand(a);
-                let pair = self.names.unique(&format!("pair_{}", statement.first));
-                self.line(&format!("const sine_cosine_pair {pair} = sine_cosine({angle});"));
-                for (which, field) in [(0, "sine"), (1, "cosine")] {
-                    self.declare(statement, which, &format!("{pair}.{field}"));
+                for (which, right) in (0..).zip(self.sine_and_cosine(statement.first, a)) {
+                    self.declare(statement, which, &right);
                 }
             }
             Op::Select(a, yes, no) => {
@@ -115,6 +118,31 @@ impl Writer<'_> {
             let line = format!("y[{index}] = {};", self.operand(*operand));
             self.line(&line);
         }
+    }
+
+    /// Where sine and cosine of an angle are found, after the lines that compute them.
+    fn sine_and_cosine(&mut self, first: u32, angle: Operand) -> [String; 2] {
+        let place = |group: &Group| group.firsts.iter().position(|other| *other == first);
+        let found = (0..).zip(&self.groups).find_map(|(number, group)| Some((number, place(group)?)));
+        let Some((number, place)) = found else {
+            let angle = self.operand(angle);
+            let pair = self.names.unique(&format!("pair_{first}"));
+            self.line(&format!("const sine_cosine_pair {pair} = sine_cosine({angle});"));
+            return [format!("{pair}.sine"), format!("{pair}.cosine")];
+        };
+        if place == 0 {
+            let angles: Vec<String> =
+                self.groups[number].angles.iter().map(|angle| self.operand(*angle)).collect();
+            let names =
+                ["angles", "sines", "cosines"].map(|word| self.names.unique(&format!("{word}_{first}")));
+            let [list, sines, cosines] = &names;
+            let count = angles.len();
+            self.line(&format!("const double {list}[] = {{{}}};", angles.join(", ")));
+            self.line(&format!("double {sines}[{count}], {cosines}[{count}];"));
+            self.line(&format!("sines_and_cosines({count}, {list}, {sines}, {cosines});"));
+            self.arrays.insert(number, [sines.clone(), cosines.clone()]);
+        }
+        self.arrays[&number].clone().map(|array| format!("{array}[{place}]"))
     }
 
     fn declare(&mut self, statement: &Statement, which: u32, right: &str) {

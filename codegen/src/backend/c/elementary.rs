@@ -5,6 +5,9 @@ use std::collections::BTreeSet;
 
 use linkwear_runtime::{Scalar, angle_over_sine, elementary, log_coefficient, sin_cos};
 
+use crate::tape::{Binary, Op, Split, Tape, Unary};
+
+use super::angles;
 use super::recorder::{Function, Number, Recorder};
 
 /// What reads and writes bits, each after what it needs.
@@ -16,6 +19,20 @@ typedef union {
 } number_bits;
 ";
 
+/// Several angles at once. A loop of so many rounds as a vector has places becomes vector operations.
+const SEVERAL: &str = "\
+/* Sines and cosines of some angles [rad], side by side. */
+static LINKWEAR_INLINE void sines_and_cosines(int count, const double *restrict angles, double *restrict sines,
+                                              double *restrict cosines)
+{
+    for (int i = 0; i < count; i++) {
+        const sine_cosine_pair pair = sine_cosine(angles[i]);
+        sines[i] = pair.sine;
+        cosines[i] = pair.cosine;
+    }
+}
+";
+
 impl Function {
     /// Its name in the file.
     pub fn name(self) -> String {
@@ -25,6 +42,7 @@ impl Function {
             Self::Significand => "significand".to_owned(),
             Self::BinaryExponent => "binary_exponent".to_owned(),
             Self::Sine | Self::Cosine => "sine_cosine".to_owned(),
+            Self::SinesAndCosines => "sines_and_cosines".to_owned(),
             Self::Exponential => "exponential".to_owned(),
             Self::Logarithm => "logarithm".to_owned(),
             Self::Angle => "angle".to_owned(),
@@ -103,6 +121,7 @@ fn definition(function: Function) -> (String, BTreeSet<Function>) {
             (text.replace("NAME", "binary_exponent"), BTreeSet::new())
         }
         Function::Sine | Function::Cosine => pair(),
+        Function::SinesAndCosines => (SEVERAL.to_owned(), BTreeSet::from([Function::Sine])),
         Function::Exponential => recorded(function, "e to a power.", &["a"], |[a, _]| elementary::exp(a)),
         Function::Logarithm => {
             recorded(function, "The natural logarithm.", &["a"], |[a, _]| elementary::ln(a))
@@ -168,8 +187,9 @@ fn pair() -> (String, BTreeSet<Function>) {
 }
 
 /// What a tape's operations call.
-pub fn of_tape(tape: &crate::tape::Tape) -> BTreeSet<Function> {
-    use crate::tape::{Binary, Op, Unary};
+pub fn of_tape(tape: &Tape, split: &Split) -> BTreeSet<Function> {
+    let several = split.parts.iter().any(|part| !angles::groups(tape, part).is_empty());
+    let several = several.then_some(Function::SinesAndCosines);
     tape.statements
         .iter()
         .filter_map(|statement| match statement.op {
@@ -182,6 +202,7 @@ pub fn of_tape(tape: &crate::tape::Tape) -> BTreeSet<Function> {
             Op::Binary(Binary::AngleOverSine, ..) => Some(Function::AngleOverSine),
             Op::Unary(..) | Op::Binary(..) | Op::Select(..) => None,
         })
+        .chain(several)
         .collect()
 }
 

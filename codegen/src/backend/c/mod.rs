@@ -4,6 +4,7 @@
 //! Elementary functions and laws of contact are the runtime's own, run on a scalar that writes down what is done with it.
 
 mod abi;
+mod angles;
 mod body;
 mod describe;
 mod elementary;
@@ -141,7 +142,7 @@ const PREAMBLE: &str = "\
 
 fn source(input: &CInput<'_>, sizes: &Sizes, splits: &[Split], named: &dyn Fn(String) -> String) -> String {
     let (stepping, mut called) = step::functions(input.description, sizes, input.joints);
-    called.extend(input.tapes.iter().flat_map(elementary::of_tape));
+    called.extend(input.tapes.iter().zip(splits).flat_map(|(tape, split)| elementary::of_tape(tape, split)));
     let mut text =
         format!("#include \"{}\"\n\n{PREAMBLE}{}\n", input.header_name, elementary::functions(&called));
     let mut own = format!(

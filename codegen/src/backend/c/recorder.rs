@@ -42,6 +42,8 @@ pub enum Function {
     BinaryExponent,
     Sine,
     Cosine,
+    /// Of several angles side by side.
+    SinesAndCosines,
     Exponential,
     Logarithm,
     Angle,
