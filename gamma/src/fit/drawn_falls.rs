@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::bootstrap::draw;
+use super::bootstrap::{draw, own_seed};
 use super::estimate::Fit;
 use super::model::Model;
 use super::rounded::{Chain, Laws};
@@ -21,7 +21,7 @@ const MOST: usize = 400;
 /// Places near no scatter, by the logarithm of the variance over the least that a gauge's readings tell from none, where the
 /// likelihood is taken for what it tends to; they differ by less than 0.1, but where a line is the more likely the less it scatters.
 pub const EDGE: [f64; 3] = [0.4, 1.2, 2.5];
-/// Seed of drawn data, beside the data they are compared with: errors of what is drawn must not be the same for all of these.
+/// Seed of drawn data, beside the data they are compared with.
 const SEED: u64 = 12;
 
 /// Which parameters vary beside those drawn from.
@@ -61,11 +61,7 @@ impl<'a> DrawnFalls<'a> {
         let edge = EDGE.iter().map(|near| libm::floor((scatter - near) / SCATTERS) as i64).collect();
         let spacing = MEANS * libm::sqrt(variance) / mean;
         let fit = Fit { model: *model, phi, covariance: vec![], log_likelihood: 0.0, increments: like.len() };
-        // Multiplied as by D. Knuth's hash, so that a step more in one reading gives other numbers.
-        let mixed = |seed: u64, one: &Increment| {
-            (seed ^ one.wear.to_bits()).rotate_left(23).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-        };
-        let seed = like.iter().fold(SEED, mixed);
+        let seed = own_seed(SEED, like);
         Some(Self { like, seed, fit, rounding, spacing, edge, chains: HashMap::new(), known: HashMap::new() })
     }
 

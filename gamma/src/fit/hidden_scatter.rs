@@ -141,7 +141,20 @@ fn fall(
     Some(((2.0 * (top.value - point.value)).max(0.0), phi))
 }
 
-/// Whether a value is within the interval at `level`: whether enough of the data drawn there fall as far.
+/// Whether the interval at `level` of each of the process's two parameters holds that of `near`, and whether the readings have a maximum.
+#[cfg(test)]
+pub fn both_hold(
+    model: &Model,
+    observations: &Observations,
+    near: &[f64],
+    level: f64,
+) -> Option<([bool; 2], bool)> {
+    let top = top(model, &observations.increments, near)?;
+    let [first, second] = [0, 1].map(|index| is_held(model, observations, &top, (index, near[index]), level));
+    Some(([first?, second?], top.is_inside))
+}
+
+/// Whether the interval at `level` holds the parameter of `near`.
 #[cfg(test)]
 pub fn holds(
     model: &Model,
@@ -149,9 +162,21 @@ pub fn holds(
     near: &[f64],
     (index, level): (usize, f64),
 ) -> Option<bool> {
+    let top = top(model, &observations.increments, near)?;
+    is_held(model, observations, &top, (index, near[index]), level)
+}
+
+/// Whether a value is within the interval at `level`: whether enough of the data drawn there fall as far.
+#[cfg(test)]
+fn is_held(
+    model: &Model,
+    observations: &Observations,
+    top: &Top,
+    (index, value): (usize, f64),
+    level: f64,
+) -> Option<bool> {
     let increments = &observations.increments;
-    let top = top(model, increments, near)?;
-    let (own, phi) = fall(model, increments, &top, (index, near[index]))?;
+    let (own, phi) = fall(model, increments, top, (index, value))?;
     if !is_near(model, &phi, increments) {
         return Some(own <= chi_square(level));
     }

@@ -7,6 +7,7 @@
 mod bootstrap;
 mod bounds;
 mod drawn_falls;
+mod drawn_units;
 mod error;
 mod estimate;
 mod few_units;

@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Without an n: R. E. Barlow, F. Proschan, Mathematical Theory of Reliability (1965), chapter 4.3. With n = 1, and costs that are times,
-//! C is what lacks of the availability: A. K. S. Jardine, A. H. C. Tsang, Maintenance, Replacement and Reliability, chapter 3, equipment
-//! for emergencies.
+//! C is what lacks of the availability of equipment for emergencies, as A. K. S. Jardine, A. H. C. Tsang, Maintenance, Replacement and
+//! Reliability, chapter 3, have it.
 
 use super::condition::ConditionCost;
 use super::costs::{Costs, Looks};

@@ -18,24 +18,31 @@ impl Lifetime for Normal {
     }
 }
 
-/// Equipment for emergencies (Jardine and Tsang, Maintenance, Replacement and Reliability, chapter 3, availability maximisation): lives
-/// normal with mean 5 months and standard deviation 1 month, an inspection that makes the equipment as new takes 0.25 month, a repair
-/// 0.5 month more. Printed availabilities of intervals of whole months, and 3 months as the best of them.
+/// Equipment for emergencies, whose inspection takes 0.25 month and makes it as new, and whose repair takes 0.5 month more, with normal
+/// lives: the availability in closed form, by the integral of the normal law.
 #[test]
-fn availabilities_and_the_inspection_interval_of_a_published_example() {
-    let life = Normal { mean: 5.0, std: 1.0 };
+fn the_availability_of_equipment_for_emergencies_is_that_of_the_closed_form() {
+    let (mean, std) = (5.0, 1.0);
+    let life = Normal { mean, std };
     // What costs is time: the rate of cost is the part of time that the equipment cannot be called on.
     let costs = Costs::new(0.25, 0.75).expect("valid").taking(0.25, 0.75).expect("valid");
     let looks = Looks::new(0.0, Some(1.0)).expect("valid");
     let availability =
         |interval: f64| 1.0 - hidden_cost(&life, &costs, &looks, interval, Some(1)).expect("valid").rate;
-    for (interval, printed) in [(1.0, 0.8000), (3.0, 0.9173), (4.0, 0.9047), (5.0, 0.8366), (6.0, 0.7371)] {
+    // The antiderivative of the reliability: (t - m) S(t) - s phi((t - m) / s).
+    let sum = |t: f64| {
+        let off = (t - mean) / std;
+        let density = (-0.5 * off * off).exp() / (2.0 * std::f64::consts::PI).sqrt();
+        (t - mean) * life.reliability(t) - std * density
+    };
+    for interval in [0.5, 1.0, 3.0, 3.3, 5.0, 8.0] {
+        let works = life.reliability(interval);
+        let cycle = interval + 0.25 * works + 0.75 * (1.0 - works);
+        let expected = (sum(interval) - sum(0.0)) / cycle;
         let found = availability(interval);
-        // Printed digits.
-        assert!((found - printed).abs() < 5e-5, "{interval}: {found}");
+        // Quadrature of the reliability.
+        assert!((found - expected).abs() < 1e-8, "{interval}: {found} {expected}");
     }
-    let best = (1..=6).map(f64::from).max_by(|a, b| availability(*a).total_cmp(&availability(*b)));
-    assert_eq!(best, Some(3.0));
 }
 
 /// Intervals of failure finding as parts of the mean life, for an availability (J. Moubray, Reliability-centred Maintenance, 2nd ed.
