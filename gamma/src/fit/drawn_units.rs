@@ -1,5 +1,5 @@
-//! Intervals of the coefficient of variation between few units whose wear jumps. In: the fit in which they differ, data. Out: critical
-//! falls of twice the log-likelihood. Never knows how ends of intervals are sought.
+//! By how much the likelihood falls to the coefficient of variation that units were drawn with, of few units whose wear jumps. In:
+//! parameters, data alike. Out: critical falls. Never knows how ends of intervals are sought.
 //!
 //! The law of few units takes totals as normal. Those of few jumps are skew, and where so few units may show no difference at all the
 //! fall then exceeds that law's critical value in 8 to 11 % of samples in place of 5 (docs/units-that-differ.md). Here data are drawn
@@ -8,7 +8,7 @@
 
 use super::bootstrap::{draw, own_seed};
 use super::estimate::Fit;
-use super::heterogeneity::{Heterogeneity, estimate_units};
+use super::heterogeneity::estimate_units;
 use super::maximise::maximise;
 use super::model::Model;
 use crate::data::Observations;
@@ -33,7 +33,7 @@ pub fn is_skew(units: f64, observations: &Observations, model: &Model) -> bool {
     is_small && is_exact && units - 1.0 < SKEW * (count as f64 - 1.0)
 }
 
-/// Data drawn where units differ by a coefficient of variation, the other parameters at their best.
+/// Data drawn from parameters in which units differ, and their likelihood there.
 pub struct DrawnUnits<'a> {
     observations: &'a Observations,
     tested: Fit,
@@ -41,14 +41,12 @@ pub struct DrawnUnits<'a> {
 }
 
 impl<'a> DrawnUnits<'a> {
-    /// None where the other parameters have no best.
-    pub fn new(found: &Heterogeneity, observations: &'a Observations, cv: f64) -> Option<Self> {
+    /// From parameters of a model in which units differ.
+    pub fn new(model: &Model, phi: Vec<f64>, observations: &'a Observations) -> Self {
         let increments = &observations.increments;
-        let phi = found.best_at(observations, cv)?.0;
-        let model = Model { units_differ: true, ..found.fit.model };
-        let tested =
-            Fit { model, phi, covariance: vec![], log_likelihood: 0.0, increments: found.fit.increments };
-        Some(Self { observations, tested, seed: own_seed(SEED, increments) })
+        let count = increments.iter().filter(|one| one.is_growth()).count();
+        let tested = Fit { model: *model, phi, covariance: vec![], log_likelihood: 0.0, increments: count };
+        Self { observations, tested, seed: own_seed(SEED, increments) }
     }
 
     /// Twice the fall in data of this number.

@@ -6,6 +6,7 @@
 
 mod bootstrap;
 mod bounds;
+mod cv_interval;
 mod drawn_falls;
 mod drawn_units;
 mod error;
