@@ -3,6 +3,9 @@
 #![allow(non_snake_case, reason = "names of the standard")]
 
 mod caller;
-mod functions;
+mod life;
+mod motion;
 mod registry;
+mod states;
 mod unsupported;
+mod values;

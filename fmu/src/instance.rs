@@ -200,13 +200,17 @@ impl Instance {
             self.motion = Some(self.start()?);
         }
         let Some(motion) = &mut self.motion else { return fault("there is no motion") };
-        if motion.parameters() != self.parameters {
-            let set = motion.set_parameters(&self.parameters);
-            if let Err(error) = set {
-                // What is refused is not asked for again.
-                self.parameters = motion.parameters().to_vec();
-                return Err(error);
-            }
+        let set = if self.loaded.has_leading_inputs() {
+            motion.follow(self.loaded, &self.parameters)
+        } else if motion.parameters() == self.parameters {
+            Ok(())
+        } else {
+            motion.set_parameters(&self.parameters)
+        };
+        if let Err(error) = set {
+            // What is refused is not asked for again.
+            self.parameters = motion.parameters().to_vec();
+            return Err(error);
         }
         Ok(motion)
     }
@@ -237,6 +241,9 @@ impl Instance {
     pub fn step(&mut self, from: f64, length: f64) -> Result<f64, Fault> {
         self.is(&[Mode::Step], "fmi3DoStep")?;
         let stop = self.times.stop;
+        let leads = self.loaded.has_leading_inputs();
+        // As they hold at the beginning of the step: drives go where they lead to.
+        let wanted = if leads { self.parameters.clone() } else { Vec::new() };
         let Motion::Steps(run) = self.motion()? else { return fault("fmi3DoStep belongs to co-simulation") };
         let slack = SAME_TIME * (run.t().abs().max(length.abs()));
         let meets = (from - run.t()).abs() <= slack;
@@ -257,7 +264,11 @@ impl Instance {
                 to = stop;
             }
         }
-        run.advance(to.max(run.t()), Watch::NONE)?;
+        let to = to.max(run.t());
+        if leads && to > run.t() {
+            run.lead_inputs(&wanted, to)?;
+        }
+        run.advance(to, Watch::NONE)?;
         Ok(run.t())
     }
 

@@ -8,7 +8,7 @@ use linkwear_native::Native;
 use linkwear_runtime::System;
 use linkwear_tape::Interpreted;
 
-use crate::needs::belongs_to_start;
+use crate::needs::{belongs_to_start, leads_drives};
 use crate::unit::{PROGRAM_FILE, Unit};
 
 /// A unit with its equations on a back end.
@@ -18,6 +18,8 @@ pub struct Loaded {
     pub unit: Unit,
     /// See [`belongs_to_start`].
     pub fixed: Vec<bool>,
+    /// See [`leads_drives`].
+    pub leads: Vec<bool>,
     pub(crate) interpreter: Interpreted,
     native: Option<Native>,
     /// Why it is interpreted, if it is.
@@ -31,7 +33,18 @@ impl Loaded {
         let native = Native::with_laws(program.tapes(), program.sizes(), program.description());
         let refusal = native.as_ref().err().map(ToString::to_string);
         let (interpreter, fixed) = (unit.program.interpreter(), belongs_to_start(&unit.program));
-        Self { interpreter, fixed, native: native.ok(), refusal, unit }
+        let leads = leads_drives(&unit.program);
+        Self { interpreter, fixed, leads, native: native.ok(), refusal, unit }
+    }
+
+    /// Whether a parameter is an input.
+    pub fn is_input(&self, parameter: usize) -> bool {
+        parameter >= self.unit.program.description().tunable()
+    }
+
+    /// Whether there are inputs that drives follow.
+    pub fn has_leading_inputs(&self) -> bool {
+        self.leads.contains(&true)
     }
 
     /// The equations.

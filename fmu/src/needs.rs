@@ -1,6 +1,6 @@
 //! What a parameter has a say in. In: tapes. Out: whether it belongs to a start.
 
-use linkwear_runtime::{CONTACT_MOTION, Entry};
+use linkwear_runtime::{CONTACT_MOTION, Entry, InputRole};
 use linkwear_tape::{Operand, Program, Tape};
 
 /// For every parameter, whether drivers, loops or the guess of a start depend on it: a mechanism under way would have to be
@@ -16,6 +16,16 @@ pub fn belongs_to_start(program: &Program) -> Vec<bool> {
         }
     }
     belongs
+}
+
+/// For every parameter, whether it is an input that a drive follows, or a rate of one.
+pub fn leads_drives(program: &Program) -> Vec<bool> {
+    let description = program.description();
+    let roles = &description.inputs;
+    let is_rate = |at: usize| roles.get(at) == Some(&InputRole::RateOfPrevious);
+    let mut leads = vec![false; description.tunable()];
+    leads.extend((0..roles.len()).map(|at| is_rate(at) || is_rate(at + 1)));
+    leads
 }
 
 /// For every parameter, whether the motion of journals in their bearings depends on it, as it does on a clearance: contacts under way

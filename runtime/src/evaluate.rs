@@ -17,6 +17,7 @@ use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::in_words;
+use crate::guide::Guide;
 use crate::layout::Layout;
 use crate::row_scales::{note_lengths, scale_rows};
 use crate::signals::Signals;
@@ -118,7 +119,7 @@ impl<'a> Evaluator<'a> {
             clearances,
             contacts_known_at: None,
             derivative: Derivative::new(sizes, inside, parameters),
-            questions: Questions::new(system, parameters, description.inputs.len()),
+            questions: Questions::new(system, parameters, &description.inputs),
         })
     }
 
@@ -163,6 +164,37 @@ impl<'a> Evaluator<'a> {
     pub fn connect(&mut self, signals: &'a dyn Signals) {
         self.questions.connect(signals);
         self.derivative.forget();
+    }
+
+    /// Where the inputs that drives follow go: to be led on, from their [`Self::inputs`].
+    pub(crate) fn guide(&self) -> &Guide {
+        &self.questions.guide
+    }
+
+    /// Leads the inputs that drives follow from here on.
+    pub(crate) fn set_guide(&mut self, guide: &Guide) {
+        self.questions.guide.clone_from(guide);
+        self.derivative.forget();
+        self.forget_contacts();
+    }
+
+    /// The inputs among values of all parameters.
+    ///
+    /// # Errors
+    /// As [`Self::set_parameters`].
+    pub(crate) fn inputs_among<'p>(&self, parameters: &'p [f64]) -> Result<&'p [f64], SetupError> {
+        check_parameters(self.description, parameters)?;
+        Ok(&parameters[self.questions.inputs.clone()])
+    }
+
+    /// Values of all inputs at a time.
+    pub(crate) fn inputs(&mut self, t: f64) -> &[f64] {
+        self.questions.inputs_at(t)
+    }
+
+    /// Passes all numbers of the guide, to be read or written: before an answer is asked for again.
+    pub(crate) fn visit_guide(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.questions.guide.visit_memory(visit);
     }
 
     /// What the inputs are connected to.

@@ -65,6 +65,8 @@ mod evaluate;
 #[cfg(feature = "std")]
 mod flat_laws;
 #[cfg(feature = "std")]
+mod guide;
+#[cfg(feature = "std")]
 pub mod integrate;
 #[cfg(feature = "std")]
 mod layout;

@@ -395,6 +395,9 @@ UNIT_CALL(fmi3SetFloat64)(void *instance, const unit_reference *references, size
         if (!(fabs(values[i]) < HUGE_VAL)) {
             return unit_fail(unit, "a parameter must be finite");
         }
+        if (!is_new && is_input && unit_is_fixed[of - UNIT_OF_PARAMETERS]) {
+            return unit_fail(unit, "a drive follows input %lu: while it moves, the library that comes with the unit is needed", (unsigned long)of);
+        }
         if (!is_new && (unit_is_fixed[of - UNIT_OF_PARAMETERS] || unit->now.mode == UNIT_TERMINATED
                         || (unit->uses_events && unit->now.mode != UNIT_EVENT && !is_input))) {
             return unit_fail(unit, "parameter %lu cannot be changed now", (unsigned long)of);

@@ -122,9 +122,12 @@ fn only_foreign_edges_are_without_the_compilers_guard() {
         lifted,
         [
             "fmu/src/edge/caller.rs",
-            "fmu/src/edge/functions.rs",
+            "fmu/src/edge/life.rs",
+            "fmu/src/edge/motion.rs",
             "fmu/src/edge/registry.rs",
+            "fmu/src/edge/states.rs",
             "fmu/src/edge/unsupported.rs",
+            "fmu/src/edge/values.rs",
             "native/src/memory/called.rs",
             "native/src/memory/code.rs",
         ]

@@ -127,12 +127,19 @@ int main(int argc, char **argv) {
     for (size_t i = 0; i < count; i++) refs[i] = first + (Ref)i;
     bool no = false, *flag = &no;
     double last;
+    /* An input that a drive follows, with its rates: it is told where it is, before every step or at every time of the integrator. */
+    const char *leading = getenv("DRIVER_LEADS");
+    Ref lead = leading ? (Ref)strtoul(leading, NULL, 10) : 0, course[3] = {lead, lead + 1, lead + 2};
+    #define LEAD(t) do { if (leading) { double at = (t), w = 4.0 * 3.141592653589793; \
+        double told[3] = {w * at + 0.1 * sin(3.0 * at), w + 0.3 * cos(3.0 * at), -0.9 * sin(3.0 * at)}; \
+        NEED(fmi3SetFloat64(unit, course, 3, told, 3), OK); } } while (0)
 
     if (!strcmp(mode, "cs") || !strcmp(mode, "time")) {
         bool quiet = !strcmp(mode, "time");
         Instance unit = fmi3InstantiateCoSimulation("u", token, resources, false, false, false, false, NULL, 0, NULL, hear, NULL);
         if (!unit) return 7;
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        LEAD(0.0);
         NEED(fmi3ExitInitializationMode(unit), OK);
         double inside = 0.0;
         for (size_t i = 0; i < rows; i++) {
@@ -140,6 +147,7 @@ int main(int argc, char **argv) {
             double begin = now();
             if (i > 0) {
                 double before = stop * ((double)(i - 1) / (double)(rows - 1));
+                LEAD(before);
                 NEED(fmi3DoStep(unit, before, t - before, true, flag, flag, flag, &last), OK);
             }
             NEED(fmi3GetFloat64(unit, refs, count, values, count), OK);
@@ -155,7 +163,9 @@ int main(int argc, char **argv) {
         /* The same rows from a kept state, from a state out of bytes, and in another instance. */
         Instance unit = fmi3InstantiateCoSimulation("u", token, resources, false, false, false, false, NULL, 0, NULL, hear, NULL);
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        LEAD(0.0);
         NEED(fmi3ExitInitializationMode(unit), OK);
+        LEAD(0.0);
         NEED(fmi3DoStep(unit, 0.0, 0.43 * stop, true, flag, flag, flag, &last), OK);
         void *state = NULL, *other = NULL;
         NEED(fmi3GetFMUState(unit, &state), OK);
@@ -178,6 +188,7 @@ int main(int argc, char **argv) {
             }
             double t = 0.43 * stop;
             for (size_t i = 0; i < rows; i++, t += 0.01 * stop) {
+                LEAD(t);
                 NEED(fmi3DoStep(unit, t, 0.01 * stop, true, flag, flag, flag, &last), OK);
                 NEED(fmi3GetFloat64(unit, refs, count, values, count), OK);
                 print_row(last, values, count);
@@ -191,6 +202,7 @@ int main(int argc, char **argv) {
         Instance unit = fmi3InstantiateModelExchange("u", token, resources, false, false, NULL, hear);
         if (!unit) return 7;
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        LEAD(0.0);
         NEED(fmi3ExitInitializationMode(unit), OK);
         NEED(fmi3UpdateDiscreteStates(unit, flag, flag, flag, flag, flag, &last), OK);
         NEED(fmi3EnterContinuousTimeMode(unit), OK);
@@ -212,12 +224,14 @@ int main(int argc, char **argv) {
                         for (size_t j = 0; j < n; j++) y[j] = x[j] + (stage ? part[stage] * h * k[(stage - 1) * n + j] : 0.0);
                         NEED(fmi3SetTime(unit, t + part[stage] * h), OK);
                         NEED(fmi3SetContinuousStates(unit, y, n), OK);
+                        LEAD(t + part[stage] * h);
                         NEED(fmi3GetContinuousStateDerivatives(unit, k + stage * n, n), OK);
                     }
                     for (size_t j = 0; j < n; j++)
                         y[j] = x[j] + h / 6.0 * (k[j] + 2.0 * k[n + j] + 2.0 * k[2 * n + j] + k[3 * n + j]);
                     NEED(fmi3SetTime(unit, s + 1 == steps ? to : t + h), OK);
                     NEED(fmi3SetContinuousStates(unit, y, n), OK);
+                    LEAD(s + 1 == steps ? to : t + h);
                     NEED(fmi3GetEventIndicators(unit, z, nz), OK);
                     bool enter = false, end = false;
                     NEED(fmi3CompletedIntegratorStep(unit, true, &enter, &end), OK);
@@ -237,6 +251,7 @@ int main(int argc, char **argv) {
         /* Largest difference between derivatives along each state and central differences, relative to the largest of its row. */
         Instance unit = fmi3InstantiateModelExchange("u", token, resources, false, false, NULL, hear);
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        LEAD(0.0);
         NEED(fmi3ExitInitializationMode(unit), OK);
         NEED(fmi3UpdateDiscreteStates(unit, flag, flag, flag, flag, flag, &last), OK);
         NEED(fmi3EnterContinuousTimeMode(unit), OK);
@@ -329,6 +344,7 @@ int main(int argc, char **argv) {
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 1.0, true, 0.5), ERROR);
         NEED(fmi3EnterInitializationMode(unit, true, NAN, 0.0, true, NAN), ERROR);
         NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+        LEAD(0.0);
         NEED(fmi3ExitInitializationMode(unit), OK);
         NEED(fmi3GetFloat64(unit, NULL, 1, &value, 1), ERROR);
         NEED(fmi3GetFloat64(unit, &known, 1, NULL, 1), ERROR);

@@ -5,6 +5,8 @@ use std::ffi::{CStr, CString, c_char, c_void};
 use std::ptr::NonNull;
 use std::slice;
 
+use crate::fault::Fault;
+
 /// `fmi3Status`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +84,11 @@ pub unsafe fn write<'a, T>(values: *mut T, count: usize) -> Option<&'a mut [T]> 
 pub unsafe fn room<'a, T>(place: *mut T) -> Option<&'a mut T> {
     // SAFETY: by the contract of this function.
     unsafe { write(place, 1) }?.first_mut()
+}
+
+/// What is told of a null pointer.
+pub fn missing() -> Fault {
+    Fault("a pointer is null".to_owned())
 }
 
 /// A text of a caller; none if it is null or no UTF-8.

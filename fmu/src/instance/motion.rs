@@ -3,6 +3,7 @@
 use linkwear_runtime::{Simulation, SimulationState, StateSpace};
 
 use crate::fault::Fault;
+use crate::loaded::Loaded;
 
 /// The mechanism on its way, by either interface.
 pub(super) enum Motion {
@@ -29,6 +30,34 @@ impl Motion {
         match self {
             Self::Steps(run) => Ok(run.set_parameters(parameters)?),
             Self::Space(space) => Ok(space.set_parameters(parameters)?),
+        }
+    }
+
+    /// Other values of a mechanism with inputs that drives follow. Where the unit integrates, these are led from step to step, not
+    /// set; where the tool does, all inputs are what it says at each of its times.
+    pub(super) fn follow(&mut self, loaded: &Loaded, wanted: &[f64]) -> Result<(), Fault> {
+        let mut all = wanted.to_vec();
+        let keeps = |index: usize| match self {
+            Self::Steps(_) => loaded.leads[index],
+            Self::Space(_) => loaded.is_input(index),
+        };
+        for (index, present) in self.parameters().iter().enumerate().filter(|(index, _)| keeps(*index)) {
+            all[index] = *present;
+        }
+        if all != self.parameters() {
+            self.set_parameters(&all)?;
+        }
+        match self {
+            Self::Space(space) if wanted != space.parameters() => Ok(space.set_inputs(wanted)?),
+            _ => Ok(()),
+        }
+    }
+
+    /// Values of the parameters, with the inputs that hold at the present time.
+    pub(super) fn present_parameters(&mut self) -> Vec<f64> {
+        match self {
+            Self::Steps(run) => run.present_parameters(),
+            Self::Space(space) => space.parameters().to_vec(),
         }
     }
 

@@ -51,9 +51,8 @@ impl Instance {
                 return fault(format!("parameter `{name}` is {value}; give it a finite value"));
             }
             let fixed = self.loaded.fixed[index];
-            let is_input = index >= self.loaded.unit.program.description().tunable();
             let allowed = match self.mode {
-                Mode::Event | Mode::Step | Mode::ContinuousTime if is_input => !fixed,
+                Mode::Event | Mode::Step | Mode::ContinuousTime if self.loaded.is_input(index) => true,
                 Mode::Event => !fixed,
                 Mode::Step => !fixed && self.interface == (Interface::CoSimulation { events: false }),
                 _ => !begun,
@@ -90,7 +89,7 @@ impl Instance {
         let knowns = knowns.iter().map(variable).collect::<Result<Vec<_>, _>>()?;
         let loaded = self.loaded;
         let mut at = self.motion()?.kept();
-        at.parameters.clone_from(&self.parameters);
+        at.parameters = self.motion()?.present_parameters();
         let dual = self.sensitivity.get_or_insert_with(|| Sensitivity::new(loaded));
         let found = dual.along(loaded, &at, &knowns, seed).map_err(Fault)?;
         for (unknown, value) in unknowns.iter().zip(sensitivity) {

@@ -3,8 +3,10 @@
 
 use std::ops::Range;
 
+use crate::guide::Guide;
 use crate::signals::Signals;
 use crate::system::{Entry, Sizes, System};
+use crate::tables::InputRole;
 
 /// A system with the storage to ask it.
 pub(super) struct Questions<'a> {
@@ -12,6 +14,8 @@ pub(super) struct Questions<'a> {
     pub(super) sizes: Sizes,
     /// Inputs over time, and where they stand: behind the tunable parameters.
     signals: Option<&'a dyn Signals>,
+    /// Those that drives follow, where they are led instead.
+    pub(super) guide: Guide,
     pub(super) inputs: Range<usize>,
     /// Parameters, then what is asked with them.
     input: Vec<f64>,
@@ -20,14 +24,22 @@ pub(super) struct Questions<'a> {
 }
 
 impl<'a> Questions<'a> {
-    pub(super) fn new(system: &'a dyn System<f64>, parameters: &[f64], inputs: usize) -> Self {
+    pub(super) fn new(system: &'a dyn System<f64>, parameters: &[f64], roles: &[InputRole]) -> Self {
         let sizes = system.sizes();
         let longest = Entry::ALL.iter().map(|entry| sizes.input(*entry)).max().unwrap_or(0);
         let mut input = vec![0.0; longest];
         input[..parameters.len()].copy_from_slice(parameters);
         let outputs = Entry::ALL.map(|entry| vec![0.0; sizes.output(entry)]);
-        let inputs = parameters.len() - inputs..parameters.len();
-        Self { system, sizes, signals: None, inputs, input, workspace: vec![0.0; sizes.workspace], outputs }
+        Self {
+            system,
+            sizes,
+            signals: None,
+            guide: Guide::new(roles),
+            inputs: parameters.len() - roles.len()..parameters.len(),
+            input,
+            workspace: vec![0.0; sizes.workspace],
+            outputs,
+        }
     }
 
     /// Connects the inputs.
@@ -47,6 +59,7 @@ impl<'a> Questions<'a> {
         if let Some(signals) = self.signals {
             signals.write(t, values);
         }
+        self.guide.write(t, values);
         values
     }
 

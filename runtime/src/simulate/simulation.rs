@@ -19,6 +19,7 @@ use crate::description::{Channel, Description};
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
 use crate::evaluate::Evaluator;
+use crate::guide::Guide;
 use crate::integrate::Problem;
 use crate::system::System;
 use crate::watch::Watch;
@@ -237,6 +238,44 @@ impl<'a> Simulation<'a> {
         )
     }
 
+    /// Lets the inputs that drives follow go on to a time [s], from where they are: there they are as the values and rates among
+    /// `parameters`, those of the present time, lead to with the acceleration told, as fast and as much accelerated. Their values
+    /// and first two rates are continuous, so no drive jumps; behind that time the acceleration stays. Other parameters stay as they are.
+    ///
+    /// A source that tells its inputs truly is followed up to the third order of the time between two calls.
+    ///
+    /// # Errors
+    /// As [`Self::set_parameters`], or if the time does not lie ahead; nothing has changed then.
+    pub fn lead_inputs(&mut self, parameters: &[f64], to: f64) -> Result<(), RunError> {
+        let t = self.t;
+        if !(to.is_finite() && to > t) {
+            let need = "finite and behind the present time";
+            return Err(SetupError::Setting { name: "time to lead inputs to", value: to, need }.into());
+        }
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        let wanted = evaluator.inputs_among(parameters)?.to_vec();
+        let before = evaluator.guide().clone();
+        let mut guide = before.clone();
+        guide.lead(t, to - t, evaluator.inputs(t), &wanted);
+        let put = |guide: &Guide, evaluator: &mut Evaluator<'a>| evaluator.set_guide(guide);
+        self.change(
+            |evaluator| {
+                put(&guide, evaluator);
+                Ok(())
+            },
+            |evaluator| put(&before, evaluator),
+        )
+    }
+
+    /// Values of the parameters, with the inputs as they are at the present time.
+    pub fn present_parameters(&mut self) -> Vec<f64> {
+        let mut parameters = self.parameters().to_vec();
+        let inputs = self.motion.dynamics.evaluator.inputs(self.t);
+        let first = parameters.len() - inputs.len();
+        parameters[first..].copy_from_slice(inputs);
+        parameters
+    }
+
     /// Present radial clearances with their mean wear [m], joint by joint.
     pub fn clearances(&mut self) -> Vec<f64> {
         self.contacts().iter().map(|touch| touch.clearance).collect()
@@ -349,6 +388,7 @@ impl<'a> Simulation<'a> {
     }
 
     fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        self.motion.dynamics.evaluator.visit_guide(visit);
         self.state.iter_mut().for_each(&mut *visit);
         self.steps.visit_memory(self.t, visit);
         self.sampler.visit_memory(visit);

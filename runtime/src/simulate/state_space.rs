@@ -228,6 +228,22 @@ impl<'a> StateSpace<'a> {
         Ok(())
     }
 
+    /// Other values of the inputs, as an integrator asks for at every time and state: nothing moves. Where a drive follows one, loops
+    /// stay closed as far as values, rates and states belong together.
+    ///
+    /// # Errors
+    /// If values are no numbers; nothing has changed then.
+    pub fn set_inputs(&mut self, parameters: &[f64]) -> Result<(), SetupError> {
+        let evaluator = &mut self.motion.dynamics.evaluator;
+        let inputs = evaluator.inputs_among(parameters)?.len();
+        let mut all = evaluator.parameters().to_vec();
+        let first = all.len() - inputs;
+        all[first..].copy_from_slice(&parameters[first..]);
+        evaluator.set_parameters(&all)?;
+        self.sampled = false;
+        Ok(())
+    }
+
     /// Everything that has to be kept to go on from here.
     pub fn state(&mut self) -> SimulationState {
         let mut memory = self.state.clone();
