@@ -52,20 +52,26 @@ impl Trajectories {
 
 /// A life to be lived, cycle by cycle, until the first joint has worn to its threshold.
 ///
-/// Runs as `examples/life`, which compares what it prints with the README:
-/// ```no_run
-/// use linkwear::life::LifeStudy;
+/// ```
+/// use linkwear::life::{LifeStudy, Trajectories};
 /// use linkwear::mechanism::Mechanism;
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// let mechanism = Mechanism::read("rssr.toml")?;
-/// let life = LifeStudy { seed: 7, ..LifeStudy::new(&mechanism) }.run()?;
+/// // A mechanism with wear: a shipped one, or `Mechanism::read("my.toml")?`.
+/// let mechanism = Mechanism::shipped("rssr").ok_or("no such mechanism")?;
+/// let study = LifeStudy { seed: 7, trajectories: Trajectories::Count(200), ..LifeStudy::new(&mechanism) };
+/// let life = study.run()?;
 /// println!("{} fails after {:.3} cycles on the mean path", life.failed_joint().joint, life.end.cycles);
+///
 /// let lives = life.statistics().ok_or("no random lives")?;
 /// println!("B10: {:.3} cycles", lives.quantile(0.1)?.value);
+/// // They scatter about the mean path; the error is one of 200 lives.
+/// let mean = lives.mean();
+/// assert!((mean.value - life.end.cycles).abs() < 5.0 * mean.error);
 /// # Ok(())
 /// # }
 /// ```
+/// `examples/life` prints the rest: scatter, quantiles, the error budget.
 #[derive(Clone, Debug)]
 pub struct LifeStudy<'m> {
     /// The mechanism, with at least one joint that wears.
