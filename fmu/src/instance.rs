@@ -200,7 +200,7 @@ impl Instance {
             self.motion = Some(self.start()?);
         }
         let Some(motion) = &mut self.motion else { return fault("there is no motion") };
-        let set = if self.loaded.has_leading_inputs() {
+        let set = if self.loaded.has_leading_inputs {
             motion.follow(self.loaded, &self.parameters)
         } else if motion.parameters() == self.parameters {
             Ok(())
@@ -241,7 +241,7 @@ impl Instance {
     pub fn step(&mut self, from: f64, length: f64) -> Result<f64, Fault> {
         self.is(&[Mode::Step], "fmi3DoStep")?;
         let stop = self.times.stop;
-        let leads = self.loaded.has_leading_inputs();
+        let leads = self.loaded.has_leading_inputs;
         // As they hold at the beginning of the step: drives go where they lead to.
         let wanted = if leads { self.parameters.clone() } else { Vec::new() };
         let Motion::Steps(run) = self.motion()? else { return fault("fmi3DoStep belongs to co-simulation") };

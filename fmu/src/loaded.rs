@@ -18,8 +18,10 @@ pub struct Loaded {
     pub unit: Unit,
     /// See [`belongs_to_start`].
     pub fixed: Vec<bool>,
-    /// See [`leads_drives`].
+    /// By parameter, whether it is an input that a drive follows, or a rate of one.
     pub leads: Vec<bool>,
+    /// Whether one does: asked with every value.
+    pub has_leading_inputs: bool,
     pub(crate) interpreter: Interpreted,
     native: Option<Native>,
     /// Why it is interpreted, if it is.
@@ -34,17 +36,20 @@ impl Loaded {
         let refusal = native.as_ref().err().map(ToString::to_string);
         let (interpreter, fixed) = (unit.program.interpreter(), belongs_to_start(&unit.program));
         let leads = leads_drives(&unit.program);
-        Self { interpreter, fixed, leads, native: native.ok(), refusal, unit }
+        Self {
+            interpreter,
+            fixed,
+            has_leading_inputs: leads.contains(&true),
+            leads,
+            native: native.ok(),
+            refusal,
+            unit,
+        }
     }
 
     /// Whether a parameter is an input.
     pub fn is_input(&self, parameter: usize) -> bool {
         parameter >= self.unit.program.description().tunable()
-    }
-
-    /// Whether there are inputs that drives follow.
-    pub fn has_leading_inputs(&self) -> bool {
-        self.leads.contains(&true)
     }
 
     /// The equations.
