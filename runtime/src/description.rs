@@ -146,6 +146,11 @@ impl Description {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
     }
 
+    /// Of every free speed, whether it is one of turning.
+    pub(crate) fn turning_speeds(&self) -> Vec<bool> {
+        self.speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect()
+    }
+
     /// The columns whose signs say which pieces of formulas hold.
     pub(crate) fn switches(&self) -> std::ops::Range<usize> {
         let is_switch = |channel: &Channel| channel.name.starts_with(SWITCH);

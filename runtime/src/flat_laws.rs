@@ -19,9 +19,15 @@ pub(crate) fn in_words(joints: &[Clearance]) -> String {
 /// [`crate::contact::ImpactMemory`].
 pub(crate) const CONTACT_MEMORY: usize = 4;
 
+/// Place of whether it touches among them.
+pub(crate) const TOUCHING: usize = 2;
+
 /// Numbers per joint with clearance that tell what a contact is like, besides the rates of its totals: offset (3) [m], penetration
 /// [m], its rate [m/s], sliding speed [m/s], energy stored [J], mean pressure [Pa], wrench as [`crate::CONTACT_WRENCH`].
 pub(crate) const CONTACT_ANSWER: usize = 8 + CONTACT_WRENCH;
+
+/// Places of penetration and rate among them.
+pub(crate) const PENETRATION: [usize; 2] = [3, 4];
 
 /// Places in the answer of a derivative with the laws inside, in order, behind the answer of [`Entry::Derivative`].
 #[derive(Clone, Debug)]
@@ -85,6 +91,14 @@ pub(crate) fn contact_answer<T: Scalar>(
     let Response { penetration, penetration_rate, sliding_speed, elastic_energy, pressure, .. } = *response;
     let [fx, fy, fz, mx, my, mz] = response.wrench;
     [x, y, z, penetration, penetration_rate, sliding_speed, elastic_energy, pressure, fx, fy, fz, mx, my, mz]
+}
+
+/// The same of a contact that is known.
+pub(crate) fn known_answer(touch: &ContactState) -> [f64; CONTACT_ANSWER] {
+    let ([x, y, z], [fx, fy, fz, mx, my, mz]) = (touch.offset, touch.wrench);
+    let [penetration, rate] = [touch.penetration(), touch.penetration_rate];
+    let (speed, energy, pressure) = (touch.sliding_speed, touch.elastic_energy, touch.pressure);
+    [x, y, z, penetration, rate, speed, energy, pressure, fx, fy, fz, mx, my, mz]
 }
 
 /// The contact as laws tell it alone, by both of its answers; `before`: at another instant of the same wear.

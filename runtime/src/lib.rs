@@ -71,6 +71,8 @@ pub mod integrate;
 #[cfg(feature = "std")]
 mod layout;
 #[cfg(feature = "std")]
+mod ledger;
+#[cfg(feature = "std")]
 pub mod life;
 #[cfg(feature = "std")]
 mod mission;

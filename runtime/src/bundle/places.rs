@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::{TOTALS, WORKS};
 use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY};
+use crate::ledger::Ledger;
 use crate::system::{Entry, Sizes};
 
 /// Places in the arena, in order.
@@ -29,9 +30,13 @@ pub(crate) struct Places {
     /// Tolerance of the error, relative to sizes; the error of the last accepted step, 1 just accepted.
     pub(crate) tolerance: usize,
     pub(crate) last_error: usize,
-    /// Natural sizes of coordinates and speeds, in their units; of energies [J].
+    /// Natural sizes of coordinates and speeds, in their units.
     pub(crate) scales: Range<usize>,
-    pub(crate) energy_scale: usize,
+    /// [`CONTACT_ANSWER`] numbers of every joint with clearance at the beginning; up to which penetration nobody has to look at it.
+    pub(crate) touches: Range<usize>,
+    pub(crate) watched: Range<usize>,
+    /// What the trajectory has added up so far.
+    pub(crate) ledger: Range<usize>,
     /// The flat state at the end, with quaternions of unit length. From here on: what an attempt answers.
     pub(crate) next: Range<usize>,
     /// The coordinates as the method has them.
@@ -47,6 +52,8 @@ pub(crate) struct Places {
     pub(crate) is_untouched: usize,
     /// 1 where a row of the Jacobian may be longer than ever, else 0.
     pub(crate) has_longer_row: usize,
+    /// How far loops are open at the end [m], [rad], no number if that is none.
+    pub(crate) open: [usize; 2],
     /// Answer of [`crate::Entry::Closure`] at the end.
     pub(crate) closure: Range<usize>,
     /// Length of all.
@@ -87,7 +94,9 @@ impl Places {
             tolerance: next.one(),
             last_error: next.one(),
             scales: next.some(coordinates + speeds),
-            energy_scale: next.one(),
+            touches: next.some(CONTACT_ANSWER * sizes.contacts),
+            watched: next.some(sizes.contacts),
+            ledger: next.some(Ledger::<f64>::len(sizes.contacts)),
             next: next.some(flat),
             raw: next.some(coordinates),
             last_slope: next.some(flat),
@@ -96,6 +105,7 @@ impl Places {
             least_nearness: next.one(),
             is_untouched: next.one(),
             has_longer_row: next.one(),
+            open: [next.one(), next.one()],
             closure: next.some(sizes.output(Entry::Closure)),
             all: 0,
         };
@@ -124,6 +134,10 @@ pub(crate) struct Conclusion {
     pub(crate) has_grown: usize,
     /// How regular the loops are at the end, no number if an answer is infinite or none.
     pub(crate) nearness: usize,
+    /// What the trajectory has added up, if the step counts.
+    pub(crate) ledger: Range<usize>,
+    /// 1 where nothing happened in the step that a trajectory would have to look at, else 0.
+    pub(crate) is_quiet: usize,
     /// The error of the step, 1 just accepted; by how much the next one may be longer.
     pub(crate) error: usize,
     pub(crate) growth: usize,
@@ -141,6 +155,8 @@ impl Conclusion {
             pivots: next.some(sizes.rows),
             has_grown: next.one(),
             nearness: next.one(),
+            ledger: next.some(Ledger::<f64>::len(sizes.contacts)),
+            is_quiet: next.one(),
             error: next.one(),
             growth: next.one(),
             all: 0,

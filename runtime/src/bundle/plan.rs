@@ -5,17 +5,22 @@
 use super::places::{Conclusion, Places};
 use super::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::{Clearance, Clearances};
+use crate::contact::Course;
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::{
-    CONTACT_MEMORY, LawsPlaces, contact_answer, in_words, round_response, total_rates, worn_clearance,
+    CONTACT_ANSWER, CONTACT_MEMORY, LawsPlaces, PENETRATION, TOUCHING, contact_answer, in_words, round_response,
+    total_rates, worn_clearance,
 };
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
+use crate::joint_laws::Response;
 use crate::layout::Layout;
+use crate::ledger::{Energies, Ledger, Shown, Touched, sum};
 use crate::regularity::note_pivots;
 use crate::scalar::Scalar;
 use crate::system::{CONTACT_MOTION, Entry, Sizes};
 use crate::tolerances::tolerances;
+use crate::wear::Load;
 
 /// Answers an entry, as [`crate::System::evaluate`] does.
 pub type Evaluate<'e, T> = &'e dyn Fn(Entry, &[T]) -> Vec<T>;
@@ -31,6 +36,9 @@ pub struct StepPlan {
     layout: Layout,
     /// Of every kept row, its row among all.
     kept: Vec<usize>,
+    /// Of every row, whether it is an angle; of every free speed, whether it turns.
+    angular: Vec<bool>,
+    turning: Vec<bool>,
     places: Places,
 }
 
@@ -41,7 +49,8 @@ struct Slope<T> {
     /// Multipliers and drive forces.
     forces: Vec<T>,
     pivots: Vec<T>,
-    /// [`crate::flat_laws::CONTACT_ANSWER`] numbers of every joint.
+    /// What the laws say of every joint, and its [`crate::flat_laws::CONTACT_ANSWER`] numbers.
+    responses: Vec<Response<T>>,
     contacts: Vec<T>,
 }
 
@@ -49,7 +58,8 @@ struct Slope<T> {
 struct Answer<T> {
     /// The answer of [`Entry::Derivative`].
     equations: Vec<T>,
-    /// Rates of the [`TOTALS`] of every joint.
+    /// What the laws say of every joint, and the rates of its [`TOTALS`].
+    responses: Vec<Response<T>>,
     totals: Vec<T>,
     /// [`crate::flat_laws::CONTACT_ANSWER`] numbers of every joint.
     contacts: Vec<T>,
@@ -68,6 +78,8 @@ impl StepPlan {
             joints: Clearances::of(description)?.joints().to_vec(),
             layout: Layout::new(&description.motions),
             kept: description.kept_rows(sizes.rows),
+            angular: description.rows.iter().map(|row| row.angular).collect(),
+            turning: description.turning_speeds(),
             places: Places::new(&sizes),
         })
     }
@@ -124,7 +136,8 @@ impl StepPlan {
         let closure = evaluate(Entry::Closure, &self.ask(question, one(at.end), &next));
         let [is_untouched, has_longer_row] = self.judge_loops(question, (&next, &closure), nearness);
         let last_slope = slopes.pop().unwrap_or_default();
-        let flags = vec![nearness, least + nothing, is_untouched, has_longer_row];
+        let [metres, radians] = self.open(&closure);
+        let flags = vec![nearness, least + nothing, is_untouched, has_longer_row, metres, radians];
         let answer = [next, raw, last_slope, pivots, flags, closure].concat();
         debug_assert_eq!(self.question() + answer.len(), self.arena());
         answer
@@ -159,8 +172,12 @@ impl StepPlan {
             error = T::select(error.lt(own), own, error);
         }
         let growth = growth_of(one(at.last_error), floored(error));
-        let numbers = vec![has_grown, nearness + nothing, error, growth];
-        let answer = [slope.state, slope.contacts, energy, pivots, numbers].concat();
+        let mut ledger = self.ledger(arena, (&slope, &energy));
+        let is_quiet = self.is_quiet(arena, &slope, &ledger);
+        let mut flags = vec![has_grown, nearness + nothing];
+        ledger.visit(&mut |number| flags.push(*number));
+        flags.extend([is_quiet, error, growth]);
+        let answer = [slope.state, slope.contacts, energy, pivots, flags].concat();
         debug_assert_eq!(answer.len(), Conclusion::new(&self.sizes).all);
         answer
     }
@@ -171,7 +188,55 @@ impl StepPlan {
             return Some(self.places.scales.start + index);
         };
         let judged = integral.checked_sub(WORKS).is_none_or(|integral| is_energy(integral % TOTALS));
-        judged.then_some(self.places.energy_scale)
+        judged.then_some(self.places.ledger.start + Ledger::<f64>::SCALE)
+    }
+
+    /// How far loops are open [m], [rad], by the answer of [`Entry::Closure`]; no number if that is none.
+    fn open<T: Scalar>(&self, closure: &[T]) -> [T; 2] {
+        let positions = &closure[..self.sizes.all_rows];
+        let nothing = none_of(T::constant(0.0), positions);
+        [false, true].map(|angular| {
+            let rows = self.angular.iter().zip(positions).filter(|(row, _)| **row == angular);
+            nothing + rows.fold(T::constant(0.0), |most, (_, residual)| most.max(residual.abs()))
+        })
+    }
+
+    /// What the trajectory has added up, if the step counts.
+    fn ledger<T: Scalar>(&self, arena: &[T], (slope, energy): (&Slope<T>, &[T])) -> Ledger<T> {
+        let (at, one) = (&self.places, |place: usize| arena[place]);
+        let (speeds, integrals) = arena[at.next.clone()][self.sizes.coordinates..].split_at(self.sizes.speeds);
+        let losses = integrals[WORKS..].chunks_exact(TOTALS).map(|totals| totals[TOTALS - 1]);
+        let energies = Energies {
+            kinetic: energy[0],
+            potential: energy[1],
+            supplied: integrals[0],
+            dissipated: integrals[1],
+            elastic: sum(slope.responses.iter().map(|response| response.elastic_energy)),
+            contact_loss: sum(losses),
+        };
+        let length = one(at.end) - one(at.begin);
+        let mut ledger = Ledger::of(&arena[at.ledger.clone()], self.sizes.contacts);
+        ledger.note_open(at.open.map(one));
+        let shown = Shown { t: one(at.end), length, energies, speeds, turning: &self.turning };
+        ledger.note_step(&shown, slope.responses.iter().map(touched));
+        ledger
+    }
+
+    /// 1 where nothing happened that a trajectory would have to look at, else 0.
+    fn is_quiet<T: Scalar>(&self, arena: &[T], slope: &Slope<T>, ledger: &Ledger<T>) -> T {
+        let (yes, no) = (T::constant(1.0), T::constant(0.0));
+        let (at, length) = (&self.places, arena[self.places.end] - arena[self.places.begin]);
+        let mut loud = no;
+        for (joint, response) in slope.responses.iter().enumerate() {
+            let end = (response.penetration, response.penetration_rate);
+            let [penetration, rate] = PENETRATION.map(|place| arena[at.touches.start + CONTACT_ANSWER * joint + place]);
+            let touching = arena[at.memory.start + CONTACT_MEMORY * joint + TOUCHING];
+            loud = loud.max(Course::new((penetration, rate), end, length).may_change(touching));
+            loud = T::select(arena[at.watched.start + joint].lt(end.0), yes, loud);
+        }
+        // Energies that are infinite or none are no reason to go on.
+        let sound = none_of(no, &[ledger.balance.throughput]).lt(yes);
+        T::select(sound, yes - loud, no)
     }
 
     /// Question of an entry of coordinates and speeds.
@@ -187,7 +252,7 @@ impl StepPlan {
     /// (1), the speed at which its gap closed [m/s].
     pub fn derivative<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
         let (state, memory) = question.split_at(self.sizes.input(Entry::Contacts));
-        let Answer { equations, totals, contacts, clearances } = self.answer(evaluate, state, memory);
+        let Answer { equations, totals, contacts, clearances, .. } = self.answer(evaluate, state, memory);
         let answer = [equations, totals, contacts, clearances].concat();
         debug_assert_eq!(answer.len(), LawsPlaces::new(&self.sizes).all());
         answer
@@ -213,9 +278,10 @@ impl StepPlan {
         let clearances = motions.iter().zip(memories).map(|(motion, memory)| worn_clearance(motion, memory));
         Answer {
             equations: evaluate(Entry::Derivative, &question),
-            totals: responses.iter().flat_map(total_rates).collect(),
             contacts: contacts.collect(),
             clearances: clearances.collect(),
+            totals: responses.iter().flat_map(total_rates).collect(),
+            responses,
         }
     }
 
@@ -230,6 +296,7 @@ impl StepPlan {
             state: [rates, powers, &answer.totals].concat(),
             forces: forces.to_vec(),
             pivots: pivots.to_vec(),
+            responses: answer.responses,
             contacts: answer.contacts,
         }
     }
@@ -256,6 +323,12 @@ impl StepPlan {
         });
         [is_untouched, longer]
     }
+}
+
+/// What a response shows at the end of a step.
+fn touched<T: Scalar>(response: &Response<T>) -> Touched<T> {
+    let Response { normal_force, penetration, sliding_speed, pressure, .. } = *response;
+    Touched { load: Load { normal_force, penetration, sliding_speed }, pressure }
 }
 
 /// `nothing`, which is zero, unless a value is infinite or none.

@@ -10,6 +10,8 @@
 //! the bearing's centre to the contact, and the forces act ON the journal. The bearing gets their
 //! opposite at the same point. Components are in the bearing's frame.
 
+#[cfg(feature = "std")]
+mod course;
 mod friction;
 mod guide;
 mod laws;
@@ -21,6 +23,8 @@ mod revolute;
 mod spherical;
 mod stiffness;
 
+#[cfg(feature = "std")]
+pub(crate) use course::Course;
 pub use friction::{Friction, Onset, Strength};
 pub use guide::{GuideContact, GuideMotion};
 pub use laws::{ContactForce, Laws};

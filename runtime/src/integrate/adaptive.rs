@@ -315,12 +315,22 @@ impl<M: Method> Adaptive<M> {
         (&self.y, &mut self.next)
     }
 
+    /// Room for the state reached, where steps were made elsewhere.
+    pub(crate) fn y_mut(&mut self) -> &mut [f64] {
+        &mut self.y
+    }
+
     /// A step that was made elsewhere counts, its end in the room for it. [`Self::slope`], [`Self::interpolate`] and
     /// [`Self::retake`] have to be told of its slopes first, by [`Self::know`].
     ///
     /// `growth`: [`Method::growth`] of the last error and this one.
     pub(crate) fn accept_end(&mut self, step: (f64, f64), error: f64, growth: f64) {
         core::mem::swap(&mut self.y, &mut self.next);
+        self.pass(step, error, growth);
+    }
+
+    /// The same of a step whose end stays elsewhere: [`Self::y_mut`] is to be told of it before anything is asked for.
+    pub(crate) fn pass(&mut self, step: (f64, f64), error: f64, growth: f64) {
         self.control.accept_grown(step, floored(error), growth);
     }
 

@@ -7,10 +7,11 @@ use std::f64::consts::PI;
 use super::contact_event::ContactEvent;
 use super::motion::{ConstrainedMotion, Totals};
 use super::warning::RunWarning;
-use crate::clearance_joint::{Clearance, ContactState};
+use crate::clearance_joint::{Clearance, Clearances, ContactState};
 use crate::contact_frequency::inverse_mass;
 use crate::error::RunError;
 use crate::evaluate::Evaluator;
+use crate::ledger::{Ledger, Touched, Touches};
 use crate::system::CONTACT_WRENCH;
 use crate::wear::{ContactMeasure, Observed, Profile};
 
@@ -27,26 +28,14 @@ struct Track {
     /// Totals at the start of the turn and at the last step.
     begin: Totals,
     last: Totals,
-    peak: f64,
     losses: u64,
-    touching: f64,
     deposit: Option<Profile>,
     /// What the journal lost, by its own angle.
     journal: Option<Profile>,
-    observed: Option<Observed>,
     probed_penetration: f64,
     frequency: f64,
-    deepest: Depth,
     /// Whether it touched at the last step.
     touches: bool,
-}
-
-/// The largest depth of a contact so far [m], when [s], and the radial clearance there [m].
-#[derive(Clone, Copy, Default)]
-struct Depth {
-    penetration: f64,
-    t: f64,
-    clearance: f64,
 }
 
 /// Follows all joints with clearance of a run.
@@ -57,7 +46,6 @@ pub(super) struct Follower {
     t: f64,
     /// When the present turn began [s].
     pub(super) turn_begin: f64,
-    longest_step: f64,
     probe: Vec<f64>,
     /// What every joint did, turn by turn.
     pub(super) measures: Vec<Vec<ContactMeasure>>,
@@ -77,15 +65,11 @@ impl Follower {
         let track = |joint: &Clearance| Track {
             begin: Totals::default(),
             last: Totals::default(),
-            peak: 0.0,
             losses: 0,
-            touching: 0.0,
             deposit: empty_deposit(joint),
             journal: empty_journal(joint),
-            observed: None,
             probed_penetration: 0.0,
             frequency: 0.0,
-            deepest: Depth::default(),
             touches: false,
         };
         let mut follower = Self {
@@ -93,7 +77,6 @@ impl Follower {
             contacts: Vec::new(),
             t,
             turn_begin: t,
-            longest_step: 0.0,
             probe: vec![0.0; evaluator.sizes().contacts * CONTACT_WRENCH + evaluator.sizes().speeds],
             measures: Vec::new(),
             whole_turn: true,
@@ -107,7 +90,6 @@ impl Follower {
         }
         follower.note_touching(motion);
         follower.probe_frequencies(motion, state);
-        follower.begin_turn(motion);
         Some(follower)
     }
 
@@ -135,7 +117,8 @@ impl Follower {
         }
     }
 
-    /// Accumulates an accepted step that ends in `state`; `closing`: a contact whose gap closes right there.
+    /// Accumulates an accepted step that ends in `state`, where the contacts were evaluated last; `closing`: a contact whose gap closes
+    /// right there.
     ///
     /// # Errors
     /// [`RunError::Penetration`].
@@ -146,14 +129,9 @@ impl Follower {
         state: &[f64],
         closing: Option<usize>,
     ) -> Result<(), RunError> {
-        let step = t - self.t;
-        self.longest_step = self.longest_step.max(step);
         self.t = t;
         let totals = motion.totals(state);
-        let (q, v, _) = motion.split(state);
-        let evaluator = &mut motion.dynamics.evaluator;
-        evaluator.evaluate_contacts(t, q, v);
-        let clearances = evaluator.clearances_mut();
+        let clearances = motion.dynamics.evaluator.clearances_mut();
         clearances.remember(&self.contacts);
         if let Some(joint) = closing {
             clearances.close(joint);
@@ -162,7 +140,7 @@ impl Follower {
         for (((track, before), (joint, now)), totals) in
             self.tracks.iter_mut().zip(&self.contacts).zip(joints).zip(totals)
         {
-            track.accumulate(joint, (before, now), totals, step);
+            track.accumulate(joint, (before, now), totals);
         }
         for (joint, (track, state)) in self.tracks.iter_mut().zip(clearances.states()).enumerate() {
             let closes = state.memory.touching > 0.5;
@@ -178,16 +156,12 @@ impl Follower {
         self.check_depths(&motion.dynamics.evaluator)
     }
 
-    /// Notes how deep contacts are.
-    fn check_depths(&mut self, evaluator: &Evaluator<'_>) -> Result<(), RunError> {
+    /// Whether contacts are deeper than laws of contact hold for.
+    fn check_depths(&self, evaluator: &Evaluator<'_>) -> Result<(), RunError> {
         let t = self.t;
         let joints = evaluator.clearances().joints().iter().zip(&*evaluator.description().contacts);
-        for ((track, touch), (joint, info)) in self.tracks.iter_mut().zip(&self.contacts).zip(joints) {
-            let (penetration, clearance) = (touch.penetration(), touch.clearance);
-            if penetration > track.deepest.penetration {
-                track.deepest = Depth { penetration, t, clearance };
-            }
-            let journal_radius = joint.journal_radius();
+        for (touch, (joint, info)) in self.contacts.iter().zip(joints) {
+            let (penetration, journal_radius) = (touch.penetration(), joint.journal_radius());
             if penetration > TOO_DEEP * journal_radius {
                 let joint = info.joint.to_string();
                 return Err(RunError::Penetration { t, joint, penetration, journal_radius });
@@ -196,67 +170,93 @@ impl Follower {
         Ok(())
     }
 
+    /// Penetration [m] of every joint up to which steps change nothing but what is added up.
+    pub(super) fn watched(&self, clearances: &Clearances) -> impl Iterator<Item = f64> {
+        let joints = self.tracks.iter().zip(clearances.joints());
+        joints.map(|(track, joint)| {
+            (PROBE_AGAIN * track.probed_penetration).min(TOO_DEEP * joint.journal_radius())
+        })
+    }
+
+    /// Takes over steps that others followed, of which the last ended in `state` with these contacts.
+    pub(super) fn take_over(
+        &mut self,
+        motion: &ConstrainedMotion<'_>,
+        (t, state): (f64, &[f64]),
+        contact: impl Fn(usize, &ContactState) -> ContactState,
+    ) {
+        self.t = t;
+        for (joint, touch) in self.contacts.iter_mut().enumerate() {
+            *touch = contact(joint, touch);
+        }
+        for (track, totals) in self.tracks.iter_mut().zip(motion.totals(state)) {
+            track.last = totals;
+        }
+    }
+
     /// Forgets what was before: a turn begins here.
-    pub(super) fn begin_turn(&mut self, motion: &ConstrainedMotion<'_>) {
+    pub(super) fn begin_turn(&mut self, motion: &ConstrainedMotion<'_>, done: &mut [Touches<f64>]) {
         self.turn_begin = self.t;
         let joints = motion.dynamics.evaluator.clearances().joints();
-        for ((track, joint), touch) in self.tracks.iter_mut().zip(joints).zip(&self.contacts) {
+        for ((track, joint), (done, touch)) in
+            self.tracks.iter_mut().zip(joints).zip(done.iter_mut().zip(&self.contacts))
+        {
             track.begin = track.last;
-            track.peak = touch.normal_force;
-            (track.losses, track.touching) = (0, 0.0);
+            track.losses = 0;
             track.deposit = empty_deposit(joint);
             track.journal = empty_journal(joint);
-            track.observed = joint.wear().map(|(archard, _)| {
-                let mut observed = Observed::nothing(touch.clearance, joint.journal_radius());
-                observed.include(
-                    archard.area(),
-                    touch.pressure,
-                    &Clearance::load(touch),
-                    &joint.pair(touch.clearance),
-                );
-                observed
-            });
+            done.begin_turn(&touched(touch));
         }
     }
 
     /// A turn ends here: notes what it did, and begins the next one.
-    pub(super) fn end_turn(&mut self, motion: &ConstrainedMotion<'_>) {
+    pub(super) fn end_turn(&mut self, motion: &ConstrainedMotion<'_>, done: &mut [Touches<f64>]) {
         let duration = self.t - self.turn_begin;
-        let measure = |track: &mut Track| {
-            let done = track.last.since(track.begin);
+        let joints = motion.dynamics.evaluator.clearances().joints().iter().zip(&self.contacts);
+        let measure = |((track, touches), (joint, touch)): ((&mut Track, &Touches<f64>), (&Clearance, &ContactState))| {
+            let of_turn = track.last.since(track.begin);
+            let extremes = &touches.extremes;
+            let observed = joint.wear().map(|(archard, _)| {
+                Observed::of(extremes, archard.area(), &joint.pair(touch.clearance))
+            });
             ContactMeasure {
-                wear_integral: done.wear,
-                depth: done.depth,
-                mean_force: done.impulse / duration,
-                peak_force: track.peak,
+                wear_integral: of_turn.wear,
+                depth: of_turn.depth,
+                mean_force: of_turn.impulse / duration,
+                peak_force: extremes.normal_force,
                 losses: track.losses as f64,
-                touching: (track.touching / duration).min(1.0),
-                loss: done.loss,
+                touching: (touches.touching / duration).min(1.0),
+                loss: of_turn.loss,
                 deposit: track.deposit.take(),
                 journal: track.journal.take(),
-                observed: track.observed,
+                observed,
             }
         };
-        let measures = self.tracks.iter_mut().map(measure).collect();
+        let measures = self.tracks.iter_mut().zip(&*done).zip(joints).map(measure).collect();
         if self.whole_turn {
             self.measures.push(measures);
         }
         self.whole_turn = true;
-        self.begin_turn(motion);
+        self.begin_turn(motion, done);
     }
 
     /// What of the run is doubtful.
-    pub(super) fn warnings(&self, evaluator: &Evaluator<'_>, limits: Option<(f64, f64)>) -> Vec<RunWarning> {
+    pub(super) fn warnings(
+        &self,
+        evaluator: &Evaluator<'_>,
+        ledger: &Ledger<f64>,
+        limits: Option<(f64, f64)>,
+    ) -> Vec<RunWarning> {
         let mut warnings = Vec::new();
-        for (joint, track) in self.tracks.iter().enumerate() {
+        for (joint, (track, done)) in self.tracks.iter().zip(&ledger.joints).enumerate() {
             let name = || evaluator.description().contacts[joint].joint.to_string();
-            let (step, frequency) = (self.longest_step, track.frequency);
+            let (step, frequency) = (ledger.longest_step, track.frequency);
             if let Some((accurate, stable)) = limits
                 && step * frequency > accurate
             {
                 warnings.push(RunWarning::StepTooCoarse { joint: name(), step, frequency, accurate, stable });
             }
-            let Depth { penetration, t, clearance } = track.deepest;
+            let (penetration, t, clearance) = (done.deepest, done.deepest_at, self.contacts[joint].clearance);
             if penetration > clearance {
                 warnings.push(RunWarning::DeepContact { joint: name(), t, penetration, clearance });
             }
@@ -291,25 +291,22 @@ impl Follower {
     }
 }
 
+/// What a contact shows at the end of a step.
+pub(super) fn touched(touch: &ContactState) -> Touched<f64> {
+    Touched { load: Clearance::load(touch), pressure: touch.pressure }
+}
+
 impl Track {
     fn accumulate(
         &mut self,
         joint: &Clearance,
         (before, now): (&ContactState, &ContactState),
         totals: Totals,
-        step: f64,
     ) {
         let done = totals.since(self.last);
         self.last = totals;
-        self.peak = self.peak.max(now.normal_force);
         self.losses += u64::from(before.gap < 0.0 && now.gap >= 0.0);
-        if now.gap < 0.0 {
-            self.touching += step;
-        }
         let Some((archard, _)) = joint.wear() else { return };
-        if let Some(observed) = &mut self.observed {
-            observed.include(archard.area(), now.pressure, &Clearance::load(now), &joint.pair(now.clearance));
-        }
         let volume = archard.volume_rate() * done.wear * mean_factor(before, now);
         if let Some(deposit) = &mut self.deposit
             && done.wear != 0.0

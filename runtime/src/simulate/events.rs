@@ -8,6 +8,7 @@
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use crate::clearance_joint::ContactState;
+use crate::contact::Course;
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Method};
 
@@ -78,7 +79,8 @@ fn suspect<M: Method>(
     let clearances = motion.dynamics.evaluator.clearances();
     let touching = clearances.states()[joint].memory.touching > 0.5;
     let length = method.t() - method.before();
-    Cubic::new(before, &clearances.contacts()[joint], length).suspect(touching)
+    let end = |touch: &ContactState| (touch.penetration(), touch.penetration_rate);
+    may_happen(&Course::new(end(before), end(&clearances.contacts()[joint]), length), touching)
 }
 
 /// Evaluates the contacts at the end of the last step.
@@ -87,73 +89,22 @@ fn evaluate_end<M: Method>(motion: &mut ConstrainedMotion<'_>, method: &Adaptive
     motion.dynamics.evaluator.evaluate_contacts(method.t(), q, v);
 }
 
-/// Penetration over a step, as the cubic through values and rates at both ends; time in steps.
-struct Cubic {
-    from: f64,
-    to: f64,
-    from_rate: f64,
-    to_rate: f64,
-}
-
-impl Cubic {
-    fn new(before: &ContactState, after: &ContactState, length: f64) -> Self {
-        Self {
-            from: before.penetration(),
-            to: after.penetration(),
-            from_rate: before.penetration_rate * length,
-            to_rate: after.penetration_rate * length,
+/// What may happen in a step by the course of a penetration; `touching`: a contact runs at its start, also if its penetration is
+/// still zero there but for rounding. Where [`Course::may_change`] says that nothing does, it is nothing.
+fn may_happen(course: &Course<f64>, touching: bool) -> Option<Suspect> {
+    let Course { from, to, from_rate, to_rate } = *course;
+    let turns = (from_rate > 0.0) != (to_rate > 0.0) && !course.keeps_its_side();
+    match (touching, to > 0.0) {
+        (false, true) if from < 0.0 => Some(Suspect::Closes),
+        (false, false) if turns && from_rate > 0.0 && from < 0.0 => {
+            let top = course.turning_point();
+            (course.at(top) > 0.0).then_some(Suspect::Touches { top })
         }
-    }
-
-    fn at(&self, part: f64) -> f64 {
-        let rise = self.to - self.from;
-        let a = self.from_rate + self.to_rate - 2.0 * rise;
-        let b = 3.0 * rise - 2.0 * self.from_rate - self.to_rate;
-        ((a * part + b) * part + self.from_rate) * part + self.from
-    }
-
-    /// Where the rate vanishes, if it has opposite signs at the ends.
-    fn turning_point(&self) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
-        let rise = self.to - self.from;
-        let a = self.from_rate + self.to_rate - 2.0 * rise;
-        let b = 3.0 * rise - 2.0 * self.from_rate - self.to_rate;
-        let rate = |part: f64| (3.0 * a * part + 2.0 * b) * part + self.from_rate;
-        // Where it is exactly does not matter.
-        for _ in 0..30 {
-            let middle = 0.5 * (low + high);
-            if (rate(middle) > 0.0) == (self.from_rate > 0.0) {
-                low = middle;
-            } else {
-                high = middle;
-            }
+        (true, true) if turns && from_rate < 0.0 => {
+            let bottom = course.turning_point();
+            (course.at(bottom) < 0.0).then_some(Suspect::Opens { bottom })
         }
-        0.5 * (low + high)
-    }
-
-    /// Whether the curve may get to the other side of zero than its ends are on, which are on one side: their rates bend it by
-    /// 4/27 of themselves at most.
-    fn may_cross(&self) -> bool {
-        const BENT: f64 = 4.0 / 27.0;
-        self.from.abs().min(self.to.abs()) <= BENT * (self.from_rate.abs() + self.to_rate.abs())
-    }
-
-    /// What may happen in the step by its ends; `touching`: a contact runs at its start, also if its penetration is still
-    /// zero there but for rounding.
-    fn suspect(&self, touching: bool) -> Option<Suspect> {
-        let turns = (self.from_rate > 0.0) != (self.to_rate > 0.0) && self.may_cross();
-        match (touching, self.to > 0.0) {
-            (false, true) if self.from < 0.0 => Some(Suspect::Closes),
-            (false, false) if turns && self.from_rate > 0.0 && self.from < 0.0 => {
-                let top = self.turning_point();
-                (self.at(top) > 0.0).then_some(Suspect::Touches { top })
-            }
-            (true, true) if turns && self.from_rate < 0.0 => {
-                let bottom = self.turning_point();
-                (self.at(bottom) < 0.0).then_some(Suspect::Opens { bottom })
-            }
-            _ => None,
-        }
+        _ => None,
     }
 }
 

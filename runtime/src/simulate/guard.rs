@@ -4,9 +4,9 @@
 use std::f64::consts::PI;
 
 use super::motion::ConstrainedMotion;
-use super::run::Statistics;
 use crate::error::RunError;
 use crate::evaluate::{CLOSED, LoopError};
+use crate::ledger::{Balance, Ledger};
 
 /// Part of the energy that went through which may be missing before a run draws a warning: coarse legitimate runs lose
 /// 2e-4 of it at most, and forces go wrong about as the energy does.
@@ -32,46 +32,16 @@ const LEAST_OF_THE_RUN: f64 = 1e-9;
 pub(super) struct Guard {
     end: f64,
     span: f64,
-    /// Largest speed of any coordinate so far, and of those that turn.
-    fastest: f64,
-    fastest_turning: f64,
-    /// All bits for every free speed that turns, none for others.
-    turning: Vec<u64>,
-    /// Largest part of the energy so far [J].
-    energy: f64,
     next_balance: f64,
     /// Steps tried and time at the beginning of the present window.
     window: (u64, f64),
 }
 
 impl Guard {
-    /// Begins at a state, for a run from `begin` to `end` [s] of which these are the statistics so far.
-    pub(super) fn new(
-        motion: &mut ConstrainedMotion<'_>,
-        (begin, end): (f64, f64),
-        state: &[f64],
-        statistics: &Statistics,
-    ) -> Self {
+    /// Begins a run from `begin` to `end` [s], after so many steps tried.
+    pub(super) fn new((begin, end): (f64, f64), tried: u64) -> Self {
         let span = end - begin;
-        let speeds = motion.dynamics.evaluator.description().speeds.iter();
-        let mut guard = Self {
-            turning: speeds.map(|info| if turns(&info.unit) { u64::MAX } else { 0 }).collect(),
-            end,
-            span,
-            fastest: 0.0,
-            fastest_turning: 0.0,
-            energy: 0.0,
-            next_balance: begin + span / BALANCES,
-            window: (statistics.steps + statistics.rejected, begin),
-        };
-        guard.note_speeds(motion, state);
-        guard.note_driver(motion, begin);
-        guard
-    }
-
-    /// Notes how large an energy was met [J].
-    pub(super) fn note_energy(&mut self, energy: f64) {
-        self.energy = self.energy.max(energy);
+        Self { end, span, next_balance: begin + span / BALANCES, window: (tried, begin) }
     }
 
     /// Whether loops that are open by this still count as closed.
@@ -89,79 +59,66 @@ impl Guard {
         Ok(())
     }
 
-    /// Judges an accepted step that ends in `state`, by the statistics so far.
+    /// Whether anything is judged at the end of an accepted step, after so many steps tried.
+    pub(super) fn is_due(&self, t: f64, tried: u64) -> bool {
+        t >= self.next_balance || t == self.end || tried - self.window.0 >= WINDOW
+    }
+
+    /// Judges an accepted step, by what was added up so far.
     pub(super) fn check_step(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
-        t: f64,
-        state: &[f64],
-        statistics: &Statistics,
+        (t, tried): (f64, u64),
+        ledger: &mut Ledger<f64>,
     ) -> Result<(), RunError> {
-        self.note_speeds(motion, state);
+        if !self.is_due(t, tried) {
+            return Ok(());
+        }
         if t >= self.next_balance || t == self.end {
             self.next_balance +=
                 (((t - self.next_balance) * BALANCES / self.span).floor() + 1.0) * self.span / BALANCES;
-            self.check_balance(t, statistics)?;
+            check_balance(t, ledger)?;
         }
-        let tried = statistics.steps + statistics.rejected - self.window.0;
-        if tried < WINDOW {
+        let in_window = tried - self.window.0;
+        if in_window < WINDOW {
             return Ok(());
         }
         let gained = t - self.window.1;
-        self.window = (statistics.steps + statistics.rejected, t);
-        self.note_driver(motion, t);
-        let a_turn = 2.0 * PI / self.fastest_turning;
+        self.window = (tried, t);
+        note_driver(motion, t, ledger);
+        let a_turn = 2.0 * PI / ledger.fastest_turning;
         let turning = if a_turn.is_finite() { LEAST_OF_A_TURN * a_turn.min(self.span) } else { 0.0 };
         if gained < turning.max(LEAST_OF_THE_RUN * self.span) {
-            return Err(RunError::NoProgress { t, tried, gained, joint: deepest_contact(motion) });
+            let joint = deepest_contact(motion);
+            return Err(RunError::NoProgress { t, tried: in_window, gained, joint });
         }
         Ok(())
     }
+}
 
-    fn note_speeds(&mut self, motion: &ConstrainedMotion<'_>, state: &[f64]) {
-        let (_, v, _) = motion.split(state);
-        // Magnitudes are ordered as their bits are: no branches.
-        let (mut most, mut turning) = (self.fastest.to_bits(), self.fastest_turning.to_bits());
-        for (speed, turns) in v.iter().zip(&self.turning) {
-            let size = speed.abs().to_bits();
-            most = most.max(size);
-            turning = turning.max(size & turns);
-        }
-        (self.fastest, self.fastest_turning) = (f64::from_bits(most), f64::from_bits(turning));
-    }
-
-    /// Largest speed of anything that turns so far [rad/s], the driver at the begin included.
-    pub(super) fn fastest_turning(&self) -> f64 {
-        self.fastest_turning
-    }
-
-    fn note_driver(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64) {
-        let evaluator = &mut motion.dynamics.evaluator;
-        if let Some(driver) = evaluator.description().turn_driver {
-            self.fastest_turning = self.fastest_turning.max(evaluator.prescribed(t)[3 * driver + 1].abs());
-        }
-    }
-
-    fn check_balance(&self, t: f64, statistics: &Statistics) -> Result<(), RunError> {
-        let (error, throughput) = (statistics.energy_error_J, statistics.energy_throughput_J);
-        let judged = self.fastest > AT_REST && error > BALANCE_ROUNDING * self.energy;
-        // What is not a number is not balanced.
-        let balanced = error <= ENERGY_WRONG * throughput;
-        if judged && !balanced { Err(RunError::EnergyLost { t, error, throughput }) } else { Ok(()) }
-    }
-
-    /// Whether the balance at the end is doubtful.
-    pub(super) fn is_doubtful(&self, statistics: &Statistics) -> bool {
-        let error = statistics.energy_error_J;
-        self.fastest > AT_REST
-            && error > BALANCE_ROUNDING * self.energy
-            && error > ENERGY_DOUBTFUL * statistics.energy_throughput_J
+/// Notes how fast the driver of turns is.
+pub(super) fn note_driver(motion: &mut ConstrainedMotion<'_>, t: f64, ledger: &mut Ledger<f64>) {
+    let evaluator = &mut motion.dynamics.evaluator;
+    if let Some(driver) = evaluator.description().turn_driver {
+        ledger.fastest_turning = ledger.fastest_turning.max(evaluator.prescribed(t)[3 * driver + 1].abs());
     }
 }
 
-/// Whether a speed of this unit is one of turning.
-fn turns(unit: &str) -> bool {
-    unit.starts_with("rad")
+/// Whether the error of the balance is more than rounding of something that moves.
+fn is_judged(ledger: &Ledger<f64>) -> bool {
+    ledger.fastest > AT_REST && ledger.balance.error > BALANCE_ROUNDING * ledger.balance.largest
+}
+
+fn check_balance(t: f64, ledger: &Ledger<f64>) -> Result<(), RunError> {
+    let Balance { error, throughput, .. } = ledger.balance;
+    // What is not a number is not balanced.
+    let balanced = error <= ENERGY_WRONG * throughput;
+    if is_judged(ledger) && !balanced { Err(RunError::EnergyLost { t, error, throughput }) } else { Ok(()) }
+}
+
+/// Whether the balance at the end is doubtful.
+pub(super) fn is_doubtful(ledger: &Ledger<f64>) -> bool {
+    is_judged(ledger) && ledger.balance.error > ENERGY_DOUBTFUL * ledger.balance.throughput
 }
 
 /// The joint with clearance that is pressed in deepest, by its clearance.

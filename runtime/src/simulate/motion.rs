@@ -9,8 +9,8 @@ use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
-use crate::evaluate::CLOSED;
 use crate::integrate::Problem;
+use crate::ledger::{Energies, sum};
 use crate::linear::{add_scaled, is_finite, largest};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
 pub(super) use crate::regularity::PROJECTED_STAGES;
@@ -85,7 +85,7 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) arm: f64,
     /// Natural size of the motion along every free speed.
     pub(super) sizes: Vec<f64>,
-    /// Largest kinetic energy so far [J]: the scale of the work quadratures.
+    /// Largest kinetic energy so far [J], as the ledger of the run has it: the scale of the work quadratures.
     pub(super) energy_scale: f64,
     /// Factor on how far loops may stay open after a step, in regular positions.
     looseness: f64,
@@ -169,11 +169,9 @@ impl<'a> ConstrainedMotion<'a> {
         self.looseness
     }
 
-    /// Takes over the residuals of all rows at a step's end that needs no projection otherwise. Whether the loops are closed.
-    pub(super) fn take_over_loops(&mut self, positions: &[f64]) -> bool {
-        let error = self.dynamics.evaluator.loop_error_of(positions);
-        self.projector.take_over(error);
-        error.part(self.arm) <= CLOSED
+    /// Takes over the residuals of all rows at a step's end that needs no projection.
+    pub(super) fn take_over_loops(&mut self, positions: &[f64]) {
+        self.projector.take_over(self.dynamics.evaluator.loop_error_of(positions));
     }
 
     /// The flat state of a start without any work done.
@@ -191,15 +189,20 @@ impl<'a> ConstrainedMotion<'a> {
         y[self.first_integral() + WORKS..].chunks_exact(TOTALS).map(Totals::of)
     }
 
-    /// Energy lost in all contacts, of a flat state [J].
-    pub(super) fn contact_loss(&self, y: &[f64]) -> f64 {
-        self.totals(y).map(|totals| totals.loss).sum()
-    }
-
-    /// Energy stored in all contacts at a state [J]; their wrenches are then those of this state.
-    pub(super) fn elastic_energy(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
+    /// All energies of a flat state [J]; the wrenches of contacts are then those of this state.
+    pub(super) fn energies(&mut self, t: f64, y: &[f64]) -> Energies<f64> {
+        let (kinetic, potential) = self.energy(t, y);
+        let (q, v, (supplied, dissipated)) = self.split(y);
         self.dynamics.evaluator.evaluate_contacts(t, q, v);
-        self.dynamics.evaluator.clearances().elastic_energy()
+        let contacts = self.dynamics.evaluator.clearances().contacts();
+        Energies {
+            kinetic,
+            potential,
+            supplied,
+            dissipated,
+            elastic: sum(contacts.iter().map(|touch| touch.elastic_energy)),
+            contact_loss: sum(self.totals(y).map(|totals| totals.loss)),
+        }
     }
 
     /// Penetration of one contact at a flat state [m].

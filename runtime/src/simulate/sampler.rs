@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use super::angles::Angles;
-use super::contacts::Follower;
+use super::contacts::{Follower, touched};
 use super::extremes::Collector;
-use super::guard::Guard;
+use super::guard::{Guard, is_doubtful, note_driver};
 use super::half_turn;
 use super::looks::Looks;
 use super::motion::{ConstrainedMotion, PROJECTED_STAGES};
@@ -23,7 +23,7 @@ use crate::description::Channel;
 use crate::error::RunError;
 use crate::evaluate::LoopError;
 use crate::integrate::Problem;
-use crate::linear::largest;
+use crate::ledger::{Balance, Ledger, Shown};
 use crate::watch::Watch;
 
 /// Times in a turn of the fastest body at which curves are looked at, at least: the peak of a tenth harmonic is then found
@@ -49,10 +49,10 @@ pub(super) struct Sampler<'a> {
     pub(super) angles: Angles,
     /// A state within a step.
     inner: Vec<f64>,
-    start_energy: f64,
-    kinetic: f64,
-    work: (f64, f64),
-    contact_loss: f64,
+    /// What the run has added up.
+    pub(super) ledger: Ledger<f64>,
+    /// Of every free speed, whether it turns.
+    turning: Vec<bool>,
     guard: Guard,
     unbounded: Unbounded,
     pub(super) passages: Passages,
@@ -76,11 +76,10 @@ impl<'a> Sampler<'a> {
         let columns = Channels::new(description);
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
-        let guard = Guard::new(motion, (begin, schedule.end), state, &Statistics::default());
-        let (kinetic, potential) = motion.energy(begin, state);
-        let (q, v, work) = motion.split(state);
-        motion.energy_scale = motion.energy_scale.max(kinetic);
-        let elastic = motion.elastic_energy(begin, q, v);
+        let guard = Guard::new((begin, schedule.end), 0);
+        let balance = Balance::new(&motion.energies(begin, state), motion.energy_scale);
+        let ledger = Ledger::new(balance, motion.dynamics.evaluator.sizes().contacts);
+        let turning = description.turning_speeds();
         let mut sampler = Self {
             schedule,
             statistics: Statistics::default(),
@@ -91,10 +90,8 @@ impl<'a> Sampler<'a> {
             angles: Angles::new(if schedule.samples > 0 { &columns.channels } else { &[] }),
             columns,
             inner: Vec::new(),
-            start_energy: kinetic + potential + elastic,
-            kinetic,
-            work,
-            contact_loss: motion.contact_loss(state),
+            ledger,
+            turning,
             guard,
             unbounded: Unbounded::default(),
             passages: Passages::default(),
@@ -105,10 +102,22 @@ impl<'a> Sampler<'a> {
             turn_end: None,
             closing: None,
         };
+        sampler.judge_from(motion, begin, state);
+        if let Some(follower) = &mut sampler.follower {
+            follower.begin_turn(motion, &mut sampler.ledger.joints);
+        }
         if begin == schedule.start {
             sampler.find_turn_end(motion);
         }
         sampler
+    }
+
+    /// Speeds are judged from a state on.
+    fn judge_from(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
+        motion.energy_scale = self.ledger.balance.scale;
+        (self.ledger.fastest, self.ledger.fastest_turning) = (0.0, 0.0);
+        self.ledger.note_speeds(motion.split(state).1, &self.turning);
+        note_driver(motion, t, &mut self.ledger);
     }
 
     /// Length of the run [s].
@@ -139,11 +148,12 @@ impl<'a> Sampler<'a> {
         let closing = self.closing.take();
         let Some(follower) = &mut self.follower else { return Ok(()) };
         follower.accept(motion, t, state, closing)?;
+        let joints = &mut self.ledger.joints;
         if t == self.schedule.start {
-            follower.begin_turn(motion);
+            follower.begin_turn(motion, joints);
             self.find_turn_end(motion);
         } else if self.turn_end == Some(t) {
-            follower.end_turn(motion);
+            follower.end_turn(motion, joints);
             self.find_turn_end(motion);
         }
         Ok(())
@@ -175,9 +185,7 @@ impl<'a> Sampler<'a> {
     ) -> Result<(), RunError> {
         motion.put_sample_on(t, state)?;
         self.note_loop_error(motion, t, motion.projector.loop_error())?;
-        let (q, v, _) = motion.split(state);
-        let elastic = motion.elastic_energy(t, q, v);
-        self.note_energy(motion, t, state, elastic);
+        self.ledger.balance.note(&motion.energies(t, state));
         self.observe(motion, t, state)?;
         if let Some(i) = self.values.iter().position(|x| !x.is_finite()) {
             return Err(RunError::NonFinite { t, what: self.columns.channels[i].name.to_string() });
@@ -210,23 +218,22 @@ impl<'a> Sampler<'a> {
         state: &[f64],
     ) -> Result<(), RunError> {
         self.statistics.steps += 1;
-        self.follow(motion, t, state)?;
-        // Whoever follows contacts has evaluated them here.
-        let elastic = motion.dynamics.evaluator.clearances().elastic_energy();
-        let kinetic = self.note_energy(motion, t, state, elastic);
+        let length = t - self.reached.0;
+        let energies = motion.energies(t, state);
+        let (_, speeds, _) = motion.split(state);
+        let shown = Shown { t, length, energies, speeds, turning: &self.turning };
+        let contacts = motion.dynamics.evaluator.clearances().contacts();
+        let added = self.ledger.balance.added;
+        self.ledger.note_step(&shown, contacts.iter().map(touched));
+        motion.energy_scale = self.ledger.balance.scale;
         let regularity = (motion.is_rough(), motion.dynamics.nearness());
-        self.passages.note(t, regularity, self.statistics.energy_error_J);
-        let (_, _, work) = motion.split(state);
-        self.statistics.energy_throughput_J +=
-            (work.0 - self.work.0).abs() + (work.1 - self.work.1).abs() + (kinetic - self.kinetic).abs();
-        let contact_loss = motion.contact_loss(state);
-        self.statistics.energy_throughput_J += (contact_loss - self.contact_loss).abs();
-        (self.kinetic, self.work, self.contact_loss) = (kinetic, work, contact_loss);
-        if !self.statistics.energy_throughput_J.is_finite() {
+        self.passages.note(t, regularity, added < self.ledger.balance.added);
+        self.follow(motion, t, state)?;
+        if !self.ledger.balance.throughput.is_finite() {
             return Err(RunError::NonFinite { t, what: "energy".to_owned() });
         }
-        motion.energy_scale = motion.energy_scale.max(kinetic);
-        self.guard.check_step(motion, t, state, &self.statistics)?;
+        let tried = self.statistics.steps + self.statistics.rejected;
+        self.guard.check_step(motion, (t, tried), &mut self.ledger)?;
         self.reached.0 = t;
         self.reached.1.copy_from_slice(state);
         self.look(motion, t, state)
@@ -319,7 +326,7 @@ impl<'a> Sampler<'a> {
         before: f64,
         t: f64,
     ) -> impl Iterator<Item = f64> + use<> {
-        let turned = (t - before) * self.guard.fastest_turning() / (2.0 * PI);
+        let turned = (t - before) * self.ledger.fastest_turning / (2.0 * PI);
         let looks = (turned * LOOKS_PER_TURN).min(MOST_LOOKS);
         let asked = self.extremes.is_some() && motion.dynamics.nearness() >= PROJECTED_STAGES;
         let looks = if asked { looks } else { 0.0 };
@@ -403,29 +410,8 @@ impl<'a> Sampler<'a> {
         t: f64,
         error: LoopError,
     ) -> Result<(), RunError> {
-        self.statistics.max_loop_error_m = self.statistics.max_loop_error_m.max(error.metres);
-        self.statistics.max_loop_error_rad = self.statistics.max_loop_error_rad.max(error.radians);
+        self.ledger.note_open([error.metres, error.radians]);
         self.guard.check_loops(motion, t, error)
-    }
-
-    /// Notes the balance with the energy stored in contacts [J] and returns the kinetic energy [J].
-    fn note_energy(
-        &mut self,
-        motion: &mut ConstrainedMotion<'_>,
-        t: f64,
-        state: &[f64],
-        elastic: f64,
-    ) -> f64 {
-        let (kinetic, potential) = motion.energy(t, state);
-        let (_, _, (supplied, dissipated)) = motion.split(state);
-        let mut error = kinetic + potential - self.start_energy - supplied + dissipated;
-        if self.follower.is_some() {
-            error += elastic + motion.contact_loss(state);
-        }
-        self.guard.note_energy(largest(&[kinetic, potential, supplied, dissipated]));
-        let error = error.abs();
-        self.statistics.energy_error_J = self.statistics.energy_error_J.max(error);
-        kinetic
     }
 
     /// Gives the recorded samples away; `limits`: see [`super::warning::step_limits`].
@@ -438,6 +424,9 @@ impl<'a> Sampler<'a> {
         self.statistics.evaluations += motion.dynamics.evaluations;
         self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
         self.statistics.projections = motion.projections;
+        let Ledger { balance, open, .. } = &self.ledger;
+        (self.statistics.energy_error_J, self.statistics.energy_throughput_J) = (balance.error, balance.throughput);
+        [self.statistics.max_loop_error_m, self.statistics.max_loop_error_rad] = *open;
         if let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes) {
             looks.finish(extremes);
         }
@@ -453,12 +442,12 @@ impl<'a> Sampler<'a> {
             ..Run::default()
         };
         if let Some(follower) = self.follower {
-            run.warnings = follower.warnings(&motion.dynamics.evaluator, limits);
+            run.warnings = follower.warnings(&motion.dynamics.evaluator, &self.ledger, limits);
             run.turns = follower.measures;
         }
         run.warnings.extend(self.unbounded.warnings(&run.channels));
         run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
-        if run.stopped.is_none() && self.guard.is_doubtful(&run.statistics) {
+        if run.stopped.is_none() && is_doubtful(&self.ledger) {
             let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
             run.warnings.push(RunWarning::EnergyOff { error, throughput });
         }

@@ -14,33 +14,42 @@ pub(super) struct Passages {
     deepest: Option<(f64, f64)>,
     /// Steps since a state was nearly singular.
     since: u32,
-    /// Largest error of the energy balance so far, the most that a step added to it [J], and the passage in which it did.
-    energy: (f64, f64, Option<f64>),
+    /// The passage in which a step added most to the error of the energy balance.
+    costliest: Option<f64>,
 }
 
 impl Passages {
-    /// Notes how regular the state at the end of a step is, if it is `rough`, and the energy error so far [J].
-    pub(super) fn note(&mut self, t: f64, (rough, regularity): (bool, f64), energy_error: f64) {
+    /// Notes how regular the state at the end of a step is, if it is `rough`, and whether the step added more to the error of the
+    /// energy balance than any before.
+    pub(super) fn note(&mut self, t: f64, (rough, regularity): (bool, f64), is_costliest: bool) {
         self.since = if rough { 0 } else { self.since.saturating_add(1) };
         self.deepest = match self.deepest {
             known if !rough => known.filter(|_| self.since <= AFTERMATH),
             Some(known) if known.1 <= regularity => Some(known),
             _ => Some((t, regularity)),
         };
-        let passage = self.deepest.map(|(t, _)| t);
-        let (known, most, _) = self.energy;
-        let added = energy_error - known;
-        if added > most {
-            self.energy = (energy_error, added, passage);
-        } else {
-            self.energy.0 = energy_error;
+        if is_costliest {
+            self.costliest = self.deepest.map(|(t, _)| t);
+        }
+    }
+
+    /// Whether the last passage is so long ago that a step is none of its own.
+    pub(super) fn are_over(&self) -> bool {
+        self.deepest.is_none()
+    }
+
+    /// Notes steps in regular positions, with no passage before; whether one of them is the costliest.
+    pub(super) fn note_regular(&mut self, steps: u32, is_costliest: bool) {
+        self.since = self.since.saturating_add(steps);
+        if is_costliest {
+            self.costliest = None;
         }
     }
 
     /// Names the singular position, if the run failed on its way through one.
     pub(super) fn explain(&self, integrator: Integrator, error: RunError) -> RunError {
         let position = match &error {
-            RunError::EnergyLost { .. } => self.energy.2,
+            RunError::EnergyLost { .. } => self.costliest,
             RunError::StepTooSmall { .. }
             | RunError::LostAssembly { .. }
             | RunError::BranchChange { .. }
@@ -66,13 +75,13 @@ mod tests {
     #[test]
     fn lost_energy_is_put_down_to_the_passage_in_which_it_was_lost() {
         let mut passages = Passages::default();
-        passages.note(1.0, (true, 1e-2), 0.0);
-        passages.note(2.0, (true, 1e-4), 0.1);
-        passages.note(3.0, (true, 1e-3), 0.1);
-        passages.note(4.0, (false, 0.5), 0.9);
+        passages.note(1.0, (true, 1e-2), false);
+        passages.note(2.0, (true, 1e-4), true);
+        passages.note(3.0, (true, 1e-3), false);
+        passages.note(4.0, (false, 0.5), true);
         // Long after, in another one: what was lost there is less.
-        (0..=AFTERMATH).for_each(|step| passages.note(5.0 + f64::from(step), (false, 0.5), 0.9));
-        passages.note(50.0, (true, 1e-3), 1.0);
+        (0..=AFTERMATH).for_each(|step| passages.note(5.0 + f64::from(step), (false, 0.5), false));
+        passages.note(50.0, (true, 1e-3), false);
         let error = passages.explain(FIXED, LOST);
         let RunError::InSingularPosition { t: 2.0, is_adaptive: false, cause } = &error else {
             panic!("{error}")
@@ -84,9 +93,9 @@ mod tests {
     #[test]
     fn what_fails_in_regular_positions_stays_as_it_is() {
         let mut passages = Passages::default();
-        passages.note(1.0, (true, 1e-4), 0.0);
-        (0..=AFTERMATH).for_each(|step| passages.note(2.0 + f64::from(step), (false, 0.5), 0.0));
-        passages.note(20.0, (false, 0.5), 1.0);
+        passages.note(1.0, (true, 1e-4), false);
+        (0..=AFTERMATH).for_each(|step| passages.note(2.0 + f64::from(step), (false, 0.5), false));
+        passages.note(20.0, (false, 0.5), true);
         assert_eq!(passages.explain(FIXED, LOST), LOST);
         let failed = RunError::NewtonFailed { t: 20.0, step: 1e-3, correction: 1.0 };
         assert_eq!(passages.explain(FIXED, failed.clone()), failed);

@@ -62,17 +62,45 @@ impl Observed {
         }
     }
 
-    /// Accumulates what acts at one instant, with the mean pressure there [Pa]. The depth per cycle is for the caller to set.
-    pub fn include(&mut self, area: Area, pressure: f64, load: &Load<f64>, pair: &Pair<f64>) {
-        let raise = |largest: &mut f64, value: f64| *largest = Scalar::max(value, *largest);
-        // Width and pressure of a line contact grow together, with the root of the force.
-        if area.is_half_space() && pressure > self.pressure {
-            let half_width = area.half_angle(load, pair) * (pair.journal_radius + pair.clearance);
-            raise(&mut self.hertz_half_width, half_width);
-        }
-        raise(&mut self.pressure, pressure);
-        raise(&mut self.pressure_speed, pressure * Scalar::abs(load.sliding_speed));
-        raise(&mut self.penetration, load.penetration);
+    /// What these extremes mean for a joint of this contact area and size. The depth per cycle is for the caller to set.
+    pub fn of(extremes: &Extremes<f64>, area: Area, pair: &Pair<f64>) -> Self {
+        let Extremes { normal_force, pressure, pressure_speed, penetration } = *extremes;
+        // A line contact is the wider the larger the force, and nothing else moves it.
+        let load = Load { normal_force, penetration, sliding_speed: 0.0 };
+        let radius = pair.journal_radius + pair.clearance;
+        let hertz_half_width = if area.is_half_space() { area.half_angle(&load, pair) * radius } else { 0.0 };
+        let seen = Self::nothing(pair.clearance, pair.journal_radius);
+        Self { pressure, pressure_speed, hertz_half_width, penetration, ..seen }
+    }
+}
+
+/// Largest of what acted on a joint so far; SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extremes<T> {
+    /// Normal force.
+    pub normal_force: T,
+    /// Mean pressure.
+    pub pressure: T,
+    /// Pressure times sliding speed.
+    pub pressure_speed: T,
+    /// Penetration; zero if nothing touched.
+    pub penetration: T,
+}
+
+impl<T: Scalar> Extremes<T> {
+    /// Of nothing seen yet.
+    pub fn nothing() -> Self {
+        let zero = T::constant(0.0);
+        Self { normal_force: zero, pressure: zero, pressure_speed: zero, penetration: zero }
+    }
+
+    /// Includes what acts at one instant, with the mean pressure there [Pa].
+    #[inline]
+    pub fn include(&mut self, pressure: T, load: &Load<T>) {
+        self.normal_force = self.normal_force.max(load.normal_force);
+        self.pressure = self.pressure.max(pressure);
+        self.pressure_speed = self.pressure_speed.max(pressure * load.sliding_speed.abs());
+        self.penetration = self.penetration.max(load.penetration);
     }
 }
 
@@ -241,10 +269,11 @@ mod tests {
     fn extremes_are_the_largest_of_what_was_seen() {
         let pair = Pair { journal_radius: 0.01, length: 0.02, clearance: 1e-5, modulus: 115e9 };
         let load = |normal_force, sliding_speed| Load { normal_force, penetration: 2e-7, sliding_speed };
-        let mut seen = Observed::nothing(1e-5, 0.01);
+        let mut extremes = Extremes::nothing();
         for load in [load(10.0, -3.0), load(40.0, 0.1), load(0.0, 9.0)] {
-            seen.include(Area::Hertz, Area::Hertz.pressure(&load, &pair), &load, &pair);
+            extremes.include(Area::Hertz.pressure(&load, &pair), &load);
         }
+        let seen = Observed::of(&extremes, Area::Hertz, &pair);
         let pressure = |force: f64| Area::Hertz.pressure(&load(force, 0.0), &pair);
         assert_eq!(seen.pressure, pressure(40.0));
         assert_eq!(seen.pressure_speed, pressure(10.0) * 3.0);

@@ -21,7 +21,7 @@ pub use archard::{Archard, WearRates};
 pub use area::{Area, Load, Pair};
 pub use coefficient::{MOST_LIVE, MOST_STEPS, Step, factor, is_sound};
 pub use feedback::{Measure, ScalarFeedback};
-pub use limits::{Limits, Observed, Warning};
+pub use limits::{Extremes, Limits, Observed, Warning};
 #[cfg(feature = "std")]
 pub use measure::ContactMeasure;
 #[cfg(feature = "std")]

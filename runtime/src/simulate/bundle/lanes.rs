@@ -8,8 +8,10 @@ use crate::bundle::{Bundle, Conclusion, Places};
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::dynamics::Dynamics;
 use crate::evaluate::Evaluator;
-use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, contact_memory, contact_state};
+use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, contact_memory, contact_state, known_answer};
+use crate::ledger::Ledger;
 use crate::simulate::motion::{ConstrainedMotion, PROJECTED_STAGES};
+use crate::simulate::sampler::Sampler;
 use crate::system::Sizes;
 
 /// Of the numbers that a contact remembers, so many stay the same in a turn: how far it is worn, stiffness.
@@ -80,12 +82,31 @@ impl<'a, const N: usize> Lanes<'a, N> {
         }
     }
 
-    /// Takes over what steps change: what contacts remember, how large energies are, the error of the last step.
-    pub(super) fn put_memory(&mut self, lane: usize, clearances: &Clearances, energy: f64, last_error: f64) {
+    /// Takes over what steps change beside the state: what contacts remember, what they are like, up to where nobody looks at them,
+    /// what the run has added up.
+    pub(super) fn put_progress(&mut self, lane: usize, clearances: &Clearances, sampler: &mut Sampler<'_>) {
         self.put_memories(lane, clearances, STEADY..CONTACT_MEMORY);
-        let all = self.arena.all_mut();
-        all[self.places.energy_scale][lane] = energy;
-        all[self.places.last_error][lane] = last_error;
+        let Self { places, arena, .. } = self;
+        for (joint, touch) in sampler.contacts().iter().enumerate() {
+            arena.put(lane, places.touches.start + CONTACT_ANSWER * joint, &known_answer(touch));
+        }
+        let all = arena.all_mut();
+        for (place, depth) in places.watched.clone().zip(sampler.watched(clearances)) {
+            all[place][lane] = depth;
+        }
+        let mut numbers = all[places.ledger.clone()].iter_mut();
+        sampler.ledger.visit(&mut |number| numbers.next().into_iter().for_each(|place| place[lane] = *number));
+    }
+
+    /// Takes over the error of the last step that counted.
+    pub(super) fn put_last_error(&mut self, lane: usize, last_error: f64) {
+        self.arena.all_mut()[self.places.last_error][lane] = last_error;
+    }
+
+    /// What the run of a lane has added up.
+    pub(super) fn read_ledger(&self, lane: usize, ledger: &mut Ledger<f64>) {
+        let mut numbers = self.arena.all()[self.places.ledger.clone()].iter();
+        ledger.visit(&mut |number| numbers.next().into_iter().for_each(|place| *number = place[lane]));
     }
 
     /// Takes over the largest pivots so far.
@@ -109,6 +130,16 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// What the places in the arena are.
     pub(super) fn places(&self) -> &Places {
         &self.places
+    }
+
+    /// How far loops of a lane are open at the end of its step [m], [rad].
+    pub(super) fn open(&self, lane: usize) -> [f64; 2] {
+        self.places.open.map(|place| self.arena.all()[place][lane])
+    }
+
+    /// Whether nothing happened in a lane's step that its trajectory would have to look at.
+    pub(super) fn is_quiet(&self, lane: usize) -> bool {
+        self.answer.all()[self.conclusion.is_quiet][lane] == 1.0
     }
 
     /// Whether nothing has to be moved at the end of a lane's step, as far as kept rows and speeds tell.
@@ -169,6 +200,15 @@ impl<'a, const N: usize> Lanes<'a, N> {
         contact_state(before, rates, std::array::from_fn(|at| answer[contact + at][lane]))
     }
 
+    /// A contact of a lane at the beginning of its step, by what it was at another instant.
+    pub(super) fn contact_before(&self, lane: usize, joint: usize, before: &ContactState) -> ContactState {
+        let arena = self.arena.all();
+        let totals = self.places.slope.start + Conclusion::totals(&self.sizes, joint);
+        let contact = self.places.touches.start + CONTACT_ANSWER * joint;
+        let rates = std::array::from_fn(|at| arena[totals + at][lane]);
+        contact_state(before, rates, std::array::from_fn(|at| arena[contact + at][lane]))
+    }
+
     /// The largest pivots of a lane, if they have grown in its step.
     pub(super) fn grown_pivots(&self, lane: usize) -> Option<Vec<f64>> {
         let answer = self.answer.all();
@@ -205,7 +245,14 @@ impl<'a, const N: usize> Lanes<'a, N> {
         let Self { places, conclusion, arena, answer, .. } = self;
         let (question, found) = arena.all_mut().split_at_mut(places.question());
         choose(&mut question[places.y.clone()], &found[..places.y.len()], accepted);
-        choose(&mut question[places.slope.clone()], &answer.all()[conclusion.slope.clone()], accepted);
+        let answers = [
+            (&places.slope, &conclusion.slope),
+            (&places.touches, &conclusion.contacts),
+            (&places.ledger, &conclusion.ledger),
+        ];
+        for (place, at) in answers {
+            choose(&mut question[place.clone()], &answer.all()[at.clone()], accepted);
+        }
     }
 }
 

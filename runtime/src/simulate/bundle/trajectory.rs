@@ -3,9 +3,11 @@
 
 use super::lanes::Lanes;
 use super::outcome::TurnOutcome;
+use crate::clearance_joint::ContactState;
 use crate::error::RunError;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{CLOSED, Evaluator, LoopError};
 use crate::integrate::{Adaptive, PARTS, Problem, Rk43};
+use crate::simulate::motion::ConstrainedMotion;
 use crate::simulate::settings::Integrator;
 use crate::simulate::turns::{Turn, TurnRunner, TurnState};
 use crate::simulate::{events, steps};
@@ -28,6 +30,10 @@ struct UnderWay<'a> {
     slopes: [Vec<f64>; 2],
     /// Residuals of all rows.
     residuals: Vec<f64>,
+    /// Steps that the lane alone has followed.
+    quiet: u32,
+    /// Whether the end of the present step is known here.
+    is_end_known: bool,
     /// What the lane has to know of an accepted step.
     after: After,
 }
@@ -35,8 +41,12 @@ struct UnderWay<'a> {
 /// What became of an accepted step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum After {
-    /// It was not accepted, or all is as the lane has it.
+    /// It was not accepted.
     Nothing,
+    /// The lane alone has followed it.
+    Quiet,
+    /// All is as the lane has it.
+    Followed,
     /// It ended earlier than the lane had tried.
     Shortened,
     /// Only a lone trajectory can go on.
@@ -80,14 +90,15 @@ impl<'a> Trajectory<'a> {
             steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, ((tolerance, max_step), false))?;
         lanes.put_state(lane, method.y(), method.slope());
         lanes.put_settings(lane, motion, method.tolerance());
-        let clearances = motion.dynamics.evaluator.clearances();
-        lanes.put_memory(lane, clearances, motion.energy_scale, method.control().last_error());
+        lanes.put_progress(lane, motion.dynamics.evaluator.clearances(), &mut turn.sampler);
+        lanes.put_last_error(lane, method.control().last_error());
         lanes.put_pivots(lane, &motion.dynamics);
         let numbers = || vec![0.0; turn.state.len()];
         let (between, slopes) = (numbers(), [numbers(), numbers()]);
         lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
         let residuals = vec![0.0; lanes.sizes.all_rows];
-        self.turn = Some(UnderWay { turn, method, between, slopes, residuals, after: After::Nothing });
+        let (quiet, is_end_known, after) = (0, false, After::Nothing);
+        self.turn = Some(UnderWay { turn, method, between, slopes, residuals, quiet, is_end_known, after });
         Ok(true)
     }
 
@@ -102,21 +113,21 @@ impl<'a> Trajectory<'a> {
     /// Puts the end of the step onto the constraints, unless the lanes have seen that nothing has to be done. Whether that
     /// succeeded.
     pub(super) fn project<const N: usize>(&mut self, (lanes, lane): Place<'_, 'a, N>, end: f64) -> bool {
-        let Some(UnderWay { method, residuals, .. }) = &mut self.turn else { return false };
-        let motion = &mut self.runner.motion;
+        let Self { runner: TurnRunner { motion, .. }, turn: Some(under_way) } = self else { return false };
         motion.dynamics.take_over(PARTS.len() as u64, lanes.nearness(lane));
-        let (before, next) = method.ends();
-        if lanes.is_untouched(lane) {
-            if lanes.has_longer_row(lane) {
-                motion.dynamics.evaluator.take_over_rows(lanes.jacobian(lane));
-                lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
-            }
-            lanes.get(lane, lanes.places().closure.start, residuals);
-            if motion.take_over_loops(residuals) {
-                lanes.get(lane, lanes.places().next.start, next);
-                return true;
-            }
+        let is_untouched = lanes.is_untouched(lane);
+        let [metres, radians] = lanes.open(lane);
+        let is_closed = LoopError { metres, radians, worst: 0 }.part(motion.arm) <= CLOSED;
+        under_way.is_end_known = !(is_untouched && is_closed);
+        if is_untouched && lanes.has_longer_row(lane) {
+            motion.dynamics.evaluator.take_over_rows(lanes.jacobian(lane));
+            lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
         }
+        if !under_way.is_end_known {
+            return true;
+        }
+        under_way.catch_up(motion, (lanes, lane));
+        let (before, next) = under_way.method.ends();
         lanes.raw_end(lane, next);
         if motion.project(end, before, next).is_err() {
             return false;
@@ -134,26 +145,33 @@ impl<'a> Trajectory<'a> {
         step: (f64, f64),
         is_ordinary: bool,
     ) -> bool {
-        let Some(UnderWay { turn, method, between, slopes, after, .. }) = &mut self.turn else {
-            return false;
-        };
-        let motion = &mut self.runner.motion;
+        let Self { runner: TurnRunner { motion, .. }, turn: Some(under_way) } = self else { return false };
         motion.dynamics.take_over(1, lanes.nearness_at_end(lane));
         if let Some(pivots) = lanes.grown_pivots(lane) {
             motion.dynamics.note_pivots(&pivots);
         }
         let (error, growth) = lanes.error(lane);
         let error = if is_ordinary { error } else { f64::NAN };
-        *after = After::Nothing;
-        if error > 1.0 && !method.control().is_smallest(step.0) {
-            method.control().reject(step.0, error);
+        under_way.after = After::Nothing;
+        let control = under_way.method.control();
+        if error > 1.0 && !control.is_smallest(step.0) {
+            control.reject(step.0, error);
             return false;
         }
         // The steps of a lone trajectory get a reason.
         if error.is_nan() || error > 1.0 {
-            *after = After::Failed;
+            under_way.after = After::Failed;
             return false;
         }
+        if lanes.is_quiet(lane) && under_way.is_idle(step.1) {
+            under_way.method.pass(step, error, growth);
+            under_way.quiet += 1;
+            under_way.after = After::Quiet;
+            return true;
+        }
+        under_way.catch_up(motion, (lanes, lane));
+        under_way.know_end(motion, (lanes, lane));
+        let UnderWay { turn, method, between, slopes, after, .. } = under_way;
         method.accept_end(step, error, growth);
         motion.take_over(step.1, lanes.energy(lane), |joint, before| lanes.contact(lane, joint, before));
         let sampler = &mut turn.sampler;
@@ -175,7 +193,7 @@ impl<'a> Trajectory<'a> {
         *after = match done {
             Err(_) => After::Failed,
             Ok(()) if method.t() != step.1 => After::Shortened,
-            Ok(()) => After::Nothing,
+            Ok(()) => After::Followed,
         };
         true
     }
@@ -192,15 +210,17 @@ impl<'a> Trajectory<'a> {
             self.cancel();
             return Some(TurnOutcome::Alone);
         }
-        if !accepted {
+        if accepted {
+            lanes.put_last_error(lane, method.control().last_error());
+        }
+        if matches!(after, After::Nothing | After::Quiet) {
             return None;
         }
         if *after == After::Shortened {
             lanes.put_state(lane, method.y(), method.slope());
             lanes.put_pivots(lane, &motion.dynamics);
         }
-        let clearances = motion.dynamics.evaluator.clearances();
-        lanes.put_memory(lane, clearances, motion.energy_scale, method.control().last_error());
+        lanes.put_progress(lane, motion.dynamics.evaluator.clearances(), &mut turn.sampler);
         if method.t() < turn.sampler.schedule.end {
             return None;
         }
@@ -209,5 +229,46 @@ impl<'a> Trajectory<'a> {
         let UnderWay { turn, .. } = self.turn.take()?;
         let measures = self.runner.end(turn);
         Some(TurnOutcome::Done(Box::new((measures, self.runner.state()))))
+    }
+}
+
+impl UnderWay<'_> {
+    /// Whether a step to `end` [s], if the lane has seen nothing in it, changes nothing but what is added up.
+    fn is_idle(&mut self, end: f64) -> bool {
+        let Self { turn: Turn { sampler, .. }, method, quiet, is_end_known, .. } = self;
+        let tried = sampler.statistics.steps + u64::from(*quiet) + 1 + method.rejected();
+        !*is_end_known && end != sampler.hard_stop(method.t()) && sampler.is_idle(end, tried)
+    }
+
+    /// Takes over the steps that the lane alone has followed.
+    fn catch_up<const N: usize>(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        (lanes, lane): (&mut Lanes<'_, N>, usize),
+    ) {
+        let steps = std::mem::take(&mut self.quiet);
+        if steps == 0 {
+            return;
+        }
+        let Self { turn: Turn { sampler, .. }, method, .. } = self;
+        lanes.get(lane, lanes.places().y.start, method.y_mut());
+        let added = sampler.ledger.balance.added;
+        lanes.read_ledger(lane, &mut sampler.ledger);
+        let contact = |joint: usize, before: &ContactState| lanes.contact_before(lane, joint, before);
+        sampler.take_over(motion, (method.t(), method.y()), (steps, added), contact);
+    }
+
+    /// Takes over the end of the present step, if it is not known here.
+    fn know_end<const N: usize>(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        (lanes, lane): (&mut Lanes<'_, N>, usize),
+    ) {
+        if self.is_end_known {
+            return;
+        }
+        lanes.get(lane, lanes.places().closure.start, &mut self.residuals);
+        motion.take_over_loops(&self.residuals);
+        lanes.get(lane, lanes.places().next.start, self.method.ends().1);
     }
 }

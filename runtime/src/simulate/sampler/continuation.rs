@@ -1,6 +1,7 @@
 //! What a recorder needs to go on where no run does: beyond its end, with other laws, from a state that was kept.
 
 use super::Sampler;
+use crate::clearance_joint::{Clearances, ContactState};
 use crate::error::RunError;
 use crate::simulate::guard::Guard;
 use crate::simulate::motion::ConstrainedMotion;
@@ -36,17 +37,43 @@ impl Sampler<'_> {
         motion: &mut ConstrainedMotion<'_>,
         (t, state): (f64, &[f64]),
     ) {
-        self.guard = Guard::new(motion, (t, self.schedule.end), state, &self.statistics);
-        let (q, v, work) = motion.split(state);
-        let elastic = motion.elastic_energy(t, q, v);
-        let (kinetic, potential) = motion.energy(t, state);
-        let contact_loss = motion.contact_loss(state);
-        (self.kinetic, self.work, self.contact_loss) = (kinetic, work, contact_loss);
-        self.start_energy = kinetic + potential - work.0 + work.1;
-        if self.follower.is_some() {
-            self.start_energy += elastic + contact_loss;
+        let tried = self.statistics.steps + self.statistics.rejected;
+        self.guard = Guard::new((t, self.schedule.end), tried);
+        self.ledger.balance.go_on_from(&motion.energies(t, state));
+        self.judge_from(motion, t, state);
+        self.reached.0 = t;
+        self.reached.1.copy_from_slice(state);
+    }
+
+    /// Contacts at the end of the last step.
+    pub(in crate::simulate) fn contacts(&self) -> &[ContactState] {
+        self.follower.as_ref().map_or(&[], |follower| &follower.contacts)
+    }
+
+    /// As [`crate::simulate::contacts::Follower::watched`].
+    pub(in crate::simulate) fn watched(&self, clearances: &Clearances) -> impl Iterator<Item = f64> {
+        self.follower.iter().flat_map(|follower| follower.watched(clearances))
+    }
+
+    /// Whether a step that ends at `t` [s], after so many tried, changes nothing but what is added up.
+    pub(in crate::simulate) fn is_idle(&self, t: f64, tried: u64) -> bool {
+        self.angles.is_empty() && self.passages.are_over() && !self.guard.is_due(t, tried)
+    }
+
+    /// Takes over steps in which nothing happened, the last of which ended in `state`; what was added up is in the ledger already.
+    pub(in crate::simulate) fn take_over(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        (t, state): (f64, &[f64]),
+        (steps, added): (u32, f64),
+        contact: impl Fn(usize, &ContactState) -> ContactState,
+    ) {
+        self.statistics.steps += u64::from(steps);
+        motion.energy_scale = self.ledger.balance.scale;
+        self.passages.note_regular(steps, added < self.ledger.balance.added);
+        if let Some(follower) = &mut self.follower {
+            follower.take_over(motion, (t, state), contact);
         }
-        motion.energy_scale = motion.energy_scale.max(kinetic);
         self.reached.0 = t;
         self.reached.1.copy_from_slice(state);
     }
