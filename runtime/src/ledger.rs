@@ -107,8 +107,8 @@ impl<T: Scalar> Balance<T> {
 
     /// Goes on from other energies, as if nothing had happened between: errors are judged from here on.
     pub(crate) fn go_on_from(&mut self, now: &Energies<T>) {
-        self.start = now.kinetic + now.potential - now.supplied + now.dissipated
-            + (now.elastic + now.contact_loss);
+        self.start =
+            now.kinetic + now.potential - now.supplied + now.dissipated + (now.elastic + now.contact_loss);
         self.largest = T::constant(0.0);
         self.scale = self.scale.max(now.kinetic);
         self.end_at(now);

@@ -9,8 +9,8 @@ use crate::contact::Course;
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::{
-    CONTACT_ANSWER, CONTACT_MEMORY, LawsPlaces, PENETRATION, TOUCHING, contact_answer, in_words, round_response,
-    total_rates, worn_clearance,
+    CONTACT_ANSWER, CONTACT_MEMORY, LawsPlaces, PENETRATION, TOUCHING, contact_answer, in_words,
+    round_response, total_rates, worn_clearance,
 };
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
 use crate::joint_laws::Response;
@@ -204,7 +204,8 @@ impl StepPlan {
     /// What the trajectory has added up, if the step counts.
     fn ledger<T: Scalar>(&self, arena: &[T], (slope, energy): (&Slope<T>, &[T])) -> Ledger<T> {
         let (at, one) = (&self.places, |place: usize| arena[place]);
-        let (speeds, integrals) = arena[at.next.clone()][self.sizes.coordinates..].split_at(self.sizes.speeds);
+        let (speeds, integrals) =
+            arena[at.next.clone()][self.sizes.coordinates..].split_at(self.sizes.speeds);
         let losses = integrals[WORKS..].chunks_exact(TOTALS).map(|totals| totals[TOTALS - 1]);
         let energies = Energies {
             kinetic: energy[0],
@@ -229,7 +230,8 @@ impl StepPlan {
         let mut loud = no;
         for (joint, response) in slope.responses.iter().enumerate() {
             let end = (response.penetration, response.penetration_rate);
-            let [penetration, rate] = PENETRATION.map(|place| arena[at.touches.start + CONTACT_ANSWER * joint + place]);
+            let [penetration, rate] =
+                PENETRATION.map(|place| arena[at.touches.start + CONTACT_ANSWER * joint + place]);
             let touching = arena[at.memory.start + CONTACT_MEMORY * joint + TOUCHING];
             loud = loud.max(Course::new((penetration, rate), end, length).may_change(touching));
             loud = T::select(arena[at.watched.start + joint].lt(end.0), yes, loud);

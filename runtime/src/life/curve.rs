@@ -1,4 +1,4 @@
-//! The rate of wear as a function of wear, through two or three measurements, and where it leads.
+//! The rate of wear as a function of wear, through a few measurements, and where it leads.
 //! In: wear and rates. Out: wear later on. Never knows where measurements come from.
 
 /// Parts in which the way along a curve is followed: with a fifth of the clearance worn in a step, the fourth order leaves 1e-9.
@@ -14,37 +14,49 @@ pub struct Measured {
     pub rate: f64,
 }
 
+/// Measurements that a curve goes through, at most.
+const MOST: usize = 4;
+
 /// A polynomial in Newton's form.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Curve {
-    begin: Measured,
-    later: f64,
-    slope: f64,
-    bend: f64,
+    /// Wear at the measurements, and divided differences of the rates.
+    wear: [f64; MOST],
+    differences: [f64; MOST],
+    count: usize,
 }
 
 impl Curve {
-    /// The straight line through two measurements; level where both have the same wear.
-    pub(super) fn line(begin: Measured, later: Measured) -> Self {
-        Self { begin, later: later.wear, slope: slope(begin, later), bend: 0.0 }
+    /// Level, at the rate of a measurement.
+    pub(super) fn level(at: Measured) -> Self {
+        let mut curve = Self { wear: [0.0; MOST], differences: [0.0; MOST], count: 1 };
+        (curve.wear[0], curve.differences[0]) = (at.wear, at.rate);
+        curve
     }
 
-    /// Bent so that it goes through a third one.
-    pub(super) fn through(self, third: Measured) -> Self {
-        let onward = slope(self.begin, third);
-        let distance = third.wear - self.later;
-        Self { bend: if distance == 0.0 { 0.0 } else { (onward - self.slope) / distance }, ..self }
+    /// Bent so that it goes through one more; as it was where it has one of the same wear, or as many as it may have.
+    pub(super) fn through(mut self, next: Measured) -> Self {
+        if self.count == MOST || self.wear[..self.count].contains(&next.wear) {
+            return self;
+        }
+        let known = self.wear.iter().zip(&self.differences).take(self.count);
+        let difference =
+            known.fold(next.rate, |rate, (wear, difference)| (rate - difference) / (next.wear - wear));
+        (self.wear[self.count], self.differences[self.count]) = (next.wear, difference);
+        self.count += 1;
+        self
     }
 
     /// Rate at a wear.
     pub(super) fn rate(&self, wear: f64) -> f64 {
-        self.begin.rate + (wear - self.begin.wear) * (self.slope + (wear - self.later) * self.bend)
+        let known = self.wear.iter().zip(&self.differences).take(self.count).rev();
+        known.fold(0.0, |rate, (at, difference)| difference + (wear - at) * rate)
     }
 
-    /// Wear after so many cycles from its begin.
-    pub(super) fn after(&self, cycles: f64) -> f64 {
+    /// Wear so many cycles after a wear.
+    pub(super) fn after(&self, wear: f64, cycles: f64) -> f64 {
         let step = cycles / f64::from(PIECES);
-        (0..PIECES).fold(self.begin.wear, |wear, _| {
+        (0..PIECES).fold(wear, |wear, _| {
             let a = self.rate(wear);
             let b = self.rate(wear + 0.5 * step * a);
             let c = self.rate(wear + 0.5 * step * b);
@@ -52,11 +64,6 @@ impl Curve {
             wear + step / 6.0 * (a + 2.0 * (b + c) + d)
         })
     }
-}
-
-fn slope(from: Measured, to: Measured) -> f64 {
-    let distance = to.wear - from.wear;
-    if distance == 0.0 { 0.0 } else { (to.rate - from.rate) / distance }
 }
 
 #[cfg(test)]
@@ -69,16 +76,41 @@ mod tests {
         let at = |clearance: f64| Measured { wear: clearance - 10.0, rate: 1.6 * (clearance / 10.0).sqrt() };
         let exact = (20.0_f64.sqrt() + 0.8 / 10.0_f64.sqrt()).powi(2) - 20.0;
         let begin = at(20.0);
-        let line = Curve::line(begin, at(20.0 + 0.75 * begin.rate));
-        let [line, curve] = [line, line.through(at(18.0))].map(|curve| curve.after(1.0) - begin.wear);
+        let line = Curve::level(begin).through(at(20.0 + 0.75 * begin.rate));
+        let [line, curve] = [line, line.through(at(18.0))].map(|curve| curve.after(20.0, 1.0) - begin.wear);
         // The line leaves (k/c)²/192 of a step, by its second derivative; the curve what is left of the third.
         assert!((line / exact - 1.0).abs() < 1e-4 && (line / exact - 1.0).abs() > 2e-5, "{line} {exact}");
         assert!((curve / exact - 1.0).abs() < 5e-6, "{curve} {exact}");
     }
 
     #[test]
+    fn a_curve_goes_through_all_that_it_was_told() {
+        let law = |wear: f64| 2.0 + wear * (3.0 + wear * (0.5 - 0.25 * wear));
+        let at = |wear: f64| Measured { wear, rate: law(wear) };
+        let curve =
+            [0.5, -1.0, 2.0].into_iter().fold(Curve::level(at(1.0)), |curve, wear| curve.through(at(wear)));
+        for wear in [1.0, 0.5, -1.0, 2.0, 3.5] {
+            // A few roundings.
+            assert!((curve.rate(wear) - law(wear)).abs() < 1e-13, "{wear}");
+        }
+        assert_eq!(curve.through(at(9.0)).rate(4.0), curve.rate(4.0), "a cubic is all there is");
+    }
+
+    #[test]
+    fn one_measurement_in_the_middle_tells_what_a_step_wears() {
+        // c' = 1.6 sqrt(c / 10), in steps of one with earlier middles one and two steps before.
+        let at = |clearance: f64| Measured { wear: clearance - 10.0, rate: 1.6 * (clearance / 10.0).sqrt() };
+        let clearance = |time: f64| (20.0_f64.sqrt() + 0.8 * time / 10.0_f64.sqrt()).powi(2);
+        let middles = [0.5, -0.5, -1.5].map(|time| at(clearance(time)));
+        let curve = Curve::level(middles[0]).through(middles[1]).through(middles[2]);
+        let gain = curve.after(10.0, 1.0) - 10.0;
+        // Of the third derivative a twenty-fourth is left.
+        assert!((gain / (clearance(1.0) - 20.0) - 1.0).abs() < 2e-6, "{gain}");
+    }
+
+    #[test]
     fn what_does_not_wear_stays() {
         let still = Measured { wear: 3.0, rate: 0.0 };
-        assert_eq!(Curve::line(still, still).through(still).after(5.0), 3.0);
+        assert_eq!(Curve::level(still).through(still).after(3.0, 5.0), 3.0);
     }
 }

@@ -72,18 +72,19 @@ fn advance<F: WearSource>(
         measurements: state.measurements,
         earlier: state.earlier.clone(),
     };
-    let measured = match state.measured.clone() {
-        Some(measured) => measured,
+    let mut control = state.control;
+    let step = if draw.is_mean() { None } else { walker.by_middle()? };
+    let (path, measured) = match step {
+        Some(step) => step,
         None => {
-            let mut fine_state = walker.state.clone();
-            let measured = walker.measure(&vec![0.0; settings.width()], &mut fine_state)?;
-            walker.state = fine_state;
-            measured
+            let measured = match state.measured.clone() {
+                Some(measured) => measured,
+                None => walker.measure_begin()?,
+            };
+            let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
+            (walker.follow(&measured, &mut control, most)?, measured)
         }
     };
-    let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
-    let mut control = state.control;
-    let path = walker.follow(&measured, &mut control, most)?;
     let (fine_state, measurements, earlier) = (walker.state, walker.measurements, walker.earlier);
 
     let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;

@@ -21,9 +21,9 @@ pub struct LifeState<S> {
     pub fine: S,
     /// What a revolution wears now, if it was measured already.
     pub measured: Option<Vec<ContactMeasure>>,
-    /// What the last step has measured, joint by joint, where steps remember it.
+    /// What the last steps have measured, joint by joint, the latest first, where steps remember it.
     #[cfg_attr(feature = "serde", serde(default))]
-    pub earlier: Vec<[Measured; 2]>,
+    pub earlier: Vec<Vec<Measured>>,
     /// Control of the wear step.
     pub control: Control,
     /// How it ended, if it has.

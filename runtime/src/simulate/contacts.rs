@@ -213,12 +213,15 @@ impl Follower {
     pub(super) fn end_turn(&mut self, motion: &ConstrainedMotion<'_>, done: &mut [Touches<f64>]) {
         let duration = self.t - self.turn_begin;
         let joints = motion.dynamics.evaluator.clearances().joints().iter().zip(&self.contacts);
-        let measure = |((track, touches), (joint, touch)): ((&mut Track, &Touches<f64>), (&Clearance, &ContactState))| {
+        let measure = |((track, touches), (joint, touch)): (
+            (&mut Track, &Touches<f64>),
+            (&Clearance, &ContactState),
+        )| {
             let of_turn = track.last.since(track.begin);
             let extremes = &touches.extremes;
-            let observed = joint.wear().map(|(archard, _)| {
-                Observed::of(extremes, archard.area(), &joint.pair(touch.clearance))
-            });
+            let observed = joint
+                .wear()
+                .map(|(archard, _)| Observed::of(extremes, archard.area(), &joint.pair(touch.clearance)));
             ContactMeasure {
                 wear_integral: of_turn.wear,
                 depth: of_turn.depth,

@@ -425,7 +425,8 @@ impl<'a> Sampler<'a> {
         self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
         self.statistics.projections = motion.projections;
         let Ledger { balance, open, .. } = &self.ledger;
-        (self.statistics.energy_error_J, self.statistics.energy_throughput_J) = (balance.error, balance.throughput);
+        (self.statistics.energy_error_J, self.statistics.energy_throughput_J) =
+            (balance.error, balance.throughput);
         [self.statistics.max_loop_error_m, self.statistics.max_loop_error_rad] = *open;
         if let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes) {
             looks.finish(extremes);

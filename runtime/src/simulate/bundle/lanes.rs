@@ -95,7 +95,9 @@ impl<'a, const N: usize> Lanes<'a, N> {
             all[place][lane] = depth;
         }
         let mut numbers = all[places.ledger.clone()].iter_mut();
-        sampler.ledger.visit(&mut |number| numbers.next().into_iter().for_each(|place| place[lane] = *number));
+        sampler
+            .ledger
+            .visit(&mut |number| numbers.next().into_iter().for_each(|place| place[lane] = *number));
     }
 
     /// Takes over the error of the last step that counted.
