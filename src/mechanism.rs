@@ -8,7 +8,7 @@ use std::sync::Arc;
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::Tape;
 use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile, limits};
-use linkwear_native::Refusal;
+use linkwear_native::{NativeBundle, Refusal};
 use linkwear_runtime::{Description, StepPlan, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
@@ -198,9 +198,19 @@ impl Mechanism {
 
     /// Its equations for trajectories side by side; none but of machine code.
     pub(crate) fn lanes(&self) -> Option<Lanes> {
-        let tapes = self.origin.tapes.as_ref().filter(|_| self.equations.is_native())?;
-        let plan = StepPlan::new(&self.description, self.equations.system().sizes()).ok()?;
+        let (tapes, plan) = self.steps()?;
         Lanes::new(tapes, &plan)
+    }
+
+    /// Its equations for whole steps of one trajectory; none but of machine code.
+    pub(crate) fn whole_steps(&self) -> Option<NativeBundle<1>> {
+        let (tapes, plan) = self.steps()?;
+        NativeBundle::new(tapes, &plan).ok()
+    }
+
+    fn steps(&self) -> Option<(&[Tape], StepPlan)> {
+        let tapes = self.origin.tapes.as_ref().filter(|_| self.equations.is_native())?;
+        Some((tapes, StepPlan::new(&self.description, self.equations.system().sizes()).ok()?))
     }
 
     /// What runs them: `compiled`, `native` or `interpreter`.

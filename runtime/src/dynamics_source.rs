@@ -4,12 +4,13 @@
 mod settling;
 mod steadiness;
 
+use crate::bundle::Bundle;
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
 use crate::life::{JointLife, JointWear, SettingsError, WearOf, WearSource};
 use crate::linear::largest_of;
-use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState};
+use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState, WholeSteps};
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
@@ -55,8 +56,9 @@ pub struct DynamicsSource<'a> {
     /// Indices of the wearing joints among those with clearance, with their clearance at the start [m].
     wearing: Vec<(usize, f64)>,
     settings: RevolutionSettings,
-    /// Where turns are run, if not by the runner.
+    /// Where turns are run, if not by the runner: elsewhere, or in whole steps.
     queue: Option<TurnQueue>,
+    whole: Option<WholeSteps<'a>>,
     watch: Watch<'a>,
     warnings: Vec<RunWarning>,
     steadiness: Vec<Steadiness>,
@@ -94,7 +96,7 @@ impl<'a> DynamicsSource<'a> {
         let wearing = wearing.map(|at| (at, clearances[at])).collect();
         let start = runner.state();
         let (warnings, steadiness) = (Vec::new(), Vec::new());
-        let (queue, watch) = (None, Watch::NONE);
+        let (queue, whole, watch) = (None, None, Watch::NONE);
         Ok(Self {
             runner,
             description,
@@ -102,6 +104,7 @@ impl<'a> DynamicsSource<'a> {
             wearing,
             settings,
             queue,
+            whole,
             watch,
             warnings,
             steadiness,
@@ -117,6 +120,11 @@ impl<'a> DynamicsSource<'a> {
     /// How steady the turns of the last measurement were, per wearing joint.
     pub fn steadiness(&self) -> &[Steadiness] {
         &self.steadiness
+    }
+
+    /// Has its turns run in whole steps of machine code of the same mechanism, in the same bits.
+    pub fn in_whole_steps(self, bundle: &'a dyn Bundle<1>) -> Self {
+        Self { whole: Some(WholeSteps::new(bundle, &self.runner)), ..self }
     }
 
     /// Has its turns run side by side with those of others, in the same bits: the queue is that of a bundle of the same mechanism.
@@ -214,9 +222,10 @@ impl<'a> DynamicsSource<'a> {
 
     /// Runs turns, from one part of a measurement to another.
     fn run(&mut self, turns: u32, (from, to): (f64, f64)) -> Result<Vec<TurnMeasures>, RunError> {
-        let one = |watch| match &self.queue {
-            Some(queue) => queue.measure(&mut self.runner, watch),
-            None => self.runner.measure(watch),
+        let one = |watch| match (&self.queue, &mut self.whole) {
+            (Some(queue), _) => queue.measure(&mut self.runner, watch),
+            (None, Some(whole)) => whole.measure(&mut self.runner, watch),
+            (None, None) => self.runner.measure(watch),
         };
         self.watch.piece(from, to).pieces(turns).map(one).collect()
     }

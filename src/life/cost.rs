@@ -8,14 +8,14 @@ use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
 
 use super::error::{Cause, LifeError};
 use super::mission::Duty;
-use super::run::{Plan, joints};
+use super::run::{Plan, in_whole_steps, joints};
 use super::study::{Coupling, LifeStudy};
 
 /// Measurements per cycle of a mean path: fewest where steps grow to their longest, most where wear is noisy or steps stay within
 /// a cycle.
 const PER_CYCLE: [f64; 2] = [0.2, 5.0];
-/// Measurements per cycle of a random life: each begins anew, with one step of two.
-const PER_DRAWN_CYCLE: f64 = 2.0;
+/// Measurements per cycle of a random life: one in its middle, and now and then three; four where a profile is fed back.
+const PER_DRAWN_CYCLE: [f64; 2] = [1.3, 4.0];
 /// How many times shorter a turn is in one of the lanes of a thread than alone: 4 to 5 in the case study.
 const SHORTER_IN_LANES: f64 = 4.0;
 /// Revolutions that a motion takes to settle when what it wears has hardly changed.
@@ -59,7 +59,8 @@ impl LifeStudy<'_> {
         let system = self.mechanism.system();
         let once = RevolutionSettings { settle: Some(0), average: 1, ..self.revolutions };
         let duty = Duty::new(self, &*system)?;
-        let sources = duty.sources(&*system, once, watch)?;
+        let whole = self.whole_steps();
+        let sources = in_whole_steps(duty.sources(&*system, once, watch)?, whole.as_ref());
         let unworn = sources.first().map_or_else(Vec::new, DynamicsSource::unworn);
         let plan = Plan::new(self, &duty, joints(&sources)?, None, (watch, watch))?;
         let mut source = duty.compose(sources);
@@ -84,7 +85,7 @@ impl LifeStudy<'_> {
             revolutions: self.revolutions.settle.unwrap_or(TO_SETTLE) + self.revolutions.average.max(1),
             cycles,
             mean_path: [least, most],
-            lives: lives * PER_DRAWN_CYCLE * cycles,
+            lives: lives * PER_DRAWN_CYCLE[usize::from(!has_table)] * cycles,
             side_by_side: plan.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
             table: has_table.then_some(table),
         }))

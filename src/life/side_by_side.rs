@@ -5,9 +5,7 @@ use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{Builder, scope};
 
-use linkwear_runtime::{
-    Integrator, SINGULAR_PIVOT, TurnQueue, TurnRequests, TurnRunner, WideBundle, turn_queue,
-};
+use linkwear_runtime::{SINGULAR_PIVOT, TurnQueue, TurnRequests, TurnRunner, WideBundle, turn_queue};
 
 use super::error::LifeError;
 use super::result::LifeResult;
@@ -18,10 +16,7 @@ impl Plan<'_> {
     /// Machine code for the random lives side by side; none where there are no lives, or their method has no lanes.
     pub(super) fn lanes(&self) -> Option<Lanes> {
         let wanted = self.process.as_ref().and(self.trajectories);
-        // A bundle runs one description and one set of parameters.
-        let is_whole = !matches!(self.study.chosen_mission(), Ok(Some(_)));
-        let has_lanes = is_whole && matches!(self.study.revolutions.integrator, Integrator::Rk43 { .. });
-        wanted.filter(|_| has_lanes).and_then(|_| self.study.mechanism.lanes())
+        wanted.filter(|_| self.study.takes_bundles()).and_then(|_| self.study.mechanism.lanes())
     }
 
     /// The random lives, in the lanes of a bundle for each thread.

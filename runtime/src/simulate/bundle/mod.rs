@@ -10,9 +10,11 @@ mod outcome;
 mod queue;
 mod room;
 mod trajectory;
+mod whole;
 mod wide;
 
 pub use outcome::TurnOutcome;
+pub use whole::WholeSteps;
 pub use wide::WideBundle;
 
 pub use queue::{TurnQueue, TurnRequests, turn_queue};
@@ -27,6 +29,7 @@ use trajectory::Trajectory;
 pub struct TurnBundle<'a, const N: usize> {
     lanes: Lanes<'a, N>,
     trajectories: Vec<Trajectory<'a>>,
+    runners: Vec<TurnRunner<'a>>,
 }
 
 impl<'a, const N: usize> TurnBundle<'a, N> {
@@ -38,9 +41,9 @@ impl<'a, const N: usize> TurnBundle<'a, N> {
         bundle: &'a dyn Bundle<N>,
         runner: impl Fn() -> Result<TurnRunner<'a>, RunError>,
     ) -> Result<Self, RunError> {
-        let trajectories: Vec<_> = (0..N).map(|_| runner().map(Trajectory::new)).collect::<Result<_, _>>()?;
-        let parameters = trajectories[0].evaluator().parameters().to_vec();
-        Ok(Self { lanes: Lanes::new(bundle, &parameters), trajectories })
+        let runners: Vec<_> = (0..N).map(|_| runner()).collect::<Result<_, _>>()?;
+        let lanes = Lanes::new(bundle, runners[0].motion.dynamics.evaluator.parameters());
+        Ok(Self { lanes, trajectories: (0..N).map(|_| Trajectory::default()).collect(), runners })
     }
 
     /// A lane without a turn; none if all are under way.
@@ -64,41 +67,52 @@ impl<'a, const N: usize> TurnBundle<'a, N> {
         from: &TurnState,
         looked_at: Option<Vec<f64>>,
     ) -> Result<bool, RunError> {
-        self.trajectories[lane].begin(from, looked_at, (&mut self.lanes, lane))
+        let runner = &mut self.runners[lane];
+        runner.restore(from)?;
+        self.trajectories[lane].begin(runner, looked_at, (&mut self.lanes, lane))
     }
 
     /// Gives up the turn of a lane.
     pub fn cancel(&mut self, lane: usize) {
-        self.trajectories[lane].cancel();
+        self.trajectories[lane].cancel(&mut self.runners[lane]);
     }
 
     /// Tries one step in every lane that has a turn; `ended` hears of turns that end.
     pub fn step(&mut self, ended: &mut dyn FnMut(usize, TurnOutcome)) {
-        let Self { lanes, trajectories } = self;
-        let mut steps = Steps { begins: [0.0; N], lengths: [0.0; N], ends: [0.0; N], ordinary: [false; N] };
-        for (lane, trajectory) in trajectories.iter_mut().enumerate() {
-            if let Some((begin, length, end)) = trajectory.propose() {
-                (steps.begins[lane], steps.lengths[lane], steps.ends[lane]) = (begin, length, end);
-                steps.ordinary[lane] = true;
-            }
+        step(&mut self.lanes, &mut self.trajectories, &mut self.runners, ended);
+    }
+}
+
+/// One step of every trajectory that has a turn, each with its runner.
+fn step<'a, const N: usize>(
+    lanes: &mut Lanes<'a, N>,
+    trajectories: &mut [Trajectory<'a>],
+    runners: &mut [TurnRunner<'a>],
+    ended: &mut dyn FnMut(usize, TurnOutcome),
+) {
+    let mut steps = Steps { begins: [0.0; N], lengths: [0.0; N], ends: [0.0; N], ordinary: [false; N] };
+    for (lane, trajectory) in trajectories.iter_mut().enumerate() {
+        if let Some((begin, length, end)) = trajectory.propose() {
+            (steps.begins[lane], steps.lengths[lane], steps.ends[lane]) = (begin, length, end);
+            steps.ordinary[lane] = true;
         }
-        let asked = steps.ordinary;
-        lanes.attempt(&mut steps);
-        for lane in (0..N).filter(|lane| asked[*lane]) {
-            let (is_regular, end) = (steps.ordinary[lane], steps.ends[lane]);
-            steps.ordinary[lane] = is_regular && trajectories[lane].project((lanes, lane), end);
-        }
-        lanes.conclude(&mut steps);
-        let mut accepted = [false; N];
-        for lane in (0..N).filter(|lane| asked[*lane]) {
-            let step = (steps.lengths[lane], steps.ends[lane]);
-            accepted[lane] = trajectories[lane].judge((lanes, lane), step, steps.ordinary[lane]);
-        }
-        lanes.accept(&accepted);
-        for lane in (0..N).filter(|lane| asked[*lane]) {
-            if let Some(outcome) = trajectories[lane].settle((lanes, lane), accepted[lane]) {
-                ended(lane, outcome);
-            }
+    }
+    let asked = steps.ordinary;
+    lanes.attempt(&mut steps);
+    for lane in (0..N).filter(|lane| asked[*lane]) {
+        let (is_regular, end, runner) = (steps.ordinary[lane], steps.ends[lane], &mut runners[lane]);
+        steps.ordinary[lane] = is_regular && trajectories[lane].project(runner, (lanes, lane), end);
+    }
+    lanes.conclude(&mut steps);
+    let mut accepted = [false; N];
+    for lane in (0..N).filter(|lane| asked[*lane]) {
+        let step = ((steps.lengths[lane], steps.ends[lane]), steps.ordinary[lane]);
+        accepted[lane] = trajectories[lane].judge(&mut runners[lane], (lanes, lane), step);
+    }
+    lanes.accept(&accepted);
+    for lane in (0..N).filter(|lane| asked[*lane]) {
+        if let Some(outcome) = trajectories[lane].settle(&mut runners[lane], (lanes, lane), accepted[lane]) {
+            ended(lane, outcome);
         }
     }
 }

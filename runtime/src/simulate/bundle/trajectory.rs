@@ -1,25 +1,27 @@
 //! One trajectory of a bundle: what is done once a step, by the runner that would run it alone. In: a turn, steps that its lane
 //! has tried. Out: whether they count, the turn's end. Never knows the other lanes.
 
+use std::ops::ControlFlow;
+
 use super::lanes::Lanes;
 use super::outcome::TurnOutcome;
 use crate::clearance_joint::ContactState;
 use crate::error::RunError;
-use crate::evaluate::{CLOSED, Evaluator, LoopError};
+use crate::evaluate::{CLOSED, LoopError};
 use crate::integrate::{Adaptive, PARTS, Problem, Rk43};
 use crate::simulate::motion::ConstrainedMotion;
+use crate::simulate::schedule::Schedule;
 use crate::simulate::settings::Integrator;
-use crate::simulate::turns::{Turn, TurnRunner, TurnState};
+use crate::simulate::turns::{Turn, TurnRunner};
 use crate::simulate::{events, steps};
+use crate::watch::Watch;
 
 /// A lane's place among the lanes.
 type Place<'l, 'a, const N: usize> = (&'l mut Lanes<'a, N>, usize);
 
-/// A runner, and its turn.
-pub(super) struct Trajectory<'a> {
-    runner: TurnRunner<'a>,
-    turn: Option<UnderWay<'a>>,
-}
+/// The turn of a runner, if it has one.
+#[derive(Default)]
+pub(super) struct Trajectory<'a>(Option<UnderWay<'a>>);
 
 struct UnderWay<'a> {
     turn: Turn<'a>,
@@ -54,37 +56,30 @@ enum After {
 }
 
 impl<'a> Trajectory<'a> {
-    pub(super) fn new(runner: TurnRunner<'a>) -> Self {
-        Self { runner, turn: None }
-    }
-
-    pub(super) fn evaluator(&self) -> &Evaluator<'a> {
-        &self.runner.motion.dynamics.evaluator
-    }
-
     pub(super) fn is_under_way(&self) -> bool {
-        self.turn.is_some()
+        self.0.is_some()
     }
 
-    pub(super) fn cancel(&mut self) {
-        self.runner.motion.forget();
-        self.turn = None;
+    pub(super) fn cancel(&mut self, runner: &mut TurnRunner<'a>) {
+        runner.motion.forget();
+        self.0 = None;
     }
 
+    /// Begins a turn where the runner is. Whether it can be run here.
     pub(super) fn begin<const N: usize>(
         &mut self,
-        from: &TurnState,
+        runner: &mut TurnRunner<'a>,
         looked_at: Option<Vec<f64>>,
         (lanes, lane): Place<'_, 'a, N>,
     ) -> Result<bool, RunError> {
-        let Integrator::Rk43 { tolerance, max_step } = self.runner.integrator else { return Ok(false) };
+        let Integrator::Rk43 { tolerance, max_step } = runner.integrator else { return Ok(false) };
+        let evaluator = &runner.motion.dynamics.evaluator;
         // Steps that end at switches and samples are a lone trajectory's.
-        if self.evaluator().has_switches() || self.evaluator().has_samplers() {
+        if evaluator.has_switches() || evaluator.has_samplers() {
             return Ok(false);
         }
-        self.runner.restore(from)?;
-        let mut turn = self.runner.begin(looked_at)?;
-        let motion = &mut self.runner.motion;
+        let mut turn = runner.begin(looked_at)?;
+        let motion = &mut runner.motion;
         motion.loosen(tolerance);
         let mut method: Adaptive<Rk43> =
             steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, ((tolerance, max_step), false))?;
@@ -98,13 +93,21 @@ impl<'a> Trajectory<'a> {
         lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
         let residuals = vec![0.0; lanes.sizes.all_rows];
         let (quiet, is_end_known, after) = (0, false, After::Nothing);
-        self.turn = Some(UnderWay { turn, method, between, slopes, residuals, quiet, is_end_known, after });
+        self.0 = Some(UnderWay { turn, method, between, slopes, residuals, quiet, is_end_known, after });
         Ok(true)
+    }
+
+    /// Tells how far the turn is.
+    pub(super) fn report(&mut self, watch: Watch<'_>) -> ControlFlow<()> {
+        self.0.as_mut().map_or(ControlFlow::Continue(()), |UnderWay { turn, method, .. }| {
+            let Schedule { begin, end, .. } = turn.sampler.schedule;
+            watch.report((method.t() - begin) / (end - begin))
+        })
     }
 
     /// Begin, length and end of the step to try.
     pub(super) fn propose(&mut self) -> Option<(f64, f64, f64)> {
-        let UnderWay { turn, method, .. } = self.turn.as_mut()?;
+        let UnderWay { turn, method, .. } = self.0.as_mut()?;
         let control = method.control();
         let (length, end) = control.propose(turn.sampler.hard_stop(control.t()));
         Some((control.t(), length, end))
@@ -112,8 +115,13 @@ impl<'a> Trajectory<'a> {
 
     /// Puts the end of the step onto the constraints, unless the lanes have seen that nothing has to be done. Whether that
     /// succeeded.
-    pub(super) fn project<const N: usize>(&mut self, (lanes, lane): Place<'_, 'a, N>, end: f64) -> bool {
-        let Self { runner: TurnRunner { motion, .. }, turn: Some(under_way) } = self else { return false };
+    pub(super) fn project<const N: usize>(
+        &mut self,
+        runner: &mut TurnRunner<'a>,
+        (lanes, lane): Place<'_, 'a, N>,
+        end: f64,
+    ) -> bool {
+        let (Some(under_way), motion) = (&mut self.0, &mut runner.motion) else { return false };
         motion.dynamics.take_over(PARTS.len() as u64, lanes.nearness(lane));
         let is_untouched = lanes.is_untouched(lane);
         let [metres, radians] = lanes.open(lane);
@@ -141,11 +149,11 @@ impl<'a> Trajectory<'a> {
     /// believed.
     pub(super) fn judge<const N: usize>(
         &mut self,
+        runner: &mut TurnRunner<'a>,
         (lanes, lane): Place<'_, 'a, N>,
-        step: (f64, f64),
-        is_ordinary: bool,
+        (step, is_ordinary): ((f64, f64), bool),
     ) -> bool {
-        let Self { runner: TurnRunner { motion, .. }, turn: Some(under_way) } = self else { return false };
+        let (Some(under_way), motion) = (&mut self.0, &mut runner.motion) else { return false };
         motion.dynamics.take_over(1, lanes.nearness_at_end(lane));
         if let Some(pivots) = lanes.grown_pivots(lane) {
             motion.dynamics.note_pivots(&pivots);
@@ -201,13 +209,14 @@ impl<'a> Trajectory<'a> {
     /// Brings the lane up to date after a step; says how the turn ended, if it has.
     pub(super) fn settle<const N: usize>(
         &mut self,
+        runner: &mut TurnRunner<'a>,
         (lanes, lane): Place<'_, 'a, N>,
         accepted: bool,
     ) -> Option<TurnOutcome> {
-        let UnderWay { turn, method, after, .. } = self.turn.as_mut()?;
-        let motion = &mut self.runner.motion;
+        let UnderWay { turn, method, after, .. } = self.0.as_mut()?;
+        let motion = &mut runner.motion;
         if *after == After::Failed {
-            self.cancel();
+            self.cancel(runner);
             return Some(TurnOutcome::Alone);
         }
         if accepted {
@@ -226,9 +235,9 @@ impl<'a> Trajectory<'a> {
         }
         motion.forget();
         turn.state.copy_from_slice(method.y());
-        let UnderWay { turn, .. } = self.turn.take()?;
-        let measures = self.runner.end(turn);
-        Some(TurnOutcome::Done(Box::new((measures, self.runner.state()))))
+        let UnderWay { turn, .. } = self.0.take()?;
+        let measures = runner.end(turn);
+        Some(TurnOutcome::Done(Box::new((measures, runner.state()))))
     }
 }
 
