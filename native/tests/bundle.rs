@@ -5,7 +5,8 @@ use std::path::Path;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
-    Integrator, SINGULAR_PIVOT, StepPlan, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner, TurnState, Watch,
+    Integrator, RunError, SINGULAR_PIVOT, StepPlan, TurnBundle, TurnMeasures, TurnOutcome, TurnRunner,
+    TurnState, Watch, WholeSteps,
 };
 
 const INTEGRATOR: Integrator = Integrator::Rk43 { tolerance: 1e-5, max_step: None };
@@ -92,5 +93,34 @@ fn lanes_have_the_bits_of_lone_turns<const N: usize>() {
                 assert_eq!(expected, found, "{name}, life {life}, turn {turn}");
             }
         }
+    }
+}
+
+#[test]
+fn turns_in_whole_steps_have_the_bits_of_others() {
+    for name in ["rssr.toml", "four_bar_wear.toml"] {
+        let mechanism = shipped(name);
+        let system = Native::new(mechanism.tapes(), mechanism.sizes()).expect("machine code");
+        let plan = StepPlan::new(mechanism.description(), mechanism.sizes()).expect("laws");
+        let bundle = NativeBundle::<1>::new(mechanism.tapes(), &plan).expect("one lane");
+        let (mut one, mut other) = (runner(&system, &mechanism), runner(&system, &mechanism));
+        let mut whole = WholeSteps::new(&bundle, &other);
+        for (turn, worn) in [0.0, 0.0, 2e-6, 3e-5].into_iter().enumerate() {
+            one.set_worn(0, worn, None).expect("a clearance");
+            other.set_worn(0, worn, None).expect("a clearance");
+            let (expected, found) = (one.measure(Watch::NONE), whole.measure(&mut other, Watch::NONE));
+            assert_eq!(found.expect("a turn"), expected.expect("a turn"), "{name}, turn {turn}");
+            assert_eq!(other.state(), one.state(), "{name}, turn {turn}");
+        }
+        // Whoever stops a turn is where it began.
+        let before = other.state();
+        let stop = |_: f64| std::ops::ControlFlow::Break(());
+        let stopped = whole.measure(&mut other, Watch::new(&stop));
+        assert!(matches!(stopped, Err(RunError::Interrupted { t }) if t == before.t), "{stopped:?}");
+        assert_eq!(other.state(), before, "{name}");
+        assert_eq!(
+            whole.measure(&mut other, Watch::NONE).expect("a turn"),
+            one.measure(Watch::NONE).expect("a turn")
+        );
     }
 }

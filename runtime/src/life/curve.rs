@@ -77,7 +77,8 @@ mod tests {
         let exact = (20.0_f64.sqrt() + 0.8 / 10.0_f64.sqrt()).powi(2) - 20.0;
         let begin = at(20.0);
         let line = Curve::level(begin).through(at(20.0 + 0.75 * begin.rate));
-        let [line, curve] = [line, line.through(at(18.0))].map(|curve| curve.after(20.0, 1.0) - begin.wear);
+        let [line, curve] =
+            [line, line.through(at(18.0))].map(|curve| curve.after(begin.wear, 1.0) - begin.wear);
         // The line leaves (k/c)²/192 of a step, by its second derivative; the curve what is left of the third.
         assert!((line / exact - 1.0).abs() < 1e-4 && (line / exact - 1.0).abs() > 2e-5, "{line} {exact}");
         assert!((curve / exact - 1.0).abs() < 5e-6, "{curve} {exact}");
@@ -101,11 +102,13 @@ mod tests {
         // c' = 1.6 sqrt(c / 10), in steps of one with earlier middles one and two steps before.
         let at = |clearance: f64| Measured { wear: clearance - 10.0, rate: 1.6 * (clearance / 10.0).sqrt() };
         let clearance = |time: f64| (20.0_f64.sqrt() + 0.8 * time / 10.0_f64.sqrt()).powi(2);
-        let middles = [0.5, -0.5, -1.5].map(|time| at(clearance(time)));
-        let curve = Curve::level(middles[0]).through(middles[1]).through(middles[2]);
-        let gain = curve.after(10.0, 1.0) - 10.0;
-        // Of the third derivative a twenty-fourth is left.
-        assert!((gain / (clearance(1.0) - 20.0) - 1.0).abs() < 2e-6, "{gain}");
+        let [own, others @ ..] = [0.5, -0.5, -1.5, -2.5].map(|time| at(clearance(time)));
+        let three = Curve::level(own).through(others[0]).through(others[1]);
+        let exact = clearance(1.0) - clearance(0.0);
+        let off =
+            [three, three.through(others[2])].map(|curve| (curve.after(10.0, 1.0) - 10.0) / exact - 1.0);
+        // Of the third derivative a 24th is left, times the third power of a tenth of the clearance; of the fourth about as much.
+        assert!(off[0].abs() < 3e-5 && off[1].abs() < 1e-5, "{off:?}");
     }
 
     #[test]

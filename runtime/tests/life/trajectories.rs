@@ -48,6 +48,47 @@ fn full_coupling_needs_few_measurements_and_none_far_beyond_failure() {
     assert!(fine.most_wear < 1.1 * THRESHOLD, "{}", fine.most_wear);
 }
 
+/// Draws that take turns about the mean: 60 and 140 % of it.
+struct Alternating;
+
+impl IncrementModel for Alternating {
+    fn draw(&self, _: usize, _: u64, cycle: u64, mean: f64) -> f64 {
+        mean * if cycle % 2 == 0 { 0.6 } else { 1.4 }
+    }
+}
+
+#[test]
+fn drawn_lives_measure_once_a_cycle_in_its_middle() {
+    let lived = |settings: &LifeSettings, fine: &mut Powers| {
+        let mut state = LifeState::new(settings, 0).unwrap();
+        let outcome = run_life(settings, fine, &Alternating, &mut state, Watch::NONE).unwrap();
+        let LifeOutcome::Failed(failure) = outcome else { panic!("{outcome:?}") };
+        (failure.cycles, state)
+    };
+    for joints in [vec![(DEPTH, 0.5, 0.0)], vec![(DEPTH, 0.5, 0.0), (0.5 * DEPTH, 1.0 / 3.0, 0.3)]] {
+        let mut fine = Powers::new(joints.clone());
+        let all =
+            (0..joints.len()).map(|at| joint(&format!("R{at}"), exact_revolutions(0.5, 1.0) / 25.1, 1.0));
+        let full = LifeSettings { step: WearStep::FULL, ..LifeSettings::new(all.collect()) };
+        let (life, state) = lived(&full, &mut fine);
+        let fine_steps = LifeSettings { step: adaptive(1e-7), ..full.clone() };
+        let (expected, exact) = lived(&fine_steps, &mut Powers::new(joints.clone()));
+        // Steps may err by four times their tolerance of 1e-4; they err by a tenth of that here.
+        assert!((life / expected - 1.0).abs() < 4e-5, "{life} {expected}");
+        // Two or three cycles that know too little, with up to four measurements each.
+        let cycles = state.cycles.len();
+        assert!(fine.calls < cycles + 10, "{} measurements of {cycles} cycles", fine.calls);
+        for (found, expected) in state.cycles.iter().zip(&exact.cycles) {
+            for (at, (found, expected)) in found.joints.iter().zip(&expected.joints).enumerate() {
+                // What was measured is told as it is at the begin of its cycle.
+                let rate = |one: &linkwear_runtime::life::CycleJoint| one.revolution.depth;
+                assert!((rate(found) / rate(expected) - 1.0).abs() < 1e-4, "joint {at}");
+                assert!((found.wear / expected.wear - 1.0).abs() < 1e-4, "joint {at}");
+            }
+        }
+    }
+}
+
 #[test]
 fn estimated_error_covers_the_true_one() {
     for exponent in [1.0 / 3.0, 0.5] {
