@@ -75,6 +75,9 @@ impl Segment {
     }
 }
 
+/// A step: its path, and what a revolution wears at its begin.
+pub(super) type Step = (Path, Vec<ContactMeasure>);
+
 /// Walks along the mean path from where the joints are.
 pub(super) struct Walker<'a, F: WearSource> {
     pub(super) settings: &'a LifeSettings,
@@ -233,7 +236,7 @@ impl<F: WearSource> Walker<'_, F> {
     ///
     /// What a cycle wears goes with the rate in its middle; of what the others say of slope and bend, little is left. For lives that
     /// are drawn.
-    pub(super) fn by_middle(&mut self) -> Result<Option<(Path, Vec<ContactMeasure>)>, LifeError<F::Error>> {
+    pub(super) fn by_middle(&mut self) -> Result<Option<Step>, LifeError<F::Error>> {
         let WearStep::Adaptive { tolerance, remembers: true, .. } = self.settings.step else {
             return Ok(None);
         };

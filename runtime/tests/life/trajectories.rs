@@ -53,7 +53,7 @@ struct Alternating;
 
 impl IncrementModel for Alternating {
     fn draw(&self, _: usize, _: u64, cycle: u64, mean: f64) -> f64 {
-        mean * if cycle % 2 == 0 { 0.6 } else { 1.4 }
+        mean * if cycle.is_multiple_of(2) { 0.6 } else { 1.4 }
     }
 }
 
