@@ -7,9 +7,8 @@
 use crate::linear::largest_of;
 use crate::simulate::TurnState;
 
-/// A turn counts if later ones would differ by no more than this part of their wear: of either sign, it moves a life of many
-/// measurements by a tenth of that; ...
-const SETTLED: f64 = 3e-5;
+/// A turn counts if later ones would differ by no more than this part of their wear, ...
+const SETTLED: f64 = 1e-5;
 /// ... and that although they may differ by so many times what the factor lets expect.
 const SAFETY: f64 = 2.0;
 /// A factor grows by this from one measurement to the next where none was seen: it is looked at every few measurements, ...
