@@ -9,6 +9,7 @@
 //! `full` coupling measures with the dynamics themselves, `table` coupling with a [`WearTable`] made from them once. Both
 //! are fine scales to the same loop, [`run_life`].
 
+mod along_curves;
 mod calibrate;
 mod curve;
 mod cycle;

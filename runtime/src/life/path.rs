@@ -4,7 +4,7 @@
 //! Bogacki and Shampine's pair of order 3 and 2 (Appl. Math. Lett. 2 (1989) 321-325): its last stage is the first of
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
-use super::curve::{Curve, Measured};
+use super::curve::Measured;
 use super::error::LifeError;
 use super::interpolate::{at, cubic};
 use super::settings::{Feedback, JointLife, LifeSettings, WearStep};
@@ -26,18 +26,18 @@ const NOISE_KEPT: f64 = 0.9;
 pub(super) type Increments = Vec<f64>;
 
 /// One step of a path: a cubic between two measurements. Times in cycles.
-struct Segment {
-    start: f64,
-    length: f64,
-    from: Increments,
-    to: Increments,
-    from_rate: Increments,
-    to_rate: Increments,
+pub(super) struct Segment {
+    pub(super) start: f64,
+    pub(super) length: f64,
+    pub(super) from: Increments,
+    pub(super) to: Increments,
+    pub(super) from_rate: Increments,
+    pub(super) to_rate: Increments,
 }
 
 /// A finished path.
 pub(super) struct Path {
-    segments: Vec<Segment>,
+    pub(super) segments: Vec<Segment>,
     /// Whole cycles that it covers.
     pub(super) span: u64,
     /// What a revolution wears at its end; unknown if geometry was constant.
@@ -48,7 +48,7 @@ pub(super) struct Path {
 
 impl Path {
     /// Whether it leads anywhere, and nowhere back.
-    fn is_finite(&self) -> bool {
+    pub(super) fn is_finite(&self) -> bool {
         let onward = |to: &f64| to.is_finite() && *to >= 0.0;
         self.segments.iter().all(|segment| segment.to.iter().chain(&segment.to_rate).all(onward))
     }
@@ -92,19 +92,6 @@ pub(super) struct Walker<'a, F: WearSource> {
     /// What the last steps have measured, joint by joint, the latest first, where steps remember it.
     pub(super) earlier: Vec<Vec<Measured>>,
 }
-
-/// Part of a step at which its second measurement is made: the rest is too short for what a curve through it misses.
-const SECOND: f64 = 0.75;
-/// Measurements that are nearer to each other than this part of what a step wears tell more of the scatter of the fine scale than of
-/// its curve.
-const APART: f64 = 0.25;
-/// The same of measurements in the middle of cycles.
-const MIDDLES_APART: f64 = 0.5;
-/// A cycle of a life that is drawn may err by so many times the tolerance: what the curve misses of the fine structure of wear by
-/// clearance, a few parts in 1e4 of either sign, is nothing beside what the draw does, and shorter steps would find it again.
-const DRAWN: f64 = 4.0;
-/// So many are remembered: those of the last few steps.
-const REMEMBERED: usize = 6;
 
 /// A step that was tried.
 struct Trial<S> {
@@ -207,103 +194,6 @@ impl<F: WearSource> Walker<'_, F> {
         }
     }
 
-    /// One step along curves through its measurements and the nearest earlier one, joint by joint in its own wear; and by how much
-    /// of its gain it differs from straight lines.
-    fn along_curves(&mut self, rates: &[f64], span: u64) -> Result<(Path, f64), LifeError<F::Error>> {
-        let length = span as f64;
-        let second: Increments = rates.iter().map(|rate| SECOND * length * rate).collect();
-        let mut state = self.state.clone();
-        let measured = self.measure(&second, &mut state)?;
-        let then = self::rates(self.settings, &measured);
-        self.state = state;
-        let own = |(i, base): (usize, &WearState)| {
-            let begin = Measured { wear: base.wear, rate: rates[i] };
-            vec![begin, Measured { wear: base.wear + second[i], rate: then[i] }]
-        };
-        let own: Vec<Vec<Measured>> = self.base.iter().enumerate().map(own).collect();
-        let curves = own.iter().zip(&self.earlier).map(|(own, earlier)| {
-            let line = Curve::level(own[0]).through(own[1]);
-            let third = apart(own, earlier, APART * (own[1].wear - own[0].wear)).next();
-            [line, third.map_or(line, |third| line.through(third))]
-        });
-        let (path, ratio) = self.by_curves(&curves.collect::<Vec<_>>(), span);
-        self.remember(own);
-        Ok((path, ratio))
-    }
-
-    /// One cycle by a single measurement in its middle, with a curve through it and earlier ones, and that measurement as it would be
-    /// at the begin; nothing if there are too few, or if the curve through four differs too much from that through three.
-    ///
-    /// What a cycle wears goes with the rate in its middle; of what the others say of slope and bend, little is left. For lives that
-    /// are drawn.
-    pub(super) fn by_middle(&mut self) -> Result<Option<Step>, LifeError<F::Error>> {
-        let WearStep::Adaptive { tolerance, remembers: true, .. } = self.settings.step else {
-            return Ok(None);
-        };
-        if self.earlier.len() != self.base.len() || !self.has_numbers_alone() {
-            return Ok(None);
-        }
-        let known = self.base.iter().zip(&self.earlier).map(|(base, earlier)| foretell(base.wear, earlier));
-        let Some(foretold) = known.collect::<Option<Increments>>() else { return Ok(None) };
-        let mut state = self.state.clone();
-        let mut measured = self.measure(&foretold, &mut state)?;
-        self.state = state;
-        let there = self.base.iter().zip(&foretold).zip(rates(self.settings, &measured));
-        let own: Vec<Measured> =
-            there.map(|((base, gained), rate)| Measured { wear: base.wear + gained, rate }).collect();
-        let curves = own.iter().zip(&self.earlier).map(|(own, earlier)| {
-            let mut others = apart(&[*own], earlier, MIDDLES_APART * own.rate);
-            let three = Curve::level(*own).through(others.next()?).through(others.next()?);
-            Some([three, three.through(others.next()?)])
-        });
-        let curves = curves.collect::<Option<Vec<_>>>();
-        self.remember(own.iter().map(|own| vec![*own]).collect());
-        let Some(curves) = curves else { return Ok(None) };
-        let (path, ratio) = self.by_curves(&curves, 1);
-        if !path.is_finite() || ratio > DRAWN * tolerance {
-            return Ok(None);
-        }
-        let joints = measured.iter_mut().zip(&curves).zip(own.iter().zip(self.base));
-        for ((measured, [_, curve]), (own, base)) in joints.filter(|(_, (own, _))| own.rate > 0.0) {
-            let part = curve.rate(base.wear) / own.rate;
-            measured.wear_integral *= part;
-            measured.depth *= part;
-        }
-        Ok(Some((path, measured)))
-    }
-
-    /// Whether the wear of every joint is one number.
-    fn has_numbers_alone(&self) -> bool {
-        self.settings.joints.iter().all(|joint| joint.width() == 1)
-    }
-
-    /// Keeps what a step has measured, joint by joint, before what earlier ones have.
-    fn remember(&mut self, mut own: Vec<Vec<Measured>>) {
-        self.earlier.resize(own.len(), Vec::new());
-        for (own, earlier) in own.iter_mut().zip(&mut self.earlier) {
-            own.reverse();
-            own.append(earlier);
-            own.truncate(REMEMBERED);
-        }
-        self.earlier = own;
-    }
-
-    /// The path along the second curve of every joint, and by how much of its gain it differs from the first.
-    fn by_curves(&self, curves: &[[Curve; 2]], span: u64) -> (Path, f64) {
-        let length = span as f64;
-        let nothing = vec![0.0; curves.len()];
-        let (mut to, mut errors) = (nothing.clone(), nothing.clone());
-        let (mut from_rate, mut to_rate) = (nothing.clone(), nothing.clone());
-        for (i, ([rough, curve], base)) in curves.iter().zip(self.base).enumerate() {
-            let end = curve.after(base.wear, length);
-            (to[i], errors[i]) = (end - base.wear, end - rough.after(base.wear, length));
-            (from_rate[i], to_rate[i]) = (curve.rate(base.wear), curve.rate(end));
-        }
-        let (error, ratio) = self.judge(&errors, &to, length);
-        let segment = Segment { start: 0.0, length, from: nothing, to, from_rate, to_rate };
-        (Path { segments: vec![segment], span, end: None, error }, ratio)
-    }
-
     /// One step of the pair.
     fn attempt(
         &mut self,
@@ -348,7 +238,7 @@ impl<F: WearSource> Walker<'_, F> {
     /// a joint that hardly wears does not set the step.
     ///
     /// An error of W early in life grows with the rate of wear, the same error as a time does not: it can be summed.
-    fn judge(&self, errors: &[f64], gains: &[f64], length: f64) -> (Vec<f64>, f64) {
+    pub(super) fn judge(&self, errors: &[f64], gains: &[f64], length: f64) -> (Vec<f64>, f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let mut per_joint = Vec::with_capacity(self.base.len());
         let (mut error, mut gain) = (0.0_f64, 0.0_f64);
@@ -360,30 +250,6 @@ impl<F: WearSource> Walker<'_, F> {
         }
         (per_joint, if gain > 0.0 { error / gain } else { 0.0 })
     }
-}
-
-/// Earlier measurements that are no nearer than this [m] to own ones and to each other, those nearest to the first first.
-fn apart(own: &[Measured], earlier: &[Measured], least: f64) -> impl Iterator<Item = Measured> + use<> {
-    let (first, mut taken) = (own[0].wear, own.to_vec());
-    let mut sorted = earlier.to_vec();
-    sorted.sort_by(|a, b| (a.wear - first).abs().total_cmp(&(b.wear - first).abs()));
-    sorted.into_iter().filter(move |one| {
-        let distances = taken.iter().map(|known| (one.wear - known.wear).abs());
-        let is_apart = distances.fold(f64::INFINITY, f64::min) >= least.abs();
-        if is_apart {
-            taken.push(*one);
-        }
-        is_apart
-    })
-}
-
-/// What half a cycle will add to a wear [m], by the curve through three measurements; nothing if there are less, or if that is none.
-fn foretell(wear: f64, earlier: &[Measured]) -> Option<f64> {
-    let nearest = earlier.iter().min_by(|a, b| (a.wear - wear).abs().total_cmp(&(b.wear - wear).abs()))?;
-    let mut others = apart(&[*nearest], earlier, APART * nearest.rate);
-    let curve = Curve::level(*nearest).through(others.next()?).through(others.next()?);
-    let gained = curve.after(wear, 0.5) - wear;
-    (gained.is_finite() && gained >= 0.0).then_some(gained)
 }
 
 /// Whether a step of a length is good enough, by its error over its gain and that of a longer one that was refused
