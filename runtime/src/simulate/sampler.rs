@@ -224,6 +224,8 @@ impl<'a> Sampler<'a> {
         let shown = Shown { t, length, energies, speeds, turning: &self.turning };
         let contacts = motion.dynamics.evaluator.clearances().contacts();
         let added = self.ledger.balance.added;
+        // The motion may have been put back, to what the ledger does not know.
+        self.ledger.balance.scale = motion.energy_scale;
         self.ledger.note_step(&shown, contacts.iter().map(touched));
         motion.energy_scale = self.ledger.balance.scale;
         let regularity = (motion.is_rough(), motion.dynamics.nearness());

@@ -39,7 +39,6 @@ impl Sampler<'_> {
     ) {
         let tried = self.statistics.steps + self.statistics.rejected;
         self.guard = Guard::new((t, self.schedule.end), tried);
-        // The motion may have been put back, to what the ledger does not know.
         self.ledger.balance.scale = motion.energy_scale;
         self.ledger.balance.go_on_from(&motion.energies(t, state));
         self.judge_from(motion, t, state);
