@@ -49,8 +49,6 @@ pub(crate) struct Balance<T> {
     pub(crate) throughput: T,
     /// Largest of all energies but those of contacts, since errors are judged.
     pub(crate) largest: T,
-    /// Largest kinetic energy: the scale of the work quadratures.
-    pub(crate) scale: T,
     /// What there was at the end of the last step.
     kinetic: T,
     supplied: T,
@@ -86,8 +84,8 @@ pub(crate) struct Ledger<T> {
 }
 
 impl<T: Scalar> Balance<T> {
-    /// Begins where there are these energies; `scale`: least size of a kinetic energy.
-    pub(crate) fn new(now: &Energies<T>, scale: T) -> Self {
+    /// Begins where there are these energies.
+    pub(crate) fn new(now: &Energies<T>) -> Self {
         let zero = T::constant(0.0);
         let mut balance = Self {
             start: zero,
@@ -95,7 +93,6 @@ impl<T: Scalar> Balance<T> {
             added: zero,
             throughput: zero,
             largest: zero,
-            scale,
             kinetic: zero,
             supplied: zero,
             dissipated: zero,
@@ -110,7 +107,6 @@ impl<T: Scalar> Balance<T> {
         self.start =
             now.kinetic + now.potential - now.supplied + now.dissipated + (now.elastic + now.contact_loss);
         self.largest = T::constant(0.0);
-        self.scale = self.scale.max(now.kinetic);
         self.end_at(now);
     }
 
@@ -134,7 +130,6 @@ impl<T: Scalar> Balance<T> {
                 + (now.dissipated - self.dissipated).abs()
                 + (now.kinetic - self.kinetic).abs())
             + (now.contact_loss - self.contact_loss).abs();
-        self.scale = self.scale.max(now.kinetic);
         self.end_at(now);
     }
 
@@ -213,11 +208,8 @@ impl<T: Scalar> Ledger<T> {
 
     /// How many numbers they are, with so many joints.
     pub(crate) const fn len(contacts: usize) -> usize {
-        15 + 7 * contacts
+        14 + 7 * contacts
     }
-
-    /// Place of [`Balance::scale`] among them.
-    pub(crate) const SCALE: usize = 0;
 
     /// Of numbers in that order.
     pub(crate) fn of(numbers: &[T], contacts: usize) -> Self {
@@ -230,7 +222,7 @@ impl<T: Scalar> Ledger<T> {
             elastic: zero,
             contact_loss: zero,
         };
-        let mut ledger = Self::new(Balance::new(&nothing, zero), contacts);
+        let mut ledger = Self::new(Balance::new(&nothing), contacts);
         let mut numbers = numbers.iter();
         ledger.visit(&mut |number| *number = numbers.next().copied().unwrap_or(zero));
         ledger
@@ -239,8 +231,8 @@ impl<T: Scalar> Ledger<T> {
     /// Shows every number, in one order, to be read or put back.
     pub(crate) fn visit(&mut self, visit: &mut dyn FnMut(&mut T)) {
         let Self { balance, fastest, fastest_turning, open: [metres, radians], longest_step, joints } = self;
-        let Balance { scale, start, error, added, throughput, largest, .. } = balance;
-        [scale, start, error, added, throughput, largest].into_iter().for_each(&mut *visit);
+        let Balance { start, error, added, throughput, largest, .. } = balance;
+        [start, error, added, throughput, largest].into_iter().for_each(&mut *visit);
         let Balance { kinetic, supplied, dissipated, contact_loss, .. } = balance;
         [kinetic, supplied, dissipated, contact_loss].into_iter().for_each(&mut *visit);
         [fastest, fastest_turning, metres, radians, longest_step].into_iter().for_each(&mut *visit);

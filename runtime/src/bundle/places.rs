@@ -30,8 +30,9 @@ pub(crate) struct Places {
     /// Tolerance of the error, relative to sizes; the error of the last accepted step, 1 just accepted.
     pub(crate) tolerance: usize,
     pub(crate) last_error: usize,
-    /// Natural sizes of coordinates and speeds, in their units.
+    /// Natural sizes of coordinates and speeds, in their units; of energies [J].
     pub(crate) scales: Range<usize>,
+    pub(crate) energy_scale: usize,
     /// [`CONTACT_ANSWER`] numbers of every joint with clearance at the beginning; up to which penetration nobody has to look at it.
     pub(crate) touches: Range<usize>,
     pub(crate) watched: Range<usize>,
@@ -94,6 +95,7 @@ impl Places {
             tolerance: next.one(),
             last_error: next.one(),
             scales: next.some(coordinates + speeds),
+            energy_scale: next.one(),
             touches: next.some(CONTACT_ANSWER * sizes.contacts),
             watched: next.some(sizes.contacts),
             ledger: next.some(Ledger::<f64>::len(sizes.contacts)),
@@ -134,7 +136,8 @@ pub(crate) struct Conclusion {
     pub(crate) has_grown: usize,
     /// How regular the loops are at the end, no number if an answer is infinite or none.
     pub(crate) nearness: usize,
-    /// What the trajectory has added up, if the step counts.
+    /// The natural size of energies [J], and what the trajectory has added up, if the step counts.
+    pub(crate) energy_scale: usize,
     pub(crate) ledger: Range<usize>,
     /// 1 where nothing happened in the step that a trajectory would have to look at, else 0.
     pub(crate) is_quiet: usize,
@@ -155,6 +158,7 @@ impl Conclusion {
             pivots: next.some(sizes.rows),
             has_grown: next.one(),
             nearness: next.one(),
+            energy_scale: next.one(),
             ledger: next.some(Ledger::<f64>::len(sizes.contacts)),
             is_quiet: next.one(),
             error: next.one(),

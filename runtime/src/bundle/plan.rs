@@ -174,7 +174,7 @@ impl StepPlan {
         let growth = growth_of(one(at.last_error), floored(error));
         let mut ledger = self.ledger(arena, (&slope, &energy));
         let is_quiet = self.is_quiet(arena, &slope, &ledger);
-        let mut flags = vec![has_grown, nearness + nothing];
+        let mut flags = vec![has_grown, nearness + nothing, one(at.energy_scale).max(energy[0])];
         ledger.visit(&mut |number| flags.push(*number));
         flags.extend([is_quiet, error, growth]);
         let answer = [slope.state, slope.contacts, energy, pivots, flags].concat();
@@ -188,7 +188,7 @@ impl StepPlan {
             return Some(self.places.scales.start + index);
         };
         let judged = integral.checked_sub(WORKS).is_none_or(|integral| is_energy(integral % TOTALS));
-        judged.then_some(self.places.ledger.start + Ledger::<f64>::SCALE)
+        judged.then_some(self.places.energy_scale)
     }
 
     /// How far loops are open [m], [rad], by the answer of [`Entry::Closure`]; no number if that is none.

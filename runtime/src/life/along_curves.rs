@@ -31,10 +31,7 @@ impl<F: WearSource> Walker<'_, F> {
     ) -> Result<(Path, f64), LifeError<F::Error>> {
         let length = span as f64;
         let second: Increments = rates.iter().map(|rate| SECOND * length * rate).collect();
-        let mut state = self.state.clone();
-        let measured = self.measure(&second, &mut state)?;
-        let then = self::rates(self.settings, &measured);
-        self.state = state;
+        let then = self::rates(self.settings, &self.go_on_to(&second)?);
         let own = |(i, base): (usize, &WearState)| {
             let begin = Measured { wear: base.wear, rate: rates[i] };
             vec![begin, Measured { wear: base.wear + second[i], rate: then[i] }]
@@ -64,9 +61,7 @@ impl<F: WearSource> Walker<'_, F> {
         }
         let known = self.base.iter().zip(&self.earlier).map(|(base, earlier)| foretell(base.wear, earlier));
         let Some(foretold) = known.collect::<Option<Increments>>() else { return Ok(None) };
-        let mut state = self.state.clone();
-        let mut measured = self.measure(&foretold, &mut state)?;
-        self.state = state;
+        let mut measured = self.go_on_to(&foretold)?;
         let there = self.base.iter().zip(&foretold).zip(rates(self.settings, &measured));
         let own: Vec<Measured> =
             there.map(|((base, gained), rate)| Measured { wear: base.wear + gained, rate }).collect();

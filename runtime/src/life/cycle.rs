@@ -79,7 +79,7 @@ fn advance<F: WearSource>(
         None => {
             let measured = match state.measured.clone() {
                 Some(measured) => measured,
-                None => walker.measure_begin()?,
+                None => walker.go_on_to(&vec![0.0; settings.width()])?,
             };
             let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
             (walker.follow(&measured, &mut control, most)?, measured)

@@ -122,10 +122,13 @@ impl<F: WearSource> Walker<'_, F> {
         measure(self.settings, self.fine, &joints, state, self.cycle + 1)
     }
 
-    /// What a revolution wears where the joints are.
-    pub(super) fn measure_begin(&mut self) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
+    /// The same of the motion that goes on from there.
+    pub(super) fn go_on_to(
+        &mut self,
+        increments: &[f64],
+    ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
         let mut state = self.state.clone();
-        let measured = self.measure(&vec![0.0; self.settings.width()], &mut state)?;
+        let measured = self.measure(increments, &mut state)?;
         self.state = state;
         Ok(measured)
     }

@@ -85,7 +85,7 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) arm: f64,
     /// Natural size of the motion along every free speed.
     pub(super) sizes: Vec<f64>,
-    /// Largest kinetic energy so far [J], as the ledger of the run has it: the scale of the work quadratures.
+    /// Largest kinetic energy so far [J]: the scale of the work quadratures.
     pub(super) energy_scale: f64,
     /// Factor on how far loops may stay open after a step, in regular positions.
     looseness: f64,
@@ -194,13 +194,12 @@ impl<'a> ConstrainedMotion<'a> {
         let (kinetic, potential) = self.energy(t, y);
         let (q, v, (supplied, dissipated)) = self.split(y);
         self.dynamics.evaluator.evaluate_contacts(t, q, v);
-        let contacts = self.dynamics.evaluator.clearances().contacts();
         Energies {
             kinetic,
             potential,
             supplied,
             dissipated,
-            elastic: sum(contacts.iter().map(|touch| touch.elastic_energy)),
+            elastic: self.dynamics.evaluator.clearances().elastic_energy(),
             contact_loss: sum(self.totals(y).map(|totals| totals.loss)),
         }
     }

@@ -77,8 +77,9 @@ impl<'a> Sampler<'a> {
         let begin = schedule.begin;
         let follower = Follower::new(motion, begin, state);
         let guard = Guard::new((begin, schedule.end), 0);
-        let balance = Balance::new(&motion.energies(begin, state), motion.energy_scale);
-        let ledger = Ledger::new(balance, motion.dynamics.evaluator.sizes().contacts);
+        let energies = motion.energies(begin, state);
+        motion.energy_scale = motion.energy_scale.max(energies.kinetic);
+        let ledger = Ledger::new(Balance::new(&energies), motion.dynamics.evaluator.sizes().contacts);
         let turning = description.turning_speeds();
         let mut sampler = Self {
             schedule,
@@ -114,7 +115,6 @@ impl<'a> Sampler<'a> {
 
     /// Speeds are judged from a state on.
     fn judge_from(&mut self, motion: &mut ConstrainedMotion<'_>, t: f64, state: &[f64]) {
-        motion.energy_scale = self.ledger.balance.scale;
         (self.ledger.fastest, self.ledger.fastest_turning) = (0.0, 0.0);
         self.ledger.note_speeds(motion.split(state).1, &self.turning);
         note_driver(motion, t, &mut self.ledger);
@@ -224,10 +224,8 @@ impl<'a> Sampler<'a> {
         let shown = Shown { t, length, energies, speeds, turning: &self.turning };
         let contacts = motion.dynamics.evaluator.clearances().contacts();
         let added = self.ledger.balance.added;
-        // The motion may have been put back, to what the ledger does not know.
-        self.ledger.balance.scale = motion.energy_scale;
         self.ledger.note_step(&shown, contacts.iter().map(touched));
-        motion.energy_scale = self.ledger.balance.scale;
+        motion.energy_scale = motion.energy_scale.max(energies.kinetic);
         let regularity = (motion.is_rough(), motion.dynamics.nearness());
         self.passages.note(t, regularity, added < self.ledger.balance.added);
         self.follow(motion, t, state)?;

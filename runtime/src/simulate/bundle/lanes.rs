@@ -83,14 +83,21 @@ impl<'a, const N: usize> Lanes<'a, N> {
     }
 
     /// Takes over what steps change beside the state: what contacts remember, what they are like, up to where nobody looks at them,
-    /// what the run has added up.
-    pub(super) fn put_progress(&mut self, lane: usize, clearances: &Clearances, sampler: &mut Sampler<'_>) {
+    /// how large energies are, what the run has added up.
+    pub(super) fn put_progress(
+        &mut self,
+        lane: usize,
+        motion: &ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+    ) {
+        let clearances = motion.dynamics.evaluator.clearances();
         self.put_memories(lane, clearances, STEADY..CONTACT_MEMORY);
         let Self { places, arena, .. } = self;
         for (joint, touch) in sampler.contacts().iter().enumerate() {
             arena.put(lane, places.touches.start + CONTACT_ANSWER * joint, &known_answer(touch));
         }
         let all = arena.all_mut();
+        all[places.energy_scale][lane] = motion.energy_scale;
         for (place, depth) in places.watched.clone().zip(sampler.watched(clearances)) {
             all[place][lane] = depth;
         }
@@ -103,6 +110,11 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// Takes over the error of the last step that counted.
     pub(super) fn put_last_error(&mut self, lane: usize, last_error: f64) {
         self.arena.all_mut()[self.places.last_error][lane] = last_error;
+    }
+
+    /// How large energies of a lane are [J].
+    pub(super) fn energy_scale(&self, lane: usize) -> f64 {
+        self.arena.all()[self.places.energy_scale][lane]
     }
 
     /// What the run of a lane has added up.
@@ -195,20 +207,27 @@ impl<'a, const N: usize> Lanes<'a, N> {
 
     /// A contact of a lane at the end of its step, by what it was at another instant.
     pub(super) fn contact(&self, lane: usize, joint: usize, before: &ContactState) -> ContactState {
-        let answer = self.answer.all();
-        let totals = self.conclusion.slope.start + Conclusion::totals(&self.sizes, joint);
-        let contact = self.conclusion.contacts.start + CONTACT_ANSWER * joint;
-        let rates = std::array::from_fn(|at| answer[totals + at][lane]);
-        contact_state(before, rates, std::array::from_fn(|at| answer[contact + at][lane]))
+        let Conclusion { slope, contacts, .. } = &self.conclusion;
+        self.contact_in(self.answer.all(), (slope, contacts), (lane, joint), before)
     }
 
-    /// A contact of a lane at the beginning of its step, by what it was at another instant.
+    /// The same at the beginning of its step.
     pub(super) fn contact_before(&self, lane: usize, joint: usize, before: &ContactState) -> ContactState {
-        let arena = self.arena.all();
-        let totals = self.places.slope.start + Conclusion::totals(&self.sizes, joint);
-        let contact = self.places.touches.start + CONTACT_ANSWER * joint;
-        let rates = std::array::from_fn(|at| arena[totals + at][lane]);
-        contact_state(before, rates, std::array::from_fn(|at| arena[contact + at][lane]))
+        let Places { slope, touches, .. } = &self.places;
+        self.contact_in(self.arena.all(), (slope, touches), (lane, joint), before)
+    }
+
+    fn contact_in(
+        &self,
+        numbers: &[[f64; N]],
+        (slope, contacts): (&Range<usize>, &Range<usize>),
+        (lane, joint): (usize, usize),
+        before: &ContactState,
+    ) -> ContactState {
+        let totals = slope.start + Conclusion::totals(&self.sizes, joint);
+        let contact = contacts.start + CONTACT_ANSWER * joint;
+        let rates = std::array::from_fn(|at| numbers[totals + at][lane]);
+        contact_state(before, rates, std::array::from_fn(|at| numbers[contact + at][lane]))
     }
 
     /// The largest pivots of a lane, if they have grown in its step.
@@ -251,6 +270,10 @@ impl<'a, const N: usize> Lanes<'a, N> {
             (&places.slope, &conclusion.slope),
             (&places.touches, &conclusion.contacts),
             (&places.ledger, &conclusion.ledger),
+            (
+                &(places.energy_scale..places.energy_scale + 1),
+                &(conclusion.energy_scale..conclusion.energy_scale + 1),
+            ),
         ];
         for (place, at) in answers {
             choose(&mut question[place.clone()], &answer.all()[at.clone()], accepted);

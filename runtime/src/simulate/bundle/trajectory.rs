@@ -85,7 +85,7 @@ impl<'a> Trajectory<'a> {
             steps::begin_adaptive(motion, &mut turn.sampler, &turn.state, ((tolerance, max_step), false))?;
         lanes.put_state(lane, method.y(), method.slope());
         lanes.put_settings(lane, motion, method.tolerance());
-        lanes.put_progress(lane, motion.dynamics.evaluator.clearances(), &mut turn.sampler);
+        lanes.put_progress(lane, motion, &mut turn.sampler);
         lanes.put_last_error(lane, method.control().last_error());
         lanes.put_pivots(lane, &motion.dynamics);
         let numbers = || vec![0.0; turn.state.len()];
@@ -229,7 +229,7 @@ impl<'a> Trajectory<'a> {
             lanes.put_state(lane, method.y(), method.slope());
             lanes.put_pivots(lane, &motion.dynamics);
         }
-        lanes.put_progress(lane, motion.dynamics.evaluator.clearances(), &mut turn.sampler);
+        lanes.put_progress(lane, motion, &mut turn.sampler);
         if method.t() < turn.sampler.schedule.end {
             return None;
         }
@@ -263,6 +263,7 @@ impl UnderWay<'_> {
         lanes.get(lane, lanes.places().y.start, method.y_mut());
         let added = sampler.ledger.balance.added;
         lanes.read_ledger(lane, &mut sampler.ledger);
+        motion.energy_scale = lanes.energy_scale(lane);
         let contact = |joint: usize, before: &ContactState| lanes.contact_before(lane, joint, before);
         sampler.take_over(motion, (method.t(), method.y()), (steps, added), contact);
     }

@@ -39,8 +39,9 @@ impl Sampler<'_> {
     ) {
         let tried = self.statistics.steps + self.statistics.rejected;
         self.guard = Guard::new((t, self.schedule.end), tried);
-        self.ledger.balance.scale = motion.energy_scale;
-        self.ledger.balance.go_on_from(&motion.energies(t, state));
+        let energies = motion.energies(t, state);
+        motion.energy_scale = motion.energy_scale.max(energies.kinetic);
+        self.ledger.balance.go_on_from(&energies);
         self.judge_from(motion, t, state);
         self.reached.0 = t;
         self.reached.1.copy_from_slice(state);
@@ -64,13 +65,12 @@ impl Sampler<'_> {
     /// Takes over steps in which nothing happened, the last of which ended in `state`; what was added up is in the ledger already.
     pub(in crate::simulate) fn take_over(
         &mut self,
-        motion: &mut ConstrainedMotion<'_>,
+        motion: &ConstrainedMotion<'_>,
         (t, state): (f64, &[f64]),
         (steps, added): (u32, f64),
         contact: impl Fn(usize, &ContactState) -> ContactState,
     ) {
         self.statistics.steps += u64::from(steps);
-        motion.energy_scale = self.ledger.balance.scale;
         self.passages.note_regular(steps, added < self.ledger.balance.added);
         if let Some(follower) = &mut self.follower {
             follower.take_over(motion, (t, state), contact);
