@@ -77,19 +77,30 @@ impl Routine {
         let registers = Registers::assign(tape);
         let mut constants: Vec<f64> = Vec::new();
         let mut positions = std::collections::HashMap::new();
+        // Most of the entries of large matrices are zero.
+        let mut zero = None;
         let direct = tape.direct.iter().map(|(_, operand)| *operand);
         for operand in direct.chain(tape.statements.iter().flat_map(Statement::reads)) {
             if let Operand::Constant(number) = operand {
-                positions.entry(number.to_bits()).or_insert_with(|| {
+                if zero.is_some() && number.to_bits() == 0 {
+                    continue;
+                }
+                let position = *positions.entry(number.to_bits()).or_insert_with(|| {
                     constants.push(number);
                     constants.len() - 1
                 });
+                if number.to_bits() == 0 {
+                    zero = Some(position);
+                }
             }
         }
         let (first_input, first_register) = (constants.len(), constants.len() + tape.input_len());
         let place = |operand: Operand| -> u32 {
             let index = match operand {
-                Operand::Constant(number) => positions[&number.to_bits()],
+                Operand::Constant(number) => match zero {
+                    Some(zero) if number.to_bits() == 0 => zero,
+                    _ => positions[&number.to_bits()],
+                },
                 Operand::Input(index) => first_input + index as usize,
                 Operand::Value(value) => first_register + registers.of_value[value as usize] as usize,
             };

@@ -17,6 +17,22 @@ pub enum Unary {
     LogCoefficient(u8),
 }
 
+impl Unary {
+    /// Another number for every function.
+    pub const fn number(self) -> u64 {
+        match self {
+            Self::Neg => 0,
+            Self::Sqrt => 1,
+            Self::Sin => 2,
+            Self::Cos => 3,
+            Self::Exp => 4,
+            Self::Ln => 5,
+            Self::Floor => 6,
+            Self::LogCoefficient(rank) => 7 + rank as u64,
+        }
+    }
+}
+
 /// Functions of two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs, reason = "named as in mathematics")]

@@ -83,13 +83,30 @@ impl Compiled {
 
     /// Lengths of inputs and outputs; each back end has a workspace of its own.
     pub fn sizes(&self) -> Sizes {
-        let held = self.tapes()[Entry::Contacts as usize].output_len() - self.sizes.output(Entry::Contacts);
+        self.sizes_of(self.tapes())
+    }
+
+    fn sizes_of(&self, tapes: &[Tape]) -> Sizes {
+        let held = tapes[Entry::Contacts as usize].output_len() - self.sizes.output(Entry::Contacts);
         Sizes { held, ..self.sizes }
     }
 
     /// The mechanism as a runtime system, without a compiler.
     pub fn interpreter(&self) -> Interpreted {
-        Interpreted::new(self.tapes(), self.sizes(), self.description.clone())
+        self.interpreter_of(self.tapes())
+    }
+
+    /// The same for a look at a state or two: by tapes as the derivation made them, unless shorter ones are there already. To
+    /// shorten them takes longer than such a look. Values differ by rounding.
+    pub fn interpreter_at_hand(&self) -> Interpreted {
+        match self.tapes.get() {
+            Some(tapes) => self.interpreter_of(tapes),
+            None => self.interpreter_of(&tape::lower(&self.equations)),
+        }
+    }
+
+    fn interpreter_of(&self, tapes: &[Tape]) -> Interpreted {
+        Interpreted::new(tapes, self.sizes_of(tapes), self.description.clone())
     }
 
     /// How else the loops could close at the start.

@@ -20,11 +20,17 @@ const MOST_TO_ORDER: usize = 60;
 
 /// By row and speed, whether the entry is among the largest of its row at all positions.
 fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<Vec<bool>> {
-    let large = |jacobian: &DMatrix<f64>, row: usize, speed: usize| {
-        jacobian[(row, speed)].abs() >= SMALLEST_PIVOT * jacobian.row(row).amax()
+    let of_row = |row: usize| {
+        let mut always = vec![true; speeds];
+        for jacobian in jacobians {
+            let least = SMALLEST_PIVOT * jacobian.row(row).amax();
+            for (always, entry) in always.iter_mut().zip(jacobian.row(row).iter()) {
+                *always &= entry.abs() >= least;
+            }
+        }
+        always
     };
-    let always = |row: usize, speed: usize| jacobians.iter().all(|jacobian| large(jacobian, row, speed));
-    (0..rows).map(|row| (0..speeds).map(|speed| always(row, speed)).collect()).collect()
+    (0..rows).map(of_row).collect()
 }
 
 /// The shortest so far, the first among equals.
@@ -72,7 +78,9 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
         kinds.push(&shapes[..]);
     }
     for shapes in kinds {
-        best.offer(problem, &plan, Way { shapes, ..plain });
+        if !shapes.is_empty() {
+            best.offer(problem, &plan, Way { shapes, ..plain });
+        }
         let first = Way { rows_first: true, shapes, ..plain };
         if !plan.blocks.is_empty() {
             best.offer(problem, &plan, first);

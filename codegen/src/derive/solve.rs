@@ -55,8 +55,7 @@ pub fn solve<'g>(g: &'g Scope, saddle: &Saddle<'_, 'g>, order: Order<'_>) -> Sol
         }
     }
     let mut right: Vec<Expr<'g>> = saddle.force.iter().chain(saddle.target).copied().collect();
-    let left: Vec<usize> = (0..n + m).collect();
-    let mut system = Elimination { matrix, speeds: n, left, steps: Vec::new() };
+    let mut system = Elimination::new(matrix, n);
     g.begin_section("elimination of speeds, from the leaves of the tree to its root");
     if let Order::Leaves = order {
         (0..n).rev().for_each(|i| system.alone(i, &mut right));
@@ -111,26 +110,49 @@ struct Elimination<'g> {
     /// Unknowns before this one are speeds, the others rows.
     speeds: usize,
     left: Vec<usize>,
+    /// By unknown, those left that have entries with it, in order: most have few.
+    neighbours: Vec<Vec<usize>>,
     steps: Vec<Step<'g>>,
 }
 
 impl<'g> Elimination<'g> {
-    /// Those left that have entries with `k`.
-    fn neighbours(&self, k: usize) -> Vec<usize> {
-        self.left.iter().copied().filter(|i| *i != k && !self.matrix[*i][k].is_zero()).collect()
+    fn new(matrix: Vec<Vec<Expr<'g>>>, speeds: usize) -> Self {
+        let count = matrix.len();
+        let with = |(k, row): (usize, &Vec<Expr<'g>>)| {
+            (0..count).filter(|i| *i != k && !row[*i].is_zero()).collect()
+        };
+        let neighbours = matrix.iter().enumerate().map(with).collect();
+        Self { matrix, speeds, left: (0..count).collect(), neighbours, steps: Vec::new() }
+    }
+
+    /// Takes an unknown out of those left. Out: those that have entries with it.
+    fn leaves(&mut self, k: usize) -> Vec<usize> {
+        self.left.retain(|other| *other != k);
+        let others = std::mem::take(&mut self.neighbours[k]);
+        for other in &others {
+            self.neighbours[*other].retain(|known| *known != k);
+        }
+        others
     }
 
     fn update(&mut self, i: usize, j: usize, less: Expr<'g>) {
         let updated = self.matrix[i][j] - less;
         self.matrix[i][j] = updated;
         self.matrix[j][i] = updated;
+        for (one, other) in [(i, j), (j, i)].into_iter().filter(|_| i != j) {
+            let list = &mut self.neighbours[one];
+            match (list.binary_search(&other), updated.is_zero()) {
+                (Ok(place), true) => _ = list.remove(place),
+                (Err(place), false) => list.insert(place, other),
+                _ => {}
+            }
+        }
     }
 
     /// Takes unknown `k` out: updates the block of those left and the right-hand side.
     fn alone(&mut self, k: usize, right: &mut [Expr<'g>]) {
-        self.left.retain(|other| *other != k);
         let reciprocal = self.matrix[k][k].recip();
-        let others = self.neighbours(k);
+        let others = self.leaves(k);
         for (position, &i) in others.iter().enumerate() {
             let factor = self.matrix[i][k] * reciprocal;
             for &j in &others[position..] {
@@ -144,11 +166,11 @@ impl<'g> Elimination<'g> {
     /// Takes a speed out by a row that has no diagonal: `x_s = (f_r - sum b_j x_j) / c`, put into all other equations; the
     /// row's unknown follows from the equation of the speed.
     fn pair(&mut self, s: usize, r: usize, right: &mut [Expr<'g>]) {
-        self.left.retain(|other| *other != s && *other != r);
         let reciprocal = self.matrix[r][s].recip();
-        let (with_speed, with_row) = (self.neighbours(s), self.neighbours(r));
-        let others: Vec<usize> =
-            self.left.iter().copied().filter(|i| with_speed.contains(i) || with_row.contains(i)).collect();
+        let (with_speed, with_row) = (self.leaves(s), self.leaves(r));
+        let mut others: Vec<usize> = with_speed.into_iter().filter(|i| *i != r).chain(with_row).collect();
+        others.sort_unstable();
+        others.dedup();
         let diagonal = self.matrix[s][s];
         // x_s = known - sum share_j x_j.
         let known = reciprocal * right[r];
@@ -196,7 +218,7 @@ impl<'g> Elimination<'g> {
 
     /// The unknown with the fewest neighbours among those left; the first among equals.
     fn least_fill(&self) -> Option<Pivot> {
-        let next = self.left.iter().copied().min_by_key(|k| self.neighbours(*k).len());
+        let next = self.left.iter().copied().min_by_key(|k| self.neighbours[*k].len());
         next.map(Pivot::Alone)
     }
 
@@ -207,7 +229,7 @@ impl<'g> Elimination<'g> {
         let is_row = |k: usize| k >= self.speeds;
         let mut best: Option<(Key, Pivot)> = None;
         for &k in &self.left {
-            let others = self.neighbours(k);
+            let others = &self.neighbours[k];
             // A row without its speeds gone has no diagonal, or one that may vanish.
             if is_row(k) && others.iter().any(|other| !is_row(*other)) {
                 continue;
@@ -218,7 +240,7 @@ impl<'g> Elimination<'g> {
                     best = Some((key, pivot));
                 }
             };
-            offer(costs.alone(k, &others), Pivot::Alone(k));
+            offer(costs.alone(k, others), Pivot::Alone(k));
             for &r in others.iter().filter(|r| is_row(**r) && !is_row(k)) {
                 let may = constant[r - self.speeds][k] && self.matrix[r][k].as_number().is_some();
                 // The formulas of a pair stand on a row that nothing has been eliminated from.

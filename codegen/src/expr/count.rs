@@ -9,18 +9,19 @@ impl Graph {
     /// that another operation takes over.
     pub fn operations(&self, roots: &[ExprId]) -> usize {
         let uses = self.uses(roots);
-        let signs = Signs::of(self, &uses);
+        let live = self.live(&uses);
+        let signs = Signs::of(self, &uses, &live);
         let mut angles = vec![false; self.nodes.len()];
-        let live = self.nodes.iter().zip(&uses).filter(|(_, used)| **used > 0);
-        live.filter(|(node, _)| match **node {
-            Node::Constant(_) | Node::Symbol(_) => false,
-            Node::Unary(Unary::Neg, inner) => !signs.is_reversed(inner),
-            Node::Unary(Unary::Sin | Unary::Cos, angle) => {
-                !std::mem::replace(&mut angles[angle.index()], true)
-            }
-            Node::Unary(..) | Node::Binary(..) | Node::Select(..) => true,
-        })
-        .count()
+        live.iter()
+            .filter(|id| match self.node(**id) {
+                Node::Constant(_) | Node::Symbol(_) => false,
+                Node::Unary(Unary::Neg, inner) => !signs.is_reversed(inner),
+                Node::Unary(Unary::Sin | Unary::Cos, angle) => {
+                    !std::mem::replace(&mut angles[angle.index()], true)
+                }
+                Node::Unary(..) | Node::Binary(..) | Node::Select(..) => true,
+            })
+            .count()
     }
 }
 

@@ -14,24 +14,61 @@ use super::{Binary, ExprId, Node, Unary};
 pub struct Expr<'g> {
     scope: &'g Scope,
     id: ExprId,
+    form: Form,
+}
+
+/// What operators ask of most operands, beside the id, so that they need not look into the graph for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    Zero,
+    Number,
+    Negative,
+    Other,
+}
+
+impl Form {
+    #[inline]
+    fn of(node: Node) -> Self {
+        match node {
+            // Zero has one form: -0.0 is no number of a graph.
+            Node::Constant(0) => Self::Zero,
+            Node::Constant(_) => Self::Number,
+            Node::Unary(Unary::Neg, _) => Self::Negative,
+            _ => Self::Other,
+        }
+    }
 }
 
 impl Scope {
     /// A new input, `name` as it reads in generated code.
     pub fn symbol(&self, name: impl Into<String>) -> Expr<'_> {
-        Expr { scope: self, id: self.make(|g| g.symbol(name)) }
+        self.at(self.make(|g| g.symbol(name)))
     }
 
     /// A number. `-0.0` becomes `0.0`.
+    #[inline]
     pub fn number(&self, value: f64) -> Expr<'_> {
         self.expression(Node::Constant((value + 0.0).to_bits()))
     }
 
+    #[inline]
     fn expression(&self, node: Node) -> Expr<'_> {
-        Expr { scope: self, id: self.make(|g| g.intern(node)) }
+        self.make(|g| {
+            let id = g.intern(node);
+            // Beyond the limit the first node stands for all.
+            let node = if id.index() == 0 { g.node(id) } else { node };
+            Expr { scope: self, id, form: Form::of(node) }
+        })
+    }
+
+    /// A node that is there.
+    #[inline]
+    pub(super) fn at(&self, id: ExprId) -> Expr<'_> {
+        Expr { scope: self, id, form: Form::of(self.make(|g| g.node(id))) }
     }
 
     /// Zero.
+    #[inline]
     pub fn zero(&self) -> Expr<'_> {
         self.number(0.0)
     }
@@ -40,8 +77,7 @@ impl Scope {
     pub fn nodes(&self, roots: &[ExprId]) -> Vec<(ExprId, Node)> {
         self.make(|g| {
             let uses = g.uses(roots);
-            let needed = (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new);
-            needed.map(|id| (id, g.node(id))).collect()
+            g.live(&uses).into_iter().map(|id| (id, g.node(id))).collect()
         })
     }
 
@@ -56,7 +92,7 @@ impl Scope {
         self.make(|g| {
             needed.retain(|(_, node)| !matches!(node, Node::Select(by, ..) if g.quiet.contains(by)))
         });
-        let own = |id| Expr { scope: self, id };
+        let own = |id| self.at(id);
         let (mut switches, mut known) = (Vec::new(), FxHashSet::default());
         for (_, node) in needed {
             let switch = match node {
@@ -98,18 +134,25 @@ impl From<Expr<'_>> for ExprId {
 
 impl<'g> Expr<'g> {
     /// The node's id.
+    #[inline]
     pub const fn id(self) -> ExprId {
         self.id
     }
 
     /// The graph under construction.
+    #[inline]
     pub const fn scope(self) -> &'g Scope {
         self.scope
     }
 
     /// The number, if it is one.
+    #[inline]
     pub fn as_number(self) -> Option<f64> {
-        self.scope.make(|g| g.as_constant(self.id))
+        match self.form {
+            Form::Zero => Some(0.0),
+            Form::Number => self.scope.make(|g| g.as_constant(self.id)),
+            Form::Negative | Form::Other => None,
+        }
     }
 
     /// About how large it gets while symbols and functions are of the order of one: what numbers in it make of it.
@@ -134,8 +177,9 @@ impl<'g> Expr<'g> {
     }
 
     /// Whether it is the number zero.
+    #[inline]
     pub fn is_zero(self) -> bool {
-        self.as_number() == Some(0.0)
+        self.form == Form::Zero
     }
 
     /// Gives the node a readable name, unless it is a constant, an input or named already.
@@ -267,25 +311,36 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// Whether it is the negative of another node, or a number.
+    #[inline]
+    pub(super) fn may_change_sign(self) -> bool {
+        self.form != Form::Other
+    }
+
     /// The node behind it.
+    #[inline]
     pub(super) fn node(self) -> Node {
         self.scope.make(|g| g.node(self.id))
     }
 
     /// Another node of the same graph.
+    #[inline]
     pub(super) fn at(self, id: ExprId) -> Self {
-        Self { id, ..self }
+        self.scope.at(id)
     }
 
+    #[inline]
     pub(super) fn unary(self, operation: Unary) -> Self {
         self.scope.expression(Node::Unary(operation, self.id))
     }
 
+    #[inline]
     pub(super) fn binary(self, operation: Binary, other: Self) -> Self {
         self.scope.expression(Node::Binary(operation, self.id, other.id))
     }
 
     /// Of a commutative operation.
+    #[inline]
     pub(super) fn ordered(self, operation: Binary, other: Self) -> Self {
         if self.id < other.id { self.binary(operation, other) } else { other.binary(operation, self) }
     }

@@ -8,6 +8,8 @@ mod count;
 mod diff;
 mod eval;
 mod expression;
+mod interned;
+mod node;
 mod operators;
 mod passes;
 mod scope;
@@ -20,53 +22,30 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::limits::EXPRESSIONS;
 
+use interned::Interned;
+
 pub use crate::id::{ExprId, SymbolId};
 pub use affine::Affine;
 pub use expression::Expr;
 pub use linkwear_tape::{Binary, Unary};
+pub use node::Node;
 pub use passes::{Program, shortened};
 pub use scope::Scope;
 pub use signs::Signs;
 pub use vector::{Mat3, Vec3};
 
-/// A node. Constants hold the bits of an f64, so that nodes can be hashed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Node {
-    /// A number.
-    Constant(u64),
-    /// An input.
-    Symbol(SymbolId),
-    /// A function of one value.
-    Unary(Unary, ExprId),
-    /// A function of two values.
-    Binary(Binary, ExprId, ExprId),
-    /// The second where the first is below zero, else the third.
-    Select(ExprId, ExprId, ExprId),
-}
-
-impl Node {
-    /// The nodes that it is computed from.
-    pub fn children(self) -> impl Iterator<Item = ExprId> {
-        let (first, second, third) = match self {
-            Self::Constant(_) | Self::Symbol(_) => (None, None, None),
-            Self::Unary(_, a) => (Some(a), None, None),
-            Self::Binary(_, a, b) => (Some(a), Some(b), None),
-            Self::Select(a, yes, no) => (Some(a), Some(yes), Some(no)),
-        };
-        first.into_iter().chain(second).chain(third)
-    }
-}
-
 /// The graph: nodes, names of inputs, readable labels and sections.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
-    known: FxHashMap<Node, ExprId>,
+    known: Interned,
     symbols: Vec<String>,
     labels: FxHashMap<ExprId, String>,
     /// Conditions whose sides meet so well that no step has to end there.
     quiet: FxHashSet<ExprId>,
     sections: Vec<String>,
+    /// Index of every section by its title.
+    section_by_title: FxHashMap<String, usize>,
     /// Index of the section of every node.
     section_of: Vec<usize>,
     current_section: usize,
@@ -76,6 +55,7 @@ pub struct Graph {
 
 impl Graph {
     /// The node behind an id.
+    #[inline]
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
     }
@@ -83,11 +63,13 @@ impl Graph {
     /// How often each node is read: by nodes that `roots` need, and as one of them. 0: nothing needs it.
     pub fn uses(&self, roots: &[ExprId]) -> Vec<u32> {
         let mut uses = vec![0_u32; self.nodes.len()];
+        let mut end = 0;
         for root in roots {
             uses[root.index()] += 1;
+            end = end.max(root.index() + 1);
         }
         // Children come before parents, so one sweep from the end counts every use.
-        for (index, node) in self.nodes.iter().enumerate().rev() {
+        for (index, node) in self.nodes[..end].iter().enumerate().rev() {
             if uses[index] > 0 {
                 for child in node.children() {
                     uses[child.index()] += 1;
@@ -95,6 +77,11 @@ impl Graph {
             }
         }
         uses
+    }
+
+    /// The nodes that are read at all, each after those that it reads.
+    pub fn live(&self, uses: &[u32]) -> Vec<ExprId> {
+        (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect()
     }
 
     /// A new input; a valid Rust identifier is made of its name later.
@@ -110,6 +97,7 @@ impl Graph {
     }
 
     /// The symbol behind a node, if it is one.
+    #[inline]
     pub fn as_symbol(&self, id: ExprId) -> Option<SymbolId> {
         match self.node(id) {
             Node::Symbol(symbol) => Some(symbol),
@@ -118,6 +106,7 @@ impl Graph {
     }
 
     /// The number behind a node, if it is one.
+    #[inline]
     pub fn as_constant(&self, id: ExprId) -> Option<f64> {
         match self.node(id) {
             Node::Constant(bits) => Some(f64::from_bits(bits)),
@@ -131,10 +120,13 @@ impl Graph {
     }
 
     fn begin_section(&mut self, title: String) {
-        self.current_section = self.sections.iter().position(|known| *known == title).unwrap_or_else(|| {
-            self.sections.push(title);
-            self.sections.len() - 1
-        });
+        if let Some(known) = self.section_by_title.get(&title) {
+            self.current_section = *known;
+            return;
+        }
+        self.current_section = self.sections.len();
+        self.section_by_title.insert(title.clone(), self.current_section);
+        self.sections.push(title);
     }
 
     /// Title of the section in which a node was first made.
@@ -143,6 +135,7 @@ impl Graph {
     }
 
     /// The same section as a number.
+    #[inline]
     pub fn section_index(&self, id: ExprId) -> usize {
         self.section_of[id.index()]
     }
@@ -154,13 +147,14 @@ impl Graph {
     }
 
     /// The readable name of a node.
+    #[inline]
     pub fn label_of(&self, id: ExprId) -> Option<&str> {
         self.labels.get(&id).map(String::as_str)
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(id) = self.known.get(&node) {
-            return *id;
+        if let Some(id) = self.known.get(&self.nodes, node) {
+            return id;
         }
         // What comes after the limit is thrown away: any node stands for it, so that the derivation ends soon.
         if self.nodes.len() >= EXPRESSIONS.most && !matches!(node, Node::Symbol(_)) {
@@ -170,7 +164,7 @@ impl Graph {
         let id = ExprId::new(self.nodes.len());
         self.nodes.push(node);
         self.section_of.push(self.current_section);
-        self.known.insert(node, id);
+        self.known.insert(&self.nodes, id);
         id
     }
 }

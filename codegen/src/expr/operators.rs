@@ -10,7 +10,11 @@ use super::{Binary, Node, Unary};
 
 impl Expr<'_> {
     /// The positive part of `±x`: (`x`, whether it was negated).
+    #[inline]
     pub(super) fn strip_sign(self) -> (Self, bool) {
+        if !self.may_change_sign() {
+            return (self, false);
+        }
         match self.node() {
             Node::Unary(Unary::Neg, inner) => (self.at(inner), true),
             Node::Constant(bits) if f64::from_bits(bits) < 0.0 => (-self, true),
@@ -18,6 +22,7 @@ impl Expr<'_> {
         }
     }
 
+    #[inline]
     pub(super) fn with_sign(self, negated: bool) -> Self {
         if negated { -self } else { self }
     }
@@ -78,7 +83,11 @@ impl Expr<'_> {
 
 impl Neg for Expr<'_> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
+        if !self.may_change_sign() {
+            return self.unary(Unary::Neg);
+        }
         match self.node() {
             Node::Constant(bits) => self.scope().number(-f64::from_bits(bits)),
             Node::Unary(Unary::Neg, inner) => self.at(inner),
@@ -89,12 +98,16 @@ impl Neg for Expr<'_> {
 
 impl Add for Expr<'_> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
-        match (self.as_number(), other.as_number()) {
-            (Some(x), Some(y)) => return self.scope().number(x + y),
-            (Some(0.0), _) => return other,
-            (_, Some(0.0)) => return self,
-            _ => {}
+        if self.is_zero() {
+            return other;
+        }
+        if other.is_zero() {
+            return self;
+        }
+        if let (Some(x), Some(y)) = (self.as_number(), other.as_number()) {
+            return self.scope().number(x + y);
         }
         let ((x, x_negated), (y, y_negated)) = (self.strip_sign(), other.strip_sign());
         match (x_negated, y_negated) {
@@ -108,6 +121,7 @@ impl Add for Expr<'_> {
 
 impl Sub for Expr<'_> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -115,11 +129,16 @@ impl Sub for Expr<'_> {
 
 impl Mul for Expr<'_> {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
-        match (self.as_number(), other.as_number()) {
-            (Some(x), Some(y)) => return self.scope().number(x * y),
-            (Some(0.0), _) | (_, Some(0.0)) => return self.scope().zero(),
-            _ => {}
+        if let (Some(x), Some(y)) = (self.as_number(), other.as_number()) {
+            return self.scope().number(x * y);
+        }
+        if self.is_zero() {
+            return self;
+        }
+        if other.is_zero() {
+            return other;
         }
         let ((x, x_negated), (y, y_negated)) = (self.strip_sign(), other.strip_sign());
         x.positive_product(y).with_sign(x_negated != y_negated)

@@ -21,6 +21,7 @@ impl Scope {
     }
 
     /// What `build` makes of the graph.
+    #[inline]
     pub(super) fn make<R>(&self, build: impl FnOnce(&mut Graph) -> R) -> R {
         build(&mut self.0.borrow_mut())
     }

@@ -15,27 +15,26 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// For nodes that are read as often as `uses` says; see [`Graph::uses`].
-    pub fn of(graph: &Graph, uses: &[u32]) -> Self {
+    /// For the nodes that are needed, see [`Graph::live`], which are read as often as `uses` says; see [`Graph::uses`].
+    pub fn of(graph: &Graph, uses: &[u32], live: &[ExprId]) -> Self {
         let mut free = vec![false; uses.len()];
-        for (index, node) in graph.nodes.iter().enumerate() {
-            free[index] = uses[index] > 0
-                && match *node {
-                    Node::Binary(Binary::Sub, ..) => true,
-                    Node::Binary(Binary::Add | Binary::Mul | Binary::Div, a, b) => {
-                        turning(graph, uses, &free, a) || turning(graph, uses, &free, b)
-                    }
-                    _ => false,
-                };
+        for id in live {
+            free[id.index()] = match graph.node(*id) {
+                Node::Binary(Binary::Sub, ..) => true,
+                Node::Binary(Binary::Add | Binary::Mul | Binary::Div, a, b) => {
+                    turning(graph, uses, &free, a) || turning(graph, uses, &free, b)
+                }
+                _ => false,
+            };
         }
         let mut reversed = vec![false; uses.len()];
         // Parents come after their children: one sweep from the end passes every sign down.
-        for (index, node) in graph.nodes.iter().enumerate().rev() {
-            match *node {
-                Node::Unary(Unary::Neg, inner) if uses[index] > 0 => {
+        for id in live.iter().rev() {
+            match graph.node(*id) {
+                Node::Unary(Unary::Neg, inner) => {
                     reversed[inner.index()] = uses[inner.index()] == 1 && free[inner.index()];
                 }
-                Node::Binary(Binary::Add | Binary::Mul | Binary::Div, a, b) if reversed[index] => {
+                Node::Binary(Binary::Add | Binary::Mul | Binary::Div, a, b) if reversed[id.index()] => {
                     let by = if turning(graph, uses, &free, a) { a } else { b };
                     reversed[by.index()] = graph.as_constant(by).is_none();
                 }

@@ -35,12 +35,12 @@ fn products<'g>(x: Expr<'g>) -> impl Iterator<Item = (Circular, ExprId, Expr<'g>
 /// What cosine and sine of `angle` are multiplied with in `x`, if it is a sum of such products.
 fn parts(x: Expr<'_>, angle: ExprId, negated: bool) -> Option<[Part; 2]> {
     let terms = match x.node() {
-        Node::Binary(Binary::Add, a, b) => vec![(a, negated), (b, negated)],
-        Node::Binary(Binary::Sub, a, b) => vec![(a, negated), (b, !negated)],
-        _ => vec![(x.id(), negated)],
+        Node::Binary(Binary::Add, a, b) => [Some((a, negated)), Some((b, negated))],
+        Node::Binary(Binary::Sub, a, b) => [Some((a, negated)), Some((b, !negated))],
+        _ => [Some((x.id(), negated)), None],
     };
     let mut found = [None; 2];
-    for (term, negated) in terms {
+    for (term, negated) in terms.into_iter().flatten() {
         let (kind, _, other) = products(x.at(term)).find(|(_, of, _)| *of == angle)?;
         let place = &mut found[usize::from(kind == Circular::Sine)];
         if place.replace((other.id(), negated)).is_some() {

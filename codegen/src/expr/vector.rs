@@ -103,6 +103,7 @@ impl Neg for Mat3<'_> {
 
 impl<'g> Vec3<'g> {
     /// From its components by index.
+    #[inline]
     pub fn from_fn(component: impl FnMut(usize) -> Expr<'g>) -> Self {
         Self(std::array::from_fn(component))
     }
@@ -121,16 +122,19 @@ impl<'g> Vec3<'g> {
     }
 
     /// With a function applied to every component.
+    #[inline]
     pub fn map(self, function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
         Self(self.0.map(function))
     }
 
     /// Scalar product.
+    #[inline]
     pub fn dot(self, other: Self) -> Expr<'g> {
         self[0] * other[0] + self[1] * other[1] + self[2] * other[2]
     }
 
     /// Cross product.
+    #[inline]
     pub fn cross(self, other: Self) -> Self {
         Self::from_fn(|i| {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);

@@ -196,7 +196,7 @@ impl<'a> Course<'a> {
         let (before, after) = (self.positions(from.t)?, self.positions(t)?);
         let driven: Vec<f64> = after.iter().zip(&before).map(|(a, b)| a - b).collect();
         let mut q = from.q.clone();
-        let (_, jacobian, _) = self.walker.equations(&q);
+        let (_, jacobian) = self.walker.equations(&q);
         self.walker.layout.advance(&mut q, &self.following(&jacobian, &driven)?);
         Some(Waypoint { t, q: self.close(q)? })
     }
@@ -204,14 +204,14 @@ impl<'a> Course<'a> {
     /// The same to rounding.
     pub fn exactly_at(&self, from: &Waypoint, t: f64) -> Option<Waypoint> {
         let mut waypoint = self.at(from, t)?;
-        let (residual, jacobian, _) = self.walker.equations(&waypoint.q);
+        let (residual, jacobian) = self.walker.equations(&waypoint.q);
         self.correct(&mut waypoint.q, &jacobian, &residual)?;
         Some(waypoint)
     }
 
     /// All speeds at a waypoint, SI.
     pub fn speeds(&self, waypoint: &Waypoint) -> Option<Vec<f64>> {
-        let (_, jacobian, _) = self.walker.equations(&waypoint.q);
+        let (_, jacobian) = self.walker.equations(&waypoint.q);
         let (after, before) = (self.positions(waypoint.t + FIRST)?, self.positions(waypoint.t - FIRST)?);
         let rates: Vec<f64> = after.iter().zip(&before).map(|(a, b)| (a - b) / (2.0 * FIRST)).collect();
         self.following(&jacobian, &rates)
@@ -254,7 +254,7 @@ impl<'a> Course<'a> {
 
     fn close(&self, mut q: Vec<f64>) -> Option<Vec<f64>> {
         for _ in 0..ITERATIONS {
-            let (residual, jacobian, _) = self.walker.equations(&q);
+            let (residual, jacobian) = self.walker.equations(&q);
             if residual.amax() < CLOSED_AT_START {
                 return Some(q);
             }

@@ -70,7 +70,7 @@ fn beside(case: &Case<'_>, positions: &ClosedPositions, parts: Range<f64>) -> Op
         walker.layout.advance(&mut q, &walker.all_speeds(&(direction * (STEP / direction.amax()))));
         let residual = match walker.close(q, NEARLY)? {
             Ended::Open(residual) => residual,
-            Ended::Closed(position) => walker.equations(&position.q).0,
+            Ended::Closed(position) => position.residual,
         };
         opening(case, positions, &residual)
     });
@@ -91,12 +91,12 @@ fn opening(case: &Case<'_>, positions: &ClosedPositions, residual: &DVector<f64>
 /// Residuals of all rows when only the kept ones are closed, as a run does it; where these come near a singular position
 /// of their own, what a run meets that passes it.
 fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]) -> Option<DVector<f64>> {
-    let (residual, jacobian, _) = walker.equations(&position.q);
-    let jacobian = jacobian.select_columns(&walker.joint_speeds);
+    let residual = &position.residual;
+    let jacobian = position.jacobian.select_columns(&walker.joint_speeds);
     let kept: Vec<usize> = (0..keep.len()).filter(|row| keep[*row]).collect();
     let rows = jacobian.select_rows(&kept);
     if rows.is_empty() {
-        return Some(residual);
+        return Some(residual.clone());
     }
     // A row that only modes move has no length of its own.
     let lengths: Vec<f64> = rows
@@ -106,8 +106,8 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
     let scaled = DMatrix::from_fn(rows.nrows(), rows.ncols(), |i, j| rows[(i, j)] / lengths[i]);
     let right = DVector::from_fn(kept.len(), |i, _| -residual[kept[i]] / lengths[i]);
     let step = least_norm(&scaled, &right)?;
-    let opened = &residual + jacobian * step;
-    if residual.amax() + (&opened - &residual).amax() * (WEAK / WEAKEST) < NOTHING {
+    let opened = residual + jacobian * step;
+    if residual.amax() + (&opened - residual).amax() * (WEAK / WEAKEST) < NOTHING {
         return Some(opened);
     }
     let values = singular_values(&scaled);
@@ -115,7 +115,7 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
     let weak = weakest / strongest.max(f64::MIN_POSITIVE);
     let growth = if weak < WEAK { (weak / WEAKEST).max(1.0) } else { 1.0 };
     // The least opening is that of the position; what the step adds grows.
-    Some(&residual + (opened - &residual) * growth)
+    Some(residual + (opened - residual) * growth)
 }
 
 /// Largest difference of two positions [rad, own units].

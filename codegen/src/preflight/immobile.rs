@@ -109,7 +109,7 @@ pub fn massless(case: &Case<'_>, positions: &ClosedPositions) -> Option<(JointId
         (0..case.system.sizes().all_speeds).filter(|speed| !driven.contains(speed)).collect();
     let mut found = None;
     for position in &positions.positions {
-        let speed = free[weightless(position, &free)?];
+        let speed = free[weightless(&case.walker().mass(&position.q), &free)?];
         found = found.or(Some(speed));
     }
     let speed = found?;
@@ -123,18 +123,53 @@ pub fn massless(case: &Case<'_>, positions: &ClosedPositions) -> Option<(JointId
 }
 
 /// The free speed with the largest share in a motion without inertia, if there is such a motion.
-fn weightless(position: &Position, free: &[usize]) -> Option<usize> {
+fn weightless(all: &DMatrix<f64>, free: &[usize]) -> Option<usize> {
     let n = free.len();
     if n == 0 {
         return None;
     }
-    let mass = DMatrix::from_fn(n, n, |i, j| position.mass[(free[i], free[j])]);
+    let mass = DMatrix::from_fn(n, n, |i, j| all[(free[i], free[j])]);
     let largest = mass.diagonal().amax();
     if let Some(zero) = (0..n).find(|i| mass[(*i, *i)] <= f64::MIN_POSITIVE.max(1e-30 * largest)) {
         return Some(zero);
     }
-    let scaled = DMatrix::from_fn(n, n, |i, j| mass[(i, j)] / (mass[(i, i)] * mass[(j, j)]).sqrt());
-    let eigen = symmetric_directions(scaled)?;
-    let least = eigen.eigenvalues.imin();
-    (eigen.eigenvalues[least] < NO_MASS).then(|| eigen.eigenvectors.column(least).icamax())
+    let scaled = |i: usize, j: usize| mass[(i, j)] / (mass[(i, i)] * mass[(j, j)]).sqrt();
+    let mut least: Option<(f64, usize)> = None;
+    // Motions that share no mass, as those of a row of machines, have eigenvectors of their own.
+    for own in coupled(&mass) {
+        let eigen =
+            symmetric_directions(DMatrix::from_fn(own.len(), own.len(), |i, j| scaled(own[i], own[j])))?;
+        let at = eigen.eigenvalues.imin();
+        if least.is_none_or(|(value, _)| eigen.eigenvalues[at] < value) {
+            least = Some((eigen.eigenvalues[at], own[eigen.eigenvectors.column(at).icamax()]));
+        }
+    }
+    least.filter(|(value, _)| *value < NO_MASS).map(|(_, speed)| speed)
+}
+
+/// The groups of rows that entries beside the diagonal couple.
+fn coupled(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+    let n = matrix.nrows();
+    let mut is_known = vec![false; n];
+    let mut groups = Vec::new();
+    for first in 0..n {
+        if is_known[first] {
+            continue;
+        }
+        is_known[first] = true;
+        let mut group = vec![first];
+        let mut next = 0;
+        while let Some(row) = group.get(next).copied() {
+            next += 1;
+            for column in 0..n {
+                if !is_known[column] && matrix[(row, column)] != 0.0 {
+                    is_known[column] = true;
+                    group.push(column);
+                }
+            }
+        }
+        group.sort_unstable();
+        groups.push(group);
+    }
+    groups
 }

@@ -26,18 +26,27 @@ impl Rests {
         Self { rows, lengths }
     }
 
-    /// Takes the direction of a row out of all. Few rows have a speed in common with it.
-    fn take_out(&mut self, kept: usize) {
+    /// Takes the direction of a row out of all. Few rows have a speed in common with it. Out: those that it changed.
+    fn take_out(&mut self, kept: usize) -> Vec<usize> {
         let length = self.lengths[kept];
         let entries = self.rows[kept].iter().enumerate().filter(|(_, entry)| **entry != 0.0);
         let direction: Vec<(usize, f64)> = entries.map(|(at, entry)| (at, entry / length)).collect();
-        for (row, length) in self.rows.iter_mut().zip(&mut self.lengths) {
+        // Rounding is all that would be left of it.
+        self.rows[kept].fill(0.0);
+        self.lengths[kept] = 0.0;
+        let mut changed = vec![kept];
+        for (at, (row, length)) in self.rows.iter_mut().zip(&mut self.lengths).enumerate() {
+            if *length == 0.0 {
+                continue;
+            }
             let along: f64 = direction.iter().map(|(at, part)| row[*at] * part).sum();
             if along != 0.0 {
                 direction.iter().for_each(|(at, part)| row[*at] -= along * part);
                 *length = size(row);
+                changed.push(at);
             }
         }
+        changed
     }
 }
 
@@ -101,18 +110,22 @@ impl Rows {
         let mut rests: Vec<Rests> =
             generic.iter().map(|at| Rests::new(&self.samples[*at].select_rows(&rows))).collect();
         let mut keep = vec![false; m];
+        let gain = |rests: &[Rests], at: usize| {
+            rests.iter().map(|rest| rest.lengths[at]).fold(f64::INFINITY, f64::min)
+        };
+        let mut gains: Vec<f64> = (0..rows.len()).map(|at| gain(&rests, at)).collect();
         loop {
-            let gain = |at: usize| rests.iter().map(|rest| rest.lengths[at]).fold(f64::INFINITY, f64::min);
             // Rows within a tenth of the best count as equal: the first in the file's order wins.
-            let gains: Vec<f64> =
-                (0..rows.len()).map(|at| if keep[rows[at]] { 0.0 } else { gain(at) }).collect();
             let best = gains.iter().copied().fold(0.0, f64::max);
             let next = match gains.iter().position(|gain| *gain > 0.9 * best) {
                 Some(next) if best > RANK_TOLERANCE => next,
                 _ => return keep,
             };
             keep[rows[next]] = true;
-            rests.iter_mut().for_each(|rest| rest.take_out(next));
+            let changed: Vec<usize> = rests.iter_mut().flat_map(|rest| rest.take_out(next)).collect();
+            for at in changed {
+                gains[at] = if keep[rows[at]] { 0.0 } else { gain(&rests, at) };
+            }
         }
     }
 
@@ -224,6 +237,8 @@ fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DVector;
+
     use super::super::samples::Position;
     use super::*;
 
@@ -231,7 +246,7 @@ mod tests {
     fn a_row_of_rounding_errors_is_dropped() {
         let sample = |noise: f64| DMatrix::from_row_slice(2, 2, &[1.0, 2.0, noise, 3.0 * noise]);
         let positions =
-            [1e-16, -2e-16].map(|noise| Position::new(Vec::new(), sample(noise), DMatrix::identity(2, 2)));
+            [1e-16, -2e-16].map(|noise| Position::new(Vec::new(), DVector::zeros(2), sample(noise)));
         let rows = Rows::new(
             &ClosedPositions { positions: positions.to_vec(), arm: 1.0, open: Vec::new() },
             vec![1],

@@ -33,17 +33,17 @@ const CLOSED: f64 = 1e-11;
 pub struct Position {
     /// All coordinates.
     pub q: Vec<f64>,
+    /// Residuals of all rows, in own units.
+    pub residual: DVector<f64>,
     /// Jacobian of all rows by all speeds, in own units.
     pub jacobian: DMatrix<f64>,
-    /// Mass matrix of all speeds, in own units but for a common factor.
-    pub mass: DMatrix<f64>,
     freedoms: OnceCell<DMatrix<f64>>,
 }
 
 impl Position {
     /// A position with what was evaluated there.
-    pub fn new(q: Vec<f64>, jacobian: DMatrix<f64>, mass: DMatrix<f64>) -> Self {
-        Self { q, jacobian, mass, freedoms: OnceCell::new() }
+    pub fn new(q: Vec<f64>, residual: DVector<f64>, jacobian: DMatrix<f64>) -> Self {
+        Self { q, residual, jacobian, freedoms: OnceCell::new() }
     }
 
     /// Motions of the joints that the loops allow, as columns; found once, so that the speeds of the joints have to be the same
@@ -125,30 +125,44 @@ pub struct Walker<'a> {
 }
 
 impl Walker<'_> {
-    /// Residuals of all rows, their Jacobian and the mass matrix, in own units.
-    pub fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>, DMatrix<f64>) {
+    /// Residuals of all rows and their Jacobian, in own units.
+    pub fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
         let sizes = self.system.sizes();
         let (n, m) = (sizes.all_speeds, sizes.all_rows);
-        let zeros = vec![0.0; n];
-        let input = [&self.parameters, &[0.0][..], q, &zeros].concat();
-        let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
-        evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
+        let output = self.equations_of_motion(q);
         let first = n * (n + 1) / 2 + n;
         let OwnUnits { speeds, rows, .. } = self.units;
         let phi = DVector::from_fn(m, |i, _| output[first + i] / rows[i]);
         let jacobian = DMatrix::from_fn(m, n, |i, j| output[first + m + i * n + j] * (speeds[j] / rows[i]));
+        (phi, jacobian)
+    }
+
+    /// Mass matrix of all speeds, in own units but for a common factor.
+    pub fn mass(&self, q: &[f64]) -> DMatrix<f64> {
+        let n = self.system.sizes().all_speeds;
+        let output = self.equations_of_motion(q);
+        let speeds = &self.units.speeds;
         let mut mass = DMatrix::zeros(n, n);
         let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
         for ((i, j), value) in upper.zip(&output) {
             mass[(i, j)] = *value * (speeds[i] / self.units.length) * (speeds[j] / self.units.length);
             mass[(j, i)] = mass[(i, j)];
         }
-        (phi, jacobian, mass)
+        mass
+    }
+
+    /// At rest.
+    fn equations_of_motion(&self, q: &[f64]) -> Vec<f64> {
+        let sizes = self.system.sizes();
+        let input = [&self.parameters, &[0.0][..], q, &vec![0.0; sizes.all_speeds]].concat();
+        let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
+        evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
+        output
     }
 
     fn position(&self, q: Vec<f64>) -> Position {
-        let (_, jacobian, mass) = self.equations(&q);
-        Position::new(q, jacobian, mass)
+        let (residual, jacobian) = self.equations(&q);
+        Position::new(q, residual, jacobian)
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
@@ -182,11 +196,11 @@ impl Walker<'_> {
     pub fn close(&self, mut q: Vec<f64>, tolerance: f64) -> Option<Ended> {
         let mut before = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
-            let (phi, jacobian, mass) = self.equations(&q);
+            let (phi, jacobian) = self.equations(&q);
             let size = phi.amax();
             let stalled = iteration == ITERATIONS && size > STALLED * before;
             if size < CLOSED || (stalled && size < CLOSED_AT_START) {
-                return Some(Ended::Closed(Position::new(q, jacobian, mass)));
+                return Some(Ended::Closed(Position::new(q, phi, jacobian)));
             }
             if iteration == ITERATIONS {
                 return stalled.then_some(Ended::Open(phi));
@@ -220,7 +234,7 @@ impl Walker<'_> {
         step[driven] = amount * self.units.speeds[driven];
         for _ in 0..20 {
             self.layout.advance(&mut q, &step);
-            let (phi, jacobian, _) = self.equations(&q);
+            let (phi, jacobian) = self.equations(&q);
             if phi.iter().any(|value| !value.is_finite()) {
                 break;
             }

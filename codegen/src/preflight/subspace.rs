@@ -38,8 +38,8 @@ pub struct Strength {
 /// How strongly the rows of a matrix hold.
 pub fn strength(matrix: &DMatrix<f64>) -> Strength {
     if let Some(factor) = Factor::new(matrix, RANK_TOLERANCE) {
-        let weakest = factor.rank.checked_sub(1).map(|last| {
-            let pivot = factor.decomposition.pivots()[last].abs();
+        let weakest = (factor.rank > 0).then(|| {
+            let pivot = factor.weakest_pivot();
             // What follows in its line of the triangle is no larger: one number a row at most.
             (pivot / BELOW_PIVOT, pivot * (factor.rows.len() as f64).sqrt())
         });
@@ -127,7 +127,16 @@ fn without_zero_rows(matrix: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 fn rows_that_say_something(matrix: &DMatrix<f64>) -> Vec<usize> {
-    (0..matrix.nrows()).filter(|row| matrix.row(*row).iter().any(|value| *value != 0.0)).collect()
+    let mut says = vec![false; matrix.nrows()];
+    // Column by column, as the numbers lie.
+    for column in columns(matrix) {
+        says.iter_mut().zip(column).for_each(|(says, value)| *says |= *value != 0.0);
+    }
+    (0..says.len()).filter(|row| says[*row]).collect()
+}
+
+fn columns(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> {
+    matrix.as_slice().chunks_exact(matrix.nrows().max(1))
 }
 
 /// QR decomposition of the transpose with pivots, where they tell the rank.
@@ -142,17 +151,28 @@ impl Factor {
     /// `None` where the pivots leave doubt.
     fn new(matrix: &DMatrix<f64>, tolerance: f64) -> Option<Self> {
         let rows = rows_that_say_something(matrix);
-        let columns = matrix.ncols();
-        if rows.is_empty() || columns == 0 || !TOLERANCES.contains(&tolerance) {
+        let width = matrix.ncols();
+        if rows.is_empty() || width == 0 || !TOLERANCES.contains(&tolerance) {
             return None;
         }
-        let given = rows.iter().map(|row| matrix.row(*row).iter().copied().collect()).collect();
-        let decomposition = PivotedQr::new(columns, given);
+        let mut given = vec![vec![0.0; width]; rows.len()];
+        for (at, column) in columns(matrix).enumerate() {
+            given.iter_mut().zip(&rows).for_each(|(given, row)| given[at] = column[*row]);
+        }
+        let decomposition = PivotedQr::new(width, given);
         let pivots = decomposition.pivots();
         let largest = pivots.iter().map(|pivot| pivot.abs()).fold(0.0, f64::max);
         let rank = pivots.iter().take_while(|pivot| pivot.abs() > CLEARLY_THERE * largest).count();
         let clear = pivots.iter().skip(rank).all(|pivot| pivot.abs() < CLEARLY_NOTHING * largest);
-        (clear && largest.is_finite()).then_some(Self { rows, decomposition, rank })
+        let factor = Self { rows, decomposition, rank };
+        // The pivots promise it; to ask costs little.
+        let holds = || factor.decomposition.weakest(rank) > CLEARLY_THERE / BELOW_PIVOT * largest;
+        (clear && largest.is_finite() && (rank == 0 || holds())).then_some(factor)
+    }
+
+    fn weakest_pivot(&self) -> f64 {
+        let pivots = self.decomposition.pivots()[..self.rank].iter();
+        pivots.map(|pivot| pivot.abs()).fold(f64::INFINITY, f64::min)
     }
 
     fn null_space(&self) -> DMatrix<f64> {

@@ -64,8 +64,9 @@ fn lower_function(graph: &Graph, function: &Function) -> Tape {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
     let uses = graph.uses(&roots);
-    let mut lowerer = Lowerer::new(graph, function, Signs::of(graph, &uses), uses.len());
-    let order = order(graph, &uses, &roots);
+    let live = graph.live(&uses);
+    let mut lowerer = Lowerer::new(graph, function, Signs::of(graph, &uses, &live), uses.len());
+    let order = order(graph, live, &roots);
     lowerer.find_negations(&order);
     for id in order {
         lowerer.node(id);
@@ -74,13 +75,11 @@ fn lower_function(graph: &Graph, function: &Function) -> Tape {
 }
 
 /// The needed nodes, each after those that it is computed from.
-fn order(graph: &Graph, uses: &[u32], roots: &[ExprId]) -> Vec<ExprId> {
-    let by_creation: Vec<ExprId> =
-        (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect();
+fn order(graph: &Graph, by_creation: Vec<ExprId>, roots: &[ExprId]) -> Vec<ExprId> {
     if by_creation.len() <= READABLE {
         return by_creation;
     }
-    let mut done = vec![false; uses.len()];
+    let mut done = vec![false; by_creation.last().map_or(0, |id| id.index() + 1)];
     let mut order = Vec::with_capacity(by_creation.len());
     let mut stack: Vec<(ExprId, bool)> = Vec::new();
     for root in roots {
@@ -94,9 +93,9 @@ fn order(graph: &Graph, uses: &[u32], roots: &[ExprId]) -> Vec<ExprId> {
                 order.push(id);
             } else {
                 stack.push((id, true));
-                let mut below: Vec<ExprId> = graph.node(id).children().collect();
-                below.reverse();
-                stack.extend(below.into_iter().map(|child| (child, false)));
+                let below = stack.len();
+                stack.extend(graph.node(id).children().map(|child| (child, false)));
+                stack[below..].reverse();
             }
         }
     }
@@ -120,8 +119,8 @@ struct Lowerer<'a> {
     operands: Vec<Operand>,
     /// Statement of the sine and cosine of an angle.
     angles: FxHashMap<ExprId, usize>,
-    /// Statement that defines a node.
-    defined: FxHashMap<ExprId, usize>,
+    /// By node, the statement that defines it.
+    defined: Vec<Option<u32>>,
     /// Sections of the graph as those of the tape.
     sections: FxHashMap<usize, usize>,
     tape: Tape,
@@ -145,7 +144,8 @@ impl<'a> Lowerer<'a> {
         };
         let inputs = (0..).zip(inputs()).map(|(index, id)| (id, index)).collect();
         let operands = vec![Operand::Constant(f64::NAN); nodes];
-        let (negations, angles, defined, sections) = Default::default();
+        let defined = vec![None; nodes];
+        let (negations, angles, sections) = Default::default();
         Self { graph, signs, negations, inputs, operands, angles, defined, sections, tape }
     }
 
@@ -235,8 +235,9 @@ impl<'a> Lowerer<'a> {
         let label = self.graph.label_of(id).map(str::to_owned);
         let entry = &mut self.tape.statements[statement];
         entry.labels[which as usize] = label;
-        self.defined.insert(id, statement);
-        Operand::Value(entry.first + which)
+        let operand = Operand::Value(entry.first + which);
+        self.defined[id.index()] = u32::try_from(statement).ok();
+        operand
     }
 
     fn push(&mut self, id: ExprId, op: Op) -> Operand {
@@ -249,7 +250,8 @@ impl<'a> Lowerer<'a> {
         let first = self.tape.values;
         let statement = Statement { op, first, labels: [label, None], section, stores: Vec::new() };
         self.tape.values = statement.results().end;
-        self.defined.insert(id, self.tape.statements.len());
+        // Values are counted in 32 bits, and each statement has one.
+        self.defined[id.index()] = u32::try_from(self.tape.statements.len()).ok();
         self.tape.statements.push(statement);
         Operand::Value(first)
     }
@@ -257,8 +259,8 @@ impl<'a> Lowerer<'a> {
     fn finish(mut self, roots: &[ExprId]) -> Tape {
         for (index, root) in (0..).zip(roots) {
             let store = (index, self.operand(*root));
-            match self.defined.get(root) {
-                Some(statement) => self.tape.statements[*statement].stores.push(store),
+            match self.defined[root.index()] {
+                Some(statement) => self.tape.statements[statement as usize].stores.push(store),
                 None => self.tape.direct.push(store),
             }
         }

@@ -57,19 +57,26 @@ fn solve(
     let mut delta = vec![0.0; n];
     let mut decomposition = Orthogonal::new(m, n);
     let kept = evaluator.kept().to_vec();
-    // The second pass removes what rounding of a large first correction left.
-    for _ in 0..2 {
+    // Rows that no speed moves, which plane mechanisms have many of, ask for nothing.
+    let mut rows: Vec<usize> = Vec::new();
+    // The second pass removes what rounding of a large first correction left; its rows are the same.
+    for pass in 0..2 {
         let closure = evaluator.closure(t, q, &v);
-        let mut jacobian = closure.jacobian.to_vec();
-        let right: Vec<f64> =
-            closure.speeds.iter().zip(&kept).map(|(x, row)| -x * units.rows[*row]).collect();
-        units.scale(&mut jacobian, kept.iter().copied());
-        if n > 0 {
-            for row in jacobian.chunks_exact_mut(n) {
-                row.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(entry, _)| *entry = 0.0);
+        if pass == 0 {
+            let mut jacobian = closure.jacobian.to_vec();
+            units.scale(&mut jacobian, kept.iter().copied());
+            if n > 0 {
+                for row in jacobian.chunks_exact_mut(n) {
+                    row.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(entry, _)| *entry = 0.0);
+                }
             }
+            rows.extend((0..m).filter(|row| jacobian[row * n..][..n].iter().any(|entry| *entry != 0.0)));
+            for (place, row) in rows.iter().enumerate() {
+                jacobian.copy_within(row * n..(row + 1) * n, place * n);
+            }
+            decomposition.factor(&jacobian, rows.len(), n, TOLERANCE);
         }
-        decomposition.factor(&jacobian, m, n, TOLERANCE);
+        let right: Vec<f64> = rows.iter().map(|row| -closure.speeds[*row] * units.rows[kept[*row]]).collect();
         decomposition.solve(&right, &mut delta);
         units.restore(&mut delta);
         add_scaled(&mut v, 1.0, &delta);

@@ -104,8 +104,11 @@ impl Orthogonal {
         for other in after.chunks_exact_mut(m).take(self.columns - k - 1) {
             let (top, tail) = other[k..].split_at_mut(1);
             let amount = self.left[k] * (top[0] + dot(vector, tail));
-            top[0] -= amount;
-            super::add_scaled(tail, -amount, vector);
+            // Columns of loops in a row have little in common.
+            if amount != 0.0 {
+                top[0] -= amount;
+                super::add_scaled(tail, -amount, vector);
+            }
         }
     }
 

@@ -21,7 +21,7 @@ pub struct Start {
 impl Start {
     /// None where a run would not start; it says why.
     pub fn of(compiled: &Compiled) -> Option<Self> {
-        let (system, description) = (compiled.interpreter(), compiled.description());
+        let (system, description) = (compiled.interpreter_at_hand(), compiled.description());
         let settings = Settings { span: Span::Time(1.0), ..Settings::default() };
         let mut run = Simulation::start(&system, description, &compiled.parameters(), &settings).ok()?;
         let joints = &compiled.mechanism.joints;

@@ -194,9 +194,13 @@ impl<'g> Deriver<'g> {
             let all: Vec<Expr<'g>> = of_cuts.chain(of_couplings).map(|row| row.residual).collect();
             let rows = kept_rows(&instant.state.motion, (cuts, &instant.couplings), &self.keep);
             let rates: Vec<Expr<'g>> = rows.iter().map(|kept| kept.row.rate).collect();
-            let jacobian: Vec<Expr<'g>> =
-                rows.iter().flat_map(|row| free.iter().map(|j| row.jacobian[*j]).chain(beside())).collect();
-            (g.operations([&all, &rates, &jacobian].into_iter().flatten().copied()), [all, rates, jacobian])
+            let mut jacobian: Vec<Expr<'g>> = Vec::with_capacity(rows.len() * (free.len() + self.own.len()));
+            for row in &rows {
+                jacobian.extend(free.iter().map(|j| row.jacobian[*j]).chain(beside()));
+            }
+            // Zeros, which are most of the Jacobian, take no operations.
+            let entries = [&all, &rates, &jacobian].into_iter().flatten().copied();
+            (g.operations(entries.filter(|entry| !entry.is_zero())), [all, rates, jacobian])
         };
         let [all, rates, jacobian] = instant.by_shorter_rows(true, true, by);
         let outputs = vec![
@@ -314,7 +318,9 @@ impl<'g> Deriver<'g> {
                 .collect();
             let of_rows =
                 rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
-            let beside: Vec<Expr<'g>> = mass.iter().flatten().copied().chain(of_rows).collect();
+            // Zeros, of which there are as many as speeds times rows, take no operations.
+            let entries = mass.iter().flatten().copied().chain(of_rows);
+            let beside: Vec<Expr<'g>> = entries.filter(|entry| !entry.is_zero()).collect();
             // The same for all rows, which alone decide which of them are shortest.
             let forces = forces.get_or_init(|| all_bias_forces(motion, masses, &instant.loads)).iter();
             let counted = forces.map(|h| (g.operations(beside.iter().chain(h).copied()), h));

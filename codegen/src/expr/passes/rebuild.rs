@@ -18,14 +18,17 @@ pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>
     let scope = Scope::new();
     let (inputs, roots) = {
         let mut rebuild = Rebuild { old: whole.graph, scope: &scope, made: vec![None; uses.len()] };
-        scope.make(|g| g.sections = whole.graph.sections.clone());
+        scope.make(|g| {
+            g.sections = whole.graph.sections.clone();
+            g.section_by_title = whole.graph.section_by_title.clone();
+        });
         for id in whole.inputs {
             if let Some(symbol) = whole.graph.as_symbol(*id) {
                 rebuild.set(*id, scope.symbol(whole.graph.symbol_name(symbol)));
             }
         }
-        for index in (0..uses.len()).filter(|index| uses[*index] > 0) {
-            let id = ExprId::new(index);
+        for id in whole.graph.live(&uses) {
+            let index = id.index();
             if rebuild.made[index].is_none() {
                 scope.make(|g| g.current_section = whole.graph.section_of[index]);
                 each(&mut rebuild, id);

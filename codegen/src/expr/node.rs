@@ -1,0 +1,33 @@
+//! One operation of the graph and what it reads. Never knows the graph.
+
+use linkwear_tape::{Binary, Unary};
+
+use crate::id::{ExprId, SymbolId};
+
+/// A node. Constants hold the bits of an f64, so that nodes can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Node {
+    /// A number.
+    Constant(u64),
+    /// An input.
+    Symbol(SymbolId),
+    /// A function of one value.
+    Unary(Unary, ExprId),
+    /// A function of two values.
+    Binary(Binary, ExprId, ExprId),
+    /// The second where the first is below zero, else the third.
+    Select(ExprId, ExprId, ExprId),
+}
+
+impl Node {
+    /// The nodes that it is computed from.
+    pub fn children(self) -> impl Iterator<Item = ExprId> {
+        let (first, second, third) = match self {
+            Self::Constant(_) | Self::Symbol(_) => (None, None, None),
+            Self::Unary(_, a) => (Some(a), None, None),
+            Self::Binary(_, a, b) => (Some(a), Some(b), None),
+            Self::Select(a, yes, no) => (Some(a), Some(yes), Some(no)),
+        };
+        first.into_iter().chain(second).chain(third)
+    }
+}
