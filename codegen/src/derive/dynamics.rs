@@ -13,7 +13,7 @@ use super::fields::{Fields, Shapes};
 use super::geometry::Geometry;
 use super::kinematics::Acceleration;
 use super::link_mass::LinkMass;
-use super::linkage::Freedom;
+use super::linkage::{Freedom, Link};
 use super::loads::Loads;
 use super::mass_properties::MassProperties;
 use super::motion::Motion;
@@ -49,18 +49,19 @@ pub fn fields_of<'s, 'g>(
     fields.collect()
 }
 
-/// The [`bias_forces_by`] every way.
+/// The [`bias_forces_by`] every way along these axes.
 pub fn all_bias_forces<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
+    axes: &[Axes],
 ) -> Vec<Vec<Expr<'g>>> {
     let shapes = shapes_of(masses);
     let mut kinds = vec![&[][..]];
     if !shapes.is_empty() {
         kinds.push(&shapes[..]);
     }
-    let ways = kinds.into_iter().flat_map(|shapes| Axes::ALL.map(|axes| (shapes, axes)));
+    let ways = kinds.into_iter().flat_map(|shapes| axes.iter().map(move |axes| (shapes, *axes)));
     let forces = ways.map(|(shapes, axes)| {
         let motion = motion.along(axes);
         bias_forces_by(&motion, masses, loads, (&fields_of(&motion, shapes), axes))
@@ -69,7 +70,7 @@ pub fn all_bias_forces<'g>(
 }
 
 /// Inertial wrench of a link about its origin, in its frame.
-fn inertial_wrench<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
+pub fn inertial_wrench<'g>(motion: &Motion<'g>, masses: &[LinkMass<'g>], at: usize) -> Wrench<'g> {
     let rigid = rigid_wrench(&masses[at].rigid, &motion.accelerations[at]);
     match &masses[at].modal {
         Some(modal) => rigid + modal.wrench(&motion.twists[at], &motion.modes[at]),
@@ -85,6 +86,30 @@ fn rigid_wrench<'g>(mass: &MassProperties<'g>, motion: &Acceleration<'g>) -> Wre
     Wrench { moment, force: moved + turned }
 }
 
+/// Whether a link's origin stays where it is on its parent link.
+fn keeps_place(link: &Link) -> bool {
+    match link.freedom {
+        Freedom::Ball | Freedom::Weld => true,
+        Freedom::Flexible { .. } => link.node.as_ref().is_none_or(|node| !node.moves()),
+        Freedom::Rotation { advance, .. } => advance == 0.0,
+        _ => false,
+    }
+}
+
+/// Inertial force of a rigid link, weight included, less one in its frame, along the axes of W.
+pub fn rigid_force_in_ground<'g>(
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    at: usize,
+    less: Vec3<'g>,
+) -> Vec3<'g> {
+    let MassProperties { mass, first, .. } = masses[at].rigid;
+    let frame = &motion.accelerations[at];
+    let [ground, own] = frame.turned.parts();
+    let own = mass * own + frame.spin * first - less;
+    mass * (ground + motion.ground) + motion.poses.world[at].rotation * own
+}
+
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
 /// and loads. Left side of [CS (6)]. Links that have `fields` are taken by these in the place of their mass
 /// properties, and forces are passed inwards along the given axes.
@@ -94,12 +119,24 @@ pub fn bias_forces_by<'g>(
     loads: &Loads<'g>,
     (fields, axes): (&[Option<BodyFields<'_, 'g>>], Axes),
 ) -> Vec<Expr<'g>> {
+    forces_besides(motion, masses, (loads, &[]), (fields, axes))
+}
+
+/// The same less what the wrenches of `rows` on each link, in its frame about its origin, leave over.
+pub fn forces_besides<'g>(
+    motion: &Motion<'g>,
+    masses: &[LinkMass<'g>],
+    (loads, rows): (&Loads<'g>, &[Wrench<'g>]),
+    (fields, axes): (&[Option<BodyFields<'_, 'g>>], Axes),
+) -> Vec<Expr<'g>> {
     let Geometry { g, linkage, .. } = motion.poses.geometry;
     let poses = &motion.poses;
     let mut forces = vec![g.zero(); linkage.speeds()];
     let mut carried = vec![Wrench::zero(g); linkage.links.len()];
     // Force of a link and all outboard of it, along the axes of W.
     let mut in_ground = vec![g.zero_vector(); linkage.links.len()];
+    // What of it moves with the joint of a link outboard, along the link's own axes; mass that moves with the link's origin.
+    let (mut borne, mut at_origin) = (in_ground.clone(), vec![g.zero(); linkage.links.len()]);
     for (at, link) in linkage.links.iter().enumerate().rev() {
         g.begin_section(format!("inertia, weight and loads of {}", link.name));
         let (frame, modes) = (&motion.accelerations[at], &motion.modes[at]);
@@ -109,16 +146,26 @@ pub fn bias_forces_by<'g>(
             None => inertial_wrench(motion, masses, at),
         };
         let applied = loads.external[at] + loads.reactions[at];
-        let mut total = inertial + -applied + carried[at];
+        let held = rows.get(at).copied().unwrap_or_else(|| Wrench::zero(g));
+        let mut total = inertial + -applied + -held + carried[at];
+        let inboard = axes.masses_inboard
+            && link.parent.is_some()
+            && keeps_place(link)
+            && (by_fields.is_some() || masses[at].modal.is_none());
         if axes.forces_in_ground {
             let turn = poses.world[at].rotation;
+            let mut less = held.force - borne[at];
+            if !inboard {
+                less -= at_origin[at] * frame.origin;
+            }
             let own = match (by_fields, &masses[at].modal) {
-                (None, None) => {
-                    let MassProperties { mass, first, .. } = masses[at].rigid;
-                    let [ground, own] = frame.turned.parts();
-                    mass * (ground + motion.ground) + turn * (mass * own + frame.spin * first)
+                (None, None) if !inboard => rigid_force_in_ground(motion, masses, at, less),
+                (None, None) => turn * (frame.spin * masses[at].rigid.first - less),
+                (Some(BodyFields { shapes, fields }), _) if inboard => {
+                    let still = Acceleration { origin: g.zero_vector(), ..*frame };
+                    turn * (shapes.wrench(fields, &still).force - less)
                 }
-                _ => turn * inertial.force,
+                _ => turn * (inertial.force - less),
             };
             let sum = in_ground[at] + (own - turn * applied.force);
             in_ground[at] = sum;
@@ -141,7 +188,15 @@ pub fn bias_forces_by<'g>(
                 in_ground[parent] = in_ground[parent] + in_ground[at];
                 let moment = if link.freedom == Freedom::Ball { g.zero_vector() } else { total.moment };
                 let force = poses.world[parent].inwards(in_ground[at]);
-                let moment = pose.rotation * moment + pose.offset.cross(force);
+                let mut moment = pose.rotation * moment + pose.offset.cross(force);
+                let mass = masses[at].rigid.mass + at_origin[at];
+                if inboard && pose.offset.into_iter().all(|x| x.is_zero()) {
+                    at_origin[parent] += mass;
+                } else if inboard {
+                    let moved = mass * motion.accelerations[parent].at(pose.offset);
+                    moment += pose.offset.cross(moved);
+                    borne[parent] += moved;
+                }
                 carried[parent] += Wrench { moment, force: g.zero_vector() };
             } else {
                 carried[parent] += total.passed_inwards(link.freedom, pose);

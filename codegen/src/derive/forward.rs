@@ -4,28 +4,31 @@
 //!
 //! There are several ways to one solution, of which `shortest_way` chooses.
 
-use crate::expr::{Expr, Scope};
+use crate::expr::{Expr, Scope, Vec3};
 
-use super::dynamics::{BodyFields, bias_forces_by, fields_of};
+use super::dynamics::{BodyFields, bias_forces_by, fields_of, forces_besides};
 use super::fields::Shapes;
-use super::kept_rows::{KeptRow, Partition};
+use super::kept_rows::{KeptRow, Partition, closed_biases};
 use super::link_mass::LinkMass;
 use super::loads::Loads;
 use super::local_modes::LocalModes;
-use super::mass_matrix::{Eliminated, reduced_mass_matrix};
+use super::mass_matrix::{Eliminated, mass_matrix, reduced_mass_matrix};
 use super::motion::Motion;
 use super::plan::{Plan, PlanBlock};
+use super::relative_motion::{RelativeMotion, Sums};
 use super::rows::Block;
+use super::slid_drive::slid_drive;
 use super::solve::{Order, Saddle, Solution, solve};
 use super::turned::Axes;
+use super::wrench::Wrench;
 
 /// Accelerations of free speeds, multipliers of `rows`, and drive forces.
 pub struct Forward<'g> {
     pub solution: Solution<'g>,
     /// Generalised force of every driver.
     pub drive: Vec<Expr<'g>>,
-    /// Whether all rows were solved for accelerations that they alone fix: what their biases are at closed states is enough.
-    pub rows_fix_all: bool,
+    /// Whether all rows were taken with their biases of closed states.
+    pub closed: bool,
 }
 
 /// Everything that forward dynamics is made of.
@@ -39,6 +42,8 @@ pub struct Problem<'a, 'g> {
     pub masses: &'a [LinkMass<'g>],
     pub loads: &'a Loads<'g>,
     pub rows: &'a [KeptRow<'a, 'g>],
+    /// How the rows of cuts were made, and which of all rows are kept.
+    pub made: (Sums, &'a [bool]),
     pub partition: &'a Partition,
 }
 
@@ -47,6 +52,10 @@ pub struct Problem<'a, 'g> {
 pub struct Way<'s, 'g> {
     /// What the rows fix comes from them.
     pub rows_first: bool,
+    /// Of a row, what known accelerations make of it comes from the motion that they make, else by the Jacobian.
+    pub rows_moved: bool,
+    /// What known multipliers do comes from the wrenches that they make on the links, else by the Jacobian.
+    pub rows_push: bool,
     /// Bodies that are taken by the accelerations of their shape functions, by link; none if empty.
     pub shapes: &'s [Option<Shapes<'g>>],
     /// Modes that are eliminated in their body.
@@ -57,6 +66,8 @@ pub struct Way<'s, 'g> {
     pub order: Order<'s>,
     /// Of accelerations and forces.
     pub axes: Axes,
+    /// Drive forces come from what slides of their bearings transmit, where such are.
+    pub slid: bool,
 }
 
 /// Motion with these accelerations, and the fields of the bodies that are taken by them.
@@ -76,9 +87,14 @@ impl<'g> Problem<'_, 'g> {
         self.partition.free.iter().map(|j| row[*j]).collect()
     }
 
-    /// gamma at any state.
+    /// gamma: of closed states where something drives, else of any state.
     fn target(&self) -> Vec<Expr<'g>> {
-        self.rows.iter().map(|kept| -kept.row.bias.whole).collect()
+        self.rows.iter().map(|kept| -kept.row.bias.of(self.is_driven())).collect()
+    }
+
+    /// What nothing drives passes singular positions.
+    pub fn is_driven(&self) -> bool {
+        !self.partition.driven.is_empty()
     }
 
     /// Motion with these accelerations of the free speeds.
@@ -100,6 +116,46 @@ impl<'g> Problem<'_, 'g> {
         bias_forces_by(&moving.motion, self.masses, self.loads, (&moving.fields, moving.axes))
     }
 
+    /// What all speeds feel besides what the rows with these multipliers hold.
+    fn unheld(&self, moving: &Moving<'_, 'g>, multipliers: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
+        let poses = &self.motion.poses;
+        let g = poses.geometry.g;
+        let mut held = vec![Wrench::zero(g); self.masses.len()];
+        let mut known: Vec<(&RelativeMotion<'g>, Vec3<'g>, Vec3<'g>)> = Vec::new();
+        let mut by_jacobian = Vec::new();
+        for (row, multiplier) in self.rows.iter().zip(multipliers) {
+            let Some(between) = row.between.filter(|_| way.rows_push) else {
+                by_jacobian.push((row, *multiplier));
+                continue;
+            };
+            let (moment, force) = (*multiplier * row.row.moment, *multiplier * row.row.force);
+            match known.iter_mut().find(|(other, ..)| std::ptr::eq(*other, between)) {
+                Some((_, moments, forces)) => (*moments, *forces) = (*moments + moment, *forces + force),
+                None => known.push((between, moment, force)),
+            }
+        }
+        for (between, moment, force) in known {
+            let turn = poses.world_of(g, between.beside()).rotation;
+            let ends = between.link_wrenches(moment, force);
+            for (marker, mut wrench) in [between.parent, between.child].into_iter().zip(ends) {
+                let Some(at) = marker.link else { continue };
+                if way.axes.forces_in_ground && marker.link != between.beside() {
+                    let sign = if marker.link == between.parent.link { -1.0 } else { 1.0 };
+                    let inwards = |vector: Vec3<'g>| sign * poses.world[at].inwards(turn * vector);
+                    let force = inwards(force);
+                    wrench = Wrench { moment: inwards(moment) + marker.point.cross(force), force };
+                }
+                held[at] += wrench;
+            }
+        }
+        let fields = (&moving.fields[..], moving.axes);
+        let felt = forces_besides(&moving.motion, self.masses, (self.loads, &held), fields);
+        let of_rows = |speed: usize| {
+            g.sum(by_jacobian.iter().map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
+        };
+        felt.into_iter().enumerate().map(|(speed, felt)| felt - of_rows(speed)).collect()
+    }
+
     /// The solution by one way.
     pub fn by(&self, plan: &Plan, way: Way<'_, 'g>) -> Forward<'g> {
         if way.rows_first { self.rows_first(plan, way) } else { self.saddle(way) }
@@ -111,17 +167,21 @@ impl<'g> Problem<'_, 'g> {
         let g = self.motion.poses.geometry.g;
         let h = self.felt(&self.moving(&vec![g.zero(); partition.free.len()], way));
         g.begin_section("mass matrix by composite bodies");
-        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &[]);
+        let mass = mass_matrix(&self.motion.poses, self.masses, way.axes);
         let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| self.pick(&mass[*i])).collect();
         let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
         let (jacobian, target) = (self.jacobian(), self.target());
         let saddle = Saddle { mass: &block, jacobian: &jacobian, force: &force, target: &target };
         let solution = solve(g, &saddle, way.order);
         g.begin_section("drive forces");
+        let moving = self.moving(&solution.accelerations, way);
         let drive = partition
             .driven
             .iter()
             .map(|d| {
+                if let Some(drive) = self.slid_drive(&moving, way, *d) {
+                    return drive;
+                }
                 let mut sum = h[*d];
                 for (entry, acceleration) in self.pick(&mass[*d]).into_iter().zip(&solution.accelerations) {
                     sum += entry * *acceleration;
@@ -129,7 +189,12 @@ impl<'g> Problem<'_, 'g> {
                 sum - self.of_loops(*d, &solution.multipliers)
             })
             .collect();
-        Forward { solution, drive, rows_fix_all: false }
+        Forward { solution, drive, closed: self.is_driven() }
+    }
+
+    fn slid_drive(&self, moving: &Moving<'_, 'g>, way: Way<'_, 'g>, driven: usize) -> Option<Expr<'g>> {
+        let of = || slid_drive(&moving.motion, self.masses, self.loads, self.partition, driven);
+        way.slid.then(of).flatten()
     }
 
     /// What a speed feels of the loops.
@@ -151,13 +216,17 @@ impl<'g> Problem<'_, 'g> {
             plan.blocks.iter().map(|block| Block::new(g, block, &jacobian)).collect();
         let zero = g.zero();
         let mut accelerations = vec![zero; self.partition.free.len()];
-        let right = |accelerations: &[Expr<'g>], row: usize| {
+        let right = |accelerations: &[Expr<'g>], moved: &[Expr<'g>], row: usize| {
+            if let Some(bias) = moved.get(row) {
+                return -*bias;
+            }
             let known = jacobian[row].iter().zip(accelerations);
             known.fold(target[row], |sum, (entry, acceleration)| sum - *entry * *acceleration)
         };
         for block in &blocks {
+            let moved = self.moved_biases(&accelerations, way);
             let rights: Vec<Expr<'g>> =
-                block.plan.rows.iter().map(|row| right(&accelerations, *row)).collect();
+                block.plan.rows.iter().map(|row| right(&accelerations, &moved, *row)).collect();
             for (speed, acceleration) in block.plan.speeds.iter().zip(block.solve(&rights)) {
                 accelerations[*speed] = acceleration;
             }
@@ -165,8 +234,9 @@ impl<'g> Problem<'_, 'g> {
         let (mut multipliers, mut pivots) = (vec![zero; self.rows.len()], vec![zero; self.rows.len()]);
         let mut last = None;
         if !plan.rest.speeds.is_empty() {
+            let moved = self.moved_biases(&accelerations, way);
             let rights: Vec<Expr<'g>> =
-                plan.rest.rows.iter().map(|row| right(&accelerations, *row)).collect();
+                plan.rest.rows.iter().map(|row| right(&accelerations, &moved, *row)).collect();
             let moving = self.with_local_modes(&mut accelerations, way);
             let before = accelerations.clone();
             let rest = self.rest(&plan.rest, &moving, way, &jacobian, &rights);
@@ -184,26 +254,35 @@ impl<'g> Problem<'_, 'g> {
             }
         }
         // J^T lambda carries what inertia and loads leave over.
-        let felt = self.felt(&last.unwrap_or_else(|| self.moving(&accelerations, way)));
-        g.begin_section("multipliers");
+        let moving = last.unwrap_or_else(|| self.moving(&accelerations, way));
         for block in blocks.iter().rev() {
-            let rights: Vec<Expr<'g>> = block
-                .plan
-                .speeds
-                .iter()
-                .map(|speed| self.partition.free[*speed])
-                .map(|speed| felt[speed] - self.of_loops(speed, &multipliers))
-                .collect();
+            let felt = self.unheld(&moving, &multipliers, way);
+            g.begin_section("multipliers");
+            let rights: Vec<Expr<'g>> =
+                block.plan.speeds.iter().map(|speed| felt[self.partition.free[*speed]]).collect();
             let pivot = block.pivot();
             for (row, multiplier) in block.plan.rows.iter().zip(block.solve_transposed(&rights)) {
                 (multipliers[*row], pivots[*row]) = (multiplier, pivot);
             }
         }
+        let felt = self.unheld(&moving, &multipliers, way);
         g.begin_section("drive forces");
-        let drive =
-            self.partition.driven.iter().map(|d| felt[*d] - self.of_loops(*d, &multipliers)).collect();
+        let drive = self.partition.driven.iter().map(|d| {
+            let slid = self.slid_drive(&moving, way, *d);
+            slid.unwrap_or(felt[*d])
+        });
+        let drive = drive.collect();
         let solution = Solution { accelerations, multipliers, pivots };
-        Forward { solution, drive, rows_fix_all: plan.rest.rows.is_empty() }
+        Forward { solution, drive, closed: self.is_driven() || plan.rest.rows.is_empty() }
+    }
+
+    /// Acceleration residuals of the rows of cuts in the motion that these accelerations make; none where the Jacobian does.
+    fn moved_biases(&self, accelerations: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
+        if !way.rows_moved || accelerations.iter().all(|acceleration| acceleration.is_zero()) {
+            return Vec::new();
+        }
+        let (sums, keep) = self.made;
+        closed_biases(&self.moving(accelerations, Way { shapes: &[], ..way }).motion, sums, keep)
     }
 
     /// Puts in the accelerations that local modes have while all others are as they stand.
@@ -234,7 +313,7 @@ impl<'g> Problem<'_, 'g> {
         &self,
         plan: &PlanBlock,
         moving: &Moving<'_, 'g>,
-        Way { local, order, .. }: Way<'_, 'g>,
+        Way { local, order, axes, .. }: Way<'_, 'g>,
         jacobian: &[Vec<Expr<'g>>],
         rights: &[Expr<'g>],
     ) -> Rest<'g> {
@@ -245,7 +324,7 @@ impl<'g> Problem<'_, 'g> {
         g.begin_section("mass matrix by composite bodies");
         let eliminated: Vec<Eliminated<'g>> =
             local.iter().map(|body| body.eliminated(g, &self.motion.modes[body.link].q)).collect();
-        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated);
+        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated, axes);
         let free = |speed: &usize| self.partition.free[*speed];
         let of_rest = |row: &[Expr<'g>]| speeds.iter().map(|speed| row[*speed]).collect();
         let block: Vec<Vec<Expr<'g>>> =
@@ -285,7 +364,7 @@ impl<'g> Problem<'_, 'g> {
         for (at, speed) in self.partition.free.iter().enumerate() {
             change[*speed] = accelerations[at] - before[at];
         }
-        let change = self.motion.changed(&change);
+        let change = self.motion.changed(&change, way.axes);
         let mut followed = Vec::new();
         for body in way.local {
             g.begin_section("accelerations of the modes");

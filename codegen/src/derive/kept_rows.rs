@@ -3,9 +3,10 @@
 
 use crate::expr::Expr;
 
-use super::closure::CutRows;
+use super::closure::{CutRows, cut_rows};
 use super::couplings::CouplingRow;
 use super::motion::Motion;
+use super::relative_motion::{RelativeMotion, Sums};
 use super::row::Row;
 
 /// Which speeds are free and which are driven, by index among all.
@@ -23,6 +24,15 @@ pub struct KeptRow<'a, 'g> {
     pub row: &'a Row<'g>,
     /// Columns by all speeds.
     pub jacobian: Vec<Expr<'g>>,
+    /// Of a row of a cut: between which links it acts.
+    pub between: Option<&'a RelativeMotion<'g>>,
+}
+
+/// Acceleration residuals of the kept rows of cuts at closed states, for the accelerations that a motion has.
+pub fn closed_biases<'g>(motion: &Motion<'g>, sums: Sums, keep: &[bool]) -> Vec<Expr<'g>> {
+    let cuts = cut_rows(motion, false, sums);
+    let rows = cuts.iter().flat_map(|cut| &cut.rows).zip(keep);
+    rows.filter(|(_, keep)| **keep).map(|(row, _)| row.bias.closed).collect()
 }
 
 /// Picks the rows that are kept, in order, with their Jacobians.
@@ -33,14 +43,13 @@ pub fn kept_rows<'a, 'g>(
 ) -> Vec<KeptRow<'a, 'g>> {
     let rows = cuts.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
     let (of_cuts, of_couplings) = keep.split_at(keep.len() - couplings.len());
-    let of_cuts = rows
-        .zip(of_cuts)
-        .filter(|(_, keep)| **keep)
-        .map(|((cut, row), _)| KeptRow { row, jacobian: cut.jacobian(&motion.poses, row) });
-    let of_couplings = couplings
-        .iter()
-        .zip(of_couplings)
-        .filter(|(_, keep)| **keep)
-        .map(|(coupling, _)| KeptRow { row: &coupling.row, jacobian: coupling.jacobian.clone() });
+    let of_cuts = rows.zip(of_cuts).filter(|(_, keep)| **keep).map(|((cut, row), _)| KeptRow {
+        row,
+        jacobian: cut.jacobian(&motion.poses, row),
+        between: Some(&cut.motion),
+    });
+    let of_couplings = couplings.iter().zip(of_couplings).filter(|(_, keep)| **keep).map(|(coupling, _)| {
+        KeptRow { row: &coupling.row, jacobian: coupling.jacobian.clone(), between: None }
+    });
     of_cuts.chain(of_couplings).collect()
 }

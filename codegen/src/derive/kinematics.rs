@@ -4,7 +4,7 @@
 
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
-use super::attachment::NodePose;
+use super::attachment::{NodePose, NodeShape};
 use super::frame::Frame;
 use super::geometry::Geometry;
 use super::linkage::{Freedom, LinkIndex};
@@ -165,12 +165,15 @@ impl<'g> Poses<'g> {
         (parent, lever, slide): (Turned<'g>, &Lever<'g>, Vec3<'g>),
     ) -> Turned<'g> {
         let link = &self.geometry.linkage.links[at];
-        if link.freedom == Freedom::Free || self.nodes[at].is_some() {
+        if link.freedom == Freedom::Free || link.node.as_ref().is_some_and(NodeShape::moves) {
             return Turned::own(origin);
         }
         let (place, turn) = (self.relative[at].offset, self.world_of(slide.scope(), link.parent).rotation);
         let carried = match link.freedom {
             Freedom::Translation { .. } => parent.at_parallel(lever, place),
+            Freedom::Flexible { .. } | Freedom::Node if link.mount == Frame::IDENTITY => {
+                parent.at_parallel(lever, place)
+            }
             _ => parent.at(turn, lever, place).left(turn),
         };
         carried.plus(slide)

@@ -12,7 +12,8 @@ use super::frame_inertia::FrameInertia;
 use super::geometry::Geometry;
 use super::kinematics::{Pose, Poses};
 use super::link_mass::LinkMass;
-use super::linkage::{Freedom, LinkIndex};
+use super::linkage::Freedom;
+use super::turned::Axes;
 use super::wrench::Wrench;
 
 /// Composite rigid body: everything outboard of a link's joint, as if its joints were locked.
@@ -29,6 +30,8 @@ struct Composite<'g> {
 #[derive(Clone, Copy, Debug)]
 struct Uneven<'g> {
     translation: Mat3<'g>,
+    /// The same along the axes of W, if it goes by way of those.
+    in_ground: Option<Mat3<'g>>,
     coupling: Mat3<'g>,
 }
 
@@ -38,9 +41,10 @@ pub struct Eliminated<'g> {
     pub inertia: FrameInertia<'g>,
 }
 
-/// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds.
-pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>]) -> Vec<Vec<Expr<'g>>> {
-    reduced_mass_matrix(poses, masses, &[])
+/// The mass matrix, dense and symmetric with structural zeros; rows and columns are all speeds. Along which `axes` momenta
+/// are passed inwards changes no value.
+pub fn mass_matrix<'g>(poses: &Poses<'g>, masses: &[LinkMass<'g>], axes: Axes) -> Vec<Vec<Expr<'g>>> {
+    reduced_mass_matrix(poses, masses, &[], axes)
 }
 
 /// The same with the modes of some bodies eliminated: zero in their rows and columns.
@@ -48,10 +52,11 @@ pub fn reduced_mass_matrix<'g>(
     poses: &Poses<'g>,
     masses: &[LinkMass<'g>],
     eliminated: &[Eliminated<'g>],
+    axes: Axes,
 ) -> Vec<Vec<Expr<'g>>> {
     let Geometry { g, linkage, .. } = poses.geometry;
     let n = linkage.speeds();
-    let mut columns = Columns { poses, matrix: vec![vec![g.zero(); n]; n] };
+    let mut columns = Columns { poses, axes, matrix: vec![vec![g.zero(); n]; n] };
     let mut composites: Vec<Composite<'g>> = masses
         .iter()
         .map(|LinkMass { rigid, .. }| Composite {
@@ -71,7 +76,8 @@ pub fn reduced_mass_matrix<'g>(
         let link = &linkage.links[at];
         let composite = composites[at];
         if let Some(parent) = link.parent {
-            let passed = composite.passed_inwards(link.freedom, &poses.relative[at]);
+            let turns = axes.forces_in_ground.then(|| [at, parent].map(|link| poses.world[link].rotation));
+            let passed = composite.passed_inwards(link.freedom, &poses.relative[at], turns);
             let sum = &mut composites[parent];
             sum.mass += passed.mass;
             sum.first += passed.first;
@@ -164,20 +170,34 @@ impl<'g> ModalColumns<'g> {
             columns.matrix[first + k][first..first + row.len()].copy_from_slice(&row);
         }
         for (k, wrench) in self.wrenches.into_iter().enumerate() {
-            columns.carry(link.parent, first + k, wrench.on_parent(&columns.poses.relative[at]));
+            // What joins the body to its parent passes all of it.
+            columns.passed(at, first + k, Freedom::Weld, wrench);
         }
     }
 }
 
 impl<'g> Uneven<'g> {
     fn and(self, other: Self) -> Self {
-        let translation = self.translation + other.translation;
-        Self { translation, coupling: self.coupling + other.coupling }
+        let ground = self.in_ground.zip(other.in_ground);
+        Self {
+            translation: self.translation + other.translation,
+            in_ground: ground.map(|(one, other)| one + other),
+            coupling: self.coupling + other.coupling,
+        }
     }
 
-    /// In other axes: those that `turn` takes components to.
-    fn turned_by(self, turn: Mat3<'g>) -> Self {
-        Self { translation: self.translation.turned_by(turn), coupling: self.coupling.turned_by(turn) }
+    /// In the axes of the parent link, to which `turn` takes components; both links' `turns` to the axes of W.
+    fn turned_by(self, turn: Mat3<'g>, turns: Option<[Mat3<'g>; 2]>) -> Self {
+        let coupling = self.coupling.turned_by(turn);
+        let Some([own, parents]) = turns else {
+            return Self { translation: self.translation.turned_by(turn), in_ground: None, coupling };
+        };
+        let ground = self.in_ground.unwrap_or_else(|| {
+            let turned = self.translation.turned_by(own);
+            // One triangle, mirrored, so that it is symmetric to the bit.
+            Mat3::from_fn(|i, j| turned[i.min(j)][i.max(j)])
+        });
+        Self { translation: ground.turned_by(parents.transpose()), in_ground: Some(ground), coupling }
     }
 
     /// Seen from an origin from which this one's is at `p`; and the inertia that this adds there.
@@ -198,7 +218,12 @@ impl<'g> Composite<'g> {
     /// Of a body whose modes are eliminated.
     fn of_frame(g: &'g Scope, inertia: &FrameInertia<'g>) -> Self {
         let FrameInertia { even, translation, coupling, inertia } = *inertia;
-        Self { mass: even, first: g.zero_vector(), inertia, uneven: Some(Uneven { translation, coupling }) }
+        Self {
+            mass: even,
+            first: g.zero_vector(),
+            inertia,
+            uneven: Some(Uneven { translation, in_ground: None, coupling }),
+        }
     }
 
     /// Momentum per unit of a twist.
@@ -213,7 +238,8 @@ impl<'g> Composite<'g> {
     }
 
     /// What of it the joint at `pose` passes to the parent link, in the parent's frame about its origin.
-    fn passed_inwards(self, freedom: Freedom, pose: &Pose<'g>) -> Self {
+    /// `turns` of both links to the axes of W where what directions differ in goes by way of those.
+    fn passed_inwards(self, freedom: Freedom, pose: &Pose<'g>, turns: Option<[Mat3<'g>; 2]>) -> Self {
         let g = self.mass.scope();
         let none = g.matrix([[0.0; 3]; 3]);
         let (mass, first, inertia, uneven) = match freedom {
@@ -239,7 +265,7 @@ impl<'g> Composite<'g> {
             moved[j][i] = moved[i][j];
         }
         let uneven = uneven.map(|uneven| {
-            let (uneven, inertia) = uneven.turned_by(pose.rotation).moved(p);
+            let (uneven, inertia) = uneven.turned_by(pose.rotation, turns).moved(p);
             moved += inertia;
             uneven
         });
@@ -276,6 +302,7 @@ impl<'g> Composite<'g> {
 /// The columns of M as they fill.
 struct Columns<'a, 'g> {
     poses: &'a Poses<'g>,
+    axes: Axes,
     matrix: Vec<Vec<Expr<'g>>>,
 }
 
@@ -291,23 +318,39 @@ impl<'g> Columns<'_, 'g> {
                 self.matrix[column][row] = entry;
             }
         }
-        self.carry(link.parent, column, wrench.passed_inwards(link.freedom, &self.poses.relative[from]));
+        self.passed(from, column, link.freedom, wrench);
     }
 
-    /// Carries a momentum column from a link to the ground and reads off the entries of M.
-    fn carry(&mut self, from: LinkIndex, column: usize, wrench: Wrench<'g>) {
-        let linkage = self.poses.geometry.linkage;
-        let mut carried = wrench;
-        for index in linkage.path(from) {
+    /// Carries a momentum column of a link on to the ground and reads off the entries of M. The speeds inboard feel of it what
+    /// `freedom` passes.
+    fn passed(&mut self, from: usize, column: usize, freedom: Freedom, wrench: Wrench<'g>) {
+        let poses = self.poses;
+        let linkage = poses.geometry.linkage;
+        let passed = |at: usize, freedom: Freedom, carried: Wrench<'g>, ground: Vec3<'g>| {
+            let parent = linkage.links[at].parent.filter(|_| self.axes.forces_in_ground);
+            match (parent, freedom) {
+                (None, _) | (_, Freedom::Free) => carried.passed_inwards(freedom, &poses.relative[at]),
+                (Some(parent), _) => {
+                    let zero = carried.force.scope().zero_vector();
+                    let moment = if freedom == Freedom::Ball { zero } else { carried.moment };
+                    let Pose { rotation, offset } = poses.relative[at];
+                    let force = poses.world[parent].inwards(ground);
+                    Wrench { moment: rotation * moment + offset.cross(force), force }
+                }
+            }
+        };
+        let ground = poses.world[from].rotation * wrench.force;
+        let mut carried = passed(from, freedom, wrench, ground);
+        for index in linkage.path(linkage.links[from].parent) {
             let link = &linkage.links[index];
-            let node = self.poses.nodes[index].as_ref();
+            let node = poses.nodes[index].as_ref();
             for (row, entry) in link.speeds().zip(carried.generalised(link.freedom, node)) {
                 // A flexible body is met twice: at its node and at its frame.
                 let sum = self.matrix[row][column] + entry;
                 self.matrix[row][column] = sum;
                 self.matrix[column][row] = sum;
             }
-            carried = carried.passed_inwards(link.freedom, &self.poses.relative[index]);
+            carried = passed(index, link.freedom, carried, ground);
         }
     }
 }

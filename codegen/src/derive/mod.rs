@@ -49,6 +49,7 @@ mod rigid_part;
 mod row;
 mod rows;
 mod shortest_way;
+mod slid_drive;
 mod solve;
 mod start;
 mod stops;

@@ -5,7 +5,7 @@ use crate::expr::{Expr, Mat3, Vec3};
 
 use super::accelerations::accelerations;
 use super::geometry::Geometry;
-use super::kinematics::{Acceleration, Poses, Twist, carried_twist};
+use super::kinematics::{Acceleration, Pose, Poses, Twist, carried_twist};
 use super::linkage::{LinkIndex, Linkage};
 use super::turned::{Axes, Lever};
 
@@ -51,19 +51,26 @@ impl<'g> Motion<'g> {
         if axes.accelerations_in_ground {
             for (acceleration, pose) in motion.accelerations.iter_mut().zip(&self.poses.world) {
                 let [ground, own] = acceleration.turned.parts();
-                acceleration.origin = own + pose.inwards(ground + self.ground);
+                acceleration.origin = own + inwards(pose, ground, self.ground);
             }
         }
         motion
     }
 
-    /// What changes of the speeds' derivatives change of all links' accelerations.
-    pub fn changed(&self, v_dot: &[Expr<'g>]) -> Vec<Acceleration<'g>> {
+    /// What changes of the speeds' derivatives change of all links' accelerations, made along the given axes.
+    pub fn changed(&self, v_dot: &[Expr<'g>], axes: Axes) -> Vec<Acceleration<'g>> {
         let Geometry { g, linkage, .. } = self.poses.geometry;
         g.begin_section("accelerations of the links");
         let still = vec![g.zero(); v_dot.len()];
         let twists = vec![Twist::none(g); linkage.links.len()];
-        accelerations(&self.poses, &twists, (&still, v_dot), g.zero_vector())
+        let mut changes = accelerations(&self.poses, &twists, (&still, v_dot), g.zero_vector());
+        if axes.accelerations_in_ground {
+            for (change, pose) in changes.iter_mut().zip(&self.poses.world) {
+                let [ground, own] = change.turned.parts();
+                change.origin = own + pose.inwards(ground);
+            }
+        }
+        changes
     }
 
     fn twist(&self, link: LinkIndex) -> Twist<'g> {
@@ -137,5 +144,15 @@ impl<'g> Motion<'g> {
     pub fn relative_omega(&self, linkage: &Linkage, at: usize) -> Vec3<'g> {
         let carried = carried_twist(self.twist(linkage.links[at].parent), &self.poses.relative[at]);
         self.twists[at].omega - carried.omega
+    }
+}
+
+/// Components in a link's frame of two vectors along the axes of W: each by itself where that takes no more, so that what is
+/// asked for alone as well is one.
+fn inwards<'g>(pose: &Pose<'g>, moved: Vec3<'g>, ground: Vec3<'g>) -> Vec3<'g> {
+    if moved.into_iter().zip(ground).all(|(moved, ground)| moved.is_zero() || ground.is_zero()) {
+        pose.inwards(moved) + pose.inwards(ground)
+    } else {
+        pose.inwards(moved + ground)
     }
 }

@@ -51,6 +51,8 @@ pub enum Sums {
     /// Those of W: turned once. Where branches part outboard of a link, what they share would be there twice: from link to
     /// link there.
     Ground,
+    /// Those of W, each branch turned by itself: what it has alone may be wanted elsewhere.
+    Apart,
 }
 
 /// Motion of one marker, the child, relative to another, the parent; all in the frame of [`Self::beside`].
@@ -118,8 +120,9 @@ impl<'g> RelativeMotion<'g> {
         let [from_parent, from_child] =
             [parent.link, child.link].map(|link| motion.poses.rotation_between(link, beside));
         let apart = motion.poses.geometry.linkage.common_ancestor(parent.link, child.link).is_none();
-        let in_ground = side == Side::Ground || (sums == Sums::Ground && apart);
-        let turned = Turning { turn: motion.poses.world_of(motion.poses.geometry.g, beside).rotation, side };
+        let in_ground = side == Side::Ground || (sums != Sums::Links && apart);
+        let turn = motion.poses.world_of(motion.poses.geometry.g, beside).rotation;
+        let turned = Turning { turn, side, apart: sums == Sums::Apart };
         let distance = if in_ground {
             turned.place([&parent, &child], |marker, whole| motion.place(marker.link, marker.point, whole))
         } else {
@@ -204,6 +207,8 @@ struct Turning<'g> {
     /// Takes components along the axes of that side to those of W.
     turn: Mat3<'g>,
     side: Side,
+    /// Each end by itself.
+    apart: bool,
 }
 
 impl<'g> Turning<'g> {
@@ -228,7 +233,12 @@ impl<'g> Turning<'g> {
         let [(parent_mount, parent), (child_mount, child)] = [(parent, Side::Parent), (child, Side::Child)]
             .map(|(marker, side)| of(marker, side != self.side));
         let mounts = child_mount - parent_mount;
-        let apart = self.turn.transpose() * (mounts + (child[0] - parent[0]));
+        let inwards = self.turn.transpose();
+        let apart = if self.apart {
+            inwards * mounts + (inwards * child[0] - inwards * parent[0])
+        } else {
+            inwards * (mounts + (child[0] - parent[0]))
+        };
         match self.side {
             Side::Parent => apart - parent[1],
             Side::Child => apart + child[1],

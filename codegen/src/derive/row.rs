@@ -13,6 +13,12 @@ pub struct Bias<'g> {
     pub closed: Expr<'g>,
 }
 
+impl<'g> Bias<'g> {
+    pub fn of(self, closed: bool) -> Expr<'g> {
+        if closed { self.closed } else { self.whole }
+    }
+}
+
 /// One scalar constraint of a cut.
 pub struct Row<'g> {
     /// What it forbids, for people.

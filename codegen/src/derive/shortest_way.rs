@@ -9,7 +9,7 @@ use super::dynamics::shapes_of;
 use super::forward::{Forward, Problem, Way};
 use super::local_modes::local_modes;
 use super::plan::Plan;
-use super::solve::Order;
+use super::solve::{Order, Solution};
 use super::turned::Axes;
 
 /// A pivot that other entries of its row exceed by more than this lets rounding grow.
@@ -17,6 +17,10 @@ const SMALLEST_PIVOT: f64 = 0.1;
 
 /// More unknowns than this are eliminated from the leaves to the root: to look for a shorter order takes their cube.
 const MOST_TO_ORDER: usize = 60;
+
+/// Passes shorten a form by several parts in a hundred, one more than another: what is shorter by less than this part of it may
+/// be longer after them.
+const CLEARLY: f64 = 0.95;
 
 /// By row and speed, whether the entry is among the largest of its row at all positions.
 fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<Vec<bool>> {
@@ -33,30 +37,100 @@ fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<
     (0..rows).map(of_row).collect()
 }
 
-/// The shortest so far, the first among equals.
+/// The shortest so far; among equals the one with the shortest accelerations, the first of those.
 struct Best<'s, 'g> {
-    operations: usize,
+    /// Of everything, and of accelerations alone.
+    operations: (usize, usize),
     forward: Forward<'g>,
     way: Way<'s, 'g>,
+    /// The same of accelerations alone, whatever all else takes.
+    alone: (usize, Solution<'g>),
 }
 
-impl<'s, 'g> Best<'s, 'g> {
-    fn new(problem: &Problem<'_, 'g>, plan: &Plan, way: Way<'s, 'g>) -> Self {
-        let forward = problem.by(plan, way);
-        Self { operations: forward.operations(problem.motion.poses.geometry.g), forward, way }
+/// Forward dynamics in two forms.
+pub struct Shortest<'g> {
+    /// By the way that is the shortest for all that is asked for.
+    pub whole: Forward<'g>,
+    /// By the way that is the shortest for accelerations and pivots.
+    pub alone: Solution<'g>,
+}
+
+/// A problem, and its plan.
+struct Search<'a, 'g> {
+    problem: &'a Problem<'a, 'g>,
+    plan: &'a Plan,
+}
+
+impl<'g> Search<'_, 'g> {
+    fn first<'s>(&self, way: Way<'s, 'g>) -> Best<'s, 'g> {
+        let g = self.problem.motion.poses.geometry.g;
+        let forward = self.problem.by(self.plan, way);
+        let alone = (forward.solution.operations_of_accelerations(g), forward.solution.clone());
+        Best { operations: (forward.operations(g), alone.0), forward, way, alone }
     }
 
-    fn offer(&mut self, problem: &Problem<'_, 'g>, plan: &Plan, way: Way<'s, 'g>) {
-        let next = Self::new(problem, plan, way);
-        if next.operations < self.operations {
-            *self = next;
+    /// Whether the way is shorter than the best.
+    fn offer<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) -> bool {
+        let next = self.first(way);
+        if next.alone.0 < best.alone.0 {
+            best.alone = next.alone;
+        }
+        let shorter = next.operations < best.operations;
+        if shorter {
+            (best.operations, best.forward, best.way) = (next.operations, next.forward, way);
+        }
+        shorter
+    }
+
+    /// The other ways to sum vectors up and to take rows.
+    fn along_axes<'s>(&self, best: &mut Best<'s, 'g>) {
+        let way = best.way;
+        let unknowns = self.problem.partition.free.len() + self.problem.rows.len();
+        let short = unknowns <= MOST_TO_ORDER;
+        let by_wrenches = !self.plan.blocks.is_empty() && way.rows_first && short;
+        let mut shorter = false;
+        for axes in Axes::choices(short).iter().copied() {
+            if short || axes != way.axes {
+                shorter |= self.offer(best, Way { axes, ..way });
+            }
+            if by_wrenches {
+                shorter |= self.offer(best, Way { axes, rows_moved: true, rows_push: true, ..way });
+            }
+        }
+        if by_wrenches && shorter {
+            let way = best.way;
+            for (rows_moved, rows_push) in [(true, false), (false, true), (true, true)] {
+                self.offer(best, Way { rows_moved, rows_push, ..way });
+            }
+        }
+    }
+
+    /// The other orders of what is left to the equations of motion.
+    fn in_order<'s>(&self, best: &mut Best<'s, 'g>, constant: &'s [Vec<bool>]) {
+        let way = best.way;
+        let rest = &self.plan.rest;
+        let unknowns = match way.rows_first {
+            true => rest.speeds.len() + rest.rows.len(),
+            false => self.problem.partition.free.len() + self.problem.rows.len(),
+        };
+        // What nothing drives passes singular positions, and pivots of pairs do not tell how near they are: their own are constant,
+        // and the others vary with the rest of the row.
+        if unknowns <= MOST_TO_ORDER && self.problem.is_driven() {
+            for order in [Order::Cheapest(constant), Order::PairsFirst(constant)] {
+                self.offer(best, Way { order, ..way });
+            }
         }
     }
 }
 
 /// Forward dynamics by the way that takes the fewest operations, the first among equals: rows first where the loops fix
 /// accelerations, else, or where that is dearer, by elimination alone. Without `jacobians`, by elimination of everything.
-pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> Forward<'g> {
+/// `others` shows the problem with rows that are made in other ways.
+pub fn forward<'g>(
+    problem: &Problem<'_, 'g>,
+    others: impl Fn(&mut dyn FnMut(&Problem<'_, 'g>)),
+    jacobians: &[DMatrix<f64>],
+) -> Shortest<'g> {
     let speeds = problem.partition.free.len();
     let pattern: Vec<Vec<bool>> = problem
         .jacobian()
@@ -64,14 +138,24 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
         .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
         .collect();
     let plan = Plan::new(&pattern, speeds, jacobians);
-    let axes = Axes::default();
-    let plain = Way { rows_first: false, shapes: &[], local: &[], again: true, order: Order::Leaves, axes };
+    let plain = Way {
+        rows_first: false,
+        rows_moved: false,
+        rows_push: false,
+        shapes: &[],
+        local: &[],
+        again: true,
+        order: Order::Leaves,
+        axes: Axes::default(),
+        slid: problem.is_driven(),
+    };
     let shapes = shapes_of(problem.masses);
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
     let constant = large_entries(problem.rows.len(), speeds, jacobians);
-    let mut best = Best::new(problem, &plan, plain);
+    let search = Search { problem, plan: &plan };
+    let mut best = search.first(plain);
     if jacobians.is_empty() {
-        return best.forward;
+        return Shortest { whole: best.forward, alone: best.alone.1 };
     }
     let mut kinds = vec![&[][..]];
     if !shapes.is_empty() {
@@ -79,32 +163,33 @@ pub fn forward<'g>(problem: &Problem<'_, 'g>, jacobians: &[DMatrix<f64>]) -> For
     }
     for shapes in kinds {
         if !shapes.is_empty() {
-            best.offer(problem, &plan, Way { shapes, ..plain });
+            search.offer(&mut best, Way { shapes, ..plain });
         }
         let first = Way { rows_first: true, shapes, ..plain };
         if !plan.blocks.is_empty() {
-            best.offer(problem, &plan, first);
+            search.offer(&mut best, first);
         }
         if !local.is_empty() {
             for again in [false, true] {
-                best.offer(problem, &plan, Way { local: &local, again, ..first });
+                search.offer(&mut best, Way { local: &local, again, ..first });
             }
         }
     }
     let way = best.way;
-    for axes in &Axes::ALL[1..] {
-        best.offer(problem, &plan, Way { axes: *axes, ..way });
+    if way.slid && speeds + pattern.len() <= MOST_TO_ORDER {
+        search.offer(&mut best, Way { slid: false, ..way });
     }
-    // The order changes little of what else a way takes: it is looked for on the best one alone.
-    let way = best.way;
-    let rest = plan.rest.speeds.len() + plan.rest.rows.len();
-    let unknowns = if way.rows_first { rest } else { speeds + pattern.len() };
-    // What nothing drives passes singular positions, and pivots of pairs do not tell how near they are: their own are constant, and
-    // the others vary with the rest of the row.
-    if unknowns <= MOST_TO_ORDER && !problem.partition.driven.is_empty() {
-        for order in [Order::Cheapest(&constant), Order::PairsFirst(&constant)] {
-            best.offer(problem, &plan, Way { order, ..way });
-        }
-    }
-    best.forward
+    // What follows changes little of what else a way takes: it is looked for on the best one alone.
+    search.along_axes(&mut best);
+    search.in_order(&mut best, &constant);
+    others(&mut |problem| {
+        let search = Search { problem, plan: &plan };
+        search.along_axes(&mut best);
+        search.in_order(&mut best, &constant);
+    });
+    let (least, alone) = best.alone;
+    let (_, of_whole) = best.operations;
+    let alone =
+        if (least as f64) < CLEARLY * of_whole as f64 { alone } else { best.forward.solution.clone() };
+    Shortest { whole: best.forward, alone }
 }

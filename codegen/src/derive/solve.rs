@@ -13,6 +13,7 @@ use super::elimination_cost::Costs;
 use crate::expr::{Expr, Scope};
 
 /// The solution and the pivots of the loop rows.
+#[derive(Clone)]
 pub struct Solution<'g> {
     /// Accelerations of the given speeds.
     pub accelerations: Vec<Expr<'g>>,
@@ -20,6 +21,13 @@ pub struct Solution<'g> {
     pub multipliers: Vec<Expr<'g>>,
     /// Diagonal of D for the loop rows, as if each had been eliminated alone: positive in regular positions.
     pub pivots: Vec<Expr<'g>>,
+}
+
+impl<'g> Solution<'g> {
+    /// Of accelerations and pivots.
+    pub fn operations_of_accelerations(&self, g: &'g Scope) -> usize {
+        g.operations(self.accelerations.iter().chain(&self.pivots).copied())
+    }
 }
 
 /// In which order unknowns are eliminated.

@@ -10,15 +10,28 @@ pub struct Axes {
     pub accelerations_in_ground: bool,
     /// Forces along those of W; else from link to link.
     pub forces_in_ground: bool,
+    /// Of those, what a link's mass does at its joint comes by the acceleration of the joint on the parent link.
+    pub masses_inboard: bool,
 }
 
 impl Axes {
     /// Every choice, that of the links' own axes first.
-    pub const ALL: [Self; 4] =
-        [Self::new(false, false), Self::new(true, false), Self::new(false, true), Self::new(true, true)];
+    pub const ALL: [Self; 6] = [
+        Self::new(false, false, false),
+        Self::new(true, false, false),
+        Self::new(false, true, false),
+        Self::new(true, true, false),
+        Self::new(false, true, true),
+        Self::new(true, true, true),
+    ];
 
-    const fn new(accelerations_in_ground: bool, forces_in_ground: bool) -> Self {
-        Self { accelerations_in_ground, forces_in_ground }
+    /// All of them, or those that long chains are tried along: each takes them as long as all the rest of a check.
+    pub fn choices(all: bool) -> &'static [Self] {
+        if all { &Self::ALL } else { &Self::ALL[..4] }
+    }
+
+    const fn new(accelerations_in_ground: bool, forces_in_ground: bool, masses_inboard: bool) -> Self {
+        Self { accelerations_in_ground, forces_in_ground, masses_inboard }
     }
 }
 

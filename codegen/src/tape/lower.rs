@@ -11,6 +11,7 @@ use crate::derive::{Block, Equations, Function};
 use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary, shortened};
 
 use super::cut::{Joined, cut};
+use super::signs::with_fewer_signs;
 use super::{Op, Operand, Statement, Tape, verify};
 
 /// Above this many live nodes order serves the machine, not the reader.
@@ -38,7 +39,7 @@ pub fn lower_short(equations: &Equations) -> Vec<Tape> {
         };
         let inputs = placed(&function.inputs, &short.inputs);
         let outputs = placed(&function.outputs, &short.roots);
-        lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() })
+        with_fewer_signs(lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() }))
     })
 }
 

@@ -3,6 +3,7 @@
 
 mod cut;
 mod lower;
+mod signs;
 mod unshared;
 
 pub use linkwear_tape::{

@@ -118,20 +118,40 @@ impl<'g> Instant<'g> {
     /// the links, or of W where that is shorter. `compare`: whether the second way is tried at all.
     pub fn by_shorter_rows<T>(
         &self,
-        exact: bool,
+        exact_or_apart: (bool, bool),
         compare: bool,
         by: impl Fn(&[CutRows<'g>]) -> (usize, T),
     ) -> T {
-        let links = by(&self.cuts);
-        let ground = compare.then(|| self.cuts_in_ground(exact)).flatten().map(|cuts| by(&cuts));
-        ground.filter(|ground| ground.0 < links.0).unwrap_or(links).1
+        let mut shortest = by(&self.cuts);
+        for (_, cuts) in self.other_rows(exact_or_apart, compare) {
+            let next = by(&cuts);
+            if next.0 < shortest.0 {
+                shortest = next;
+            }
+        }
+        shortest.1
     }
 
-    /// The rows of the cuts with what they are made of summed up along the axes of W; nothing if that makes no difference.
-    fn cuts_in_ground(&self, exact: bool) -> Option<Vec<CutRows<'g>>> {
+    /// The rows of the cuts, exact or not, in the other ways to sum up what they are made of; none unless `compare`. What a
+    /// branch has `apart`, forces want, and a closure has none.
+    pub fn other_rows(
+        &self,
+        (exact, apart): (bool, bool),
+        compare: bool,
+    ) -> impl Iterator<Item = (Sums, Vec<CutRows<'g>>)> + '_ {
+        let ways = match (compare, apart) {
+            (false, _) => &[][..],
+            (true, false) => &[Sums::Ground],
+            (true, true) => &[Sums::Ground, Sums::Apart],
+        };
+        ways.iter().filter_map(move |sums| Some((*sums, self.cuts_by(exact, *sums)?)))
+    }
+
+    /// The rows of the cuts with what they are made of summed up along other axes; nothing if that makes no difference.
+    fn cuts_by(&self, exact: bool, sums: Sums) -> Option<Vec<CutRows<'g>>> {
         let linkage = self.state.geometry.linkage;
         let changes = linkage.cuts.iter().any(|cut| !(cut.plane && linkage.rows_in_ground));
-        changes.then(|| cut_rows(&self.state.motion, exact, Sums::Ground))
+        changes.then(|| cut_rows(&self.state.motion, exact, sums))
     }
 }
 

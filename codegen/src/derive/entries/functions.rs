@@ -15,9 +15,11 @@ use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
-use crate::derive::row::Bias;
-use crate::derive::shortest_way::forward;
+use crate::derive::relative_motion::Sums;
+use crate::derive::shortest_way::{Shortest, forward};
+use crate::derive::solve::Solution;
 use crate::derive::start::{StartValues, start_values};
+use crate::derive::turned::Axes;
 use crate::derive::{Block, Function};
 use crate::expr::{Expr, Vec3};
 
@@ -103,23 +105,32 @@ impl<'g> Deriver<'g> {
     }
 
     /// Accelerations, multipliers and drive forces as expressions of the state.
-    pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Forward<'g> {
+    pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Shortest<'g> {
         let motion = &instant.state.motion;
-        let by = |cuts: &[CutRows<'g>]| {
+        let with = |sums, cuts: &[CutRows<'g>], solve: &mut dyn FnMut(&Problem<'_, 'g>)| {
             self.geometry.g.begin_section("loop Jacobian");
-            let problem = Problem {
+            solve(&Problem {
                 motion,
                 v: &instant.state.v,
                 rates: &instant.state.v_dot,
                 masses,
                 loads: &instant.loads,
                 rows: &kept_rows(motion, (cuts, &instant.couplings), &self.keep),
+                made: (sums, &self.keep),
                 partition: &self.partition,
-            };
-            let forward = forward(&problem, &self.jacobians);
-            (forward.operations(self.geometry.g), forward)
+            });
         };
-        instant.by_shorter_rows(false, self.is_short(), by)
+        let others = |solve: &mut dyn FnMut(&Problem<'_, 'g>)| {
+            for (sums, cuts) in instant.other_rows((false, true), self.is_short()) {
+                with(sums, &cuts, solve);
+            }
+        };
+        let mut solved = None;
+        with(Sums::Links, &instant.cuts, &mut |problem| {
+            solved = Some(forward(problem, others, &self.jacobians));
+        });
+        #[expect(clippy::expect_used, reason = "the problem is solved where it is made")]
+        solved.expect("a solution")
     }
 
     pub(super) fn forward_dynamics(&self, solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> Function {
@@ -128,8 +139,8 @@ impl<'g> Deriver<'g> {
         function(Entry::ForwardDynamics, doc, inputs, solution_blocks(solved, own_rates).into())
     }
 
-    pub(super) fn accelerations(&self, solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> Function {
-        let [accelerations, _, _, pivots] = solution_blocks(solved, own_rates);
+    pub(super) fn accelerations(&self, alone: &Solution<'g>, own_rates: &[Expr<'g>]) -> Function {
+        let [accelerations, _, pivots] = blocks(alone, own_rates);
         let doc = "Accelerations alone, where nobody asks for multipliers and drive forces.";
         let inputs = self.state_inputs([self.contact_input()]);
         function(Entry::Accelerations, doc, inputs, vec![accelerations, pivots])
@@ -202,7 +213,7 @@ impl<'g> Deriver<'g> {
             let entries = [&all, &rates, &jacobian].into_iter().flatten().copied();
             (g.operations(entries.filter(|entry| !entry.is_zero())), [all, rates, jacobian])
         };
-        let [all, rates, jacobian] = instant.by_shorter_rows(true, true, by);
+        let [all, rates, jacobian] = instant.by_shorter_rows((true, false), true, by);
         let outputs = vec![
             Block::vector("phi", all)
                 .doc("Position residuals of all rows, dropped ones included [rad, m].")
@@ -302,33 +313,45 @@ impl<'g> Deriver<'g> {
         let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
         let motion = &instant.state.motion;
         g.begin_section("mass matrix by composite bodies");
-        let mass = mass_matrix(&motion.poses, masses);
+        let [links, ground] = [Axes::ALL[0], Axes::ALL[2]];
+        let axes = if self.is_short() { vec![links, ground] } else { vec![links] };
+        let matrices = axes.into_iter().map(|axes| {
+            let matrix = mass_matrix(&motion.poses, masses, axes);
+            let entries: Vec<Expr<'g>> =
+                matrix.iter().flatten().copied().filter(|entry| !entry.is_zero()).collect();
+            (matrix, entries)
+        });
+        let matrices: Vec<_> = matrices.collect();
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let all = vec![true; self.keep.len()];
-        let fixed = solved.is_some_and(|solved| solved.rows_fix_all);
+        let closed = solved.is_some_and(|solved| solved.closed);
         let forces = std::cell::OnceCell::new();
         let by = |cuts: &[CutRows<'g>]| {
             let rows: Vec<_> = kept_rows(motion, (cuts, &instant.couplings), &all)
                 .into_iter()
-                .map(|kept| {
-                    let Bias { whole, closed } = kept.row.bias;
-                    (kept.row.residual, kept.jacobian, -if fixed { closed } else { whole })
-                })
+                .map(|kept| (kept.row.residual, kept.jacobian, -kept.row.bias.of(closed)))
                 .collect();
             let of_rows =
                 rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
             // Zeros, of which there are as many as speeds times rows, take no operations.
-            let entries = mass.iter().flatten().copied().chain(of_rows);
-            let beside: Vec<Expr<'g>> = entries.filter(|entry| !entry.is_zero()).collect();
+            let of_rows: Vec<Expr<'g>> = of_rows.filter(|entry| !entry.is_zero()).collect();
             // The same for all rows, which alone decide which of them are shortest.
-            let forces = forces.get_or_init(|| all_bias_forces(motion, masses, &instant.loads)).iter();
-            let counted = forces.map(|h| (g.operations(beside.iter().chain(h).copied()), h));
-            let shortest = counted.min_by_key(|(operations, _)| *operations);
-            let (operations, h) = shortest.map(|(operations, h)| (operations, h.clone())).unwrap_or_default();
-            (operations, (rows, h))
+            let forces = forces.get_or_init(|| {
+                all_bias_forces(motion, masses, &instant.loads, Axes::choices(self.is_short()))
+            });
+            let both = matrices.iter().flat_map(|mass| forces.iter().map(move |h| (mass, h)));
+            let counted = both.map(|((mass, entries), h)| {
+                let all = entries.iter().chain(&of_rows).chain(h).copied();
+                (g.operations(all), mass, h)
+            });
+            let shortest = counted.min_by_key(|(operations, ..)| *operations);
+            let (operations, mass, h) = shortest
+                .map(|(operations, mass, h)| (operations, mass.clone(), h.clone()))
+                .unwrap_or_default();
+            (operations, (rows, mass, h))
         };
-        let (rows, h) = instant.by_shorter_rows(false, true, by);
+        let (rows, mass, h) = instant.by_shorter_rows((false, self.is_short()), true, by);
         let beside = || vec![g.zero(); own];
         let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied().chain(beside()));
         // Each state of the file's own by itself: one times its rate is its rate.
@@ -349,7 +372,7 @@ impl<'g> Deriver<'g> {
                 .doc("Jacobian of all rows by all speeds.")
                 .cites("[CS (3)]"),
             Block::vector("gamma", rows.iter().map(|(.., gamma)| *gamma))
-                .doc("Right side of phi_q v̇ = gamma; of rows that alone fix all motion, at closed states.")
+                .doc("Right side of phi_q v̇ = gamma; of closed states where something drives.")
                 .cites("[CS (6)]"),
         ];
         let mut inputs = self.base_inputs();
@@ -365,7 +388,14 @@ impl<'g> Deriver<'g> {
 
 /// Accelerations with the rates of the file's own states behind them, multipliers, drive forces, pivots.
 fn solution_blocks<'g>(solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> [Block; 4] {
-    let Forward { solution, drive, .. } = solved;
+    let [accelerations, multipliers, pivots] = blocks(&solved.solution, own_rates);
+    let drive = Block::vector("drive", solved.drive.iter().copied())
+        .doc("Generalised force of every driver on the child [N m, N].");
+    [accelerations, multipliers, drive, pivots]
+}
+
+/// Accelerations with the rates of the file's own states behind them, multipliers, pivots.
+fn blocks<'g>(solution: &Solution<'g>, own_rates: &[Expr<'g>]) -> [Block; 3] {
     [
         Block::vector("v_dot", solution.accelerations.iter().chain(own_rates).copied())
             .doc("Accelerations of the free speeds [rad/s², m/s²].")
@@ -373,8 +403,6 @@ fn solution_blocks<'g>(solved: &Forward<'g>, own_rates: &[Expr<'g>]) -> [Block; 
         Block::vector("lambda", solution.multipliers.iter().copied())
             .doc("Multipliers of the kept rows [N, N m], on the joint's child.")
             .cites("[CS (6)]"),
-        Block::vector("drive", drive.iter().copied())
-            .doc("Generalised force of every driver on the child [N m, N]."),
         Block::vector("pivots", solution.pivots.iter().copied()).doc(
             "Pivots of the loop rows, positive; small next to their usual size near a singular position.",
         ),

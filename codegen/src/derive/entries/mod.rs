@@ -92,13 +92,14 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
         Purpose::Everything | Purpose::Picture => Some(deriver.solution(&dynamic, &masses)),
         Purpose::Analysis => None,
     };
-    let solved = solved.as_ref();
+    let (solved, alone) =
+        (solved.as_ref().map(|solved| &solved.whole), solved.as_ref().map(|solved| &solved.alone));
     let responses = deriver.response_values(&masses, solved, &dynamic.laws);
     let own = &dynamic.own_rates;
     let forward_dynamics = solved
         .map_or_else(|| nothing(Entry::ForwardDynamics), |solved| deriver.forward_dynamics(solved, own));
     let accelerations =
-        solved.map_or_else(|| nothing(Entry::Accelerations), |solved| deriver.accelerations(solved, own));
+        alone.map_or_else(|| nothing(Entry::Accelerations), |alone| deriver.accelerations(alone, own));
     let state_rates = deriver.state_rates(&dynamic);
     let rates = deriver.rates(&state_rates);
     let (closure, rows) = deriver.closure();

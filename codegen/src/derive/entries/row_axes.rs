@@ -7,12 +7,13 @@ use crate::expr::{Expr, Scope};
 use crate::model::{Mechanism, Topology};
 
 use super::deriver::{Deriver, inputs};
-use crate::derive::closure::row_count;
+use crate::derive::closure::{cut_rows, row_count};
 use crate::derive::forward::Problem;
 use crate::derive::geometry::Geometry;
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::linkage::Linkage;
 use crate::derive::linkage_build::linkage;
+use crate::derive::relative_motion::Sums;
 use crate::derive::shortest_way::forward;
 
 /// Speeds and rows at most: to derive the forward dynamics of a longer chain more than once takes longer than all the rest of
@@ -22,8 +23,8 @@ pub(super) const MOST_TO_COMPARE: usize = 60;
 /// Of a cut in a plane, the others say nothing.
 const ROWS_IN_PLANE: usize = 2;
 
-/// Whether the forward dynamics of a mechanism with plane loops is no longer with their rows along the axes of W than with
-/// them along those of the links.
+/// Whether the equations of a mechanism with plane loops are no longer with their rows along the axes of W than with them
+/// along those of the links.
 pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
     let by = |rows_in_ground: bool| operations(mechanism, &Topology { rows_in_ground, ..topology.clone() });
     by(true).is_some_and(|ground| by(false).is_some_and(|links| ground <= links))
@@ -46,7 +47,7 @@ fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
     linkage(mechanism, topology, &mechanism.parameter_values())
 }
 
-/// Operations of the forward dynamics, before positions say more than the pattern of the loop Jacobian does; nothing where
+/// Operations of the forward dynamics and of the closure, which a run asks for both, before positions say more than the pattern of the loop Jacobian does; nothing where
 /// there is no choice.
 fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let linkage = tree(mechanism, topology);
@@ -75,9 +76,17 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
         masses: &masses,
         loads: &instant.loads,
         rows: &rows,
+        made: (Sums::Links, &deriver.keep),
         partition,
     };
-    Some(forward(&problem, &[numbers]).operations(&scope))
+    let solved = forward(&problem, |_| {}, &[numbers]).whole.operations(&scope);
+    let exact = cut_rows(motion, true, Sums::Links);
+    let closed = exact.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
+    let closed = closed.flat_map(|(cut, row)| {
+        let jacobian = cut.jacobian(&motion.poses, row);
+        [row.residual, row.rate].into_iter().chain(jacobian).collect::<Vec<_>>()
+    });
+    Some(solved + scope.operations(closed))
 }
 
 /// A number for an entry, such that blocks of them are regular wherever their pattern lets them.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::formula::Formula;
 use super::program::Program;
-use super::sums::sums;
+use super::terms::{Kind, terms};
 use crate::expr::{Binary, ExprId, Graph, Node};
 
 /// A product with its sign; `true` subtracts.
@@ -16,7 +16,7 @@ pub fn factor(program: &Program) -> Option<Program> {
     let mut formulas: Vec<Option<Formula>> = vec![None; uses.len()];
     let mut left_out = vec![false; uses.len()];
     let mut found = false;
-    for sum in sums(graph, &uses) {
+    for sum in terms(graph, &uses, Kind::Sum) {
         let mut inner = sum.inner;
         let products: Vec<Product> = sum
             .terms

@@ -10,7 +10,8 @@ mod formula;
 mod program;
 mod rebuild;
 mod share;
-mod sums;
+mod terms;
+mod unscaled;
 
 use super::{ExprId, Graph};
 use program::Whole;
@@ -20,7 +21,11 @@ pub use program::Program;
 /// A pass; nothing if it finds nothing to do.
 type Pass = fn(&Program) -> Option<Program>;
 
-const PASSES: [Pass; 2] = [factor::factor, share::share];
+/// Orders of the passes: what one leaves decides what another finds. The shortest result counts, the first among equals.
+const ORDERS: [[Pass; 4]; 2] = [
+    [factor::factor, share::share_sums, share::share_products, unscaled::unscaled],
+    [unscaled::unscaled, factor::factor, share::share_sums, share::share_products],
+];
 
 /// Rounds of all passes at most; nothing shipped takes more than three.
 const ROUNDS: usize = 4;
@@ -28,11 +33,28 @@ const ROUNDS: usize = 4;
 /// The function with these inputs (all symbols that it reads) and outputs, shortened.
 pub fn shortened(graph: &Graph, inputs: &[ExprId], roots: &[ExprId]) -> Program {
     let whole = Whole { graph, inputs, roots };
-    let mut best = equal::merged(&whole);
+    let merged = equal::merged(&whole);
+    let mut best = passed(&merged, &ORDERS[0]);
+    for order in &ORDERS[1..] {
+        // The same again if the first pass finds nothing.
+        let Some(first) = order[0](&merged).filter(|first| first.operations() < merged.operations()) else {
+            continue;
+        };
+        let next = passed(&first, order);
+        if next.operations() < best.operations() {
+            best = next;
+        }
+    }
+    best
+}
+
+/// The program after rounds of the passes, each kept where it makes it shorter.
+fn passed(program: &Program, passes: &[Pass]) -> Program {
+    let mut best = program.clone();
     let mut least = best.operations();
     for _ in 0..ROUNDS {
         let before = least;
-        for pass in PASSES {
+        for pass in passes {
             let Some(next) = pass(&best) else { continue };
             let count = next.operations();
             if count < least {

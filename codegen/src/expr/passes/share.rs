@@ -1,4 +1,5 @@
-//! A pair of terms that several sums have is added once: the pair of most sums first.
+//! A pair of terms that several sums have is added once, and a pair of factors that several products have multiplied once: the
+//! pair of most sums first.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::program::Program;
 use super::rebuild::Rebuild;
-use super::sums::{Sum, sums};
+use super::terms::{Kind, Terms, terms};
 use crate::expr::{Expr, ExprId};
 
 /// A term: an old node, or behind those a pair by its number.
@@ -17,10 +18,19 @@ type Term = u32;
 type Pair = (Term, Term, bool);
 
 /// Adds pairs that several sums have once.
-pub fn share(program: &Program) -> Option<Program> {
+pub fn share_sums(program: &Program) -> Option<Program> {
+    share(program, Kind::Sum)
+}
+
+/// Multiplies pairs that several products have once.
+pub fn share_products(program: &Program) -> Option<Program> {
+    share(program, Kind::Product)
+}
+
+fn share(program: &Program, kind: Kind) -> Option<Program> {
     let (graph, uses) = (&program.graph, program.uses());
-    let sums = sums(graph, &uses);
-    let mut sharing = Sharing::new(&sums, uses.len());
+    let sums = terms(graph, &uses, kind);
+    let mut sharing = Sharing::new(kind, &sums, uses.len());
     sharing.run();
     if sharing.pairs.is_empty() {
         return None;
@@ -35,20 +45,29 @@ pub fn share(program: &Program) -> Option<Program> {
     let mut made: Vec<Option<ExprId>> = vec![None; sharing.pairs.len()];
     Some(program.rebuilt(|rebuild, id| match changed[id.index()] {
         Some(at) => {
-            let mut sum = rebuild.scope.zero();
+            let mut joined = rebuild.scope.number(if kind == Kind::Sum { 0.0 } else { 1.0 });
             for (negative, term) in &sharing.terms[at] {
                 let term = sharing.term(rebuild, &mut made, *term);
-                sum = if *negative { sum - term } else { sum + term };
+                joined = join(kind, joined, term, *negative);
             }
-            rebuild.set(id, sum);
+            rebuild.set(id, joined);
         }
         None if left_out[id.index()] => {}
         None => rebuild.again(id),
     }))
 }
 
+fn join<'g>(kind: Kind, one: Expr<'g>, other: Expr<'g>, negative: bool) -> Expr<'g> {
+    match kind {
+        Kind::Product => one * other,
+        Kind::Sum if negative => one - other,
+        Kind::Sum => one + other,
+    }
+}
+
 /// Sums while their pairs are being found.
 struct Sharing {
+    kind: Kind,
     /// Old nodes.
     nodes: usize,
     /// Signed terms of every sum.
@@ -63,7 +82,7 @@ struct Sharing {
 }
 
 impl Sharing {
-    fn new(sums: &[Sum], nodes: usize) -> Self {
+    fn new(kind: Kind, sums: &[Terms], nodes: usize) -> Self {
         // What one sum has alone is in no common pair.
         let mut sums_with = vec![0_u32; nodes];
         for (_, term) in sums.iter().flat_map(|sum| &sum.terms) {
@@ -75,6 +94,7 @@ impl Sharing {
             .map(|sum| sum.terms.iter().map(|(negative, id)| (*negative, number(*id))).collect())
             .collect();
         let mut sharing = Self {
+            kind,
             nodes,
             changed: vec![false; terms.len()],
             terms,
@@ -165,7 +185,7 @@ impl Sharing {
         }
         let (first, second, differ) = self.pairs[number];
         let [first, second] = [first, second].map(|term| self.term(rebuild, made, term));
-        let sum = if differ { first - second } else { first + second };
+        let sum = join(self.kind, first, second, differ);
         made[number] = Some(sum.id());
         sum
     }
