@@ -110,6 +110,11 @@ pub fn rigid_force_in_ground<'g>(
     mass * (ground + motion.ground) + motion.poses.world[at].rotation * own
 }
 
+/// Of the forces of a link.
+pub fn section_of(link: &Link) -> String {
+    format!("inertia, weight and loads of {}", link.name)
+}
+
 /// h: what every speed feels of inertia (for the accelerations that `motion` was built with), weight
 /// and loads. Left side of [CS (6)]. Links that have `fields` are taken by these in the place of their mass
 /// properties, and forces are passed inwards along the given axes.
@@ -138,7 +143,7 @@ pub fn forces_besides<'g>(
     // What of it moves with the joint of a link outboard, along the link's own axes; mass that moves with the link's origin.
     let (mut borne, mut at_origin) = (in_ground.clone(), vec![g.zero(); linkage.links.len()]);
     for (at, link) in linkage.links.iter().enumerate().rev() {
-        g.begin_section(format!("inertia, weight and loads of {}", link.name));
+        g.begin_section(section_of(link));
         let (frame, modes) = (&motion.accelerations[at], &motion.modes[at]);
         let by_fields = fields.get(at).and_then(Option::as_ref);
         let inertial = match by_fields {

@@ -4,9 +4,11 @@
 //!
 //! There are several ways to one solution, of which `shortest_way` chooses.
 
+use std::cell::OnceCell;
+
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::dynamics::{BodyFields, bias_forces_by, fields_of, forces_besides};
+use super::dynamics::{BodyFields, bias_forces_by, fields_of, forces_besides, section_of};
 use super::fields::Shapes;
 use super::kept_rows::{KeptRow, Partition, closed_biases};
 use super::link_mass::LinkMass;
@@ -75,6 +77,8 @@ struct Moving<'a, 'g> {
     motion: Motion<'g>,
     fields: Vec<Option<BodyFields<'a, 'g>>>,
     axes: Axes,
+    /// What all speeds feel of it, once asked for.
+    felt: OnceCell<Vec<Expr<'g>>>,
 }
 
 impl<'g> Problem<'_, 'g> {
@@ -108,7 +112,7 @@ impl<'g> Problem<'_, 'g> {
             rates[*speed] = *acceleration;
         }
         let motion = self.motion.accelerated(self.v, &rates).along(axes);
-        Moving { fields: fields_of(&motion, shapes), motion, axes }
+        Moving { fields: fields_of(&motion, shapes), motion, axes, felt: OnceCell::new() }
     }
 
     /// What all speeds feel at given accelerations.
@@ -148,8 +152,16 @@ impl<'g> Problem<'_, 'g> {
                 held[at] += wrench;
             }
         }
-        let fields = (&moving.fields[..], moving.axes);
-        let felt = forces_besides(&moving.motion, self.masses, (self.loads, &held), fields);
+        let felt = if way.rows_push {
+            let fields = (&moving.fields[..], moving.axes);
+            forces_besides(&moving.motion, self.masses, (self.loads, &held), fields)
+        } else {
+            // The same whatever the multipliers are: what takes longest is done once.
+            moving.felt.get_or_init(|| self.felt(moving)).clone()
+        };
+        if let Some(first) = poses.geometry.linkage.links.first() {
+            g.begin_section(section_of(first));
+        }
         let of_rows = |speed: usize| {
             g.sum(by_jacobian.iter().map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
         };
