@@ -147,7 +147,8 @@ pub fn forward<'g>(
         again: true,
         order: Order::Leaves,
         axes: Axes::default(),
-        slid: problem.is_driven(),
+        // Elimination of everything is what the other ways are tested against.
+        slid: problem.is_driven() && !jacobians.is_empty(),
     };
     let shapes = shapes_of(problem.masses);
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
