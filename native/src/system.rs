@@ -49,7 +49,7 @@ use crate::unsupported::Functions;
 #[derive(Clone)]
 pub struct Native {
     alone: Lanes<1>,
-    observer: Observer,
+    several: Several,
     laws: Option<Laws>,
 }
 
@@ -61,9 +61,15 @@ struct Laws {
     words: Arc<str>,
 }
 
-/// The columns of several states side by side.
+/// What runs ask at several states at once.
 #[derive(Clone)]
-struct Observer(Arc<Functions>);
+struct Several {
+    functions: Arc<Functions>,
+    entries: &'static [Entry],
+}
+
+/// Columns; and the derivatives of slopes by states, which stiff motion is integrated with. Contacts are integrated by other methods.
+const OF_SEVERAL: [Entry; 2] = [Entry::Observe, Entry::Derivative];
 
 /// A mechanism as machine code that evaluates `N` states side by side, 4 or 8: every one with the bits that it would have
 /// alone. Clones share the code.
@@ -174,8 +180,10 @@ impl Native {
     /// If this processor or this system cannot run it, or a tape makes no sense.
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
         let alone = Lanes::new(tapes, sizes)?;
-        let observer = Functions::new::<STATES>(&tapes[Entry::Observe as usize..][..1])?;
-        Ok(Self { alone, observer: Observer(Arc::new(observer)), laws: None })
+        let entries = &OF_SEVERAL[..if sizes.contacts > 0 { 1 } else { 2 }];
+        let asked: Vec<Tape> = entries.iter().map(|entry| tapes[*entry as usize].clone()).collect();
+        let functions = Arc::new(Functions::new::<STATES>(&asked)?);
+        Ok(Self { alone, several: Several { functions, entries }, laws: None })
     }
 
     /// The same with the laws of contact inside the derivative, if the mechanism has joints with clearance. Wear by bearing angle
@@ -204,7 +212,7 @@ impl System<f64> for Native {
     }
 
     fn side_by_side(&self) -> Option<&dyn SideBySide<f64>> {
-        Some(&self.observer)
+        Some(&self.several)
     }
 
     fn laws_inside(&self) -> Option<&dyn WithLaws<f64>> {
@@ -226,18 +234,24 @@ impl WithLaws<f64> for Laws {
     }
 }
 
-impl SideBySide<f64> for Observer {
-    fn workspace(&self) -> usize {
-        self.0.workspace().div_ceil(STATES)
+impl SideBySide<f64> for Several {
+    fn answers(&self, entry: Entry) -> bool {
+        self.entries.contains(&entry)
     }
 
-    fn observe(
+    fn workspace(&self) -> usize {
+        self.functions.workspace().div_ceil(STATES)
+    }
+
+    fn evaluate(
         &self,
+        entry: Entry,
         input: &[[f64; STATES]],
         output: &mut [[f64; STATES]],
         workspace: &mut [[f64; STATES]],
     ) {
         let (input, output) = (input.as_flattened(), output.as_flattened_mut());
-        self.0.run(0, input, output, workspace.as_flattened_mut());
+        let place = self.entries.iter().position(|known| *known == entry).unwrap_or(usize::MAX);
+        self.functions.run(place, input, output, workspace.as_flattened_mut());
     }
 }

@@ -5,9 +5,10 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
+use crate::manifold::groups;
 use crate::mission::{MissionInfo, SegmentInfo};
-pub use crate::tables::SAMPLE;
 use crate::tables::{AllTables, CoefficientRow, ContactInfo, InputRole, JournalWear, Motion, Tables};
+pub use crate::tables::{MODE, SAMPLE};
 use crate::text::Text;
 use crate::wear::Step;
 
@@ -124,6 +125,12 @@ pub struct Description {
     pub missions: List<MissionInfo>,
 }
 
+/// Whether a coordinate has the name of a modal one.
+fn is_modal(name: &str) -> bool {
+    let number = name.rsplit_once(MODE).map(|(_, number)| number);
+    number.is_some_and(|number| !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit()))
+}
+
 impl Description {
     /// Worn volume of a journal over that of its bush, by its index among the joints with clearance; nothing if it does not
     /// wear.
@@ -144,6 +151,13 @@ impl Description {
     /// Of every kept row, its row among all; fewer than `count` where the description misses one.
     pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
+    }
+
+    /// Modal coordinates of flexible bodies: places of coordinate and speed among the free ones.
+    pub(crate) fn modes(&self) -> impl Iterator<Item = (usize, usize)> {
+        let scalars = groups(&self.motions).filter(|group| group.motion == Motion::Scalar { driver: None });
+        let places = scalars.map(|group| (group.coordinate, group.speed));
+        places.filter(|(coordinate, _)| is_modal(&self.coordinates[*coordinate].name))
     }
 
     /// Of every free speed, whether it is one of turning.

@@ -106,6 +106,11 @@ impl<'a> Dynamics<'a> {
         self.nearness = self.largest_pivots.note(pivots);
     }
 
+    /// How regular loops of these pivots are, by the largest that each has had.
+    pub(crate) fn regularity(&self, pivots: impl Iterator<Item = f64>) -> f64 {
+        self.largest_pivots.regularity_of(pivots)
+    }
+
     /// Takes over evaluations made elsewhere, after the last of which the loops are as regular as this.
     pub(crate) fn take_over(&mut self, evaluations: u64, nearness: f64) {
         self.evaluations += evaluations;

@@ -187,6 +187,11 @@ impl<'a> Evaluator<'a> {
         Ok(&parameters[self.questions.inputs.clone()])
     }
 
+    /// Where inputs begin among the parameters.
+    pub(crate) fn first_input(&self) -> usize {
+        self.questions.inputs.start
+    }
+
     /// Values of all inputs at a time.
     pub(crate) fn inputs(&mut self, t: f64) -> &[f64] {
         self.questions.inputs_at(t)

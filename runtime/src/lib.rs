@@ -117,8 +117,8 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, CoefficientFactor, Description, DriverInfo, List, NEXT, ParameterInfo, RowInfo, SAMPLE,
-        SWITCH, TabledDescription, VALUE, VariableInfo,
+        Channel, CoefficientFactor, Description, DriverInfo, List, MODE, NEXT, ParameterInfo, RowInfo,
+        SAMPLE, SWITCH, TabledDescription, VALUE, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, Orbit, RevolutionSettings, Steadiness},

@@ -196,7 +196,7 @@ pub trait System<T: Scalar> {
     /// If a slice is shorter than [`Sizes`] says.
     fn evaluate(&self, entry: Entry, input: &[T], output: &mut [T], workspace: &mut [T]);
 
-    /// What observes several states at once, if that takes less time than one after the other.
+    /// What answers at several states at once, if that takes less time than one after the other.
     fn side_by_side(&self) -> Option<&dyn SideBySide<T>> {
         None
     }
@@ -223,18 +223,26 @@ pub trait WithLaws<T: Scalar> {
     fn derivative(&self, question: &[T], answer: &mut [T], workspace: &mut [T]);
 }
 
-/// States that [`SideBySide`] observes at once.
+/// States that [`SideBySide`] answers at once.
 pub const STATES: usize = 4;
 
-/// Answers [`Entry::Observe`] at several states at once, each with the bits that it has alone. Every value is that of all
-/// states.
+/// Answers entries at several states at once, each with the bits that it has alone. Every value is that of all states.
 pub trait SideBySide<T: Scalar> {
-    /// Length of the scratch slice that [`Self::observe`] wants.
+    /// Whether it answers this entry: [`Entry::Observe`] always.
+    fn answers(&self, entry: Entry) -> bool;
+
+    /// Length of the scratch slice that [`Self::evaluate`] wants.
     fn workspace(&self) -> usize;
 
-    /// Evaluates [`Entry::Observe`]. Does not allocate.
+    /// Evaluates an entry that it answers. Does not allocate.
     ///
     /// # Panics
-    /// If a slice is shorter than [`Sizes`] says, or the scratch slice than [`Self::workspace`].
-    fn observe(&self, input: &[[T; STATES]], output: &mut [[T; STATES]], workspace: &mut [[T; STATES]]);
+    /// If it does not answer this entry, a slice is shorter than [`Sizes`] says, or the scratch slice than [`Self::workspace`].
+    fn evaluate(
+        &self,
+        entry: Entry,
+        input: &[[T; STATES]],
+        output: &mut [[T; STATES]],
+        workspace: &mut [[T; STATES]],
+    );
 }

@@ -1,7 +1,7 @@
 //! Order of convergence and step control, on problems with closed forms.
 
 use linkwear_runtime::RunError;
-use linkwear_runtime::integrate::{Adaptive, Dopri5, Method, Problem, Rk4, Rk43};
+use linkwear_runtime::integrate::{Adaptive, Dopri5, Method, Problem, Rk4, Rk43, Rodas5P, Switching};
 
 /// y1' = y2 cos t, y2' = -y1 cos t: y1 = sin(sin t), y2 = cos(sin t).
 struct Swing;
@@ -74,6 +74,48 @@ fn rk43_has_order_four_and_its_dense_output_order_three() {
     assert!((2.8..4.3).contains(&dense_order), "{dense_order}");
 }
 
+#[test]
+fn rodas5p_has_order_five_and_its_dense_output_order_four() {
+    let ((coarse, coarse_dense), (fine, fine_dense)) =
+        (fixed_errors::<Rodas5P>(30), fixed_errors::<Rodas5P>(60));
+    let (order, dense_order) = ((coarse / fine).log2(), (coarse_dense / fine_dense).log2());
+    // As for Dormand-Prince.
+    assert!((4.7..6.0).contains(&order), "{order}");
+    assert!((3.8..6.0).contains(&dense_order), "{dense_order}");
+}
+
+/// y1' = -1e6 (y1 - y2) + cos t with y2 = sin t, a problem of Prothero and Robinson, and y3, the integral of y1.
+struct Follows;
+
+impl Problem for Follows {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        (dy[0], dy[1], dy[2]) = (-1e6 * (y[0] - y[1]) + t.cos(), t.cos(), y[0]);
+        Ok(())
+    }
+
+    fn deciding(&self, _: usize) -> usize {
+        2
+    }
+}
+
+#[test]
+fn rodas5p_goes_with_the_slow_motion_however_stiff_the_fast_one_is() {
+    let mut method =
+        Adaptive::<Rodas5P>::start(&mut Follows, (0.0, 3.0), &[0.0; 3], 1e-7, 3.0).expect("smooth");
+    let mut steps = 0;
+    while method.t() < 3.0 {
+        method.step(&mut Follows, 3.0).expect("smooth");
+        steps += 1;
+    }
+    // An explicit method takes a million. Here the motion alone decides.
+    assert!(steps < 60, "{steps}");
+    let [fast, slow, integral] = [method.y()[0], method.y()[1], method.y()[2]];
+    let sine = 3.0_f64.sin();
+    let errors = [fast - sine, slow - sine, integral - (1.0 - 3.0_f64.cos())];
+    // The tolerance.
+    assert!(errors.iter().all(|error| error.abs() < 1e-7), "{errors:?}");
+}
+
 /// A slow motion behind a spring that rings a thousand times as fast, damped a little: y1' = cos t, and y2 follows y1.
 struct Stiff;
 
@@ -109,6 +151,54 @@ fn rk43_bears_ringing_with_less_work() {
     assert!(bearing < 6_000 && 2 * bearing < explicit, "{bearing} {explicit}");
     // The tolerance.
     assert!(error < 1e-5, "{error}");
+}
+
+/// A mass on a spring whose other end moves slowly, damped a little.
+struct Vibration {
+    frequency: f64,
+}
+
+impl Problem for Vibration {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        dy[0] = y[1];
+        dy[1] = self.frequency * self.frequency * (t.sin() - y[0]) - 0.02 * self.frequency * y[1];
+        Ok(())
+    }
+
+    fn fastest(&self) -> f64 {
+        self.frequency
+    }
+
+    fn follows(&self, index: usize) -> Option<usize> {
+        (index == 0).then_some(1)
+    }
+}
+
+/// Steps in all and those by the implicit method, to t = 3.
+fn switched(frequency: f64, tolerance: f64) -> (u64, u64) {
+    let mut problem = Vibration { frequency };
+    let mut method =
+        Adaptive::<Switching>::start(&mut problem, (0.0, 3.0), &[0.0, 1.0], tolerance, 3.0).expect("smooth");
+    let mut steps = 0;
+    while method.t() < 3.0 {
+        method.step(&mut problem, 3.0).expect("smooth");
+        steps += 1;
+    }
+    (steps, method.implicit_steps())
+}
+
+#[test]
+fn steps_are_implicit_where_a_fast_vibration_would_hold_explicit_ones_short() {
+    let (steps, implicit) = switched(1e5, 1e-5);
+    // Explicit ones would be 3e5. At first the mass rings, and is followed.
+    assert!(steps < 600 && implicit > 50, "{implicit} of {steps}");
+}
+
+#[test]
+fn steps_are_explicit_where_the_vibration_itself_is_followed() {
+    let (steps, implicit) = switched(20.0, 1e-9);
+    // The first ones try the implicit method.
+    assert!(steps > 100 && implicit < 20, "{implicit} of {steps}");
 }
 
 #[test]

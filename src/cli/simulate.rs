@@ -15,7 +15,8 @@ use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{
-    Description, Integrator, Run, SampledSignals, Settings, Span, Watch, simulate, simulate_with_inputs,
+    Description, Integrator, Run, SampledSignals, Settings, Span, Statistics, Watch, simulate,
+    simulate_with_inputs,
 };
 use serde_json::{Value, json};
 
@@ -28,7 +29,7 @@ use super::options::{IntegratorName, MotionArguments};
 #[cfg(feature = "page")]
 use super::picture;
 use super::summary;
-use super::table::{duration, plural, table};
+use super::table::{count, duration, plural, table};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
@@ -111,6 +112,8 @@ impl<'a> Simulation<'a> {
             Integrator::Rk4 { step } => ("rk4", Some(step), None),
             Integrator::GeneralizedAlpha { step, .. } => ("generalized-alpha", Some(step), None),
             Integrator::Dopri5 { tolerance, .. } => ("dopri5", None, Some(tolerance)),
+            Integrator::Rodas5P { tolerance, .. } => ("rodas5p", None, Some(tolerance)),
+            Integrator::Switching { tolerance, .. } => ("dopri5/rodas5p", None, Some(tolerance)),
             Integrator::Rk43 { tolerance, .. } => ("rk43", None, Some(tolerance)),
         };
         let (turns, time) = match *span {
@@ -156,12 +159,12 @@ pub fn method(
     name: Option<IntegratorName>,
     (given, tolerance): (Option<f64>, Option<f64>),
 ) -> Result<Option<Integrator>, Failure> {
-    use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4, Rk43};
+    use IntegratorName::{Dopri5, GeneralizedAlpha, Rk4, Rk43, Rodas5P};
     let step = given.unwrap_or(DEFAULT_STEP);
     let Some(name) = name.or(given.map(|_| Rk4)) else { return Ok(None) };
     let or = |default: f64| tolerance.unwrap_or(default);
     match name {
-        Dopri5 | Rk43 if given.is_some() => {
+        Dopri5 | Rodas5P | Rk43 if given.is_some() => {
             let help = "the method chooses its steps: give --tol, or --integrator rk4";
             Err(Failure::usage("the integrator has no --step", help))
         }
@@ -170,6 +173,7 @@ pub fn method(
             Err(Failure::usage("the integrator has no --tol", help))
         }
         Dopri5 => Ok(Integrator::Dopri5 { tolerance: or(Integrator::SMOOTH_TOLERANCE), max_step: None }),
+        Rodas5P => Ok(Integrator::Rodas5P { tolerance: or(Integrator::MODAL_TOLERANCE), max_step: None }),
         Rk43 => Ok(Integrator::Rk43 { tolerance: or(Integrator::CONTACT_TOLERANCE), max_step: None }),
         Rk4 => Ok(Integrator::Rk4 { step }),
         GeneralizedAlpha => Ok(Integrator::GeneralizedAlpha { step, rho: DEFAULT_RHO }),
@@ -216,6 +220,7 @@ pub fn told_of<'a>(
         time_s: run.times.last().copied().unwrap_or_default(),
         samples: run.rows.len(),
         steps: numbers.steps,
+        implicit_steps: numbers.implicit_steps,
         rejected: numbers.rejected,
         evaluations: numbers.evaluations,
         projections: numbers.projections,
@@ -287,6 +292,8 @@ fn to_text(
     let method = match settings.integrator {
         Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
         Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
+        Integrator::Rodas5P { tolerance, .. } => format!("rodas5p, tolerance {tolerance:e}"),
+        Integrator::Switching { tolerance, .. } => switching(tolerance, &run.statistics),
         Integrator::Rk43 { tolerance, .. } => format!("rk43, tolerance {tolerance:e}"),
         Integrator::GeneralizedAlpha { step, rho } => {
             format!("generalized-alpha, step {step:e} s, rho {rho}")
@@ -305,6 +312,17 @@ fn to_text(
         text.push_str(&format!("\n{rows} of {} columns in {}", run.channels.len() + 1, out.display()));
     }
     text
+}
+
+/// Which methods took the steps.
+fn switching(tolerance: f64, statistics: &Statistics) -> String {
+    let Statistics { steps, implicit_steps, .. } = *statistics;
+    let took = match implicit_steps {
+        0 => "dopri5".to_owned(),
+        some if some >= steps => "rodas5p".to_owned(),
+        some => format!("{} by rodas5p, the others by dopri5", count(some)),
+    };
+    format!("{took}, tolerance {tolerance:e}")
 }
 
 #[cfg(test)]

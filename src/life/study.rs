@@ -139,9 +139,10 @@ impl<'m> LifeStudy<'m> {
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
         let (step, tolerance) = match *integrator {
             Integrator::Rk4 { step } | Integrator::GeneralizedAlpha { step, .. } => (Some(step), None),
-            Integrator::Dopri5 { tolerance, .. } | Integrator::Rk43 { tolerance, .. } => {
-                (None, Some(tolerance))
-            }
+            Integrator::Dopri5 { tolerance, .. }
+            | Integrator::Rodas5P { tolerance, .. }
+            | Integrator::Switching { tolerance, .. }
+            | Integrator::Rk43 { tolerance, .. } => (None, Some(tolerance)),
         };
         let fit = |fit: &JointFit| (fit.joint.clone(), json!(sha256(&fit.estimate)));
         let fits = self.fits.iter().map(fit).collect::<Map<_, _>>();

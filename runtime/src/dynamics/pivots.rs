@@ -55,8 +55,13 @@ impl LargestPivots {
 
     /// Smallest pivot relative to the largest value that it has had.
     pub(super) fn regularity(&self, pivots: &[f64]) -> f64 {
-        let all = pivots.iter().zip(&self.values);
-        all.fold(1.0, |smallest, (pivot, most)| smaller(smallest, (*pivot, *most), self.noise))
+        self.regularity_of(pivots.iter().copied())
+    }
+
+    /// The same of pivots that come one by one.
+    pub(super) fn regularity_of(&self, pivots: impl Iterator<Item = f64>) -> f64 {
+        let all = pivots.zip(&self.values);
+        all.fold(1.0, |smallest, (pivot, most)| smaller(smallest, (pivot, *most), self.noise))
     }
 
     /// Keeps what [`Self::resume`] goes on with; one at a time.

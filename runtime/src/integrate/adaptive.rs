@@ -78,6 +78,11 @@ pub trait Method {
     /// State at part `s` of the last accepted step.
     fn interpolate(&self, s: f64, y: &mut [f64]);
 
+    /// Steps that an implicit method took, where there is one besides.
+    fn implicit_steps(&self) -> u64 {
+        0
+    }
+
     /// Shows every number that it stands on between two steps, in one order, to be read or put back.
     fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64));
 }
@@ -147,7 +152,7 @@ impl<M: Method> Adaptive<M> {
             trouble: None,
         };
         adaptive.method.begin(problem, t, &adaptive.y)?;
-        problem.reached(t, adaptive.method.slope());
+        problem.reached(t, &adaptive.y, adaptive.method.slope());
         let step = adaptive.first_step(problem);
         adaptive.control.set_step(step);
         Ok(adaptive)
@@ -171,6 +176,11 @@ impl<M: Method> Adaptive<M> {
     /// Steps tried and not accepted.
     pub fn rejected(&self) -> u64 {
         self.control.rejected()
+    }
+
+    /// See [`Method::implicit_steps`].
+    pub fn implicit_steps(&self) -> u64 {
+        self.method.implicit_steps()
     }
 
     /// Goes one accepted step further, never beyond `end` and onto it exactly.
@@ -239,7 +249,7 @@ impl<M: Method> Adaptive<M> {
     /// What the problem reports.
     pub fn go_on_from(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
         self.method.begin(problem, t, y)?;
-        problem.reached(t, self.method.slope());
+        problem.reached(t, y, self.method.slope());
         self.y.copy_from_slice(y);
         self.control.go_on_from(t);
         self.trouble = None;
@@ -287,7 +297,7 @@ impl<M: Method> Adaptive<M> {
 
     fn accept(&mut self, problem: &mut dyn Problem, (length, end): (f64, f64), estimate: Estimate) {
         self.method.accept(Step { t: self.t(), y: &self.y, length, end }, &self.next);
-        problem.reached(end, self.method.slope());
+        problem.reached(end, &self.next, self.method.slope());
         if self.trouble.as_ref().is_some_and(|(t, _)| end >= *t) {
             self.trouble = None;
         }

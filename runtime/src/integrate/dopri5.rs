@@ -150,6 +150,14 @@ impl Method for Dopri5 {
     }
 }
 
+impl Dopri5 {
+    /// Goes on from where another method got, with the slope there.
+    pub(super) fn go_on_with(&mut self, slope: &[f64]) {
+        self.slopes[0].copy_from_slice(slope);
+        self.rough[0] = false;
+    }
+}
+
 /// `out = sum of weight * slope`, slope by slope: loops over long slices, which compilers vectorise.
 fn weighted_sum(out: &mut [f64], weights: &[f64], slopes: &[Vec<f64>]) {
     out.fill(0.0);

@@ -9,7 +9,10 @@ mod generalized_alpha;
 mod problem;
 mod rk4;
 mod rk43;
+mod rodas5p;
+mod stage_system;
 mod step_control;
+mod switching;
 
 pub(crate) use adaptive::relative_error;
 pub use adaptive::{Adaptive, Method};
@@ -19,4 +22,6 @@ pub use problem::Problem;
 pub use rk4::Rk4;
 pub use rk43::Rk43;
 pub(crate) use rk43::{PARTS, error_of, growth_of, step_of};
+pub use rodas5p::Rodas5P;
 pub(crate) use step_control::floored;
+pub use switching::Switching;

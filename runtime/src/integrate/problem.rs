@@ -10,6 +10,25 @@ pub trait Problem {
     /// If it has no value there; an adaptive method then tries a shorter step.
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError>;
 
+    /// Writes `f` at several times and states, one behind the other: states beside the one of the last derivative, which no part of
+    /// the solution will come through.
+    ///
+    /// # Errors
+    /// As [`Self::derivative`].
+    fn derivatives(
+        &mut self,
+        times: &[f64],
+        states: &[f64],
+        derivatives: &mut [f64],
+    ) -> Result<(), RunError> {
+        let dimension = states.len() / times.len().max(1);
+        let states = states.chunks_exact(dimension).zip(derivatives.chunks_exact_mut(dimension));
+        for (t, (y, derivative)) in times.iter().zip(states) {
+            self.derivative(*t, y, derivative)?;
+        }
+        Ok(())
+    }
+
     /// Puts the result `y` of a step from `before` onto the constraints.
     ///
     /// # Errors
@@ -36,14 +55,30 @@ pub trait Problem {
     }
 
     /// Told of every state that counts, with its derivative.
-    fn reached(&mut self, t: f64, derivative: &[f64]) {
-        let _ = (t, derivative);
+    fn reached(&mut self, t: f64, y: &[f64], derivative: &[f64]) {
+        let _ = (t, y, derivative);
     }
 
     /// Size below which the error of component `index` is measured absolutely, not relative to the value.
     fn scale(&self, index: usize) -> f64 {
         let _ = index;
         1.0
+    }
+
+    /// How many of the `dimension` components the slopes depend on, those at the begin; the others are plain integrals.
+    fn deciding(&self, dimension: usize) -> usize {
+        dimension
+    }
+
+    /// The fastest vibration of all that may hold steps short [rad/s], 0 if there is none to speak of.
+    fn fastest(&self) -> f64 {
+        0.0
+    }
+
+    /// The component that is the slope of this one, if there is such.
+    fn follows(&self, index: usize) -> Option<usize> {
+        let _ = index;
+        None
     }
 
     /// Name of a component, for messages.

@@ -33,7 +33,7 @@ impl Rk4 {
         rk4::<RunError>((t, step), y, stage, slopes, &mut |stage, t, y, slope| {
             problem.derivative(t, y, slope)?;
             if stage == 0 {
-                problem.reached(t, slope);
+                problem.reached(t, y, slope);
             }
             Ok(())
         })?;

@@ -2,6 +2,7 @@
 //! dynamics. Out: columns to a [`Collector`], in the order of time. Allocates only when made.
 
 use super::extremes::Collector;
+use super::slopes::Slopes;
 use crate::clearance_joint::Channels;
 use crate::evaluate::Evaluator;
 use crate::system::{Entry, STATES, SideBySide};
@@ -17,6 +18,8 @@ pub(super) struct Looks<'a> {
     /// ...which come before those that contacts add.
     columns: Vec<[f64; STATES]>,
     workspace: Vec<[f64; STATES]>,
+    /// Forward dynamics of several states at once.
+    slopes: Option<Slopes<'a>>,
 }
 
 impl<'a> Looks<'a> {
@@ -35,6 +38,7 @@ impl<'a> Looks<'a> {
             generated: sizes.channels,
             columns: vec![[0.0; STATES]; columns],
             workspace: vec![[0.0; STATES]; observer.workspace()],
+            slopes: Slopes::new(evaluator),
         })
     }
 
@@ -51,11 +55,51 @@ impl<'a> Looks<'a> {
         for (column, value) in self.columns[self.generated..].iter_mut().zip(of_contacts) {
             column[self.count] = value;
         }
+        self.count_in(t, collector);
+    }
+
+    fn count_in(&mut self, t: f64, collector: &mut Collector) {
         self.times[self.count] = t;
         self.count += 1;
         if self.count == STATES {
             self.finish(collector);
         }
+    }
+
+    /// Evaluates the forward dynamics of several flat states at once; whether the system can, and all are finite.
+    pub(super) fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, times: &[f64], states: &[f64]) -> bool {
+        self.slopes.as_mut().is_some_and(|slopes| slopes.evaluate(evaluator, times, states))
+    }
+
+    /// Loop pivots of one of them.
+    pub(super) fn pivots(&self, lane: usize) -> impl Iterator<Item = f64> + '_ {
+        self.slopes.iter().flat_map(move |slopes| {
+            let [_, _, _, pivots] = slopes.forward(lane);
+            pivots
+        })
+    }
+
+    /// Looks at one of them.
+    pub(super) fn look_at(
+        &mut self,
+        evaluator: &Evaluator<'_>,
+        (lane, t): (usize, f64),
+        collector: &mut Collector,
+    ) {
+        let Some(slopes) = &self.slopes else { return };
+        let sizes = evaluator.sizes();
+        let (known, rest) = self.question.split_at_mut(sizes.input(Entry::Energy));
+        known.iter_mut().zip(slopes.question(lane)).for_each(|(place, value)| place[self.count] = value);
+        let [accelerations, multipliers, drives, _] = slopes.forward(lane);
+        let (of_accelerations, rest) = rest.split_at_mut(sizes.speeds);
+        of_accelerations.iter_mut().zip(accelerations).for_each(|(place, value)| place[self.count] = value);
+        let (of_rows, rest) = rest.split_at_mut(sizes.all_rows);
+        of_rows.iter_mut().for_each(|place| place[self.count] = 0.0);
+        for (row, value) in evaluator.kept().iter().zip(multipliers) {
+            of_rows[*row][self.count] = value;
+        }
+        rest.iter_mut().zip(drives).for_each(|(place, value)| place[self.count] = value);
+        self.count_in(t, collector);
     }
 
     /// Observes what waits.
@@ -66,11 +110,11 @@ impl<'a> Looks<'a> {
             && let Some(room) = collector.room(times)
         {
             let (room, of_contacts) = room.split_at_mut(*generated);
-            observer.observe(question, room, workspace);
+            observer.evaluate(Entry::Observe, question, room, workspace);
             of_contacts.copy_from_slice(&columns[*generated..]);
         } else if count > 0 {
             // Places without a state hold an older one, or zeros, and nobody reads what they give.
-            observer.observe(question, columns, workspace);
+            observer.evaluate(Entry::Observe, question, columns, workspace);
             collector.note_several(&times[..count], columns);
         }
     }

@@ -2,14 +2,17 @@
 //! supplied, work dissipated, and per joint with clearance the [`Totals`]. In: states. Out: derivatives,
 //! projected states. Never knows samples.
 
+mod problem;
+
 use std::ops::Range;
 
+use super::modal_sizes::ModalSizes;
+use super::slopes::Slopes;
 use crate::assemble::{State, motion_sizes};
 use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
-use crate::integrate::Problem;
 use crate::ledger::{Energies, sum};
 use crate::linear::{add_scaled, is_finite, largest};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
@@ -87,6 +90,10 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) sizes: Vec<f64>,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
     pub(super) energy_scale: f64,
+    /// What tells slopes of several states at once.
+    slopes: Option<Slopes<'a>>,
+    /// Sizes of deflections, if steps are to go by them.
+    modal: ModalSizes,
     /// Factor on how far loops may stay open after a step, in regular positions.
     looseness: f64,
     /// Kinetic and potential energy [J] at a time [s], if they were evaluated elsewhere.
@@ -113,6 +120,8 @@ impl<'a> ConstrainedMotion<'a> {
             arm: 1.0,
             sizes: vec![1.0; sizes.speeds],
             energy_scale: ENERGY_FLOOR,
+            slopes: None,
+            modal: ModalSizes::default(),
             looseness: 1.0,
             known_energy: None,
             regularity_reached: 1.0,
@@ -124,9 +133,19 @@ impl<'a> ConstrainedMotion<'a> {
         self.looseness = (LEFT_OPEN * tolerance / POSITION_TOLERANCE).max(1.0);
     }
 
+    /// Has errors of deflections judged beside the deflections that loads of their size hold.
+    pub(super) fn judge_modes(&mut self, t: f64, y: &[f64]) {
+        let (q, v, _) = self.split(y);
+        let state = State { q: q.to_vec(), v: v.to_vec() };
+        self.modal = ModalSizes::new(&mut self.dynamics.evaluator, t, &state);
+        self.slopes = Slopes::new(&self.dynamics.evaluator);
+    }
+
     /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.dynamics.visit_memory(visit);
+        self.modal.visit_memory(visit);
+        self.modal.write(self.scales.split_at_mut(self.coordinates));
         visit(&mut self.energy_scale);
         visit(&mut self.regularity_reached);
     }
@@ -384,87 +403,4 @@ impl<'a> ConstrainedMotion<'a> {
 #[cold]
 fn infinite_power(t: f64) -> RunError {
     RunError::NonFinite { t, what: "power of drivers and forces".to_owned() }
-}
-
-impl Problem for ConstrainedMotion<'_> {
-    fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
-        let (q, v, _) = self.split(y);
-        self.dynamics.accelerate(t, q, v)?;
-        if self.dynamics.nearness() >= PROJECTED_STAGES {
-            return self.write_derivative(t, y, derivative);
-        }
-        let mut stage = std::mem::take(&mut self.stage);
-        stage.copy_from_slice(y);
-        let mut outcome = Ok(());
-        if self.put_on(t, &mut stage).is_ok() {
-            let (q, v, _) = self.split(&stage);
-            outcome = self.dynamics.accelerate(t, q, v);
-        }
-        let outcome = outcome.and_then(|()| self.write_derivative(t, &stage, derivative));
-        self.stage = stage;
-        outcome
-    }
-
-    fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
-        self.stage.copy_from_slice(y);
-        let near_singular = self.dynamics.nearness() < PROJECTED_STAGES;
-        let looseness = if near_singular { 1.0 } else { self.looseness };
-        let correction = self.put_within(t, y, looseness)?;
-        if correction.position.max(correction.speed) > JUMP_FLOOR {
-            self.check_correction(t, before, &correction)?;
-        }
-        if near_singular && correction.moved() { self.keep_momentum(t, y) } else { Ok(()) }
-    }
-
-    fn is_rough(&self) -> bool {
-        self.dynamics.nearness() < PROJECTED_STAGES
-    }
-
-    fn shuns_end(&self) -> bool {
-        self.regularity_reached >= SHUNNED_END && self.dynamics.nearness() < SHUNNED_END
-    }
-
-    /// What the accelerations differ by at a state that differs in the last place.
-    fn noise(&mut self, t: f64, y: &[f64], derivative: &[f64]) -> f64 {
-        let mut beside = std::mem::take(&mut self.beside);
-        let (other, slope) = beside.split_at_mut(y.len());
-        other.copy_from_slice(y);
-        for (place, value) in other[..self.first_integral()].iter_mut().enumerate() {
-            let ulp = f64::EPSILON * value.abs().max(1.0);
-            *value += if place % 2 == 0 { ulp } else { -ulp };
-        }
-        let seen = self.derivative(t, other, slope).is_ok();
-        let speeds = self.coordinates..self.coordinates + self.speeds;
-        let ends = slope[speeds.clone()].iter().zip(&derivative[speeds.clone()]);
-        let differs = ends.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-        self.beside = beside;
-        if seen { (SAMPLED * differs).max(self.dynamics.noise(&y[speeds])) } else { 0.0 }
-    }
-
-    fn reached(&mut self, t: f64, derivative: &[f64]) {
-        self.regularity_reached = self.dynamics.nearness();
-        self.dynamics.note_reference(t, &derivative[self.coordinates..][..self.speeds]);
-    }
-
-    fn scale(&self, index: usize) -> f64 {
-        let Some(integral) = index.checked_sub(self.first_integral()) else { return self.scales[index] };
-        match integral.checked_sub(WORKS).map(|integral| integral % TOTALS) {
-            Some(total) if !is_energy(total) => f64::INFINITY,
-            _ => self.energy_scale,
-        }
-    }
-
-    fn name(&self, index: usize) -> String {
-        let description = self.dynamics.evaluator.description();
-        match index.checked_sub(self.coordinates) {
-            None => description.coordinates[index].name.to_string(),
-            Some(index) if index < self.speeds => format!("speed {}", description.speeds[index].name),
-            Some(index) if index == self.speeds => "work supplied".to_owned(),
-            Some(index) if index == self.speeds + 1 => "work dissipated".to_owned(),
-            Some(index) => {
-                let joint = &description.contacts[(index - self.speeds - 2) / TOTALS].joint;
-                format!("contact integrals of {joint}")
-            }
-        }
-    }
 }

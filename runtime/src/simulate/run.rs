@@ -12,6 +12,8 @@ use crate::wear::ContactMeasure;
 pub struct Statistics {
     /// Accepted steps.
     pub steps: u64,
+    /// Of these, where a run takes its steps by an explicit method or an implicit one, those by the implicit one.
+    pub implicit_steps: u64,
     /// Steps tried and not accepted.
     pub rejected: u64,
     /// Evaluations of the forward dynamics (for generalised-alpha: of the equations of motion).

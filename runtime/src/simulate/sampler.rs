@@ -29,6 +29,10 @@ use crate::watch::Watch;
 /// Times in a turn of the fastest body at which curves are looked at, at least: the peak of a tenth harmonic is then found
 /// to a part in a hundred of its size, of the first to a part in ten thousand.
 const LOOKS_PER_TURN: f64 = 240.0;
+/// Looks in a radian of the fastest vibration, up to so many in a step: its peak is then met to a few ten-thousandths where steps
+/// follow it closely, and steps that do not have no more of it to see.
+const LOOKS_PER_RADIAN: f64 = 25.0;
+const LOOKS_AT_VIBRATION: f64 = 4.0;
 /// Looks within one step, at most.
 const MOST_LOOKS: f64 = 1000.0;
 /// Halvings of a step to follow an angle: a step of a thousand turns that begin and end at rest takes twelve.
@@ -60,6 +64,8 @@ pub(super) struct Sampler<'a> {
     extremes: Option<Collector>,
     /// Looks for them that wait for others.
     looks: Option<Looks<'a>>,
+    /// Room for states within a step.
+    pub(super) within: Vec<f64>,
     /// Time and state at the end of the last good step.
     pub(super) reached: (f64, Vec<f64>),
     /// Joints with clearance, where there are any.
@@ -98,6 +104,7 @@ impl<'a> Sampler<'a> {
             passages: Passages::default(),
             extremes: None,
             looks: None,
+            within: Vec::new(),
             reached: (begin, state.to_vec()),
             follower,
             turn_end: None,
@@ -327,7 +334,8 @@ impl<'a> Sampler<'a> {
         t: f64,
     ) -> impl Iterator<Item = f64> + use<> {
         let turned = (t - before) * self.ledger.fastest_turning / (2.0 * PI);
-        let looks = (turned * LOOKS_PER_TURN).min(MOST_LOOKS);
+        let vibrated = (t - before) * motion.fastest() * LOOKS_PER_RADIAN;
+        let looks = (turned * LOOKS_PER_TURN).min(MOST_LOOKS).max(vibrated.min(LOOKS_AT_VIBRATION));
         let asked = self.extremes.is_some() && motion.dynamics.nearness() >= PROJECTED_STAGES;
         let looks = if asked { looks } else { 0.0 };
         let pieces = looks.ceil() as usize;
@@ -361,6 +369,31 @@ impl<'a> Sampler<'a> {
         self.angles.unwrap(t, &mut self.values);
         if let Some(extremes) = &mut self.extremes {
             extremes.note(t, &self.values);
+        }
+        Ok(())
+    }
+
+    /// The same of several flat states within a step, one behind the other: side by side where that gives the same.
+    pub(super) fn look_at_several(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        times: &[f64],
+        states: &[f64],
+    ) -> Result<(), RunError> {
+        let length = states.len() / times.len().max(1);
+        let known = self
+            .looks
+            .as_mut()
+            .is_some_and(|looks| looks.evaluate(&mut motion.dynamics.evaluator, times, states));
+        for (lane, (t, state)) in times.iter().zip(states.chunks_exact(length)).enumerate() {
+            if known
+                && let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes)
+                && motion.dynamics.regularity(looks.pivots(lane)) >= PROJECTED_STAGES
+            {
+                looks.look_at(&motion.dynamics.evaluator, (lane, *t), extremes);
+            } else {
+                self.look(motion, *t, state)?;
+            }
         }
         Ok(())
     }

@@ -20,6 +20,21 @@ pub enum Integrator {
         /// Longest step [s]; a tenth of the run if `None`.
         max_step: Option<f64>,
     },
+    /// Rodas5P 5(4), a linearly implicit method, adaptive, dense output: for flexible bodies whose modes are much faster than the
+    /// motion, and other stiff parts.
+    Rodas5P {
+        /// Accuracy wanted: of forces, relative to the loads on modes; of all else as for [`Self::Dopri5`].
+        tolerance: f64,
+        /// Longest step [s]; a tenth of the run if `None`.
+        max_step: Option<f64>,
+    },
+    /// [`Self::Rodas5P`] where its longer steps pay, else [`Self::Dopri5`]: for flexible bodies.
+    Switching {
+        /// As for [`Self::Rodas5P`].
+        tolerance: f64,
+        /// Longest step [s]; a tenth of the run if `None`.
+        max_step: Option<f64>,
+    },
     /// Runge-Kutta 4(3), adaptive, dense output: for joints with clearance.
     Rk43 {
         /// Relative error of the wear integrals, where the motion is not chaotic.
@@ -40,13 +55,17 @@ pub enum Integrator {
 impl Integrator {
     /// Tolerance of smooth motion where none is asked for.
     pub const SMOOTH_TOLERANCE: f64 = 1e-9;
+    /// Tolerance with flexible bodies where none is asked for.
+    pub const MODAL_TOLERANCE: f64 = 1e-7;
     /// Tolerance with clearance where none is asked for.
     pub const CONTACT_TOLERANCE: f64 = 1e-6;
 
-    /// The adaptive method that suits a mechanism: contacts vibrate faster than anything that is asked for, and steps are long
+    /// The adaptive method that suits a mechanism: modes of flexible bodies are often much faster than the motion, contacts vibrate faster than anything that is asked for, and steps are long
     /// with the method that bears most of that.
     pub fn adaptive(description: &Description, tolerance: Option<f64>) -> Self {
-        if description.contacts.is_empty() {
+        if description.contacts.is_empty() && description.modes().next().is_some() {
+            Self::Switching { tolerance: tolerance.unwrap_or(Self::MODAL_TOLERANCE), max_step: None }
+        } else if description.contacts.is_empty() {
             Self::Dopri5 { tolerance: tolerance.unwrap_or(Self::SMOOTH_TOLERANCE), max_step: None }
         } else {
             Self::Rk43 { tolerance: tolerance.unwrap_or(Self::CONTACT_TOLERANCE), max_step: None }
@@ -56,7 +75,10 @@ impl Integrator {
     /// What it is told of its accuracy, if it chooses its steps.
     pub const fn tolerance(self) -> Option<f64> {
         match self {
-            Self::Dopri5 { tolerance, .. } | Self::Rk43 { tolerance, .. } => Some(tolerance),
+            Self::Dopri5 { tolerance, .. }
+            | Self::Rodas5P { tolerance, .. }
+            | Self::Switching { tolerance, .. }
+            | Self::Rk43 { tolerance, .. } => Some(tolerance),
             Self::Rk4 { .. } | Self::GeneralizedAlpha { .. } => None,
         }
     }
@@ -104,7 +126,10 @@ impl Settings {
         let positive = |name, value: f64| need(value.is_finite() && value > 0.0, name, value, "positive");
         match self.integrator {
             Integrator::Rk4 { step } => positive("step", step)?,
-            Integrator::Dopri5 { tolerance, max_step } | Integrator::Rk43 { tolerance, max_step } => {
+            Integrator::Dopri5 { tolerance, max_step }
+            | Integrator::Rodas5P { tolerance, max_step }
+            | Integrator::Switching { tolerance, max_step }
+            | Integrator::Rk43 { tolerance, max_step } => {
                 need((1e-14..=1e-1).contains(&tolerance), "tolerance", tolerance, "between 1e-14 and 0.1")?;
                 max_step.map_or(Ok(()), |step| positive("max_step", step))?;
             }

@@ -9,9 +9,10 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
+use super::slopes::Slopes;
 use super::{dead_point, events, samples, switches};
 use crate::error::RunError;
-use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43};
+use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43, Rodas5P, Switching};
 use crate::watch::Watch;
 
 /// A method under way.
@@ -25,6 +26,8 @@ enum Way {
     Rk4 { method: Rk4, t: f64, longest: f64 },
     Dopri5(Box<AdaptiveSteps<Dopri5>>),
     Rk43(Box<AdaptiveSteps<Rk43>>),
+    Rodas5P(Box<AdaptiveSteps<Rodas5P>>),
+    Switching(Box<AdaptiveSteps<Switching>>),
     Implicit(Box<Implicit>),
 }
 
@@ -57,6 +60,16 @@ impl Steps {
                 AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
                     .map(Way::Dopri5)
             }
+            Integrator::Rodas5P { tolerance, max_step } => {
+                motion.judge_modes(begin, state);
+                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
+                    .map(Way::Rodas5P)
+            }
+            Integrator::Switching { tolerance, max_step } => {
+                motion.judge_modes(begin, state);
+                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
+                    .map(Way::Switching)
+            }
             Integrator::Rk43 { tolerance, max_step } => {
                 motion.loosen(tolerance);
                 AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled)).map(Way::Rk43)
@@ -84,6 +97,8 @@ impl Steps {
                 advance_rk4(motion, sampler, (method, t, *longest), state, wanted, watch)
             }
             Way::Dopri5(steps) => steps.advance(motion, sampler, state, wanted, watch),
+            Way::Rodas5P(steps) => steps.advance(motion, sampler, state, wanted, watch),
+            Way::Switching(steps) => steps.advance(motion, sampler, state, wanted, watch),
             Way::Rk43(steps) => steps.advance(motion, sampler, state, wanted, watch),
             Way::Implicit(method) => method.advance(motion, sampler, state, wanted, watch),
         };
@@ -100,6 +115,8 @@ impl Steps {
     ) -> Result<(), RunError> {
         match &mut self.method {
             Way::Dopri5(steps) => steps.cut(motion, sampler, t, state),
+            Way::Rodas5P(steps) => steps.cut(motion, sampler, t, state),
+            Way::Switching(steps) => steps.cut(motion, sampler, t, state),
             Way::Rk43(steps) => steps.cut(motion, sampler, t, state),
             Way::Rk4 { .. } | Way::Implicit(_) => Ok(()),
         }
@@ -114,6 +131,8 @@ impl Steps {
     ) -> Result<(), RunError> {
         match &mut self.method {
             Way::Dopri5(steps) => steps.method.go_on_from(motion, t, state),
+            Way::Rodas5P(steps) => steps.method.go_on_from(motion, t, state),
+            Way::Switching(steps) => steps.method.go_on_from(motion, t, state),
             Way::Rk43(steps) => steps.method.go_on_from(motion, t, state),
             Way::Rk4 { t: reached, .. } => {
                 *reached = t;
@@ -130,6 +149,8 @@ impl Steps {
     pub(super) fn visit_memory(&mut self, t: f64, visit: &mut dyn FnMut(&mut f64)) {
         match &mut self.method {
             Way::Dopri5(steps) => steps.visit_memory(visit),
+            Way::Rodas5P(steps) => steps.visit_memory(visit),
+            Way::Switching(steps) => steps.visit_memory(visit),
             Way::Rk43(steps) => steps.visit_memory(visit),
             Way::Rk4 { t: reached, .. } => *reached = t,
             Way::Implicit(method) => method.begin_anew(t),
@@ -220,14 +241,27 @@ pub(super) fn look_back<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     method: &Adaptive<M>,
-    between: &mut [f64],
 ) -> Result<(), RunError> {
     sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
     sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
-    for t in sampler.between(motion, method.before(), method.t()) {
-        method.interpolate(t, between);
-        sampler.look(motion, t, between)?;
+    let mut times = [0.0; Slopes::AT_ONCE];
+    let mut states = std::mem::take(&mut sampler.within);
+    states.resize(times.len() * method.y().len(), 0.0);
+    let mut inner = sampler.between(motion, method.before(), method.t());
+    let length = method.y().len();
+    loop {
+        let mut count = 0;
+        for (time, t) in times.iter_mut().zip(inner.by_ref()) {
+            method.interpolate(t, &mut states[count * length..][..length]);
+            *time = t;
+            count += 1;
+        }
+        if count == 0 {
+            break;
+        }
+        sampler.look_at_several(motion, &times[..count], &states[..count * length])?;
     }
+    sampler.within = states;
     Ok(())
 }
 
@@ -284,10 +318,11 @@ impl<M: Method> AdaptiveSteps<M> {
             }
             let outcome = method.step(motion, stop);
             sampler.statistics.rejected = method.rejected();
+            sampler.statistics.implicit_steps = method.implicit_steps();
             outcome?;
             events::stop_at_contact(motion, sampler, method, between)?;
             switches::stop_at_switch(motion, sampler, method, between)?;
-            look_back(motion, sampler, method, between)?;
+            look_back(motion, sampler, method)?;
             *open = true;
         }
     }

@@ -157,7 +157,10 @@ pub(super) fn step_limits(integrator: Integrator) -> Option<(f64, f64)> {
     match integrator {
         Integrator::Rk4 { .. } => Some((1.0, 2.0 * std::f64::consts::SQRT_2)),
         Integrator::GeneralizedAlpha { .. } => Some((0.5, f64::INFINITY)),
-        Integrator::Dopri5 { .. } | Integrator::Rk43 { .. } => None,
+        Integrator::Dopri5 { .. }
+        | Integrator::Rodas5P { .. }
+        | Integrator::Switching { .. }
+        | Integrator::Rk43 { .. } => None,
     }
 }
 

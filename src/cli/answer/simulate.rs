@@ -24,6 +24,8 @@ pub struct SimulateAnswer<'a> {
     pub samples: usize,
     /// Accepted steps.
     pub steps: u64,
+    /// Of these, those by Rodas5P, where steps are taken by it or by Dormand-Prince.
+    pub implicit_steps: u64,
     /// Rejected steps.
     pub rejected: u64,
     /// Evaluations of the equations.

@@ -3,6 +3,7 @@
 
 use crate::derive::linkage::{Freedom, Linkage};
 use crate::model::{Coordinate, Mechanism};
+use linkwear_runtime::MODE;
 
 /// Names and units of all coordinates and of all speeds, in tree order.
 pub(super) type Names = (Vec<(String, &'static str)>, Vec<(String, &'static str)>);
@@ -47,8 +48,8 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
                 let body = mechanism.body(link.body);
                 let unit = body.flexible.as_ref().map_or("1", |flexible| flexible.data.modal_unit());
                 let rate = if unit == "1" { "1/s" } else { "kg^0.5 m/s" };
-                positions.extend((1..=modes).map(|k| (format!("{}.eta{k}", body.name), unit)));
-                speeds.extend((1..=modes).map(|k| (format!("{}.eta{k}_v", body.name), rate)));
+                positions.extend((1..=modes).map(|k| (format!("{}{MODE}{k}", body.name), unit)));
+                speeds.extend((1..=modes).map(|k| (format!("{}{MODE}{k}_v", body.name), rate)));
             }
             Freedom::Weld | Freedom::Node => {}
         }

@@ -2,7 +2,7 @@
 //! In: link motion with true accelerations, multipliers, drive forces. Out: channels with expressions.
 //! Never knows files. Names and units follow the command line's contract for sampled output.
 
-use linkwear_runtime::{Channel, NEXT, SAMPLE, Text, VALUE};
+use linkwear_runtime::{Channel, MODE, NEXT, SAMPLE, Text, VALUE};
 
 use super::deriver::{Deriver, Instant};
 use super::joint_forces::JointForces;
@@ -159,7 +159,7 @@ impl<'a, 'g> Channels<'a, 'g> {
         g.begin_section(format!("deformation of {name}"));
         let state = &self.instant.state.motion.modes[at];
         for (k, eta) in state.q.iter().enumerate() {
-            self.push(format!("{name}.eta{}", k + 1), flexible.data.modal_unit(), *eta);
+            self.push(format!("{name}{MODE}{}", k + 1), flexible.data.modal_unit(), *eta);
         }
         for station in &flexible.stations {
             let shape = NodeShape::new(&flexible.data.nodes[station.node], false);

@@ -190,12 +190,12 @@ impl<'a> Trajectory<'a> {
             let [begin, end] = slopes;
             lanes.slopes(lane, [&mut *begin, &mut *end]);
             method.know([begin, end]);
-            motion.reached(method.t(), method.slope());
+            motion.reached(method.t(), method.y(), method.slope());
         }
         let stopped =
             if is_suspect { events::stop_at_contact(motion, sampler, method, between) } else { Ok(()) };
         let done = stopped.and_then(|()| {
-            steps::look_back(motion, sampler, method, between)
+            steps::look_back(motion, sampler, method)
                 .and_then(|()| sampler.step_done(motion, method.t(), method.y()))
         });
         *after = match done {

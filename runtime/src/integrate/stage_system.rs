@@ -1,0 +1,175 @@
+//! The linear system that every stage of a Rosenbrock method solves: `(1 / (gamma h) - J) k = b`, where `J` has the derivatives of the
+//! slopes by the state. In: a problem and where a step begins. Out: solutions. Never knows the method.
+//!
+//! Plain integrals, which no slope depends on, follow from the others. So does a component whose slope is another component, as a
+//! coordinate follows from its speed: the matrix that is factored has the rest alone.
+
+use super::adaptive::Step;
+use super::problem::Problem;
+use crate::error::RunError;
+use crate::linear::{Lu, add_scaled, dot};
+
+/// Widths of the difference quotients beside natural sizes: rounding and curvature both leave some 1e-8 of a derivative.
+const DIFFERENCE: f64 = 1e-7;
+
+/// A component whose slope is another component.
+#[derive(Clone, Copy, Debug)]
+struct Follower {
+    component: usize,
+    /// The place of that other one in the matrix.
+    of: usize,
+}
+
+/// Matrix and storage.
+#[derive(Clone, Debug, Default)]
+pub(super) struct StageSystem {
+    /// Where the step begins that the derivatives are for.
+    known_at: Option<f64>,
+    /// Times, states beside the begin, their slopes: one for each deciding component, and one for the time, which comes last.
+    times: Vec<f64>,
+    states: Vec<f64>,
+    slopes: Vec<f64>,
+    followers: Vec<Follower>,
+    /// The components that the matrix is of.
+    rest: Vec<usize>,
+    dimension: usize,
+    /// `gamma h`.
+    scale: f64,
+    /// Derivatives of the rest's slopes by every follower, and of the integrals' slopes by every component.
+    by_followers: Vec<f64>,
+    of_integrals: Vec<f64>,
+    matrix: Vec<f64>,
+    lu: Option<Lu>,
+    right: Vec<f64>,
+}
+
+impl StageSystem {
+    /// The derivatives are those of another step.
+    pub(super) fn forget(&mut self) {
+        self.known_at = None;
+    }
+
+    /// Derivatives of the slopes where a step begins, `slope` there; not again for a shorter one.
+    pub(super) fn linearise(
+        &mut self,
+        problem: &mut dyn Problem,
+        step: Step<'_>,
+        slope: &[f64],
+    ) -> Result<(), RunError> {
+        if self.known_at == Some(step.t) {
+            return Ok(());
+        }
+        if self.lu.is_none() {
+            self.prepare(problem, step.y.len());
+        }
+        let all = self.dimension;
+        let by_time = self.times.len() - 1;
+        // Of a step however short the time is another one.
+        let later = step.t + (DIFFERENCE * step.length).max(4.0 * f64::EPSILON * step.t.abs());
+        self.times.fill(step.t);
+        self.times[by_time] = later;
+        for (place, state) in self.states.chunks_exact_mut(all).enumerate() {
+            state.copy_from_slice(step.y);
+            if place < by_time {
+                state[place] += DIFFERENCE * step.y[place].abs().max(problem.scale(place));
+            }
+        }
+        problem.derivatives(&self.times, &self.states, &mut self.slopes)?;
+        let beside = self.states.chunks_exact(all).zip(self.slopes.chunks_exact_mut(all));
+        for (place, (state, column)) in beside.enumerate() {
+            // What the width is after rounding.
+            let width = if place < by_time { state[place] - step.y[place] } else { later - step.t };
+            let per_width = 1.0 / width;
+            column.iter_mut().zip(slope).for_each(|(value, slope)| *value = (*value - slope) * per_width);
+        }
+        self.of_integrals.clear();
+        for integral in by_time..all {
+            let columns = self.slopes.chunks_exact(all).take(by_time);
+            self.of_integrals.extend(columns.map(|column| column[integral]));
+        }
+        self.by_followers.clear();
+        for follower in &self.followers {
+            let column = &self.slopes[follower.component * all..][..all];
+            self.by_followers.extend(self.rest.iter().map(|row| column[*row]));
+        }
+        self.known_at = Some(step.t);
+        Ok(())
+    }
+
+    fn prepare(&mut self, problem: &dyn Problem, dimension: usize) {
+        let deciding = problem.deciding(dimension);
+        // One that follows a follower stays in the matrix.
+        let followed = |component| problem.follows(component).filter(|of| problem.follows(*of).is_none());
+        let followed: Vec<Option<usize>> = (0..deciding).map(followed).collect();
+        self.rest = (0..deciding).filter(|component| followed[*component].is_none()).collect();
+        let place = |of: usize| self.rest.iter().position(|component| *component == of);
+        let followers = followed
+            .iter()
+            .enumerate()
+            .filter_map(|(component, of)| Some(Follower { component, of: place((*of)?)? }));
+        self.followers = followers.collect();
+        let size = self.rest.len();
+        self.dimension = dimension;
+        self.times = vec![0.0; deciding + 1];
+        self.states = vec![0.0; (deciding + 1) * dimension];
+        self.slopes = self.states.clone();
+        self.matrix = vec![0.0; size * size];
+        self.right = vec![0.0; size];
+        self.lu = Some(Lu::new(size));
+    }
+
+    /// Factors the matrix for a step: `gamma h`.
+    pub(super) fn factor(&mut self, scale: f64) {
+        let (all, size) = (self.dimension, self.rest.len());
+        self.scale = scale;
+        let column = |component: usize| &self.slopes[component * all..][..all];
+        for (j, component) in self.rest.iter().enumerate() {
+            let column = column(*component);
+            for (i, row) in self.rest.iter().enumerate() {
+                self.matrix[i * size + j] = -column[*row];
+            }
+            self.matrix[j * size + j] += 1.0 / scale;
+        }
+        if size > 0 {
+            for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {
+                let places = self.matrix[follower.of..].iter_mut().step_by(size);
+                places.zip(column).for_each(|(place, value)| *place -= scale * value);
+            }
+        }
+        if let Some(lu) = &mut self.lu {
+            lu.factor(&self.matrix);
+        }
+    }
+
+    /// Derivative of the slopes by time.
+    pub(super) fn by_time(&self) -> &[f64] {
+        &self.slopes[(self.times.len() - 1) * self.dimension..]
+    }
+
+    /// Solves for the right-hand side `b`.
+    pub(super) fn solve(&mut self, b: &[f64], solution: &mut [f64]) {
+        let (size, deciding) = (self.rest.len(), self.times.len() - 1);
+        for (right, row) in self.right.iter_mut().zip(&self.rest) {
+            *right = b[*row];
+        }
+        if size > 0 {
+            for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {
+                add_scaled(&mut self.right, self.scale * b[follower.component], column);
+            }
+        }
+        if let Some(lu) = &mut self.lu {
+            lu.solve(&mut self.right);
+        }
+        for (row, value) in self.rest.iter().zip(&self.right) {
+            solution[*row] = *value;
+        }
+        for Follower { component, of } in &self.followers {
+            solution[*component] = self.scale * (b[*component] + self.right[*of]);
+        }
+        let (state, integrals) = solution.split_at_mut(deciding);
+        let rows = self.of_integrals.chunks_exact(deciding.max(1));
+        for ((integral, row), b) in integrals.iter_mut().zip(rows).zip(&b[deciding..]) {
+            *integral = self.scale * (b + dot(row, state));
+        }
+    }
+}

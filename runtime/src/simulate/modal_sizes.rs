@@ -1,0 +1,78 @@
+//! How large the deflections of flexible bodies are by nature: by them the errors of steps are judged, so that a tolerance holds for
+//! forces. In: states with their accelerations. Out: sizes of modal coordinates and speeds. Never knows steps.
+
+use crate::assemble::State;
+use crate::evaluate::Evaluator;
+
+/// Width of the difference quotients of stiffnesses, in units of modal coordinates: they are linear in the dynamics.
+const DIFFERENCE: f64 = 1e-6;
+
+/// A modal coordinate that nothing prescribes.
+#[derive(Clone, Copy, Debug)]
+struct Mode {
+    coordinate: usize,
+    speed: usize,
+    /// Acceleration against a deflection of 1, at the start [1/s²].
+    stiffness: f64,
+}
+
+/// Modal coordinates of a mechanism, and the largest load on one of them so far.
+///
+/// A deflection is judged beside the one that this load holds: an error of it by a part is an error of the forces by that part at most.
+#[derive(Clone, Debug, Default)]
+pub(super) struct ModalSizes {
+    modes: Vec<Mode>,
+    /// In the unit of accelerations of modal coordinates.
+    load: f64,
+}
+
+impl ModalSizes {
+    /// Looks for modal coordinates; their stiffnesses are those at a state.
+    pub(super) fn new(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Self {
+        let places: Vec<(usize, usize)> = evaluator.description().modes().collect();
+        let mut q = state.q.clone();
+        let modes = places.into_iter().filter_map(|(coordinate, speed)| {
+            let value = q[coordinate];
+            let mut at = |value| {
+                q[coordinate] = value;
+                evaluator.accelerations(t, &q, &state.v).values[speed]
+            };
+            let stiffness = (at(value - DIFFERENCE) - at(value + DIFFERENCE)) / (2.0 * DIFFERENCE);
+            q[coordinate] = value;
+            (stiffness > 0.0 && stiffness.is_finite()).then_some(Mode { coordinate, speed, stiffness })
+        });
+        Self { modes: modes.collect(), load: 0.0 }
+    }
+
+    /// Learns from a state that counts; whether anything changed.
+    pub(super) fn note(&mut self, q: &[f64], accelerations: &[f64]) -> bool {
+        let loads = self.modes.iter().map(|mode| {
+            let held = mode.stiffness * q[mode.coordinate];
+            held.abs().max(accelerations[mode.speed].abs())
+        });
+        let load = loads.fold(self.load, f64::max);
+        let more = load > self.load;
+        self.load = load;
+        more
+    }
+
+    /// Frequency of the fastest mode [rad/s]; 0 without modes.
+    pub(super) fn fastest(&self) -> f64 {
+        self.modes.iter().fold(0.0, |fastest, mode| fastest.max(mode.stiffness.sqrt()))
+    }
+
+    /// Writes the sizes among those of all coordinates and speeds, if a load is known.
+    pub(super) fn write(&self, (coordinates, speeds): (&mut [f64], &mut [f64])) {
+        if self.load > 0.0 {
+            for mode in &self.modes {
+                coordinates[mode.coordinate] = (self.load / mode.stiffness).min(1.0);
+                speeds[mode.speed] = (self.load / mode.stiffness.sqrt()).min(1.0);
+            }
+        }
+    }
+
+    /// As [`crate::Evaluator::visit_memory`].
+    pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        visit(&mut self.load);
+    }
+}

@@ -1,0 +1,137 @@
+//! What methods of integration ask the motion. In: states on their way. Out: slopes, corrected states, natural sizes.
+
+use super::{
+    ConstrainedMotion, JUMP_FLOOR, PROJECTED_STAGES, SAMPLED, SHUNNED_END, TOTALS, WORKS, infinite_power,
+    is_energy,
+};
+use crate::error::RunError;
+use crate::integrate::Problem;
+use crate::tables::Motion;
+
+impl Problem for ConstrainedMotion<'_> {
+    fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
+        let (q, v, _) = self.split(y);
+        self.dynamics.accelerate(t, q, v)?;
+        if self.dynamics.nearness() >= PROJECTED_STAGES {
+            return self.write_derivative(t, y, derivative);
+        }
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        let mut outcome = Ok(());
+        if self.put_on(t, &mut stage).is_ok() {
+            let (q, v, _) = self.split(&stage);
+            outcome = self.dynamics.accelerate(t, q, v);
+        }
+        let outcome = outcome.and_then(|()| self.write_derivative(t, &stage, derivative));
+        self.stage = stage;
+        outcome
+    }
+
+    fn derivatives(
+        &mut self,
+        times: &[f64],
+        states: &[f64],
+        derivatives: &mut [f64],
+    ) -> Result<(), RunError> {
+        let mut slopes = std::mem::take(&mut self.slopes);
+        let aside = self.dynamics.aside();
+        let regular = self.dynamics.nearness() >= PROJECTED_STAGES;
+        let outcome = match &mut slopes {
+            Some(slopes) if regular => {
+                let finite = slopes.write(&mut self.dynamics.evaluator, (times, states), derivatives);
+                if finite { Ok(()) } else { Err(infinite_power(times[0])) }
+            }
+            _ => {
+                let n = self.scales.len() + WORKS + TOTALS * self.contacts;
+                let states = states.chunks_exact(n).zip(derivatives.chunks_exact_mut(n));
+                times.iter().zip(states).try_for_each(|(t, (y, slope))| self.derivative(*t, y, slope))
+            }
+        };
+        self.slopes = slopes;
+        self.dynamics.resume(aside);
+        self.dynamics.evaluations += times.len() as u64;
+        outcome
+    }
+
+    fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
+        self.stage.copy_from_slice(y);
+        let near_singular = self.dynamics.nearness() < PROJECTED_STAGES;
+        let looseness = if near_singular { 1.0 } else { self.looseness };
+        let correction = self.put_within(t, y, looseness)?;
+        if correction.position.max(correction.speed) > JUMP_FLOOR {
+            self.check_correction(t, before, &correction)?;
+        }
+        if near_singular && correction.moved() { self.keep_momentum(t, y) } else { Ok(()) }
+    }
+
+    fn is_rough(&self) -> bool {
+        self.dynamics.nearness() < PROJECTED_STAGES
+    }
+
+    fn shuns_end(&self) -> bool {
+        self.regularity_reached >= SHUNNED_END && self.dynamics.nearness() < SHUNNED_END
+    }
+
+    /// What the accelerations differ by at a state that differs in the last place.
+    fn noise(&mut self, t: f64, y: &[f64], derivative: &[f64]) -> f64 {
+        let mut beside = std::mem::take(&mut self.beside);
+        let (other, slope) = beside.split_at_mut(y.len());
+        other.copy_from_slice(y);
+        for (place, value) in other[..self.first_integral()].iter_mut().enumerate() {
+            let ulp = f64::EPSILON * value.abs().max(1.0);
+            *value += if place % 2 == 0 { ulp } else { -ulp };
+        }
+        let seen = self.derivative(t, other, slope).is_ok();
+        let speeds = self.coordinates..self.coordinates + self.speeds;
+        let ends = slope[speeds.clone()].iter().zip(&derivative[speeds.clone()]);
+        let differs = ends.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        self.beside = beside;
+        if seen { (SAMPLED * differs).max(self.dynamics.noise(&y[speeds])) } else { 0.0 }
+    }
+
+    fn reached(&mut self, t: f64, y: &[f64], derivative: &[f64]) {
+        let accelerations = &derivative[self.coordinates..][..self.speeds];
+        if self.modal.note(&y[..self.coordinates], accelerations) {
+            self.modal.write(self.scales.split_at_mut(self.coordinates));
+        }
+        self.regularity_reached = self.dynamics.nearness();
+        self.dynamics.note_reference(t, &derivative[self.coordinates..][..self.speeds]);
+    }
+
+    fn scale(&self, index: usize) -> f64 {
+        let Some(integral) = index.checked_sub(self.first_integral()) else { return self.scales[index] };
+        match integral.checked_sub(WORKS).map(|integral| integral % TOTALS) {
+            Some(total) if !is_energy(total) => f64::INFINITY,
+            _ => self.energy_scale,
+        }
+    }
+
+    fn deciding(&self, _: usize) -> usize {
+        self.first_integral()
+    }
+
+    fn fastest(&self) -> f64 {
+        self.modal.fastest()
+    }
+
+    fn follows(&self, index: usize) -> Option<usize> {
+        let mut groups = self.dynamics.evaluator.layout().free();
+        let group =
+            groups.find(|group| group.coordinate == index && matches!(group.motion, Motion::Scalar { .. }));
+        group.map(|group| self.coordinates + group.speed)
+    }
+
+    fn name(&self, index: usize) -> String {
+        let description = self.dynamics.evaluator.description();
+        match index.checked_sub(self.coordinates) {
+            None => description.coordinates[index].name.to_string(),
+            Some(index) if index < self.speeds => format!("speed {}", description.speeds[index].name),
+            Some(index) if index == self.speeds => "work supplied".to_owned(),
+            Some(index) if index == self.speeds + 1 => "work dissipated".to_owned(),
+            Some(index) => {
+                let joint = &description.contacts[(index - self.speeds - 2) / TOTALS].joint;
+                format!("contact integrals of {joint}")
+            }
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Slopes of several states at once, in the bits that each has alone. In: states near one where the loops are regular. Out: their
+//! slopes, integrals included. Allocates only when made. Without contacts.
+
+use crate::evaluate::Evaluator;
+use crate::system::{Entry, STATES, SideBySide, Sizes};
+
+/// Answers [`Entry::Derivative`] at several states.
+pub(super) struct Slopes<'a> {
+    system: &'a dyn SideBySide<f64>,
+    sizes: Sizes,
+    /// Where inputs begin among the parameters.
+    inputs: usize,
+    question: Vec<[f64; STATES]>,
+    answer: Vec<[f64; STATES]>,
+    workspace: Vec<[f64; STATES]>,
+}
+
+impl<'a> Slopes<'a> {
+    /// None if the system answers one state after the other.
+    pub(super) fn new(evaluator: &Evaluator<'a>) -> Option<Self> {
+        let (system, sizes) = (evaluator.side_by_side()?, evaluator.sizes());
+        (sizes.contacts == 0 && system.answers(Entry::Derivative)).then(|| {
+            let zeros = |length| vec![[0.0; STATES]; length];
+            let mut question = zeros(sizes.input(Entry::Derivative));
+            for (place, value) in question.iter_mut().zip(evaluator.parameters()) {
+                *place = [*value; STATES];
+            }
+            Self {
+                system,
+                sizes,
+                inputs: evaluator.first_input(),
+                question,
+                answer: zeros(sizes.output(Entry::Derivative)),
+                workspace: zeros(system.workspace()),
+            }
+        })
+    }
+
+    /// States that are evaluated at once.
+    pub(super) const AT_ONCE: usize = STATES;
+
+    /// Evaluates up to [`Self::AT_ONCE`] flat states at their times; whether all that is told of them is finite.
+    pub(super) fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, times: &[f64], states: &[f64]) -> bool {
+        let Sizes { parameters, coordinates, speeds, .. } = self.sizes;
+        let (state, all) = (coordinates + speeds, self.sizes.flat_state());
+        let (known, asked) = self.question.split_at_mut(parameters);
+        let (time, asked) = asked.split_at_mut(1);
+        let rows: [&[f64]; STATES] = std::array::from_fn(|lane| {
+            // Places without a state ask for the first one again, and nobody reads what they give.
+            let row = if lane < times.len() { lane } else { 0 };
+            for (place, value) in known[self.inputs..].iter_mut().zip(evaluator.inputs(times[row])) {
+                place[lane] = *value;
+            }
+            time[0][lane] = times[row];
+            &states[row * all..][..state]
+        });
+        for (i, place) in asked[..state].iter_mut().enumerate() {
+            *place = rows.map(|row| row[i]);
+        }
+        self.system.evaluate(Entry::Derivative, &self.question, &mut self.answer, &mut self.workspace);
+        let mut finite = [0.0; STATES];
+        for value in &self.answer {
+            // Zero but for what is infinite or no number.
+            finite.iter_mut().zip(value).for_each(|(sum, value)| *sum += 0.0 * value);
+        }
+        finite == [0.0; STATES]
+    }
+
+    /// Writes the slopes of flat states at their times, one behind the other; whether all are finite.
+    pub(super) fn write(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        (times, states): (&[f64], &[f64]),
+        slopes: &mut [f64],
+    ) -> bool {
+        let (state, all) = (self.sizes.coordinates + self.sizes.speeds, self.sizes.flat_state());
+        let powers = self.answer.len() - (all - state);
+        let mut finite = true;
+        let parts =
+            times.chunks(STATES).zip(states.chunks(STATES * all)).zip(slopes.chunks_mut(STATES * all));
+        for ((times, states), slopes) in parts {
+            finite &= self.evaluate(evaluator, times, states);
+            let (state, powers) = (&self.answer[..state], &self.answer[powers..]);
+            for (lane, slope) in slopes.chunks_exact_mut(all).enumerate() {
+                let told = state.iter().chain(powers);
+                slope.iter_mut().zip(told).for_each(|(place, value)| *place = value[lane]);
+            }
+        }
+        finite
+    }
+
+    /// Question of one of the states last evaluated: parameters, inputs, time, coordinates and speeds.
+    pub(super) fn question(&self, lane: usize) -> impl Iterator<Item = f64> + '_ {
+        self.question.iter().map(move |value| value[lane])
+    }
+
+    /// Forward dynamics of one of the states last evaluated: accelerations, multipliers, drive forces, pivots.
+    pub(super) fn forward(&self, lane: usize) -> [impl Iterator<Item = f64> + '_; 4] {
+        let Sizes { coordinates, speeds, rows, drivers, .. } = self.sizes;
+        let mut begin = coordinates;
+        [speeds, rows, drivers, rows].map(|length| {
+            let part = &self.answer[begin..][..length];
+            begin += length;
+            part.iter().map(move |value| value[lane])
+        })
+    }
+}

@@ -1,0 +1,106 @@
+//! A tolerance is enough for flexible bodies: joint forces have it, and steps are as long as the motion allows, without a hint at the
+//! method. Against Dormand-Prince at the limit of rounding.
+
+mod support;
+
+use linkwear_codegen::Compiled;
+use linkwear_codegen::source::SourceFile;
+use linkwear_native::Native;
+use linkwear_runtime::{Integrator, Run, Settings, Span, Watch, simulate};
+use support::{compile_source, run_with, shipped};
+
+/// A steel arm of eight modes, up to 2.6 kHz, swung to and fro by its hub; gravity bends it from the first moment on.
+const ARM: &str = r#"
+spec = 1
+name = "arm"
+gravity = ["0 m/s^2", "-9.81 m/s^2", "0 m/s^2"]
+[points]
+O = ["0 m", "0 m", "0 m"]
+T = ["0.6 m", "0 m", "0 m"]
+[bodies]
+arm = { rod = ["O", "T"], radius = "8 mm", density = "7850 kg/m^3", flexible = { modes = 8, young = "210 GPa", poisson = 0.3, damping = 0.01, held = "clamped" } }
+[joints]
+hub = { revolute = ["ground", "arm"], at = "O", axis = [0, 0, 1], drive = "1.2*sin(2*t/(1 s))" }
+"#;
+
+fn arm() -> Compiled {
+    compile_source(&SourceFile { name: "arm.toml".into(), text: ARM.into() }, &[], None)
+}
+
+fn coupler() -> Compiled {
+    compile_source(&shipped("rssr_flexible"), &[], None)
+}
+
+fn explicit(tolerance: f64) -> Integrator {
+    Integrator::Dopri5 { tolerance, max_step: None }
+}
+
+/// Three turns or six seconds, in which modes ring and come to rest.
+fn settings(compiled: &Compiled, integrator: Integrator) -> Settings {
+    let span = if compiled.description().turn_driver.is_some() && compiled.description().rows.len() > 1 {
+        Span::Turns(3.0)
+    } else {
+        Span::Time(6.0)
+    };
+    Settings::new(integrator, span, 601)
+}
+
+/// Largest error of a force, of its largest value.
+fn force_error(run: &Run, reference: &Run, stem: &str) -> f64 {
+    let (ours, theirs) = (run.vector(stem).expect("a force"), reference.vector(stem).expect("a force"));
+    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let errors = ours.iter().zip(&theirs).map(|(a, b)| size([a[0] - b[0], a[1] - b[1], a[2] - b[2]]));
+    errors.fold(0.0, f64::max) / theirs.iter().map(|v| size(*v)).fold(0.0, f64::max)
+}
+
+fn forces_have_the_tolerance(compiled: &Compiled, stem: &str) {
+    let reference = run_with(compiled, &settings(compiled, explicit(1e-13)));
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let integrator = Integrator::adaptive(compiled.description(), Some(tolerance));
+        let run = run_with(compiled, &settings(compiled, integrator));
+        let error = force_error(&run.run, &reference.run, stem);
+        // Errors of the steps in which the first mode rings add up over some fifteen vibrations (arm), or it hardly rings (coupler).
+        assert!(error < 15.0 * tolerance, "{stem} at {tolerance}: {error}");
+    }
+}
+
+#[test]
+fn forces_of_a_swung_arm_have_the_tolerance() {
+    forces_have_the_tolerance(&arm(), "hub.F");
+}
+
+#[test]
+fn forces_of_a_crank_with_a_flexible_coupler_have_the_tolerance() {
+    forces_have_the_tolerance(&coupler(), "R1.F");
+}
+
+#[test]
+fn modes_that_are_at_rest_do_not_hold_steps_short() {
+    for (compiled, span) in [(arm(), Span::Time(6.0)), (coupler(), Span::Turns(10.0))] {
+        let steps = |integrator| {
+            let settings = Settings { settle: Span::Time(4.0), ..Settings::new(integrator, span, 0) };
+            run_with(&compiled, &settings).run.statistics
+        };
+        let ours = steps(Integrator::adaptive(compiled.description(), Some(1e-5)));
+        let explicit = steps(explicit(1e-5));
+        // Steps of the explicit method stay at its limit of stability, some thousandths of a second over the frequency in kHz.
+        assert!(ours.implicit_steps > 0, "{ours:?}");
+        assert!(5 * ours.steps < explicit.steps, "{} against {}", ours.steps, explicit.steps);
+    }
+}
+
+#[test]
+fn machine_code_and_interpreter_give_the_same_bits() {
+    let compiled = coupler();
+    let native = Native::new(compiled.tapes(), compiled.sizes()).expect("machine code");
+    for integrator in [
+        Integrator::adaptive(compiled.description(), Some(1e-5)),
+        Integrator::Rodas5P { tolerance: 1e-6, max_step: None },
+    ] {
+        let settings = settings(&compiled, integrator);
+        let ours = run_with(&compiled, &settings).run;
+        let parameters = compiled.parameters();
+        let theirs = simulate(&native, compiled.description(), &parameters, &settings, Watch::NONE);
+        assert_eq!(theirs.expect("it runs"), ours);
+    }
+}
