@@ -8,6 +8,12 @@ impl Graph {
     /// Operations that `roots` need: each node once, a sine and cosine of one angle together, and no change of sign
     /// that another operation takes over.
     pub fn operations(&self, roots: &[ExprId]) -> usize {
+        // Of all that was ever tried, one way needs little.
+        let (needed, roots) = self.needed(roots);
+        needed.all_operations(&roots)
+    }
+
+    fn all_operations(&self, roots: &[ExprId]) -> usize {
         let uses = self.uses(roots);
         let live = self.live(&uses);
         let signs = Signs::of(self, &uses, &live);
@@ -22,6 +28,49 @@ impl Graph {
                 Node::Unary(..) | Node::Binary(..) | Node::Select(..) => true,
             })
             .count()
+    }
+
+    /// The nodes that `roots` need, in their order, and the roots among them; without names and sections.
+    fn needed(&self, roots: &[ExprId]) -> (Self, Vec<ExprId>) {
+        const BITS: usize = u64::BITS as usize;
+        let mut words = vec![0_u64; self.nodes.len().div_ceil(BITS)];
+        for root in roots {
+            words[root.index() / BITS] |= 1 << (root.index() % BITS);
+        }
+        // Children come before parents: one sweep from the end meets every node after all that read it.
+        for word in (0..words.len()).rev() {
+            let mut done = 0;
+            while words[word] & !done != 0 {
+                let bit = BITS - 1 - (words[word] & !done).leading_zeros() as usize;
+                done |= 1 << bit;
+                for child in self.nodes[word * BITS + bit].children() {
+                    words[child.index() / BITS] |= 1 << (child.index() % BITS);
+                }
+            }
+        }
+        let mut count = 0;
+        let before: Vec<usize> = words
+            .iter()
+            .map(|word| {
+                let before = count;
+                count += word.count_ones() as usize;
+                before
+            })
+            .collect();
+        let place = |id: ExprId| {
+            let (word, bit) = (id.index() / BITS, id.index() % BITS);
+            ExprId::new(before[word] + (words[word] & ((1 << bit) - 1)).count_ones() as usize)
+        };
+        let mut nodes = Vec::with_capacity(count);
+        for (word, bits) in words.iter().enumerate() {
+            let mut left = *bits;
+            while left != 0 {
+                let bit = left.trailing_zeros() as usize;
+                left &= left - 1;
+                nodes.push(self.nodes[word * BITS + bit].of(place));
+            }
+        }
+        (Self { nodes, ..Self::default() }, roots.iter().map(|root| place(*root)).collect())
     }
 }
 

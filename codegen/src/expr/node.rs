@@ -30,4 +30,14 @@ impl Node {
         };
         first.into_iter().chain(second).chain(third)
     }
+
+    /// The same of other nodes in the places of those that it is computed from.
+    pub fn of(self, mut other: impl FnMut(ExprId) -> ExprId) -> Self {
+        match self {
+            Self::Constant(_) | Self::Symbol(_) => self,
+            Self::Unary(op, a) => Self::Unary(op, other(a)),
+            Self::Binary(op, a, b) => Self::Binary(op, other(a), other(b)),
+            Self::Select(a, yes, no) => Self::Select(other(a), other(yes), other(no)),
+        }
+    }
 }
