@@ -5,11 +5,11 @@ use crate::expr::{Expr, Vec3};
 /// Acceleration residual of a row for the accelerations that `Motion` was built with.
 #[derive(Clone, Copy)]
 pub struct Bias<'g> {
-    /// At any state. Near a singular position the accelerations have its errors multiplied, so motion that rows do not fix
-    /// needs this form.
+    /// At any state. Near a singular position the accelerations have its errors multiplied, so mechanisms that nothing drives, which
+    /// pass such positions, need this form.
     pub whole: Expr<'g>,
-    /// At closed states: without relative velocities that the rows forbid. Where the rows alone fix the motion nothing adds
-    /// up that this leaves out, because the closed state is one.
+    /// At closed states: without relative velocities that the rows forbid. Of these a run has what its projections leave, rounding or
+    /// a small part of the tolerance.
     pub closed: Expr<'g>,
 }
 
