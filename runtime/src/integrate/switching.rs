@@ -18,8 +18,8 @@ const HELD: f64 = 0.7;
 /// So many steps more that speak for the other method than against it have it tried: the control of lengths needs some until it has
 /// found the right one.
 const PATIENCE: u32 = 15;
-/// Weight of the evaluations that an evaluation beside a state takes, where several are made at once: a third on this side of all
-/// processors with lanes.
+/// What an evaluation beside a state costs of one on the way: several are made at once. Fixed, so that steps are the same on every
+/// back end.
 const BESIDE: f64 = 1.0 / 3.0;
 /// Multiplications of an evaluation for every component that decides: 25 to 45 for mechanisms with flexible bodies.
 const OPERATIONS: f64 = 25.0;
