@@ -108,20 +108,12 @@ impl<'a> Simulation<'a> {
     /// Options that decide its numbers, as results tell them.
     pub fn options(&self) -> Value {
         let Settings { integrator, span, .. } = &self.settings;
-        let (name, step, tolerance) = match *integrator {
-            Integrator::Rk4 { step } => ("rk4", Some(step), None),
-            Integrator::GeneralizedAlpha { step, .. } => ("generalized-alpha", Some(step), None),
-            Integrator::Dopri5 { tolerance, .. } => ("dopri5", None, Some(tolerance)),
-            Integrator::Rodas5P { tolerance, .. } => ("rodas5p", None, Some(tolerance)),
-            Integrator::Switching { tolerance, .. } => ("dopri5/rodas5p", None, Some(tolerance)),
-            Integrator::Rk43 { tolerance, .. } => ("rk43", None, Some(tolerance)),
-        };
         let (turns, time) = match *span {
             Span::Turns(turns) => (Some(turns), None),
             Span::Time(time) => (None, Some(time)),
         };
         json!({
-            "integrator": name, "step_s": step, "tolerance": tolerance, "turns": turns, "time_s": time,
+            "integrator": name(*integrator), "step_s": integrator.step(), "tolerance": integrator.tolerance(), "turns": turns, "time_s": time,
             "samples": self.samples, "inputs_sha256": self.inputs_sha256,
         })
     }
@@ -289,16 +281,7 @@ fn to_text(
     };
     let head =
         format!("{}: {length} in {}, {}", description.name, duration(wall_seconds), mechanism.backend());
-    let method = match settings.integrator {
-        Integrator::Rk4 { step } => format!("rk4, step {step:e} s"),
-        Integrator::Dopri5 { tolerance, .. } => format!("dopri5, tolerance {tolerance:e}"),
-        Integrator::Rodas5P { tolerance, .. } => format!("rodas5p, tolerance {tolerance:e}"),
-        Integrator::Switching { tolerance, .. } => switching(tolerance, &run.statistics),
-        Integrator::Rk43 { tolerance, .. } => format!("rk43, tolerance {tolerance:e}"),
-        Integrator::GeneralizedAlpha { step, rho } => {
-            format!("generalized-alpha, step {step:e} s, rho {rho}")
-        }
-    };
+    let method = method_of(settings.integrator, &run.statistics);
     let mut text = summary::text(description, run, &head, &method);
     if !run.turns.is_empty() {
         text.push('\n');
@@ -314,15 +297,37 @@ fn to_text(
     text
 }
 
-/// Which methods took the steps.
-fn switching(tolerance: f64, statistics: &Statistics) -> String {
+/// Name of a method, as options have it.
+const fn name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Rk4 { .. } => "rk4",
+        Integrator::Dopri5 { .. } => "dopri5",
+        Integrator::Rodas5P { .. } => "rodas5p",
+        Integrator::Switching { .. } => "dopri5/rodas5p",
+        Integrator::Rk43 { .. } => "rk43",
+        Integrator::GeneralizedAlpha { .. } => "generalized-alpha",
+    }
+}
+
+/// The method with what it was told; where there are two, which of them took the steps.
+fn method_of(integrator: Integrator, statistics: &Statistics) -> String {
     let Statistics { steps, implicit_steps, .. } = *statistics;
-    let took = match implicit_steps {
-        0 => "dopri5".to_owned(),
-        some if some >= steps => "rodas5p".to_owned(),
-        some => format!("{} by rodas5p, the others by dopri5", count(some)),
+    let mut text = match integrator {
+        Integrator::Switching { .. } if implicit_steps == 0 => "dopri5".to_owned(),
+        Integrator::Switching { .. } if implicit_steps >= steps => "rodas5p".to_owned(),
+        Integrator::Switching { .. } => format!("{} by rodas5p, the others by dopri5", count(implicit_steps)),
+        _ => name(integrator).to_owned(),
     };
-    format!("{took}, tolerance {tolerance:e}")
+    if let Some(step) = integrator.step() {
+        text.push_str(&format!(", step {step:e} s"));
+    }
+    if let Some(tolerance) = integrator.tolerance() {
+        text.push_str(&format!(", tolerance {tolerance:e}"));
+    }
+    if let Integrator::GeneralizedAlpha { rho, .. } = integrator {
+        text.push_str(&format!(", rho {rho}"));
+    }
+    text
 }
 
 #[cfg(test)]

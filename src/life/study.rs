@@ -2,7 +2,7 @@
 
 use std::num::NonZero;
 
-use linkwear_runtime::{Integrator, RevolutionSettings};
+use linkwear_runtime::RevolutionSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
@@ -137,20 +137,13 @@ impl<'m> LifeStudy<'m> {
     /// Options that decide the numbers, as results tell them.
     pub(crate) fn options(&self, coupling: Coupling) -> Value {
         let RevolutionSettings { integrator, settle, average } = &self.revolutions;
-        let (step, tolerance) = match *integrator {
-            Integrator::Rk4 { step } | Integrator::GeneralizedAlpha { step, .. } => (Some(step), None),
-            Integrator::Dopri5 { tolerance, .. }
-            | Integrator::Rodas5P { tolerance, .. }
-            | Integrator::Switching { tolerance, .. }
-            | Integrator::Rk43 { tolerance, .. } => (None, Some(tolerance)),
-        };
         let fit = |fit: &JointFit| (fit.joint.clone(), json!(sha256(&fit.estimate)));
         let fits = self.fits.iter().map(fit).collect::<Map<_, _>>();
         let mut options = json!({
             "coupling": coupling,
             "trajectories": self.trajectories.count(coupling),
-            "step_s": step,
-            "tolerance": tolerance,
+            "step_s": integrator.step(),
+            "tolerance": integrator.tolerance(),
             "settle": settle,
             "average": average,
             "feedback": self.feedback,

@@ -1,6 +1,6 @@
 //! Which nodes are best made with the other sign, because only their negative is wanted.
-//! In: a graph and how often its nodes are read. Out: [`Signs`]. Serves lowering and [`super::count`], so that what
-//! is counted is what is emitted.
+//! In: a graph and how often its nodes are read. Out: [`Signs`]. Serves lowering and [`super::count`], so that no
+//! more is emitted than is counted; the tape may still do with fewer changes of sign.
 //!
 //! A difference changes its sign by its operands' order, a product by the sign of a number in it; a sum, product or
 //! quotient also by an operand that nothing else reads and that can do so itself. None of it changes a value.

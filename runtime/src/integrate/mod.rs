@@ -19,6 +19,7 @@ pub use adaptive::{Adaptive, Method};
 pub use dopri5::Dopri5;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use problem::Problem;
+pub(crate) use problem::one_by_one;
 pub use rk4::Rk4;
 pub use rk43::Rk43;
 pub(crate) use rk43::{PARTS, error_of, growth_of, step_of};

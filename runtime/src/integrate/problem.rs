@@ -2,6 +2,17 @@
 
 use crate::error::RunError;
 
+/// Writes the derivative at each of several times and states, one behind the other.
+pub(crate) fn one_by_one(
+    (times, states): (&[f64], &[f64]),
+    derivatives: &mut [f64],
+    mut derivative: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let dimension = states.len() / times.len().max(1);
+    let states = states.chunks_exact(dimension).zip(derivatives.chunks_exact_mut(dimension));
+    times.iter().zip(states).try_for_each(|(t, (y, slope))| derivative(*t, y, slope))
+}
+
 /// An initial value problem `y' = f(t, y)`, perhaps with constraints that a projection keeps.
 pub trait Problem {
     /// Writes `f(t, y)`.
@@ -21,12 +32,7 @@ pub trait Problem {
         states: &[f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
-        let dimension = states.len() / times.len().max(1);
-        let states = states.chunks_exact(dimension).zip(derivatives.chunks_exact_mut(dimension));
-        for (t, (y, derivative)) in times.iter().zip(states) {
-            self.derivative(*t, y, derivative)?;
-        }
-        Ok(())
+        one_by_one((times, states), derivatives, |t, y, derivative| self.derivative(t, y, derivative))
     }
 
     /// Puts the result `y` of a step from `before` onto the constraints.

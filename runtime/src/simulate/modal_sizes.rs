@@ -1,7 +1,6 @@
 //! How large the deflections of flexible bodies are by nature: by them the errors of steps are judged, so that a tolerance holds for
 //! forces. In: states with their accelerations. Out: sizes of modal coordinates and speeds. Never knows steps.
 
-use crate::assemble::State;
 use crate::evaluate::Evaluator;
 
 /// Width of the difference quotients of stiffnesses, in units of modal coordinates: they are linear in the dynamics.
@@ -28,14 +27,14 @@ pub(super) struct ModalSizes {
 
 impl ModalSizes {
     /// Looks for modal coordinates; their stiffnesses are those at a state.
-    pub(super) fn new(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Self {
+    pub(super) fn new(evaluator: &mut Evaluator<'_>, (t, q, v): (f64, &[f64], &[f64])) -> Self {
         let places: Vec<(usize, usize)> = evaluator.description().modes().collect();
-        let mut q = state.q.clone();
+        let mut q = q.to_vec();
         let modes = places.into_iter().filter_map(|(coordinate, speed)| {
             let value = q[coordinate];
             let mut at = |value| {
                 q[coordinate] = value;
-                evaluator.accelerations(t, &q, &state.v).values[speed]
+                evaluator.accelerations(t, &q, v).values[speed]
             };
             let stiffness = (at(value - DIFFERENCE) - at(value + DIFFERENCE)) / (2.0 * DIFFERENCE);
             q[coordinate] = value;

@@ -135,9 +135,8 @@ impl<'a> ConstrainedMotion<'a> {
 
     /// Has errors of deflections judged beside the deflections that loads of their size hold.
     pub(super) fn judge_modes(&mut self, t: f64, y: &[f64]) {
-        let (q, v, _) = self.split(y);
-        let state = State { q: q.to_vec(), v: v.to_vec() };
-        self.modal = ModalSizes::new(&mut self.dynamics.evaluator, t, &state);
+        let (q, v) = y[..self.first_integral()].split_at(self.coordinates);
+        self.modal = ModalSizes::new(&mut self.dynamics.evaluator, (t, q, v));
         self.slopes = Slopes::new(&self.dynamics.evaluator);
     }
 

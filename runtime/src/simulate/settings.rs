@@ -72,6 +72,14 @@ impl Integrator {
         }
     }
 
+    /// Its step [s], if that is fixed.
+    pub const fn step(self) -> Option<f64> {
+        match self {
+            Self::Rk4 { step } | Self::GeneralizedAlpha { step, .. } => Some(step),
+            Self::Dopri5 { .. } | Self::Rodas5P { .. } | Self::Switching { .. } | Self::Rk43 { .. } => None,
+        }
+    }
+
     /// What it is told of its accuracy, if it chooses its steps.
     pub const fn tolerance(self) -> Option<f64> {
         match self {

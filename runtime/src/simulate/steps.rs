@@ -24,11 +24,37 @@ pub(super) struct Steps {
 /// By which method.
 enum Way {
     Rk4 { method: Rk4, t: f64, longest: f64 },
-    Dopri5(Box<AdaptiveSteps<Dopri5>>),
-    Rk43(Box<AdaptiveSteps<Rk43>>),
-    Rodas5P(Box<AdaptiveSteps<Rodas5P>>),
-    Switching(Box<AdaptiveSteps<Switching>>),
+    Adaptive(Box<dyn StepsOfAnyLength>),
     Implicit(Box<Implicit>),
+}
+
+/// Adaptive steps by any method, as a schedule asks for them: see the functions of [`Steps`].
+trait StepsOfAnyLength: Send {
+    fn advance(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        state: &mut [f64],
+        wanted: Wanted,
+        watch: Watch<'_>,
+    ) -> Result<(), RunError>;
+
+    fn cut(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        sampler: &mut Sampler<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError>;
+
+    fn go_on_from(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError>;
+
+    fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64));
 }
 
 /// Adaptive steps, of which the last one may be open.
@@ -57,22 +83,19 @@ impl Steps {
                 seen.map(|()| Way::Rk4 { method: Rk4::new(state.len()), t: begin, longest: step })
             }
             Integrator::Dopri5 { tolerance, max_step } => {
-                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
-                    .map(Way::Dopri5)
+                AdaptiveSteps::<Dopri5>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }
             Integrator::Rodas5P { tolerance, max_step } => {
                 motion.judge_modes(begin, state);
-                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
-                    .map(Way::Rodas5P)
+                AdaptiveSteps::<Rodas5P>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }
             Integrator::Switching { tolerance, max_step } => {
                 motion.judge_modes(begin, state);
-                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled))
-                    .map(Way::Switching)
+                AdaptiveSteps::<Switching>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }
             Integrator::Rk43 { tolerance, max_step } => {
                 motion.loosen(tolerance);
-                AdaptiveSteps::begin(motion, sampler, state, ((tolerance, max_step), sampled)).map(Way::Rk43)
+                AdaptiveSteps::<Rk43>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }
             Integrator::GeneralizedAlpha { step, rho } => {
                 let seen = sampler.see_start(motion, state, sampled);
@@ -96,10 +119,7 @@ impl Steps {
             Way::Rk4 { method, t, longest } => {
                 advance_rk4(motion, sampler, (method, t, *longest), state, wanted, watch)
             }
-            Way::Dopri5(steps) => steps.advance(motion, sampler, state, wanted, watch),
-            Way::Rodas5P(steps) => steps.advance(motion, sampler, state, wanted, watch),
-            Way::Switching(steps) => steps.advance(motion, sampler, state, wanted, watch),
-            Way::Rk43(steps) => steps.advance(motion, sampler, state, wanted, watch),
+            Way::Adaptive(steps) => steps.advance(motion, sampler, state, wanted, watch),
             Way::Implicit(method) => method.advance(motion, sampler, state, wanted, watch),
         };
         outcome.map_err(|error| explain(motion, sampler, self.integrator, error))
@@ -114,10 +134,7 @@ impl Steps {
         state: &[f64],
     ) -> Result<(), RunError> {
         match &mut self.method {
-            Way::Dopri5(steps) => steps.cut(motion, sampler, t, state),
-            Way::Rodas5P(steps) => steps.cut(motion, sampler, t, state),
-            Way::Switching(steps) => steps.cut(motion, sampler, t, state),
-            Way::Rk43(steps) => steps.cut(motion, sampler, t, state),
+            Way::Adaptive(steps) => steps.cut(motion, sampler, t, state),
             Way::Rk4 { .. } | Way::Implicit(_) => Ok(()),
         }
     }
@@ -130,10 +147,7 @@ impl Steps {
         state: &[f64],
     ) -> Result<(), RunError> {
         match &mut self.method {
-            Way::Dopri5(steps) => steps.method.go_on_from(motion, t, state),
-            Way::Rodas5P(steps) => steps.method.go_on_from(motion, t, state),
-            Way::Switching(steps) => steps.method.go_on_from(motion, t, state),
-            Way::Rk43(steps) => steps.method.go_on_from(motion, t, state),
+            Way::Adaptive(steps) => steps.go_on_from(motion, t, state),
             Way::Rk4 { t: reached, .. } => {
                 *reached = t;
                 Ok(())
@@ -148,10 +162,7 @@ impl Steps {
     /// Shows every number that it stands on, to be read or put back at time `t`.
     pub(super) fn visit_memory(&mut self, t: f64, visit: &mut dyn FnMut(&mut f64)) {
         match &mut self.method {
-            Way::Dopri5(steps) => steps.visit_memory(visit),
-            Way::Rodas5P(steps) => steps.visit_memory(visit),
-            Way::Switching(steps) => steps.visit_memory(visit),
-            Way::Rk43(steps) => steps.visit_memory(visit),
+            Way::Adaptive(steps) => steps.visit_memory(visit),
             Way::Rk4 { t: reached, .. } => *reached = t,
             Way::Implicit(method) => method.begin_anew(t),
         }
@@ -265,17 +276,19 @@ pub(super) fn look_back<M: Method>(
     Ok(())
 }
 
-impl<M: Method> AdaptiveSteps<M> {
+impl<M: Method + Send + 'static> AdaptiveSteps<M> {
     fn begin(
         motion: &mut ConstrainedMotion<'_>,
         sampler: &mut Sampler<'_>,
         state: &[f64],
         settings: ((f64, Option<f64>), bool),
-    ) -> Result<Box<Self>, RunError> {
+    ) -> Result<Way, RunError> {
         let method = begin_adaptive(motion, sampler, state, settings)?;
-        Ok(Box::new(Self { method, open: false, between: state.to_vec() }))
+        Ok(Way::Adaptive(Box::new(Self { method, open: false, between: state.to_vec() })))
     }
+}
 
+impl<M: Method + Send> StepsOfAnyLength for AdaptiveSteps<M> {
     fn advance(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
@@ -335,6 +348,15 @@ impl<M: Method> AdaptiveSteps<M> {
         state: &[f64],
     ) -> Result<(), RunError> {
         if std::mem::take(&mut self.open) { sampler.cut(motion, t, state) } else { Ok(()) }
+    }
+
+    fn go_on_from(
+        &mut self,
+        motion: &mut ConstrainedMotion<'_>,
+        t: f64,
+        state: &[f64],
+    ) -> Result<(), RunError> {
+        self.method.go_on_from(motion, t, state)
     }
 
     fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {

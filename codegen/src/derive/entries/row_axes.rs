@@ -47,8 +47,8 @@ fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
     linkage(mechanism, topology, &mechanism.parameter_values())
 }
 
-/// Operations of the forward dynamics and of the closure, which a run asks for both, before positions say more than the pattern of the loop Jacobian does; nothing where
-/// there is no choice.
+/// Operations of the forward dynamics and of the closure, which a run asks for both, before positions say more than the pattern of
+/// the loop Jacobian does; nothing where there is no choice.
 fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let linkage = tree(mechanism, topology);
     let rows = ROWS_IN_PLANE * linkage.cuts.iter().filter(|cut| cut.plane).count();

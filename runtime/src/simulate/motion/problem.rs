@@ -5,7 +5,7 @@ use super::{
     is_energy,
 };
 use crate::error::RunError;
-use crate::integrate::Problem;
+use crate::integrate::{Problem, one_by_one};
 use crate::tables::Motion;
 
 impl Problem for ConstrainedMotion<'_> {
@@ -41,11 +41,7 @@ impl Problem for ConstrainedMotion<'_> {
                 let finite = slopes.write(&mut self.dynamics.evaluator, (times, states), derivatives);
                 if finite { Ok(()) } else { Err(infinite_power(times[0])) }
             }
-            _ => {
-                let n = self.scales.len() + WORKS + TOTALS * self.contacts;
-                let states = states.chunks_exact(n).zip(derivatives.chunks_exact_mut(n));
-                times.iter().zip(states).try_for_each(|(t, (y, slope))| self.derivative(*t, y, slope))
-            }
+            _ => one_by_one((times, states), derivatives, |t, y, slope| self.derivative(t, y, slope)),
         };
         self.slopes = slopes;
         self.dynamics.resume(aside);
