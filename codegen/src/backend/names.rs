@@ -1,26 +1,28 @@
 //! Names that are unique within one function or list. In: names as a language allows them. Out: the same, or with a number.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::FxHashMap;
 
 /// Hands out names, each once.
 #[derive(Default)]
 pub struct Unique {
-    used: HashSet<String>,
     /// The last number that was tried for a name.
-    numbers: HashMap<String, u32>,
+    numbers: FxHashMap<String, u32>,
 }
 
 impl Unique {
     /// The name, or the name with a number if it is taken.
     pub fn of(&mut self, base: String) -> String {
-        if self.used.insert(base.clone()) {
+        let Some(last) = self.numbers.get(&base) else {
+            self.numbers.insert(base.clone(), 1);
             return base;
-        }
-        let number = self.numbers.entry(base.clone()).or_insert(1);
+        };
+        let mut number = *last;
         loop {
-            *number += 1;
+            number += 1;
             let name = format!("{base}_{number}");
-            if self.used.insert(name.clone()) {
+            if !self.numbers.contains_key(&name) {
+                self.numbers.insert(name.clone(), 1);
+                self.numbers.insert(base, number);
                 return name;
             }
         }

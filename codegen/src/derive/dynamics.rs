@@ -7,6 +7,9 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
+use std::cell::OnceCell;
+use std::rc::Rc;
+
 use crate::expr::{Expr, Vec3};
 
 use super::fields::{Fields, Shapes};
@@ -21,30 +24,31 @@ use super::turned::Axes;
 use super::wrench::Wrench;
 
 /// A flexible body by the accelerations of its shape functions.
-pub struct BodyFields<'a, 'g> {
-    pub shapes: &'a Shapes<'g>,
+#[derive(Clone)]
+pub struct BodyFields<'g> {
+    pub shapes: Rc<Shapes<'g>>,
     pub fields: Fields<'g>,
 }
 
 /// Shape functions of every flexible body that has such, by link; nothing if none has.
-pub fn shapes_of<'g>(masses: &[LinkMass<'g>]) -> Vec<Option<Shapes<'g>>> {
-    let of_link = |mass: &LinkMass<'g>| mass.modal.as_ref().and_then(|modal| Shapes::new(modal.data));
+pub fn shapes_of<'g>(masses: &[LinkMass<'g>]) -> Vec<Option<Rc<Shapes<'g>>>> {
+    let of_link = |mass: &LinkMass<'g>| {
+        let modal = mass.modal.as_ref()?;
+        Shapes::new(modal.data).map(Rc::new)
+    };
     let shapes: Vec<_> = masses.iter().map(of_link).collect();
     if shapes.iter().all(Option::is_none) { Vec::new() } else { shapes }
 }
 
-/// Fields of the bodies with `shapes` in a motion.
-pub fn fields_of<'s, 'g>(
-    motion: &Motion<'g>,
-    shapes: &'s [Option<Shapes<'g>>],
-) -> Vec<Option<BodyFields<'s, 'g>>> {
+/// Fields of the bodies with `shapes` in a motion, the same along all axes.
+pub fn fields_of<'g>(motion: &Motion<'g>, shapes: &[Option<Rc<Shapes<'g>>>]) -> Vec<Option<BodyFields<'g>>> {
     let Geometry { g, linkage, .. } = motion.poses.geometry;
     let links = shapes.iter().zip(&linkage.links).enumerate();
     let fields = links.map(|(at, (shapes, link))| {
         let shapes = shapes.as_ref()?;
         g.begin_section(format!("accelerations in {}", link.name));
         let fields = shapes.fields(motion.accelerations[at].spin, motion.twists[at].omega, &motion.modes[at]);
-        Some(BodyFields { shapes, fields })
+        Some(BodyFields { shapes: Rc::clone(shapes), fields })
     });
     fields.collect()
 }
@@ -61,10 +65,15 @@ pub fn all_bias_forces<'g>(
     if !shapes.is_empty() {
         kinds.push(&shapes[..]);
     }
-    let ways = kinds.into_iter().flat_map(|shapes| axes.iter().map(move |axes| (shapes, *axes)));
-    let forces = ways.map(|(shapes, axes)| {
-        let motion = motion.along(axes);
-        bias_forces_by(&motion, masses, loads, (&fields_of(&motion, shapes), axes))
+    let forces = kinds.into_iter().flat_map(|shapes| {
+        let fields = OnceCell::new();
+        axes.iter()
+            .map(|axes| {
+                let motion = motion.along(*axes);
+                let fields = fields.get_or_init(|| fields_of(&motion, shapes));
+                bias_forces_by(&motion, masses, loads, (fields, *axes))
+            })
+            .collect::<Vec<_>>()
     });
     forces.collect()
 }
@@ -122,7 +131,7 @@ pub fn bias_forces_by<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
-    (fields, axes): (&[Option<BodyFields<'_, 'g>>], Axes),
+    (fields, axes): (&[Option<BodyFields<'g>>], Axes),
 ) -> Vec<Expr<'g>> {
     forces_besides(motion, masses, (loads, &[]), (fields, axes))
 }
@@ -132,7 +141,7 @@ pub fn forces_besides<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     (loads, rows): (&Loads<'g>, &[Wrench<'g>]),
-    (fields, axes): (&[Option<BodyFields<'_, 'g>>], Axes),
+    (fields, axes): (&[Option<BodyFields<'g>>], Axes),
 ) -> Vec<Expr<'g>> {
     let Geometry { g, linkage, .. } = motion.poses.geometry;
     let poses = &motion.poses;

@@ -4,11 +4,11 @@
 //!
 //! There are several ways to one solution, of which `shortest_way` chooses.
 
-use std::cell::OnceCell;
+use std::rc::Rc;
 
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::dynamics::{BodyFields, bias_forces_by, fields_of, forces_besides, section_of};
+use super::dynamics::{BodyFields, forces_besides, section_of};
 use super::fields::Shapes;
 use super::kept_rows::{KeptRow, Partition, closed_biases};
 use super::link_mass::LinkMass;
@@ -16,6 +16,7 @@ use super::loads::Loads;
 use super::local_modes::LocalModes;
 use super::mass_matrix::{Eliminated, mass_matrix, reduced_mass_matrix};
 use super::motion::Motion;
+use super::moving::{Known, Moving};
 use super::plan::{Plan, PlanBlock};
 use super::relative_motion::{RelativeMotion, Sums};
 use super::rows::Block;
@@ -31,6 +32,8 @@ pub struct Forward<'g> {
     pub drive: Vec<Expr<'g>>,
     /// Whether all rows were taken with their biases of closed states.
     pub closed: bool,
+    /// Whether a drive force comes from what slides of its bearing transmit.
+    pub slid: bool,
 }
 
 /// Everything that forward dynamics is made of.
@@ -47,6 +50,8 @@ pub struct Problem<'a, 'g> {
     /// How the rows of cuts were made, and which of all rows are kept.
     pub made: (Sums, &'a [bool]),
     pub partition: &'a Partition,
+    /// What ways to it have made so far, and to the same with rows that are made in other ways.
+    pub known: &'a Known<'g>,
 }
 
 /// A way to the solution.
@@ -59,7 +64,7 @@ pub struct Way<'s, 'g> {
     /// What known multipliers do comes from the wrenches that they make on the links, else by the Jacobian.
     pub rows_push: bool,
     /// Bodies that are taken by the accelerations of their shape functions, by link; none if empty.
-    pub shapes: &'s [Option<Shapes<'g>>],
+    pub shapes: &'s [Option<Rc<Shapes<'g>>>],
     /// Modes that are eliminated in their body.
     pub local: &'s [LocalModes],
     /// Their accelerations come from their equations once more, else from what the frame's acceleration adds.
@@ -72,13 +77,20 @@ pub struct Way<'s, 'g> {
     pub slid: bool,
 }
 
-/// Motion with these accelerations, and the fields of the bodies that are taken by them.
-struct Moving<'a, 'g> {
-    motion: Motion<'g>,
-    fields: Vec<Option<BodyFields<'a, 'g>>>,
-    axes: Axes,
-    /// What all speeds feel of it, once asked for.
-    felt: OnceCell<Vec<Expr<'g>>>,
+impl Way<'_, '_> {
+    /// Whether it is the same way, where both have the shapes and local modes of one mechanism, or none.
+    pub fn is(&self, other: &Self) -> bool {
+        let key = |way: &Self| {
+            let order = match way.order {
+                Order::Leaves => 0,
+                Order::Cheapest(_) => 1,
+                Order::PairsFirst(_) => 2,
+            };
+            let of_rows = (way.rows_first, way.rows_moved, way.rows_push);
+            (of_rows, way.shapes.is_empty(), way.local.is_empty(), way.again, order, way.axes, way.slid)
+        };
+        key(self) == key(other)
+    }
 }
 
 impl<'g> Problem<'_, 'g> {
@@ -102,26 +114,21 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// Motion with these accelerations of the free speeds.
-    fn moving<'s>(
-        &self,
-        accelerations: &[Expr<'g>],
-        Way { shapes, axes, .. }: Way<'s, 'g>,
-    ) -> Moving<'s, 'g> {
+    fn moving(&self, accelerations: &[Expr<'g>], Way { shapes, axes, .. }: Way<'_, 'g>) -> Rc<Moving<'g>> {
         let mut rates = self.rates.to_vec();
         for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
             rates[*speed] = *acceleration;
         }
-        let motion = self.motion.accelerated(self.v, &rates).along(axes);
-        Moving { fields: fields_of(&motion, shapes), motion, axes, felt: OnceCell::new() }
+        self.known.moving(self.motion, (self.v, &rates), shapes, axes)
     }
 
     /// What all speeds feel at given accelerations.
-    fn felt(&self, moving: &Moving<'_, 'g>) -> Vec<Expr<'g>> {
-        bias_forces_by(&moving.motion, self.masses, self.loads, (&moving.fields, moving.axes))
+    fn felt<'m>(&self, moving: &'m Moving<'g>) -> &'m [Expr<'g>] {
+        moving.felt(self.masses, self.loads)
     }
 
     /// What all speeds feel besides what the rows with these multipliers hold.
-    fn unheld(&self, moving: &Moving<'_, 'g>, multipliers: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
+    fn unheld(&self, moving: &Moving<'g>, multipliers: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
         let poses = &self.motion.poses;
         let g = poses.geometry.g;
         let mut held = vec![Wrench::zero(g); self.masses.len()];
@@ -156,8 +163,7 @@ impl<'g> Problem<'_, 'g> {
             let fields = (&moving.fields[..], moving.axes);
             forces_besides(&moving.motion, self.masses, (self.loads, &held), fields)
         } else {
-            // The same whatever the multipliers are: what takes longest is done once.
-            moving.felt.get_or_init(|| self.felt(moving)).clone()
+            self.felt(moving).to_vec()
         };
         if let Some(first) = poses.geometry.linkage.links.first() {
             g.begin_section(section_of(first));
@@ -177,9 +183,11 @@ impl<'g> Problem<'_, 'g> {
     fn saddle(&self, way: Way<'_, 'g>) -> Forward<'g> {
         let partition = self.partition;
         let g = self.motion.poses.geometry.g;
-        let h = self.felt(&self.moving(&vec![g.zero(); partition.free.len()], way));
+        let still = self.moving(&vec![g.zero(); partition.free.len()], way);
+        let h = self.felt(&still);
         g.begin_section("mass matrix by composite bodies");
-        let mass = mass_matrix(&self.motion.poses, self.masses, way.axes);
+        let mass =
+            self.known.mass(g, (false, way.axes), || mass_matrix(&self.motion.poses, self.masses, way.axes));
         let block: Vec<Vec<Expr<'g>>> = partition.free.iter().map(|i| self.pick(&mass[*i])).collect();
         let force: Vec<Expr<'g>> = partition.free.iter().map(|i| -h[*i]).collect();
         let (jacobian, target) = (self.jacobian(), self.target());
@@ -187,11 +195,13 @@ impl<'g> Problem<'_, 'g> {
         let solution = solve(g, &saddle, way.order);
         g.begin_section("drive forces");
         let moving = self.moving(&solution.accelerations, way);
+        let mut slid = false;
         let drive = partition
             .driven
             .iter()
             .map(|d| {
                 if let Some(drive) = self.slid_drive(&moving, way, *d) {
+                    slid = true;
                     return drive;
                 }
                 let mut sum = h[*d];
@@ -201,10 +211,10 @@ impl<'g> Problem<'_, 'g> {
                 sum - self.of_loops(*d, &solution.multipliers)
             })
             .collect();
-        Forward { solution, drive, closed: self.is_driven() }
+        Forward { solution, drive, closed: self.is_driven(), slid }
     }
 
-    fn slid_drive(&self, moving: &Moving<'_, 'g>, way: Way<'_, 'g>, driven: usize) -> Option<Expr<'g>> {
+    fn slid_drive(&self, moving: &Moving<'g>, way: Way<'_, 'g>, driven: usize) -> Option<Expr<'g>> {
         let of = || slid_drive(&moving.motion, self.masses, self.loads, self.partition, driven);
         way.slid.then(of).flatten()
     }
@@ -262,7 +272,7 @@ impl<'g> Problem<'_, 'g> {
             if way.again {
                 self.with_local_modes(&mut accelerations, way);
             } else {
-                last = Some(self.followed(&mut accelerations, &before, moving, way));
+                last = Some(self.followed(&mut accelerations, &before, &moving, way));
             }
         }
         // J^T lambda carries what inertia and loads leave over.
@@ -279,13 +289,13 @@ impl<'g> Problem<'_, 'g> {
         }
         let felt = self.unheld(&moving, &multipliers, way);
         g.begin_section("drive forces");
-        let drive = self.partition.driven.iter().map(|d| {
-            let slid = self.slid_drive(&moving, way, *d);
-            slid.unwrap_or(felt[*d])
-        });
+        let slides: Vec<_> =
+            self.partition.driven.iter().map(|d| self.slid_drive(&moving, way, *d)).collect();
+        let drive = self.partition.driven.iter().zip(&slides).map(|(d, slid)| slid.unwrap_or(felt[*d]));
         let drive = drive.collect();
+        let slid = slides.iter().any(Option::is_some);
         let solution = Solution { accelerations, multipliers, pivots };
-        Forward { solution, drive, closed: self.is_driven() || plan.rest.rows.is_empty() }
+        Forward { solution, drive, closed: self.is_driven() || plan.rest.rows.is_empty(), slid }
     }
 
     /// Acceleration residuals of the rows of cuts in the motion that these accelerations make; none where the Jacobian does.
@@ -294,11 +304,15 @@ impl<'g> Problem<'_, 'g> {
             return Vec::new();
         }
         let (sums, keep) = self.made;
-        closed_biases(&self.moving(accelerations, Way { shapes: &[], ..way }).motion, sums, keep)
+        let make = || {
+            let moving = self.moving(accelerations, Way { shapes: &[], ..way });
+            closed_biases(&moving.motion, sums, keep)
+        };
+        self.known.biases(self.motion.poses.geometry.g, (accelerations, way.axes, sums), make)
     }
 
     /// Puts in the accelerations that local modes have while all others are as they stand.
-    fn with_local_modes<'s>(&self, accelerations: &mut [Expr<'g>], way: Way<'s, 'g>) -> Moving<'s, 'g> {
+    fn with_local_modes(&self, accelerations: &mut [Expr<'g>], way: Way<'_, 'g>) -> Rc<Moving<'g>> {
         let g = self.motion.poses.geometry.g;
         let local = way.local;
         for speed in local.iter().flat_map(|body| &body.speeds) {
@@ -324,7 +338,7 @@ impl<'g> Problem<'_, 'g> {
     fn rest(
         &self,
         plan: &PlanBlock,
-        moving: &Moving<'_, 'g>,
+        moving: &Moving<'g>,
         Way { local, order, axes, .. }: Way<'_, 'g>,
         jacobian: &[Vec<Expr<'g>>],
         rights: &[Expr<'g>],
@@ -334,9 +348,11 @@ impl<'g> Problem<'_, 'g> {
         let speeds: Vec<usize> = plan.speeds.iter().copied().filter(|speed| !is_local(speed)).collect();
         let h = self.felt(moving);
         g.begin_section("mass matrix by composite bodies");
-        let eliminated: Vec<Eliminated<'g>> =
-            local.iter().map(|body| body.eliminated(g, &self.motion.modes[body.link].q)).collect();
-        let mass = reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated, axes);
+        let mass = self.known.mass(g, (!local.is_empty(), axes), || {
+            let eliminated: Vec<Eliminated<'g>> =
+                local.iter().map(|body| body.eliminated(g, &self.motion.modes[body.link].q)).collect();
+            reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated, axes)
+        });
         let free = |speed: &usize| self.partition.free[*speed];
         let of_rest = |row: &[Expr<'g>]| speeds.iter().map(|speed| row[*speed]).collect();
         let block: Vec<Vec<Expr<'g>>> =
@@ -364,13 +380,13 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// Local modes follow the change of their frames' accelerations since `before`, when the motion was `moving`.
-    fn followed<'s>(
+    fn followed(
         &self,
         accelerations: &mut [Expr<'g>],
         before: &[Expr<'g>],
-        moving: Moving<'s, 'g>,
-        way: Way<'s, 'g>,
-    ) -> Moving<'s, 'g> {
+        moving: &Moving<'g>,
+        way: Way<'_, 'g>,
+    ) -> Rc<Moving<'g>> {
         let g = self.motion.poses.geometry.g;
         let mut change = vec![g.zero(); self.v.len()];
         for (at, speed) in self.partition.free.iter().enumerate() {
@@ -390,16 +406,11 @@ impl<'g> Problem<'_, 'g> {
                 accelerations[*speed] += *own;
             }
             if let Some(Some(by)) = moving.fields.get(body.link) {
-                followed.push((body.link, by.shapes.changed(&by.fields, moved.alpha, &own)));
+                let fields = by.shapes.changed(&by.fields, moved.alpha, &own);
+                followed.push((body.link, BodyFields { shapes: Rc::clone(&by.shapes), fields }));
             }
         }
-        let mut after = self.moving(accelerations, way);
-        for (link, changed) in followed {
-            if let Some(Some(by)) = after.fields.get_mut(link) {
-                by.fields = changed;
-            }
-        }
-        after
+        self.moving(accelerations, way).with_fields(followed)
     }
 }
 
@@ -411,9 +422,14 @@ struct Rest<'g> {
 }
 
 impl<'g> Forward<'g> {
-    /// Of all that it consists of.
-    pub fn operations(&self, g: &'g Scope) -> usize {
+    /// All that it consists of.
+    pub fn all(&self) -> Vec<Expr<'g>> {
         let Solution { accelerations, multipliers, pivots } = &self.solution;
-        g.operations([accelerations, multipliers, pivots, &self.drive].into_iter().flatten().copied())
+        [accelerations, multipliers, pivots, &self.drive].into_iter().flatten().copied().collect()
+    }
+
+    /// Operations of all that.
+    pub fn operations(&self, g: &'g Scope) -> usize {
+        g.operations(self.all())
     }
 }

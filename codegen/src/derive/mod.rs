@@ -41,6 +41,7 @@ mod mass_matrix;
 mod mass_properties;
 mod motion;
 mod mount;
+mod moving;
 mod orientation;
 mod plan;
 mod relative_motion;

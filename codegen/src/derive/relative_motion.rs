@@ -44,7 +44,7 @@ pub enum Side {
 }
 
 /// Along whose axes distance, velocity and acceleration are summed up before they are turned to the common ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Sums {
     /// From link to link.
     Links,

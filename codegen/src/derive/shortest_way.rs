@@ -45,6 +45,8 @@ struct Best<'s, 'g> {
     way: Way<'s, 'g>,
     /// The same of accelerations alone, whatever all else takes.
     alone: (usize, Solution<'g>),
+    /// Ways that were gone already, of the problem at hand.
+    gone: Vec<Way<'s, 'g>>,
 }
 
 /// Forward dynamics in two forms.
@@ -65,12 +67,19 @@ impl<'g> Search<'_, 'g> {
     fn first<'s>(&self, way: Way<'s, 'g>) -> Best<'s, 'g> {
         let g = self.problem.motion.poses.geometry.g;
         let forward = self.problem.by(self.plan, way);
-        let alone = (forward.solution.operations_of_accelerations(g), forward.solution.clone());
-        Best { operations: (forward.operations(g), alone.0), forward, way, alone }
+        let Problem { known, .. } = self.problem;
+        let alone = known.operations(g, &forward.solution.of_accelerations());
+        let operations = (known.operations(g, &forward.all()), alone);
+        let alone = (alone, forward.solution.clone());
+        Best { operations, forward, way, alone, gone: vec![way] }
     }
 
-    /// Whether the way is shorter than the best.
+    /// Whether the way is shorter than the best. One that was gone already is not.
     fn offer<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) -> bool {
+        if best.gone.iter().any(|gone| gone.is(&way)) {
+            return false;
+        }
+        best.gone.push(way);
         let next = self.first(way);
         if next.alone.0 < best.alone.0 {
             best.alone = next.alone;
@@ -109,13 +118,14 @@ impl<'g> Search<'_, 'g> {
     fn in_order<'s>(&self, best: &mut Best<'s, 'g>, constant: &'s [Vec<bool>]) {
         let way = best.way;
         let rest = &self.plan.rest;
+        let local: usize = way.local.iter().map(|body| body.speeds.len()).sum();
         let unknowns = match way.rows_first {
-            true => rest.speeds.len() + rest.rows.len(),
+            true => rest.speeds.len() + rest.rows.len() - local,
             false => self.problem.partition.free.len() + self.problem.rows.len(),
         };
         // What nothing drives passes singular positions, and pivots of pairs do not tell how near they are: their own are constant,
         // and the others vary with the rest of the row.
-        if unknowns <= MOST_TO_ORDER && self.problem.is_driven() {
+        if (2..=MOST_TO_ORDER).contains(&unknowns) && self.problem.is_driven() {
             for order in [Order::Cheapest(constant), Order::PairsFirst(constant)] {
                 self.offer(best, Way { order, ..way });
             }
@@ -177,7 +187,7 @@ pub fn forward<'g>(
         }
     }
     let way = best.way;
-    if way.slid && speeds + pattern.len() <= MOST_TO_ORDER {
+    if best.forward.slid && speeds + pattern.len() <= MOST_TO_ORDER {
         search.offer(&mut best, Way { slid: false, ..way });
     }
     // What follows changes little of what else a way takes: it is looked for on the best one alone.
@@ -185,6 +195,7 @@ pub fn forward<'g>(
     search.in_order(&mut best, &constant);
     others(&mut |problem| {
         let search = Search { problem, plan: &plan };
+        best.gone.clear();
         search.along_axes(&mut best);
         search.in_order(&mut best, &constant);
     });

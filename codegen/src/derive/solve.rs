@@ -24,9 +24,9 @@ pub struct Solution<'g> {
 }
 
 impl<'g> Solution<'g> {
-    /// Of accelerations and pivots.
-    pub fn operations_of_accelerations(&self, g: &'g Scope) -> usize {
-        g.operations(self.accelerations.iter().chain(&self.pivots).copied())
+    /// Accelerations and pivots.
+    pub fn of_accelerations(&self) -> Vec<Expr<'g>> {
+        self.accelerations.iter().chain(&self.pivots).copied().collect()
     }
 }
 

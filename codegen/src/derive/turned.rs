@@ -4,7 +4,7 @@
 use crate::expr::{Expr, Mat3, Scope, Vec3};
 
 /// Along which axes accelerations and forces are summed up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Axes {
     /// Accelerations of origins along those of W, each turned to its link once; else from link to link.
     pub accelerations_in_ground: bool,

@@ -9,17 +9,14 @@ impl Graph {
     /// that another operation takes over.
     pub fn operations(&self, roots: &[ExprId]) -> usize {
         // Of all that was ever tried, one way needs little.
-        let (needed, roots) = self.needed(roots);
-        needed.all_operations(&roots)
-    }
-
-    fn all_operations(&self, roots: &[ExprId]) -> usize {
-        let uses = self.uses(roots);
-        let live = self.live(&uses);
-        let signs = Signs::of(self, &uses, &live);
-        let mut angles = vec![false; self.nodes.len()];
-        live.iter()
-            .filter(|id| match self.node(**id) {
+        let (needed, uses) = self.needed(roots);
+        let live: Vec<ExprId> = (0..uses.len()).map(ExprId::new).collect();
+        let signs = Signs::of(&needed, &uses, &live);
+        let mut angles = vec![false; uses.len()];
+        needed
+            .nodes
+            .iter()
+            .filter(|node| match **node {
                 Node::Constant(_) | Node::Symbol(_) => false,
                 Node::Unary(Unary::Neg, inner) => !signs.is_reversed(inner),
                 Node::Unary(Unary::Sin | Unary::Cos, angle) => {
@@ -30,22 +27,25 @@ impl Graph {
             .count()
     }
 
-    /// The nodes that `roots` need, in their order, and the roots among them; without names and sections.
-    fn needed(&self, roots: &[ExprId]) -> (Self, Vec<ExprId>) {
+    /// The nodes that `roots` need, in their order, without names and sections, and how often each of them is read.
+    fn needed(&self, roots: &[ExprId]) -> (Self, Vec<u32>) {
         const BITS: usize = u64::BITS as usize;
-        let mut words = vec![0_u64; self.nodes.len().div_ceil(BITS)];
+        let end = roots.iter().map(|root| root.index() + 1).max().unwrap_or(0);
+        let mut words = vec![0_u64; end.div_ceil(BITS)];
         for root in roots {
             words[root.index() / BITS] |= 1 << (root.index() % BITS);
         }
         // Children come before parents: one sweep from the end meets every node after all that read it.
         for word in (0..words.len()).rev() {
-            let mut done = 0;
-            while words[word] & !done != 0 {
-                let bit = BITS - 1 - (words[word] & !done).leading_zeros() as usize;
-                done |= 1 << bit;
-                for child in self.nodes[word * BITS + bit].children() {
-                    words[child.index() / BITS] |= 1 << (child.index() % BITS);
-                }
+            let mut left = words[word];
+            while left != 0 {
+                let bit = BITS - 1 - left.leading_zeros() as usize;
+                left ^= 1 << bit;
+                self.nodes[word * BITS + bit].each_child(|child| {
+                    let (of, bit) = (child.index() / BITS, child.index() % BITS);
+                    words[of] |= 1 << bit;
+                    left |= u64::from(of == word) << bit;
+                });
             }
         }
         let mut count = 0;
@@ -61,16 +61,21 @@ impl Graph {
             let (word, bit) = (id.index() / BITS, id.index() % BITS);
             ExprId::new(before[word] + (words[word] & ((1 << bit) - 1)).count_ones() as usize)
         };
-        let mut nodes = Vec::with_capacity(count);
+        let (mut nodes, mut uses) = (Vec::with_capacity(count), vec![0; count]);
+        for root in roots {
+            uses[place(*root).index()] += 1;
+        }
         for (word, bits) in words.iter().enumerate() {
             let mut left = *bits;
             while left != 0 {
                 let bit = left.trailing_zeros() as usize;
                 left &= left - 1;
-                nodes.push(self.nodes[word * BITS + bit].of(place));
+                let node = self.nodes[word * BITS + bit].of(place);
+                node.each_child(|child| uses[child.index()] += 1);
+                nodes.push(node);
             }
         }
-        (Self { nodes, ..Self::default() }, roots.iter().map(|root| place(*root)).collect())
+        (Self { nodes, ..Self::default() }, uses)
     }
 }
 

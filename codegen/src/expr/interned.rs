@@ -1,6 +1,7 @@
 //! Which nodes there are already. In: nodes in the order of their ids. Out: ids. Never knows what nodes mean.
 //!
-//! A table of ids alone, since the graph has the nodes: half of a derivation is spent here, most of it waiting for memory.
+//! A table of ids and half hashes, since the graph has the nodes: a fifth of a derivation is spent here, most of it waiting for
+//! memory.
 
 use super::node::Node;
 use crate::id::ExprId;
@@ -14,58 +15,69 @@ const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
 /// The ids of all nodes by what the nodes are.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Interned {
-    /// One more than an id, or 0; a power of two of them, at most half of them used.
-    slots: Vec<u32>,
+    /// High half of the hash of a node, and one more than its id; or 0. A power of two of them, at most half of them used. A node
+    /// is in the slot that the first bits of its hash tell, or in the next that was free, round the end.
+    slots: Vec<u64>,
+    /// Bits of a hash that do not tell a slot.
+    rest: u32,
     used: usize,
 }
 
+/// Where a node that is not there yet belongs.
+pub(super) struct Free {
+    slot: usize,
+    hash: u64,
+}
+
 impl Interned {
-    /// For about as many nodes without growing.
-    pub fn with_capacity(nodes: usize) -> Self {
-        Self { slots: vec![0; (2 * nodes).next_power_of_two().max(FEWEST)], used: 0 }
-    }
-
-    /// The id of a node that is there.
-    pub fn get(&self, nodes: &[Node], node: Node) -> Option<ExprId> {
-        if self.slots.is_empty() {
-            return None;
-        }
-        let slot = self.slots[self.slot(nodes, node)];
-        (slot > 0).then(|| ExprId::new(slot as usize - 1))
-    }
-
-    /// Adds the last of the nodes, which is not there yet.
-    pub fn insert(&mut self, nodes: &[Node], id: ExprId) {
+    /// The id of a node, or where it belongs.
+    #[inline]
+    pub fn find(&mut self, nodes: &[Node], node: Node) -> Result<ExprId, Free> {
         if 2 * (self.used + 1) > self.slots.len() {
-            let grown = Self::with_capacity(2 * nodes.len());
-            *self = (0..id.index()).fold(grown, |mut grown, index| {
-                grown.put(nodes, ExprId::new(index));
-                grown
-            });
+            self.grow();
         }
-        self.put(nodes, id);
+        let hash = hash(node);
+        let last = self.slots.len() - 1;
+        let mut slot = (hash >> self.rest) as usize;
+        loop {
+            let known = self.slots[slot];
+            if known == 0 {
+                return Err(Free { slot, hash });
+            }
+            // A look at the node itself waits for memory: most others differ in the hash.
+            let at = (known as u32) as usize;
+            if (known ^ hash) >> 32 == 0 && nodes[at - 1] == node {
+                return Ok(ExprId::new(at - 1));
+            }
+            slot = (slot + 1) & last;
+        }
     }
 
-    fn put(&mut self, nodes: &[Node], id: ExprId) {
-        let slot = self.slot(nodes, nodes[id.index()]);
-        self.slots[slot] = id.number() + 1;
+    /// Puts a node there; nothing was put elsewhere since it was looked for.
+    #[inline]
+    pub fn put(&mut self, Free { slot, hash }: Free, id: ExprId) {
+        self.slots[slot] = hash >> 32 << 32 | u64::from(id.number() + 1);
         self.used += 1;
     }
 
-    /// Where a node is, or the free slot where it belongs: the first from its own on, round the end.
-    fn slot(&self, nodes: &[Node], node: Node) -> usize {
-        let last = self.slots.len() - 1;
-        let mut at = hash(node) as usize & last;
-        loop {
-            let slot = self.slots[at] as usize;
-            if slot == 0 || nodes[slot - 1] == node {
-                return at;
+    /// Four times as many slots: a derivation makes some ten thousand nodes.
+    fn grow(&mut self) {
+        let slots = vec![0; (4 * self.slots.len()).max(FEWEST)];
+        let last = slots.len() - 1;
+        self.rest = u64::BITS - slots.len().trailing_zeros();
+        for known in std::mem::replace(&mut self.slots, slots) {
+            if known != 0 {
+                let mut slot = (known >> self.rest) as usize;
+                while self.slots[slot] != 0 {
+                    slot = (slot + 1) & last;
+                }
+                self.slots[slot] = known;
             }
-            at = (at + 1) & last;
         }
     }
 }
 
+#[inline]
 fn hash(node: Node) -> u64 {
     let pair = |a: ExprId, b: ExprId| u64::from(a.number()) << 32 | u64::from(b.number());
     let (kind, rest) = match node {
@@ -77,8 +89,7 @@ fn hash(node: Node) -> u64 {
     };
     let mixed = (rest ^ kind.wrapping_mul(MIX)).wrapping_mul(MIX);
     // The low bits of a product know the low bits of its factors only.
-    let mixed = (mixed ^ mixed >> 32).wrapping_mul(MIX);
-    mixed ^ mixed >> 32
+    (mixed ^ mixed >> 32).wrapping_mul(MIX)
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub use expression::Expr;
 pub use linkwear_tape::{Binary, Unary};
 pub use node::Node;
 pub use passes::{Program, shortened};
-pub use scope::Scope;
+pub use scope::{Scope, Section};
 pub use signs::Signs;
 pub use vector::{Mat3, Vec3};
 
@@ -71,9 +71,7 @@ impl Graph {
         // Children come before parents, so one sweep from the end counts every use.
         for (index, node) in self.nodes[..end].iter().enumerate().rev() {
             if uses[index] > 0 {
-                for child in node.children() {
-                    uses[child.index()] += 1;
-                }
+                node.each_child(|child| uses[child.index()] += 1);
             }
         }
         uses
@@ -153,9 +151,10 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(id) = self.known.get(&self.nodes, node) {
-            return id;
-        }
+        let free = match self.known.find(&self.nodes, node) {
+            Ok(id) => return id,
+            Err(free) => free,
+        };
         // What comes after the limit is thrown away: any node stands for it, so that the derivation ends soon.
         if self.nodes.len() >= EXPRESSIONS.most && !matches!(node, Node::Symbol(_)) {
             self.left_out += 1;
@@ -164,7 +163,7 @@ impl Graph {
         let id = ExprId::new(self.nodes.len());
         self.nodes.push(node);
         self.section_of.push(self.current_section);
-        self.known.insert(&self.nodes, id);
+        self.known.put(free, id);
         id
     }
 }

@@ -31,7 +31,26 @@ impl Node {
         first.into_iter().chain(second).chain(third)
     }
 
+    /// Shows the nodes that it is computed from, in their order.
+    #[inline]
+    pub fn each_child(self, mut show: impl FnMut(ExprId)) {
+        match self {
+            Self::Constant(_) | Self::Symbol(_) => {}
+            Self::Unary(_, a) => show(a),
+            Self::Binary(_, a, b) => {
+                show(a);
+                show(b);
+            }
+            Self::Select(a, yes, no) => {
+                show(a);
+                show(yes);
+                show(no);
+            }
+        }
+    }
+
     /// The same of other nodes in the places of those that it is computed from.
+    #[inline]
     pub fn of(self, mut other: impl FnMut(ExprId) -> ExprId) -> Self {
         match self {
             Self::Constant(_) | Self::Symbol(_) => self,

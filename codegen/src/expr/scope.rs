@@ -9,6 +9,10 @@ use super::{ExprId, Graph, Node};
 #[derive(Debug, Default)]
 pub struct Scope(RefCell<Graph>);
 
+/// A section of a graph under construction.
+#[derive(Clone, Copy, Debug)]
+pub struct Section(usize);
+
 impl Scope {
     /// An empty graph.
     pub fn new() -> Self {
@@ -46,6 +50,16 @@ impl Scope {
             let new: Vec<ExprId> = new.collect();
             g.quiet.extend(new);
         });
+    }
+
+    /// The section that nodes first made now belong to.
+    pub fn section(&self) -> Section {
+        self.make(|g| Section(g.current_section))
+    }
+
+    /// Goes on with a section.
+    pub fn enter(&self, section: Section) {
+        self.make(|g| g.current_section = section.0);
     }
 
     /// Starts a section: nodes first made from here on belong to it.

@@ -43,7 +43,9 @@ pub struct Truncated {
 
 /// Shapes in the order of the modal coordinates, and what was left out.
 pub fn shapes(input: &BeamInput, mesh: &Mesh) -> Result<(Vec<Shape>, Truncated), BeamError> {
-    let planes = [Plane::new(input, mesh, Family::Y)?, Plane::new(input, mesh, Family::Z)?];
+    let along_y = Plane::new(input, mesh, Family::Y, None)?;
+    let along_z = Plane::new(input, mesh, Family::Z, Some(&along_y))?;
+    let planes = [along_y, along_z];
     let (y, z) = share(input.modes.bending, &planes[0].modes, &planes[1].modes);
     let mut kept = merge(planes[0].keep(y)?, planes[1].keep(z)?);
     let (axial_modes, axial) = bar_modes(input, mesh, Family::Axial, input.modes.axial)?;
@@ -98,7 +100,13 @@ struct Plane<'a> {
 }
 
 impl<'a> Plane<'a> {
-    fn new(input: &BeamInput, mesh: &'a Mesh, family: Family) -> Result<Self, BeamError> {
+    /// `known`: another plane, whose modes this one has if it is equal to the bit, as that of a round section is.
+    fn new(
+        input: &BeamInput,
+        mesh: &'a Mesh,
+        family: Family,
+        known: Option<&Self>,
+    ) -> Result<Self, BeamError> {
         let line = mesh.line(family);
         let attachments = input.attachments();
         let mut rows = vec![];
@@ -114,8 +122,11 @@ impl<'a> Plane<'a> {
         }
         let mass = line.mass();
         let interface = orthonormal(&rows).ok_or(BeamError::Extreme)?;
-        // One more than can be kept is left out and named.
-        let modes = lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?;
+        let modes = match known {
+            Some(known) if known.mass == mass && known.interface == interface => known.modes.clone(),
+            // One more than can be kept is left out and named.
+            _ => lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?,
+        };
         Ok(Self { family, mesh, mass, interface, modes })
     }
 

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use crate::derive::{Block, Equations, Function};
 use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary, shortened};
 
-use super::cut::{Joined, cut};
+use super::groups::{groups, in_threads, of_group};
 use super::signs::with_fewer_signs;
 use super::{Op, Operand, Statement, Tape, verify};
 
@@ -19,12 +19,15 @@ const READABLE: usize = 3000;
 
 /// Lowers every function of a set of equations, operation by operation as the derivation made them.
 pub fn lower(equations: &Equations) -> Vec<Tape> {
-    each(equations, &|function| lower_function(&equations.graph, function))
+    groups(equations)
+        .into_iter()
+        .flat_map(|group| of_group(group, &|function| lower_function(&equations.graph, function)))
+        .collect()
 }
 
 /// Lowers every function in as few operations as passes over its graph find; other values by rounding only.
 pub fn lower_short(equations: &Equations) -> Vec<Tape> {
-    each(equations, &|function| {
+    in_threads(&groups(equations), &|function| {
         let flat = |blocks: &[Block]| -> Vec<ExprId> {
             blocks.iter().flat_map(|block| block.entries.iter().copied()).collect()
         };
@@ -41,24 +44,6 @@ pub fn lower_short(equations: &Equations) -> Vec<Tape> {
         let outputs = placed(&function.outputs, &short.roots);
         with_fewer_signs(lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() }))
     })
-}
-
-/// One tape for every function: of a function and the one that goes on from it as one, then cut.
-fn each(equations: &Equations, lower: &dyn Fn(&Function) -> Tape) -> Vec<Tape> {
-    let mut tapes = Vec::with_capacity(equations.functions.len());
-    let mut functions = equations.functions.iter().peekable();
-    while let Some(function) = functions.next() {
-        let Some(next) = functions.next_if(|next| next.goes_on) else {
-            tapes.push(lower(function));
-            continue;
-        };
-        let outputs = function.outputs.iter().chain(&next.outputs).cloned().collect();
-        let tape = lower(&Function { outputs, ..next.clone() });
-        let parts = cut(Joined { tape, functions: [function, next] });
-        debug_assert!(parts.iter().all(|tape| verify(tape) == Ok(())));
-        tapes.extend(parts);
-    }
-    tapes
 }
 
 fn lower_function(graph: &Graph, function: &Function) -> Tape {

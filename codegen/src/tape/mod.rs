@@ -2,6 +2,7 @@
 //! In: [`crate::derive::Equations`]. Out: [`Tape`]s. Never knows mechanics; names travel as labels.
 
 mod cut;
+mod groups;
 mod lower;
 mod signs;
 mod unshared;

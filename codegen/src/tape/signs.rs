@@ -17,12 +17,14 @@ struct Signed<'a> {
     made: Vec<usize>,
     /// By value: of which value it is the negative, or itself.
     is: Vec<(Value, bool)>,
-    /// By statement: those that read it.
+    /// By statement: those that read it, in order.
     readers: Vec<Vec<usize>>,
     /// By value: whether it is made with the other sign.
     turned: Vec<bool>,
     /// By statement: how often it is stored as it is, and with the other sign.
     stored: Vec<[usize; 2]>,
+    /// By statement: changes of sign that it needs as values are made now.
+    costs: Vec<usize>,
 }
 
 /// The tape with as few changes of sign as this finds; the tape itself if that is not fewer.
@@ -49,6 +51,7 @@ impl<'a> Signed<'a> {
             readers: vec![Vec::new(); tape.statements.len()],
             turned: vec![false; values],
             stored: vec![[0; 2]; tape.statements.len()],
+            costs: Vec::new(),
         };
         for (at, statement) in tape.statements.iter().enumerate() {
             statement.results().for_each(|value| signed.made[value as usize] = at);
@@ -69,6 +72,9 @@ impl<'a> Signed<'a> {
                 }
             }
         }
+        // What reads a value twice was noted twice in turn.
+        signed.readers.iter_mut().for_each(Vec::dedup);
+        signed.costs = (0..tape.statements.len()).map(|at| signed.cost(at)).collect();
         signed
     }
 
@@ -113,41 +119,55 @@ impl<'a> Signed<'a> {
         own + stores
     }
 
-    fn cost_around(&self, turned: &[usize]) -> usize {
-        let mut all: Vec<usize> = turned.iter().flat_map(|at| self.readers[*at].iter().copied()).collect();
-        all.extend(turned);
-        all.sort_unstable();
-        all.dedup();
-        all.into_iter().map(|at| self.cost(at)).sum()
+    /// A statement, perhaps with one that reads it, and all that read them: each once.
+    fn around(&self, at: usize, with: Option<usize>) -> impl Iterator<Item = usize> {
+        let near = &self.readers[at];
+        let far = with.into_iter().flat_map(|reader| &self.readers[reader]);
+        let far = far.filter(|reader| near.binary_search(reader).is_err());
+        std::iter::once(at).chain(near.iter().chain(far).copied())
     }
 
-    /// Turns these statements if that leaves fewer changes of sign.
-    fn try_turning(&mut self, all: &[usize]) -> bool {
-        let before = self.cost_around(all);
+    /// Turns a statement, and one that reads it if there is one, if that leaves fewer changes of sign.
+    fn try_turning(&mut self, at: usize, with: Option<usize>) -> bool {
+        let before: usize = self.around(at, with).map(|at| self.costs[at]).sum();
         let flip = |signed: &mut Self| {
-            for at in all {
-                let value = signed.tape.statements[*at].first as usize;
+            for at in std::iter::once(at).chain(with) {
+                let value = signed.tape.statements[at].first as usize;
                 signed.turned[value] = !signed.turned[value];
             }
         };
-        flip(self);
-        let fewer = self.cost_around(all) < before;
-        if !fewer {
-            flip(self);
+        if before == 0 {
+            return false;
         }
-        fewer
+        flip(self);
+        let mut after = 0;
+        if self.around(at, with).any(|at| {
+            after += self.cost(at);
+            after >= before
+        }) {
+            flip(self);
+            return false;
+        }
+        for at in self.around(at, with).collect::<Vec<_>>() {
+            self.costs[at] = self.cost(at);
+        }
+        true
     }
 
     fn turn(&mut self) {
         for _ in 0..SWEEPS {
             let mut changed = false;
-            for at in (0..self.tape.statements.len()).rev().filter(|at| self.turns(*at)).collect::<Vec<_>>() {
-                if self.try_turning(&[at]) {
+            for at in (0..self.tape.statements.len()).rev() {
+                if !self.turns(at) {
+                    continue;
+                }
+                if self.try_turning(at, None) {
                     changed = true;
                     continue;
                 }
-                for reader in self.readers[at].clone() {
-                    if self.turns(reader) && reader != at && self.try_turning(&[at, reader]) {
+                for position in 0..self.readers[at].len() {
+                    let reader = self.readers[at][position];
+                    if self.turns(reader) && self.try_turning(at, Some(reader)) {
                         changed = true;
                         break;
                     }

@@ -1,8 +1,10 @@
 //! Statements of a tape as lines of Rust, four spaces deep. In: a tape and one of its parts. Out: text.
 //! Written directly, for a parser and a formatter take twenty times as long as everything before them.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 use std::fmt::Write;
+
+use rustc_hash::FxHashMap;
 
 use crate::expr::{Binary, Unary};
 use crate::tape::{Op, Operand, Part, Statement, Tape};
@@ -78,8 +80,8 @@ fn formatted(statement: &str) -> String {
 #[derive(Default)]
 struct Writer {
     names: Names,
-    inputs: HashMap<u32, String>,
-    values: HashMap<u32, String>,
+    inputs: FxHashMap<u32, String>,
+    values: FxHashMap<u32, String>,
     lines: Lines,
 }
 

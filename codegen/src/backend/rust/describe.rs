@@ -11,17 +11,16 @@ use quote::quote;
 use super::super::start::Start;
 use super::contact::{contact, number, option};
 
-/// `TABLES` and `description()`. Lists are tables of plain tuples, which read and format well.
-pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
+/// `TABLES` and `description()`. Lists are tables of plain tuples, which read and format well. Long ones stand as text in
+/// `long`: see [`Long`].
+pub fn description(own: &Description, runtime: &TokenStream, long: &mut Long) -> TokenStream {
     let name = &*own.name;
-    let parameters = own.parameters.iter().map(|p| {
-        let (name, unit, default) = (&*p.name, &*p.unit, Literal::f64_unsuffixed(p.default));
-        quote!((#name, #unit, #default))
-    });
-    let variable = |v: &linkwear_runtime::VariableInfo| {
-        let (name, unit, held) = (&*v.name, &*v.unit, v.held);
-        quote!((#name, #unit, #held))
-    };
+    let parameters = own
+        .parameters
+        .iter()
+        .map(|p| format!("({}, {}, {})", text(&p.name), text(&p.unit), Literal::f64_unsuffixed(p.default)));
+    let variable =
+        |v: &linkwear_runtime::VariableInfo| format!("({}, {}, {})", text(&v.name), text(&v.unit), v.held);
     let motions = own.motions.iter().map(|motion| match motion {
         Motion::Scalar { driver } => {
             let driver = index(*driver);
@@ -36,32 +35,28 @@ pub fn description(own: &Description, runtime: &TokenStream) -> TokenStream {
     });
     let quaternions = own.quaternions.iter().map(|index| Literal::usize_unsuffixed(*index));
     let rows = own.rows.iter().map(|row| {
-        let (joint, meaning, angular, kept) = (&*row.joint, &*row.meaning, row.angular, index(row.kept));
-        quote!((#joint, #meaning, #angular, #kept))
+        format!("({}, {}, {}, {:?})", text(&row.joint), text(&row.meaning), row.angular, row.kept)
     });
-    let drivers = own.drivers.iter().map(|driver| {
-        let (joint, angular) = (&*driver.joint, driver.angular);
-        quote!((#joint, #angular))
-    });
-    let channels = own.channels.iter().map(|channel| {
-        let (name, unit, wraps) = (&*channel.name, &*channel.unit, channel.wraps);
-        quote!((#name, #unit, #wraps))
-    });
+    let drivers = own.drivers.iter().map(|driver| format!("({}, {})", text(&driver.joint), driver.angular));
+    let channels = own
+        .channels
+        .iter()
+        .map(|channel| format!("({}, {}, {})", text(&channel.name), text(&channel.unit), channel.wraps));
     let contacts = own.contacts.iter().map(|info| contact(info, runtime));
     let missions = own.missions.iter().map(mission);
     let turn_driver = index(own.turn_driver);
     let tables = [
-        table("PARAMETERS", quote!((&str, &str, f64)), parameters.collect()),
+        long.table("PARAMETERS", "(&str, &str, f64)", parameters.collect()),
         table("INPUTS", quote!(#runtime::InputRole), inputs.collect()),
-        table("COORDINATES", quote!((&str, &str, bool)), own.coordinates.iter().map(variable).collect()),
-        table("SPEEDS", quote!((&str, &str, bool)), own.speeds.iter().map(variable).collect()),
+        long.table("COORDINATES", "(&str, &str, bool)", own.coordinates.iter().map(variable).collect()),
+        long.table("SPEEDS", "(&str, &str, bool)", own.speeds.iter().map(variable).collect()),
         table("MOTIONS", quote!(#runtime::Motion), motions.collect()),
         table("QUATERNIONS", quote!(usize), quaternions.map(|index| quote!(#index)).collect()),
-        table("ROWS", quote!((&str, &str, bool, Option<usize>)), rows.collect()),
-        table("DRIVERS", quote!((&str, bool)), drivers.collect()),
+        long.table("ROWS", "(&str, &str, bool, Option<usize>)", rows.collect()),
+        long.table("DRIVERS", "(&str, bool)", drivers.collect()),
         table("CONTACTS", quote!(#runtime::ContactInfo), contacts.collect()),
         table("MISSIONS", quote!(#runtime::MissionRow), missions.collect()),
-        table("CHANNELS", quote!((&str, &str, bool)), channels.collect()),
+        long.table("CHANNELS", "(&str, &str, bool)", channels.collect()),
     ];
     let journals = own.journals.iter().map(|JournalWear { contact, ratio }| {
         let (contact, ratio) = (Literal::usize_unsuffixed(*contact), number(*ratio));
@@ -176,6 +171,53 @@ fn segment(segment: &SegmentInfo) -> TokenStream {
         quote!((#friction, #wear))
     });
     quote!((#name, #amount, &[#(#values),*], &[#(#factors),*]))
+}
+
+/// Tables of plain tuples that have many entries: to parse and format them would take as long as all the rest of the source.
+#[derive(Default)]
+pub struct Long {
+    /// The line that stands for a table, and the table.
+    tables: Vec<(String, String)>,
+}
+
+/// Type of the items that stand for long tables until all else is formatted.
+const STAND_IN: &str = "__Table";
+
+/// The formatter puts no more entries than these on one line.
+const LONG: usize = 16;
+
+/// Longer lines it breaks, shorter ones surely not.
+const SURELY_ONE_LINE: usize = 80;
+
+impl Long {
+    /// A private constant array of tuples of literals; of a long one, what stands for it.
+    fn table(&mut self, name: &str, of: &str, entries: Vec<String>) -> TokenStream {
+        if entries.len() < LONG || entries.iter().any(|entry| entry.len() > SURELY_ONE_LINE) {
+            #[expect(clippy::expect_used, reason = "literals and types of the emitter's own")]
+            let tokens = |text: &str| text.parse::<TokenStream>().expect("tokens");
+            return table(name, tokens(of), entries.iter().map(|entry| tokens(entry)).collect());
+        }
+        let rows: String = entries.iter().flat_map(|entry| ["    ", entry, ",\n"]).collect();
+        let stands = format!("static {name}: {STAND_IN} = [];\n");
+        self.tables.push((stands, format!("static {name}: [{of}; {}] = [\n{rows}];\n", entries.len())));
+        let [name, of] = [name, STAND_IN].map(|name| quote::format_ident!("{name}"));
+        quote!(static #name: #of = [];)
+    }
+
+    /// The formatted text with the tables in their places.
+    pub fn put_into(&self, formatted: &str) -> String {
+        let mut text = String::new();
+        for line in formatted.split_inclusive('\n') {
+            let table = self.tables.iter().find(|(stands, _)| stands == line);
+            text.push_str(table.map_or(line, |(_, table)| table));
+        }
+        text
+    }
+}
+
+/// A literal.
+fn text(text: &str) -> Literal {
+    Literal::string(text)
 }
 
 /// A private constant array.

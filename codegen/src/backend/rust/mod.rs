@@ -16,6 +16,7 @@ use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
 use super::start::Start;
+use describe::Long;
 use format::format_items;
 use names::Names;
 
@@ -44,7 +45,9 @@ pub fn emit(input: &EmitInput<'_>) -> String {
     let sizes = Sizes { workspace, ..input.sizes };
     let runtime: TokenStream = input.runtime_path.parse().unwrap_or_else(|_| quote!(::linkwear_runtime));
     let mut text = header(input);
-    text.push_str(&format_items(items(input, &runtime, sizes)));
+    let mut long = Long::default();
+    let items = items(input, &runtime, sizes, &mut long);
+    text.push_str(&long.put_into(&format_items(items)));
     for (tape, split) in input.tapes.iter().zip(&splits) {
         text.push('\n');
         text.push_str(&function::functions(tape, split, &runtime));
@@ -73,7 +76,7 @@ fn header(input: &EmitInput<'_>) -> String {
 }
 
 /// The struct with its parameters, and the contract.
-fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStream {
+fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes, long: &mut Long) -> TokenStream {
     let sha = input.source_sha256;
     let title = format!(
         " Mechanism `{}`: its tunable parameters, in SI. Equations: [`{}::System`].",
@@ -91,7 +94,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes) -> TokenStr
     // As `Debug` writes a struct of numbers, so does Rust.
     #[expect(clippy::expect_used, reason = "a name and whole numbers")]
     let sizes: TokenStream = format!("{sizes:?}").parse().expect("a literal");
-    let description = describe::description(input.description, runtime);
+    let description = describe::description(input.description, runtime, long);
     let start = input.start.map(|start| describe::start(start, runtime));
     let arms = Entry::ALL.iter().map(|entry| {
         let variant = format_ident!("{}", format!("{entry:?}"));

@@ -43,6 +43,10 @@ const TAKEN: &[&str] = &[
 /// A valid identifier made of a name; keywords get an underscore.
 fn clean(name: &str) -> String {
     let mut text = plain(name);
+    // As most are: a letter and the number of a value.
+    if text.len() > 1 && text.as_bytes()[1..].iter().all(u8::is_ascii_digit) {
+        return text;
+    }
     // No keyword has a digit or an underscore inside; most names here have, and are not parsed.
     let may_be_keyword = text.bytes().all(|byte| byte.is_ascii_alphabetic());
     if (may_be_keyword && syn::parse_str::<Ident>(&text).is_err()) || TAKEN.contains(&text.as_str()) {

@@ -97,6 +97,8 @@ pub struct Deriver<'g> {
     pub jacobians: Vec<DMatrix<f64>>,
     /// States of the file's own; none where positions alone are asked for.
     pub own: Vec<OwnState<'g>>,
+    /// Whether the shortest of several ways to the same values is asked for.
+    pub compares: bool,
     /// What forces ask of the solution of the instant.
     pub responses: Rc<Responses<'g>>,
 }
@@ -188,7 +190,7 @@ fn drivers<'g>(geometry: &Geometry<'g>) -> Vec<Driver<'g>> {
 
 impl<'g> Deriver<'g> {
     /// Makes the symbols; without a guide all constraint rows are kept.
-    /// `with_own`: with the states of the file's own, which else keep their start values.
+    /// `with_own`: with the states of the file's own, which else keep their start values, and by the shortest of several ways.
     pub fn new(geometry: Geometry<'g>, given: Given<'g>, guide: Option<&Guide>, with_own: bool) -> Self {
         let Geometry { g, mechanism, linkage, .. } = geometry;
         let rows = linkage.cuts.iter().map(|cut| row_count(&mechanism.joint(cut.joint).model, cut.closure));
@@ -256,6 +258,7 @@ impl<'g> Deriver<'g> {
             keep,
             jacobians,
             own: if with_own { own_states(g, mechanism) } else { Vec::new() },
+            compares: with_own,
             responses: Rc::default(),
         }
     }

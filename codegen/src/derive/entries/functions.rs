@@ -2,6 +2,7 @@
 //! In: the deriver's symbols, link motion. Out: [`Function`]s in the order of [`Entry::ALL`].
 
 use linkwear_runtime::{Channel, Entry, RowInfo, SWITCH};
+use rustc_hash::FxHashSet;
 
 use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
@@ -14,6 +15,7 @@ use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
 use crate::derive::mass_matrix::mass_matrix;
+use crate::derive::moving::Known;
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
 use crate::derive::relative_motion::Sums;
 use crate::derive::shortest_way::{Shortest, forward};
@@ -21,7 +23,7 @@ use crate::derive::solve::Solution;
 use crate::derive::start::{StartValues, start_values};
 use crate::derive::turned::Axes;
 use crate::derive::{Block, Function};
-use crate::expr::{Expr, Vec3};
+use crate::expr::{Expr, ExprId, Vec3};
 
 pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
     Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs, goes_on: false }
@@ -101,12 +103,13 @@ impl<'g> Deriver<'g> {
     /// Whether several ways to the same values are compared. Of longer chains one alone is derived: the others take as long as
     /// all the rest of a check.
     fn is_short(&self) -> bool {
-        self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE
+        self.compares && self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE
     }
 
     /// Accelerations, multipliers and drive forces as expressions of the state.
     pub(super) fn solution(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> Shortest<'g> {
         let motion = &instant.state.motion;
+        let known = Known::default();
         let with = |sums, cuts: &[CutRows<'g>], solve: &mut dyn FnMut(&Problem<'_, 'g>)| {
             self.geometry.g.begin_section("loop Jacobian");
             solve(&Problem {
@@ -118,6 +121,7 @@ impl<'g> Deriver<'g> {
                 rows: &kept_rows(motion, (cuts, &instant.couplings), &self.keep),
                 made: (sums, &self.keep),
                 partition: &self.partition,
+                known: &known,
             });
         };
         let others = |solve: &mut dyn FnMut(&Problem<'_, 'g>)| {
@@ -213,7 +217,7 @@ impl<'g> Deriver<'g> {
             let entries = [&all, &rates, &jacobian].into_iter().flatten().copied();
             (g.operations(entries.filter(|entry| !entry.is_zero())), [all, rates, jacobian])
         };
-        let [all, rates, jacobian] = instant.by_shorter_rows((true, false), true, by);
+        let [all, rates, jacobian] = instant.by_shorter_rows((true, false), self.compares, by);
         let outputs = vec![
             Block::vector("phi", all)
                 .doc("Position residuals of all rows, dropped ones included [rad, m].")
@@ -337,9 +341,9 @@ impl<'g> Deriver<'g> {
             // Zeros, of which there are as many as speeds times rows, take no operations.
             let of_rows: Vec<Expr<'g>> = of_rows.filter(|entry| !entry.is_zero()).collect();
             // The same for all rows, which alone decide which of them are shortest.
-            let forces = forces.get_or_init(|| {
-                all_bias_forces(motion, masses, &instant.loads, Axes::choices(self.is_short()))
-            });
+            let axes = if self.compares { Axes::choices(self.is_short()) } else { &[links] };
+            let forces =
+                forces.get_or_init(|| each_once(all_bias_forces(motion, masses, &instant.loads, axes)));
             let both = matrices.iter().flat_map(|mass| forces.iter().map(move |h| (mass, h)));
             let counted = both.map(|((mass, entries), h)| {
                 let all = entries.iter().chain(&of_rows).chain(h).copied();
@@ -351,7 +355,7 @@ impl<'g> Deriver<'g> {
                 .unwrap_or_default();
             (operations, (rows, mass, h))
         };
-        let (rows, mass, h) = instant.by_shorter_rows((false, self.is_short()), true, by);
+        let (rows, mass, h) = instant.by_shorter_rows((false, self.is_short()), self.compares, by);
         let beside = || vec![g.zero(); own];
         let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied().chain(beside()));
         // Each state of the file's own by itself: one times its rate is its rate.
@@ -384,6 +388,13 @@ impl<'g> Deriver<'g> {
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
         function(Entry::EquationsOfMotion, doc, inputs, outputs)
     }
+}
+
+/// Without lists that are there before.
+fn each_once<'g>(lists: Vec<Vec<Expr<'g>>>) -> Vec<Vec<Expr<'g>>> {
+    let mut known = FxHashSet::default();
+    let ids = |list: &Vec<Expr<'g>>| -> Vec<ExprId> { list.iter().map(|entry| entry.id()).collect() };
+    lists.into_iter().filter(|list| known.insert(ids(list))).collect()
 }
 
 /// Accelerations with the rates of the file's own states behind them, multipliers, drive forces, pivots.

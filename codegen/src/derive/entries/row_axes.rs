@@ -13,6 +13,7 @@ use crate::derive::geometry::Geometry;
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::linkage::Linkage;
 use crate::derive::linkage_build::linkage;
+use crate::derive::moving::Known;
 use crate::derive::relative_motion::Sums;
 use crate::derive::shortest_way::forward;
 
@@ -78,6 +79,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
         rows: &rows,
         made: (Sums::Links, &deriver.keep),
         partition,
+        known: &Known::default(),
     };
     let solved = forward(&problem, |_| {}, &[numbers]).whole.operations(&scope);
     let exact = cut_rows(motion, true, Sums::Links);

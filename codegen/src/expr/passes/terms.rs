@@ -39,29 +39,31 @@ impl Kind {
 pub fn terms(graph: &Graph, uses: &[u32], kind: Kind) -> Vec<Terms> {
     let mut inside = vec![false; uses.len()];
     let mut list = Vec::new();
+    let (mut stack, mut terms, mut inner) = (Vec::new(), Vec::new(), Vec::new());
     // From the end: a sum is met before those that it takes in.
     for index in (0..uses.len()).rev() {
         let root = ExprId::new(index);
         if uses[index] == 0 || inside[index] || kind.operands(graph.node(root)).is_none() {
             continue;
         }
-        let mut found = Terms { root, terms: Vec::new(), inner: Vec::new() };
-        let mut stack = vec![(false, root)];
+        stack.push((false, root));
         while let Some((negative, id)) = stack.pop() {
-            let whole = id == root || (uses[id.index()] == 1 && found.terms.len() + stack.len() < MOST - 1);
+            let whole = id == root || (uses[id.index()] == 1 && terms.len() + stack.len() < MOST - 1);
             match kind.operands(graph.node(id)).filter(|_| whole) {
                 Some((a, b, subtracted)) => {
                     stack.push((negative != subtracted, b));
                     stack.push((negative, a));
                     if id != root {
                         inside[id.index()] = true;
-                        found.inner.push(id);
+                        inner.push(id);
                     }
                 }
-                None => found.terms.push((negative, id)),
+                None => terms.push((negative, id)),
             }
         }
-        list.push(found);
+        list.push(Terms { root, terms: terms.clone(), inner: inner.clone() });
+        terms.clear();
+        inner.clear();
     }
     list.reverse();
     list
