@@ -37,6 +37,8 @@ pub struct Compiled {
     pub equations: Equations,
     /// One tape per function, once somebody asks: half of the work on a large mechanism, which a check does not need.
     pub(super) tapes: OnceLock<Vec<Tape>>,
+    /// The same as the derivation made them, for looks that come before.
+    pub(super) at_hand: OnceLock<Vec<Tape>>,
     pub(super) description: Description,
     /// Without what tapes hold between two calls.
     pub(super) sizes: Sizes,
@@ -101,7 +103,7 @@ impl Compiled {
     pub fn interpreter_at_hand(&self) -> Interpreted {
         match self.tapes.get() {
             Some(tapes) => self.interpreter_of(tapes),
-            None => self.interpreter_of(&tape::lower(&self.equations)),
+            None => self.interpreter_of(self.at_hand.get_or_init(|| tape::lower(&self.equations))),
         }
     }
 
@@ -114,7 +116,7 @@ impl Compiled {
         if !preflight::are_looked_for(self.sizes) {
             return Assemblies::default();
         }
-        preflight::assemblies(&self.description, &self.interpreter())
+        preflight::assemblies(&self.description, &self.interpreter_at_hand())
     }
 
     /// Operations, statements and parts of every entry point.

@@ -126,6 +126,7 @@ fn understood(
         warnings,
         equations: derived.equations,
         tapes: OnceLock::new(),
+        at_hand: OnceLock::new(),
         description: derived.description,
         sizes: derived.sizes,
     };
@@ -143,7 +144,7 @@ fn try_out(compiled: &Compiled, waypoints: &[Waypoint]) -> Result<Vec<Diagnostic
     if description.drivers.is_empty() && description.contacts.is_empty() {
         return Ok(Vec::new());
     }
-    let system = compiled.interpreter();
+    let system = compiled.interpreter_at_hand();
     preflight::check_prescribed(source, mechanism, description, &system)?;
     let start = preflight::check_start(source, mechanism, description, &system)?;
     let near = start.map(|start| preflight::contacts_near_modes(mechanism, start, waypoints));

@@ -32,19 +32,29 @@ impl Expr<'_> {
             return 2.0 * self;
         }
         // (a - b) + b is a: what a row gives and a recursion adds again is one value.
-        for (difference, b) in [(self, other), (other, self)] {
-            if let Node::Binary(Binary::Sub, a, taken) = difference.node()
-                && taken == b.id()
-            {
-                return self.at(a);
+        let nodes = (self.node(), other.node());
+        match nodes {
+            (Node::Binary(Binary::Sub, a, b), _) if b == other.id() => return self.at(a),
+            (_, Node::Binary(Binary::Sub, a, b)) if b == self.id() => return self.at(a),
+            (Node::Binary(Binary::Mul, ..), Node::Binary(Binary::Mul, ..)) => {
+                if let Some(left) = self.turned_back(other, false) {
+                    return left;
+                }
             }
+            _ => {}
         }
-        self.turned_back(other, false).unwrap_or_else(|| self.ordered(Binary::Add, other))
+        self.ordered(Binary::Add, other)
     }
 
     fn positive_difference(self, other: Self) -> Self {
         // (a + b) - b is a, a - (a - b) is b, a - (a + b) is -b.
-        match (self.node(), other.node()) {
+        let nodes = (self.node(), other.node());
+        match nodes {
+            (Node::Binary(Binary::Mul, ..), Node::Binary(Binary::Mul, ..)) => {
+                if let Some(left) = self.turned_back(other, true) {
+                    return left;
+                }
+            }
             (Node::Binary(Binary::Add, a, b), _) if b == other.id() => return self.at(a),
             (Node::Binary(Binary::Add, b, a), _) if b == other.id() => return self.at(a),
             (_, Node::Binary(Binary::Sub, a, b)) if a == self.id() => return self.at(b),
@@ -52,9 +62,6 @@ impl Expr<'_> {
             (_, Node::Binary(Binary::Add, b, a)) if a == self.id() => return -self.at(b),
             (Node::Binary(Binary::Sub, a, b), _) if a == other.id() => return -self.at(b),
             _ => {}
-        }
-        if let Some(left) = self.turned_back(other, true) {
-            return left;
         }
         match self.id().cmp(&other.id()) {
             std::cmp::Ordering::Equal => self.scope().zero(),

@@ -1,4 +1,4 @@
-//! Vectors and matrices of expressions with operators.
+//! Vectors and matrices of expressions with operators, component by component: `array::map` is no loop that compilers unroll.
 //! In: expressions of one [`Scope`]. Out: expressions of it. Never knows frames: those live in `derive`
 //! (docs/notation.md).
 
@@ -30,7 +30,8 @@ impl Scope {
 
     /// The zero vector.
     pub fn zero_vector(&self) -> Vec3<'_> {
-        self.vector([0.0; 3])
+        let zero = self.zero();
+        Vec3([zero, zero, zero])
     }
 
     /// The identity matrix.
@@ -54,7 +55,7 @@ macro_rules! by_component {
         impl $trait for $type<'_> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                Self(std::array::from_fn(|i| self[i].$method(other[i])))
+                Self([self[0].$method(other[0]), self[1].$method(other[1]), self[2].$method(other[2])])
             }
         }
 
@@ -80,7 +81,8 @@ macro_rules! scaled {
         impl<'g> Mul<Mat3<'g>> for $factor {
             type Output = Mat3<'g>;
             fn mul(self, matrix: Mat3<'g>) -> Mat3<'g> {
-                Mat3(matrix.0.map(|row| self * row))
+                let [x, y, z] = matrix.0;
+                Mat3([self * x, self * y, self * z])
             }
         }
     )*};
@@ -104,8 +106,8 @@ impl Neg for Mat3<'_> {
 impl<'g> Vec3<'g> {
     /// From its components by index.
     #[inline]
-    pub fn from_fn(component: impl FnMut(usize) -> Expr<'g>) -> Self {
-        Self(std::array::from_fn(component))
+    pub fn from_fn(mut component: impl FnMut(usize) -> Expr<'g>) -> Self {
+        Self([component(0), component(1), component(2)])
     }
 
     /// The first three of a list.
@@ -123,8 +125,9 @@ impl<'g> Vec3<'g> {
 
     /// With a function applied to every component.
     #[inline]
-    pub fn map(self, function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
-        Self(self.0.map(function))
+    pub fn map(self, mut function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Self {
+        let [x, y, z] = self.0;
+        Self([function(x), function(y), function(z)])
     }
 
     /// Scalar product.
@@ -156,7 +159,8 @@ impl<'g> Vec3<'g> {
 impl<'g> Mat3<'g> {
     /// From its entries by row and column.
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> Expr<'g>) -> Self {
-        Self(std::array::from_fn(|i| Vec3::from_fn(|j| entry(i, j))))
+        let mut row = |i: usize| Vec3::from_fn(|j| entry(i, j));
+        Self([row(0), row(1), row(2)])
     }
 
     /// Rows and columns exchanged.
@@ -186,7 +190,7 @@ impl<'g> Mat3<'g> {
 impl<'g> Mul<Vec3<'g>> for Mat3<'g> {
     type Output = Vec3<'g>;
     fn mul(self, vector: Vec3<'g>) -> Vec3<'g> {
-        Vec3(self.0.map(|row| row.dot(vector)))
+        Vec3::from_fn(|i| self[i].dot(vector))
     }
 }
 
