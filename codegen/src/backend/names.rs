@@ -31,8 +31,12 @@ impl Unique {
 
 /// A name of letters, digits and underscores that does not begin with a digit.
 pub fn plain(name: &str) -> String {
-    let mut text: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut text: String = if name.bytes().all(|byte| is_plain(char::from(byte))) {
+        name.to_owned()
+    } else {
+        name.chars().map(|c| if is_plain(c) { c } else { '_' }).collect()
+    };
     if text.is_empty() || text.starts_with(|c: char| c.is_ascii_digit()) || text == "_" {
         text.insert(0, 'n');
     }

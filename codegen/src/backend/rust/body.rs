@@ -18,12 +18,18 @@ const SURELY_ONE_LINE: usize = 80;
 /// Stores of outputs that need no statement.
 pub fn direct(tape: &Tape) -> String {
     let mut lines = Lines::default();
+    // Most are the same number, zero: its text is made once.
+    let mut last = (None, String::new());
     for (index, operand) in &tape.direct {
-        let value = match operand {
-            Operand::Input(input) => format!("x[{input}]"),
-            other => number(*other),
-        };
-        lines.push(&format!("y[{index}] = {value};"));
+        let bits = if let Operand::Constant(number) = operand { Some(number.to_bits()) } else { None };
+        if bits.is_none() || bits != last.0 {
+            let value = match operand {
+                Operand::Input(input) => format!("x[{input}]"),
+                other => number(*other),
+            };
+            last = (bits, value);
+        }
+        lines.push(&format!("y[{index}] = {};", last.1));
     }
     lines.text
 }
@@ -61,7 +67,7 @@ impl Lines {
 
     fn push(&mut self, statement: &str) {
         if statement.len() <= SURELY_ONE_LINE {
-            let _ = writeln!(self.text, "    {statement}");
+            self.text.extend(["    ", statement, "\n"]);
         } else {
             self.text.push_str(&formatted(statement));
         }

@@ -1,6 +1,6 @@
 //! `a b + a c = a (b + c)`: a factor that most products of a sum have is taken out first.
 
-use std::collections::BTreeMap;
+use std::cmp::Reverse;
 
 use super::formula::Formula;
 use super::program::Program;
@@ -16,7 +16,12 @@ pub fn factor(program: &Program) -> Option<Program> {
     let mut formulas: Vec<Option<Formula>> = vec![None; uses.len()];
     let mut left_out = vec![false; uses.len()];
     let mut found = false;
+    let is_product =
+        |id: ExprId| uses[id.index()] == 1 && matches!(graph.node(id), Node::Binary(Binary::Mul, ..));
     for sum in terms(graph, &uses, Kind::Sum) {
+        if sum.terms.iter().filter(|(_, id)| is_product(*id)).count() < 2 {
+            continue;
+        }
         let mut inner = sum.inner;
         let products: Vec<Product> = sum
             .terms
@@ -59,18 +64,14 @@ fn factors(graph: &Graph, uses: &[u32], id: ExprId, inner: &mut Vec<ExprId>) -> 
 
 /// The factor of most products, if several have it; the first made among equals.
 fn commonest(products: &[Product]) -> Option<ExprId> {
-    let mut counts: BTreeMap<ExprId, (usize, usize)> = BTreeMap::new();
     let several = products.iter().enumerate().filter(|(_, (_, factors))| factors.len() > 1);
-    for (at, factor) in several.flat_map(|(at, (_, factors))| factors.iter().map(move |factor| (at, *factor)))
-    {
-        // Of a square, one factor counts.
-        let (count, last) = counts.entry(factor).or_insert((0, usize::MAX));
-        if *last != at {
-            (*count, *last) = (*count + 1, at);
-        }
-    }
-    let common = counts.into_iter().filter(|(_, (count, _))| *count > 1);
-    common.max_by_key(|(id, (count, _))| (*count, std::cmp::Reverse(*id))).map(|(id, _)| id)
+    let mut all: Vec<(ExprId, usize)> =
+        several.flat_map(|(at, (_, factors))| factors.iter().map(move |factor| (*factor, at))).collect();
+    all.sort_unstable();
+    // Of a square, one factor counts.
+    all.dedup();
+    let counts = all.chunk_by(|one, other| one.0 == other.0).map(|same| (same.len(), Reverse(same[0].0)));
+    counts.filter(|(count, _)| *count > 1).max().map(|(_, Reverse(id))| id)
 }
 
 fn grouped(products: Vec<Product>) -> Vec<(bool, Formula)> {

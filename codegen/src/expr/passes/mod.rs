@@ -52,13 +52,18 @@ pub fn shortened(graph: &Graph, inputs: &[ExprId], roots: &[ExprId]) -> Program 
 fn passed(program: &Program, passes: &[Pass]) -> Program {
     let mut best = program.clone();
     let mut least = best.operations();
+    // By pass: for how many operations it found nothing. Of the same program it would find nothing again.
+    let mut nothing = vec![usize::MAX; passes.len()];
     for _ in 0..ROUNDS {
         let before = least;
-        for pass in passes {
-            let Some(next) = pass(&best) else { continue };
-            let count = next.operations();
-            if count < least {
-                (best, least) = (next, count);
+        for (pass, nothing) in passes.iter().zip(&mut nothing) {
+            if *nothing == least {
+                continue;
+            }
+            let next = pass(&best).map(|next| (next.operations(), next));
+            match next.filter(|(count, _)| *count < least) {
+                Some((count, next)) => (best, least) = (next, count),
+                None => *nothing = least,
             }
         }
         if least == before {
