@@ -38,6 +38,14 @@ pub enum BatchError {
         /// Numbers there is room for.
         found: usize,
     },
+    /// Equations of motion of a mechanism that is so long that its mass matrix is left out.
+    #[error(
+        "the mass matrix is left out of the equations of motion of mechanisms with so many speeds ({speeds})"
+    )]
+    MassLeftOut {
+        /// How many it has.
+        speeds: usize,
+    },
 }
 
 /// A part of the input or output of an entry: what it is called, and the names of its quantities.
@@ -245,7 +253,16 @@ impl Batch {
             Way::Alone(system) => alone(system, entry, inputs, (states, outputs)),
             Way::Interpreted => alone(&self.interpreter, entry, inputs, (states, outputs)),
         }
-        Ok(())
+        self.has_masses(entry, outputs, states)
+    }
+
+    /// Whether the answers are whole: see [`BatchError::MassLeftOut`].
+    fn has_masses(&self, entry: Entry, outputs: &[f64], states: usize) -> Result<(), BatchError> {
+        let speeds = self.sizes.all_speeds;
+        let mass = speeds * (speeds + 1) / 2 * states;
+        let left_out =
+            entry == Entry::EquationsOfMotion && mass > 0 && outputs[..mass].iter().all(|x| *x == 0.0);
+        if left_out { Err(BatchError::MassLeftOut { speeds }) } else { Ok(()) }
     }
 
     /// Derivatives of all answers at one state by some of the quantities, by dual numbers: for each of these quantities all answers.

@@ -51,7 +51,7 @@ pub const ELEMENTS: Limit = Limit {
 pub const EXPRESSIONS: Limit = Limit {
     what: "symbolic expressions",
     most: 1_000_000,
-    help: "long open chains grow with the square of their length: split the mechanism, or keep fewer modes",
+    help: "chains of flexible or coupled bodies grow with the square of their length: split the mechanism, or keep fewer modes",
 };
 
 /// Threads of one run; what it answers does not depend on them.

@@ -233,6 +233,9 @@ impl<'a> Dynamics<'a> {
 
     #[cold]
     fn not_finite(&self, t: f64) -> RunError {
+        if self.is_near_singular() && self.solver.is_without_masses() {
+            return RunError::MassLeftOut { t };
+        }
         let Forward { accelerations, multipliers, drives, .. } = self.evaluator.last_forward();
         let description = self.evaluator.description();
         let bad = |values: &[f64]| values.iter().position(|x| !x.is_finite());

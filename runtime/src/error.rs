@@ -306,6 +306,15 @@ pub enum RunError {
         /// What it was.
         what: String,
     },
+    /// The mass matrix is asked for, and it is left out of the equations of so long a mechanism.
+    #[error(
+        "at t = {t} s the mass matrix is asked for, by the integrator or where loops lose their hold (a singular position), and it \
+         is left out of mechanisms as long as this one: take another integrator, start elsewhere, or split the mechanism"
+    )]
+    MassLeftOut {
+        /// Time at which it was evaluated.
+        t: f64,
+    },
     /// The Newton iteration of an implicit step failed.
     #[error(
         "at t = {t} s the implicit step of {step:.3e} s did not converge (last correction {correction:.3e}); \

@@ -59,6 +59,8 @@ pub struct SingularSolver {
     free_directions: Vec<f64>,
     acceleration: Vec<f64>,
     multipliers: Vec<f64>,
+    /// Whether the equations come without masses.
+    mass_left_out: bool,
     constraints: Orthogonal,
     lost: Orthogonal,
     inertia: Orthogonal,
@@ -68,6 +70,11 @@ impl SingularSolver {
     /// As [`Evaluator::visit_memory`].
     pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.lengths.iter_mut().for_each(visit);
+    }
+
+    /// Whether the last solve had no masses, so that its answers are no numbers.
+    pub fn is_without_masses(&self) -> bool {
+        self.mass_left_out
     }
 
     /// Storage for the evaluator's mechanism.
@@ -99,6 +106,7 @@ impl SingularSolver {
             free_directions: vec![0.0; n * n],
             acceleration: vec![0.0; n],
             multipliers: vec![0.0; m],
+            mass_left_out: false,
             constraints: Orthogonal::new(m, n),
             lost: Orthogonal::new(m, n),
             inertia: Orthogonal::new(n, n),
@@ -116,6 +124,11 @@ impl SingularSolver {
     ) -> bool {
         let freedoms = self.load_directions(evaluator, state, NEARLY_LOST);
         let (n, kept) = (self.free.len(), evaluator.sizes().rows);
+        if self.mass_left_out {
+            let answers = n + kept + evaluator.sizes().drivers;
+            evaluator.forward_mut()[..answers].fill(f64::NAN);
+            return true;
+        }
         // As many independent directions as in general positions: nothing is lost.
         let lost = self.constraints.rank() < kept;
         let branch = branch.filter(|_| lost);
@@ -151,6 +164,11 @@ impl SingularSolver {
         corrections: [&mut [f64]; 2],
     ) {
         let freedoms = self.load_directions(evaluator, state, FREE);
+        if self.mass_left_out {
+            // What is asked for next ends the run.
+            corrections.into_iter().for_each(|correction| correction.fill(0.0));
+            return;
+        }
         self.all_a.fill(0.0);
         self.bias.fill(0.0);
         for correction in corrections {
@@ -247,6 +265,7 @@ impl SingularSolver {
         }
         let equations = evaluator.equations(t, &self.all_q, &self.all_v);
         equations.unpack_mass(all, &mut self.mass);
+        self.mass_left_out = equations.is_without_masses();
         self.bias.copy_from_slice(equations.bias);
         for (length, row) in self.lengths.iter_mut().zip(equations.jacobian.chunks_exact(all.max(1))) {
             *length = length.max(dot(row, row).sqrt());

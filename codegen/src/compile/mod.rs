@@ -33,6 +33,10 @@ pub struct Options {
     pub pictured: bool,
     /// Forward dynamics by the saddle point alone, where rows first would be shorter: to compare both.
     pub saddle: bool,
+    /// Forward dynamics link by link, wherever that is possible: to compare.
+    pub link_by_link: bool,
+    /// `equations_of_motion` with the mass matrix of mechanisms, too, that are so long that it is left out (zeros).
+    pub whole_equations: bool,
 }
 
 /// Compiles a file.
@@ -110,6 +114,8 @@ fn understood(
         findings = analyse(source, &mechanism, &topology)?;
     }
     let Findings { analysis, mut guide, warnings: remarks, waypoints } = findings;
+    guide.link_by_link = options.link_by_link;
+    guide.whole_equations = options.whole_equations;
     if options.saddle {
         // Without numbers no accelerations count as fixed by the rows.
         guide.jacobians.clear();

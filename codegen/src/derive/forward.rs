@@ -26,6 +26,7 @@ use super::turned::Axes;
 use super::wrench::Wrench;
 
 /// Accelerations of free speeds, multipliers of `rows`, and drive forces.
+#[derive(Clone)]
 pub struct Forward<'g> {
     pub solution: Solution<'g>,
     /// Generalised force of every driver.
@@ -104,7 +105,7 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// gamma: of closed states where something drives, else of any state.
-    fn target(&self) -> Vec<Expr<'g>> {
+    pub fn target(&self) -> Vec<Expr<'g>> {
         self.rows.iter().map(|kept| -kept.row.bias.of(self.is_driven())).collect()
     }
 
@@ -168,8 +169,11 @@ impl<'g> Problem<'_, 'g> {
         if let Some(first) = poses.geometry.linkage.links.first() {
             g.begin_section(section_of(first));
         }
+        // Of long chains nearly all entries are zero, and most multipliers not yet known.
+        by_jacobian.retain(|(_, multiplier)| !multiplier.is_zero());
         let of_rows = |speed: usize| {
-            g.sum(by_jacobian.iter().map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
+            let entries = by_jacobian.iter().map(|(row, multiplier)| (row.jacobian[speed], *multiplier));
+            g.sum(entries.filter(|(entry, _)| !entry.is_zero()).map(|(entry, multiplier)| entry * multiplier))
         };
         felt.into_iter().enumerate().map(|(speed, felt)| felt - of_rows(speed)).collect()
     }

@@ -2,9 +2,11 @@
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
-//! `plan`, `rows`, `dynamics`, `solve`, `forward`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
+//! `plan`, `rows`, `dynamics`, `solve`, `forward`, `articulated`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
 
 mod accelerations;
+mod articulated;
+mod articulated_body;
 mod attachment;
 mod closure;
 mod contact_wrench;
@@ -24,12 +26,14 @@ mod frame;
 mod frame_inertia;
 mod geometry;
 mod guide_contacts;
+mod joint_axes;
 mod joint_coordinates;
 mod joint_markers;
 mod joint_rows;
 mod joint_state;
 mod kept_rows;
 mod kinematics;
+mod least_elimination;
 mod line;
 mod link_mass;
 mod linkage;

@@ -16,6 +16,10 @@ pub struct Guide {
     pub keep: Vec<bool>,
     /// At closed positions: Jacobian of all rows by all speeds, rows and speeds in units that make them comparable.
     pub jacobians: Vec<DMatrix<f64>>,
+    /// Whether the forward dynamics goes link by link wherever that is possible, shorter or not.
+    pub link_by_link: bool,
+    /// Whether the equations of motion have their mass matrix however large it is.
+    pub whole_equations: bool,
 }
 
 /// Rows and speeds, by number among kept rows and free speeds, that are solved together.

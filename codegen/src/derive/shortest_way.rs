@@ -5,10 +5,12 @@
 
 use nalgebra::DMatrix;
 
+use super::articulated::articulated;
 use super::dynamics::shapes_of;
 use super::forward::{Forward, Problem, Way};
+use super::least_elimination::least_elimination;
 use super::local_modes::local_modes;
-use super::plan::Plan;
+use super::plan::{Plan, PlanBlock};
 use super::solve::{Order, Solution};
 use super::turned::Axes;
 
@@ -17,6 +19,9 @@ const SMALLEST_PIVOT: f64 = 0.1;
 
 /// More unknowns than this are eliminated from the leaves to the root: to look for a shorter order takes their cube.
 const MOST_TO_ORDER: usize = 60;
+
+/// Where elimination takes at least as many operations, it is tried only if links one by one take more.
+const MOST_TO_ELIMINATE: usize = 10_000;
 
 /// Passes shorten a form by several parts in a hundred, one more than another: what is shorter by less than this part of it may
 /// be longer after them.
@@ -49,12 +54,32 @@ struct Best<'s, 'g> {
     gone: Vec<Way<'s, 'g>>,
 }
 
+impl<'g> Best<'_, 'g> {
+    /// Takes over what is shorter of a solution that goes no [`Way`], of this many operations.
+    fn take(&mut self, problem: &Problem<'_, 'g>, (operations, forward): (usize, Forward<'g>)) {
+        let g = problem.motion.poses.geometry.g;
+        let alone = problem.known.operations(g, &forward.solution.of_accelerations());
+        if alone < self.alone.0 {
+            self.alone = (alone, forward.solution.clone());
+        }
+        if (operations, alone) < self.operations {
+            (self.operations, self.forward) = ((operations, alone), forward);
+        }
+    }
+}
+
 /// Forward dynamics in two forms.
 pub struct Shortest<'g> {
     /// By the way that is the shortest for all that is asked for.
     pub whole: Forward<'g>,
     /// By the way that is the shortest for accelerations and pivots.
     pub alone: Solution<'g>,
+}
+
+impl<'g> From<Forward<'g>> for Shortest<'g> {
+    fn from(whole: Forward<'g>) -> Self {
+        Self { alone: whole.solution.clone(), whole }
+    }
 }
 
 /// A problem, and its plan.
@@ -139,7 +164,7 @@ impl<'g> Search<'_, 'g> {
 pub fn forward<'g>(
     problem: &Problem<'_, 'g>,
     others: impl Fn(&mut dyn FnMut(&Problem<'_, 'g>)),
-    jacobians: &[DMatrix<f64>],
+    (jacobians, link_by_link): (&[DMatrix<f64>], bool),
 ) -> Shortest<'g> {
     let speeds = problem.partition.free.len();
     let pattern: Vec<Vec<bool>> = problem
@@ -160,11 +185,35 @@ pub fn forward<'g>(
         // Elimination of everything is what the other ways are tested against.
         slid: problem.is_driven() && !jacobians.is_empty(),
     };
+    let g = problem.motion.poses.geometry.g;
+    let by_links = || {
+        let solved = if jacobians.is_empty() { None } else { articulated(problem) };
+        solved.map(|forward| (problem.known.operations(g, &forward.all()), forward))
+    };
     let shapes = shapes_of(problem.masses);
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
     let constant = large_entries(problem.rows.len(), speeds, jacobians);
     let search = Search { problem, plan: &plan };
-    let mut best = search.first(plain);
+    let least = |block: &PlanBlock| {
+        let (linkage, free) = (problem.motion.poses.geometry.linkage, &problem.partition.free);
+        least_elimination(linkage, free, &pattern, (&block.speeds, &block.rows))
+    };
+    let all = PlanBlock { rows: (0..pattern.len()).collect(), speeds: (0..speeds).collect() };
+    let mut first = plain;
+    if link_by_link || least(&all) > MOST_TO_ELIMINATE {
+        let known = by_links();
+        let is_longer = |block| known.as_ref().is_some_and(|(operations, _)| *operations < least(block));
+        let rows_first_is_longer = plan.blocks.is_empty() || is_longer(&plan.rest);
+        let all_is_longer = is_longer(&all);
+        match known {
+            Some((_, forward)) if link_by_link || (all_is_longer && rows_first_is_longer) => {
+                return forward.into();
+            }
+            _ if all_is_longer => first = Way { rows_first: true, ..plain },
+            _ => {}
+        }
+    }
+    let mut best = search.first(first);
     if jacobians.is_empty() {
         return Shortest { whole: best.forward, alone: best.alone.1 };
     }
@@ -199,6 +248,12 @@ pub fn forward<'g>(
         search.along_axes(&mut best);
         search.in_order(&mut best, &constant);
     });
+    // Of few unknowns other orders of elimination do as well, which are chosen from more forms.
+    if speeds + pattern.len() > MOST_TO_ORDER
+        && let Some(solved) = by_links()
+    {
+        best.take(problem, solved);
+    }
     let (least, alone) = best.alone;
     let (_, of_whole) = best.operations;
     let alone =

@@ -282,7 +282,7 @@ fn operations_of_the_n_four_bar_grow_no_faster_than_n_to_the_1_3() {
         let (mechanism, topology) = n_four_bar(n);
         // Of the five rows of every cut revolute the two in the plane are kept.
         let keep: Vec<bool> = (0..5 * n).map(|row| row % 5 < 2).collect();
-        let guide = Guide { keep, jacobians: Vec::new() };
+        let guide = Guide { keep, ..Guide::default() };
         let derived = derive(&mechanism, &topology, Some(&guide), Purpose::Everything);
         counts.push(live_operations(&derived, Entry::ForwardDynamics) as f64);
     }

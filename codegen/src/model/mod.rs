@@ -18,6 +18,7 @@ mod force;
 mod formula;
 mod joint_kind;
 mod joint_model;
+mod local_loops;
 mod mission;
 mod piecewise;
 mod resolve;

@@ -4,8 +4,9 @@
 //! The tree grows from the ground by the best joint at its rim: guides with clearance, then driven, coupled and stopped joints and others with clearance first (their
 //! coordinates are asked for, so they must be coordinates), then joints with start values, then those with more constraint
 //! rows, so that the cuts take few (an RSSR is cut at a spherical joint), then those with damping, springs
-//! or a part in some formula; among equals the one nearer to the ground, then the first in the file.
+//! or a part in some formula; among equals the one nearer to the ground, then the first in the file. Long mechanisms: equals that keep loops short.
 
+use super::local_loops::with_local_loops;
 use super::{Carrier, Closure, Formula, Joint, Mechanism, Passive, Position, Term, Topology, TreeJoint};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::id::{BodyId, JointId};
@@ -13,20 +14,26 @@ use crate::id::{BodyId, JointId};
 /// Preference of a joint for the tree: smaller is better.
 type Class = (bool, bool, bool, usize, bool);
 
+/// Mechanisms with no more speeds keep the tree as it grows: its coordinates are those that users know.
+const MOST_AS_GROWN: usize = 40;
+
 /// Chooses tree joints and cuts. The diagnostics have places but no file yet: see [`Diagnostics::located`].
 ///
 /// # Errors
 /// If a body can be reached only through joints that must be cut, if driven joints close a loop among
 /// themselves or must be cut, if a cut joint has a start value or is coupled.
 pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
-    let classes: Vec<Class> = classes(mechanism);
+    let classes = classes(mechanism);
     let may_carry: Vec<bool> = mechanism.joints.iter().map(|joint| !must_cut(mechanism, joint)).collect();
     let mut faults = driven_cuts(mechanism, &may_carry);
-    let mut depths: Vec<Option<usize>> = vec![None; mechanism.bodies.len()];
-    let mut tree = Vec::with_capacity(mechanism.bodies.len());
-    while let Some(step) = best_step(mechanism, &classes, &may_carry, &depths) {
-        depths[step.outboard.index()] = Some(depth(step.inboard, &depths).unwrap_or(0) + 1);
-        tree.push(step);
+    let (mut tree, depths) = grown(mechanism, &classes, &may_carry);
+    if speeds(mechanism, &tree) > MOST_AS_GROWN {
+        // What the file asks for stays where it is: joints change places with their equals alone.
+        let carries = with_local_loops(mechanism, &tree, |cut, joint| {
+            let (_, plain, unstarted, ..) = classes[cut];
+            may_carry[cut] && plain && unstarted && classes[cut] == classes[joint]
+        });
+        (tree, _) = grown(mechanism, &classes, &carries);
     }
     let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
     let cuts: Vec<JointId> =
@@ -41,6 +48,26 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
         faults.extend(starts_on_cuts(mechanism, &topology));
     }
     if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
+}
+
+/// The tree that grows from the ground, and how far from it each body is, if it is reached.
+fn grown(
+    mechanism: &Mechanism,
+    classes: &[Class],
+    may_carry: &[bool],
+) -> (Vec<TreeJoint>, Vec<Option<usize>>) {
+    let mut depths: Vec<Option<usize>> = vec![None; mechanism.bodies.len()];
+    let mut tree = Vec::with_capacity(mechanism.bodies.len());
+    while let Some(step) = best_step(mechanism, classes, may_carry, &depths) {
+        depths[step.outboard.index()] = Some(depth(step.inboard, &depths).unwrap_or(0) + 1);
+        tree.push(step);
+    }
+    (tree, depths)
+}
+
+/// Speeds of a tree, those of modes left out.
+fn speeds(mechanism: &Mechanism, tree: &[TreeJoint]) -> usize {
+    tree.iter().map(|step| 6 - mechanism.joint(step.joint).model.rows()).sum()
 }
 
 fn depth(carrier: Carrier, depths: &[Option<usize>]) -> Option<usize> {

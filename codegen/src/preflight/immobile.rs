@@ -109,7 +109,12 @@ pub fn massless(case: &Case<'_>, positions: &ClosedPositions) -> Option<(JointId
         (0..case.system.sizes().all_speeds).filter(|speed| !driven.contains(speed)).collect();
     let mut found = None;
     for position in &positions.positions {
-        let speed = free[weightless(&case.walker().mass(&position.q), &free)?];
+        let mut mass = case.walker().mass(&position.q);
+        if mass.iter().all(|entry| *entry == 0.0) {
+            // Left out of long mechanisms: each speed by itself is looked at.
+            mass = DMatrix::from_diagonal(&case.walker().inertias(&position.q));
+        }
+        let speed = free[weightless(&mass, &free)?];
         found = found.or(Some(speed));
     }
     let speed = found?;

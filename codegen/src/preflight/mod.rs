@@ -138,7 +138,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     warnings.extend(told.iter().flat_map(|course| angle_jumps::angle_jumps(case, course)));
     let waypoints = told.map(|course| course.waypoints).unwrap_or_default();
     let jacobians = positions.positions.into_iter().map(|position| position.jacobian).collect();
-    Ok(Findings { analysis, guide: Guide { keep, jacobians }, warnings, waypoints })
+    Ok(Findings { analysis, guide: Guide { keep, jacobians, ..Guide::default() }, warnings, waypoints })
 }
 
 /// What is wrong with a start that loops as such allow: out of reach, or singular.

@@ -151,6 +151,19 @@ impl Walker<'_> {
         mass
     }
 
+    /// Its diagonal, by the kinetic energy of each speed alone.
+    pub fn inertias(&self, q: &[f64]) -> DVector<f64> {
+        let sizes = self.system.sizes();
+        let mut output = vec![0.0; sizes.output(Entry::Energy)];
+        DVector::from_fn(sizes.all_speeds, |speed, _| {
+            let mut v = vec![0.0; sizes.all_speeds];
+            v[speed] = self.units.speeds[speed] / self.units.length;
+            let input = [&self.parameters, &[0.0][..], q, &v].concat();
+            evaluate(self.system, Entry::Energy, &input, &mut output);
+            2.0 * output[0]
+        })
+    }
+
     /// At rest.
     fn equations_of_motion(&self, q: &[f64]) -> Vec<f64> {
         let sizes = self.system.sizes();

@@ -17,6 +17,13 @@ pub const RANK_TOLERANCE: f64 = 1e-8;
 /// factor that reaches ten in matrices of hundreds of rows: it stays far above any tolerance asked for.
 const CLEARLY_THERE: f64 = 1e-2;
 
+/// Of null spaces of more columns than this, whose singular values take their cube, pivots above the tolerance by [`FAR_ABOVE`] do.
+/// Directions lose no digits by the condition.
+const MANY_COLUMNS: usize = 60;
+
+/// The largest pivot and the largest singular value differ by the root of a matrix' entries at most, some hundred.
+const FAR_ABOVE: f64 = 1e4;
+
 /// Pivots below this share are rounding.
 const CLEARLY_NOTHING: f64 = 1e-12;
 
@@ -76,7 +83,8 @@ pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> 
     if n == 0 || !is_finite(matrix) {
         return DMatrix::zeros(n, 0);
     }
-    if let Some(factor) = Factor::new(matrix, tolerance) {
+    let there = if n > MANY_COLUMNS { CLEARLY_THERE.min(FAR_ABOVE * tolerance) } else { CLEARLY_THERE };
+    if let Some(factor) = Factor::clear(matrix, tolerance, there) {
         return factor.null_space();
     }
     let (values, v_t) = right_singular_vectors(without_zero_rows(matrix));
@@ -150,6 +158,11 @@ struct Factor {
 impl Factor {
     /// `None` where the pivots leave doubt.
     fn new(matrix: &DMatrix<f64>, tolerance: f64) -> Option<Self> {
+        Self::clear(matrix, tolerance, CLEARLY_THERE)
+    }
+
+    /// The same with pivots that belong to the rank above another share of the largest.
+    fn clear(matrix: &DMatrix<f64>, tolerance: f64, there: f64) -> Option<Self> {
         let rows = rows_that_say_something(matrix);
         let width = matrix.ncols();
         if rows.is_empty() || width == 0 || !TOLERANCES.contains(&tolerance) {
@@ -162,11 +175,11 @@ impl Factor {
         let decomposition = PivotedQr::new(width, given);
         let pivots = decomposition.pivots();
         let largest = pivots.iter().map(|pivot| pivot.abs()).fold(0.0, f64::max);
-        let rank = pivots.iter().take_while(|pivot| pivot.abs() > CLEARLY_THERE * largest).count();
+        let rank = pivots.iter().take_while(|pivot| pivot.abs() > there * largest).count();
         let clear = pivots.iter().skip(rank).all(|pivot| pivot.abs() < CLEARLY_NOTHING * largest);
         let factor = Self { rows, decomposition, rank };
         // The pivots promise it; to ask costs little.
-        let holds = || factor.decomposition.weakest(rank) > CLEARLY_THERE / BELOW_PIVOT * largest;
+        let holds = || factor.decomposition.weakest(rank) > there / BELOW_PIVOT * largest;
         (clear && largest.is_finite() && (rank == 0 || holds())).then_some(factor)
     }
 

@@ -87,6 +87,11 @@ impl Equations<'_> {
         }
     }
 
+    /// Whether the mass matrix is left out, as it is of long mechanisms: zeros stand in its place.
+    pub fn is_without_masses(&self) -> bool {
+        !self.mass.is_empty() && self.mass.iter().all(|entry| *entry == 0.0)
+    }
+
     /// Writes the full mass matrix, row major, `n` x `n`.
     pub fn unpack_mass(&self, n: usize, full: &mut [f64]) {
         let mut packed = self.mass.iter();

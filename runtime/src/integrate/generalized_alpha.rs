@@ -159,7 +159,7 @@ impl GeneralizedAlpha {
     /// Advances by `h` from `t`.
     ///
     /// # Errors
-    /// [`RunError::NewtonFailed`] or [`RunError::NonFinite`].
+    /// [`RunError::NewtonFailed`], [`RunError::NonFinite`] or [`RunError::MassLeftOut`].
     pub fn step(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> Result<(), RunError> {
         self.expect(h);
         let laws = evaluator.prescribed(t + h).chunks_exact(3);
@@ -171,7 +171,9 @@ impl GeneralizedAlpha {
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
             let renewed = self.factored_step != h;
-            self.evaluate(evaluator, t + h, h);
+            if !self.evaluate(evaluator, t + h, h) {
+                return Err(RunError::MassLeftOut { t: t + h });
+            }
             core::mem::swap(&mut self.residual, &mut self.shifted);
             if !is_finite(&self.shifted) {
                 return Err(RunError::NonFinite { t: t + h, what: "the equations of motion".to_owned() });
@@ -241,8 +243,9 @@ impl GeneralizedAlpha {
         evaluator.layout().advance(&mut self.next.q, increments);
     }
 
-    /// Residual of the balance of forces (times `h²`) and of the constraints, for the present unknowns.
-    fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) {
+    /// Residual of the balance of forces (times `h²`) and of the constraints, for the present unknowns; false where the equations
+    /// come without masses.
+    fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, t: f64, h: f64) -> bool {
         self.evaluations += 1;
         self.advance(evaluator);
         let (n, m) = (self.x.len(), self.scaled_multipliers.len());
@@ -256,6 +259,7 @@ impl GeneralizedAlpha {
         }
         evaluator.evaluate_contacts(t, &next.q, &next.v);
         let equations = evaluator.equations(t, &trial.all_q, &trial.all_v);
+        let has_masses = !equations.is_without_masses();
         equations.inertia(&trial.all_a, &mut trial.balance);
         for (balance, bias) in trial.balance.iter_mut().zip(equations.bias) {
             *balance = h * h * (*balance + bias);
@@ -277,6 +281,7 @@ impl GeneralizedAlpha {
         for (residual, index) in loops[..m].iter_mut().zip(&self.kept) {
             *residual = equations.positions[*index];
         }
+        has_masses
     }
 
     /// Newton matrix by difference quotients in the increments; exact in the multipliers.

@@ -95,6 +95,10 @@ pub struct Deriver<'g> {
     pub keep: Vec<bool>,
     /// Of the kept rows by the free speeds, at closed positions.
     pub jacobians: Vec<DMatrix<f64>>,
+    /// See [`Guide::link_by_link`].
+    pub link_by_link: bool,
+    /// See [`Guide::whole_equations`].
+    pub whole_equations: bool,
     /// States of the file's own; none where positions alone are asked for.
     pub own: Vec<OwnState<'g>>,
     /// Whether the shortest of several ways to the same values is asked for.
@@ -257,6 +261,8 @@ impl<'g> Deriver<'g> {
             contacts,
             keep,
             jacobians,
+            link_by_link: guide.is_some_and(|guide| guide.link_by_link),
+            whole_equations: guide.is_some_and(|guide| guide.whole_equations),
             own: if with_own { own_states(g, mechanism) } else { Vec::new() },
             compares: with_own,
             responses: Rc::default(),

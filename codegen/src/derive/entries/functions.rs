@@ -25,6 +25,12 @@ use crate::derive::turned::Axes;
 use crate::derive::{Block, Function};
 use crate::expr::{Expr, ExprId, Vec3};
 
+/// Entries of M that are not zero by structure: an open chain of a hundred hinges has as many.
+const MOST_OF_MASS: usize = 5_000;
+
+/// What stands in the place of M.
+const MASS_LEFT_OUT: &str = "Zeros: of mechanisms as long as this one M is left out.";
+
 pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
     Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs, goes_on: false }
 }
@@ -131,7 +137,7 @@ impl<'g> Deriver<'g> {
         };
         let mut solved = None;
         with(Sums::Links, &instant.cuts, &mut |problem| {
-            solved = Some(forward(problem, others, &self.jacobians));
+            solved = Some(forward(problem, others, (&self.jacobians, self.link_by_link)));
         });
         #[expect(clippy::expect_used, reason = "the problem is solved where it is made")]
         solved.expect("a solution")
@@ -305,6 +311,17 @@ impl<'g> Deriver<'g> {
         function(Entry::Contacts, doc, self.state_inputs([]), vec![outputs])
     }
 
+    /// Whether M is left out: the size of most long mechanisms would be that of a matrix that no run asks for, but near singular
+    /// positions.
+    fn mass_is_left_out(&self) -> bool {
+        let linkage = self.geometry.linkage;
+        let held =
+            |at| linkage.path(Some(at)).map(|link| linkage.links[link].freedom.speeds()).sum::<usize>();
+        let links = linkage.links.iter().enumerate();
+        let entries: usize = links.map(|(at, link)| link.freedom.speeds() * held(at)).sum();
+        entries > MOST_OF_MASS && !self.whole_equations
+    }
+
     /// `solved`: the forward dynamics, whose rows these are.
     pub(super) fn equations_of_motion(
         &self,
@@ -325,7 +342,11 @@ impl<'g> Deriver<'g> {
                 matrix.iter().flatten().copied().filter(|entry| !entry.is_zero()).collect();
             (matrix, entries)
         });
-        let matrices: Vec<_> = matrices.collect();
+        let left_out = self.mass_is_left_out();
+        let matrices: Vec<_> = match left_out {
+            true => vec![(vec![vec![g.zero(); n]; n], Vec::new())],
+            false => matrices.collect(),
+        };
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let all = vec![true; self.keep.len()];
@@ -364,7 +385,11 @@ impl<'g> Deriver<'g> {
         let own_rates = instant.own_rates.iter().map(|rate| -*rate);
         let outputs = vec![
             Block::vector("mass", upper.chain(mass_of_own))
-                .doc("Upper triangle of M, row by row [kg m², kg m, kg].")
+                .doc(if left_out {
+                    MASS_LEFT_OUT
+                } else {
+                    "Upper triangle of M, row by row [kg m², kg m, kg]."
+                })
                 .cites("[CS (6)]"),
             Block::vector("h", h.into_iter().chain(own_rates))
                 .doc("Left side besides M v̇: inertia, weight, springs, damping.")

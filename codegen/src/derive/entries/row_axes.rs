@@ -81,7 +81,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
         partition,
         known: &Known::default(),
     };
-    let solved = forward(&problem, |_| {}, &[numbers]).whole.operations(&scope);
+    let solved = forward(&problem, |_| {}, (&[numbers], false)).whole.operations(&scope);
     let exact = cut_rows(motion, true, Sums::Links);
     let closed = exact.iter().flat_map(|cut| cut.rows.iter().map(move |row| (cut, row)));
     let closed = closed.flat_map(|(cut, row)| {
