@@ -33,6 +33,7 @@ mod picture;
 mod plan;
 mod plot;
 mod predict;
+mod sensitivity;
 mod shipped_schemas;
 mod simulate;
 mod starters;
@@ -91,6 +92,7 @@ fn answer(command: &Command) -> Result<Answer, Failure> {
         Command::Draw(arguments) => page::draw(arguments),
         Command::Study(arguments) => study::run(arguments),
         Command::Identify(arguments) => identify::run(arguments),
+        Command::Sensitivity(arguments) => sensitivity::run(arguments),
         Command::CaseStudy { arguments } => Err(moved_case_study(arguments)),
         Command::Predict(arguments) => predict::run(arguments),
         Command::Plan(arguments) => plan::run(arguments),

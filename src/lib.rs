@@ -42,6 +42,7 @@ mod parts;
 #[cfg(feature = "cli")]
 pub mod progress;
 pub mod provenance;
+pub mod sensitivity;
 pub mod shard;
 pub mod study;
 pub mod table;

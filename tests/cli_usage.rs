@@ -17,6 +17,7 @@ fn help_of_every_subcommand_has_an_example() {
         "merge",
         "study",
         "identify",
+        "sensitivity",
         "fit",
         "plan",
         "predict",

@@ -34,6 +34,7 @@ mod functions;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod memory;
 mod refusal;
+mod routine;
 #[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 mod straight;
 mod system;
@@ -44,4 +45,5 @@ mod x86;
 
 pub use columns::Columns;
 pub use refusal::Refusal;
+pub use routine::Routine;
 pub use system::{Lanes, Native, NativeBundle};

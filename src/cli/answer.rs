@@ -17,6 +17,7 @@ pub mod plan;
 pub mod predict;
 #[cfg(test)]
 mod schemas;
+pub mod sensitivity;
 pub mod simulate;
 pub mod study;
 

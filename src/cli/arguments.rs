@@ -15,6 +15,7 @@ use super::identify::IdentifyArguments;
 use super::options::{
     EquationsChoice, Input, LivesArguments, MotionArguments, Replace, RevolutionArguments, rows_help,
 };
+use super::sensitivity::SensitivityArguments;
 use super::shipped_schemas::SCHEMAS;
 use super::starters::Starter;
 use super::study::StudyArguments;
@@ -110,6 +111,12 @@ pub enum Command {
                       --revolutions revolutions --wear wear --gauge 1um"
     )]
     Identify(IdentifyArguments),
+    /// Say how wear and life vary with parameters: derivatives by tangents through the motion, the wear law and the draws.
+    #[command(
+        after_help = "Examples:\n  linkwear sensitivity mechanisms/rssr.toml --by c0,k_wear,c_rocker,L1\n  \
+                      linkwear sensitivity mechanisms/rssr.toml --trajectories 1000 --format json"
+    )]
+    Sensitivity(SensitivityArguments),
     /// The paper's case study is a program of its own; this says how to run it.
     #[command(hide = true, disable_help_flag = true)]
     CaseStudy {

@@ -8,7 +8,7 @@ macro_rules! schemas {
 }
 
 /// The schemas of all outputs.
-pub const SCHEMAS: [(&str, &str); 25] = schemas![
+pub const SCHEMAS: [(&str, &str); 26] = schemas![
     "check",
     "equations",
     "cost",
@@ -23,6 +23,7 @@ pub const SCHEMAS: [(&str, &str); 25] = schemas![
     "fit",
     "fit-file",
     "identify",
+    "sensitivity",
     "plan",
     "predict",
     "diff",

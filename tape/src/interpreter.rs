@@ -19,11 +19,13 @@ pub struct Interpreted {
     description: Arc<Description>,
 }
 
+/// One tape, ready to be run on any scalar.
 #[derive(Clone, Debug)]
-struct Routine {
+pub struct Routine {
     constants: Vec<f64>,
     inputs: usize,
     instructions: Vec<Instruction>,
+    workspace: usize,
 }
 
 /// Operands and results are indices into the workspace; `Store` writes an output.
@@ -53,8 +55,8 @@ impl Interpreted {
         let routines: Vec<Routine> = tapes
             .iter()
             .map(|tape| {
-                let (routine, length) = Routine::new(tape);
-                workspace = workspace.max(length);
+                let routine = Routine::new(tape);
+                workspace = workspace.max(routine.workspace);
                 routine
             })
             .collect();
@@ -72,8 +74,8 @@ impl Interpreted {
 }
 
 impl Routine {
-    /// The routine and the length of the workspace that it wants.
-    fn new(tape: &Tape) -> (Self, usize) {
+    /// Prepares a tape.
+    pub fn new(tape: &Tape) -> Self {
         let registers = Registers::assign(tape);
         let mut constants: Vec<f64> = Vec::new();
         let mut positions = std::collections::HashMap::new();
@@ -129,8 +131,13 @@ impl Routine {
             });
             store(&mut instructions, &statement.stores);
         }
-        let length = first_register + registers.count as usize;
-        (Self { constants, inputs: tape.input_len(), instructions }, length)
+        let workspace = first_register + registers.count as usize;
+        Self { constants, inputs: tape.input_len(), instructions, workspace }
+    }
+
+    /// Length of the scratch slice that it works in.
+    pub fn workspace(&self) -> usize {
+        self.workspace
     }
 }
 
@@ -169,7 +176,11 @@ impl<T: Scalar> System<T> for Interpreted {
 }
 
 impl Routine {
-    fn run<T: Scalar>(&self, input: &[T], output: &mut [T], w: &mut [T]) {
+    /// Runs it.
+    ///
+    /// # Panics
+    /// If a slice is too short.
+    pub fn run<T: Scalar>(&self, input: &[T], output: &mut [T], w: &mut [T]) {
         for (place, number) in w.iter_mut().zip(&self.constants) {
             *place = T::constant(*number);
         }

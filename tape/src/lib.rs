@@ -14,21 +14,26 @@
 )]
 
 mod block;
+mod constants;
 mod interpreter;
+mod needed;
 mod operation;
 mod operations;
 mod program;
+mod recorder;
 mod registers;
 mod split;
 pub mod stored;
+mod tangent;
 mod tape;
 mod verify;
 
 pub use block::Block;
-pub use interpreter::Interpreted;
+pub use interpreter::{Interpreted, Routine};
 pub use operation::{Binary, Op, Operand, Unary, Value};
 pub use operations::Operations;
 pub use program::Program;
+pub use recorder::{Mask, Number, Recorder};
 pub use registers::Registers;
 pub use split::{PART_LIMIT, Part, Split, split};
 pub use tape::{Statement, Tape};

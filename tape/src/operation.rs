@@ -85,4 +85,14 @@ impl Op {
         };
         std::iter::once(first).chain(second).chain(third)
     }
+
+    /// The same on other operands.
+    pub(crate) fn map(&self, mut other: impl FnMut(Operand) -> Operand) -> Self {
+        match *self {
+            Self::Unary(operation, a) => Self::Unary(operation, other(a)),
+            Self::SinCos(a) => Self::SinCos(other(a)),
+            Self::Binary(operation, a, b) => Self::Binary(operation, other(a), other(b)),
+            Self::Select(a, yes, no) => Self::Select(other(a), other(yes), other(no)),
+        }
+    }
 }

@@ -214,6 +214,22 @@ fn readings(folder: &Folder) -> String {
 }
 
 #[test]
+fn sensitivities_are_as_told() {
+    let few = [
+        "sensitivity",
+        "mechanisms/rssr.toml",
+        "--points",
+        "3",
+        "--step",
+        "5e-5",
+        "--by",
+        "k_wear,wear_rate",
+    ];
+    asked(&few);
+    asked(&[&few[..], &["--trajectories", "20"]].concat());
+}
+
+#[test]
 fn what_is_identified_is_as_told() {
     let curve = ["--measured", "examples/data/rocker_torque.csv"];
     let damper = ["identify", "examples/data/rocker_drive.toml", "--free", "c_rocker=0.005..0.5 N m s/rad"];

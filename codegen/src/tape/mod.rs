@@ -8,8 +8,8 @@ mod signs;
 mod unshared;
 
 pub use linkwear_tape::{
-    Binary, Block, Interpreted, Op, Operand, Operations, PART_LIMIT, Part, Registers, Split, Statement, Tape,
-    Unary, Value, split, verify,
+    Binary, Block, Interpreted, Number, Op, Operand, Operations, PART_LIMIT, Part, Recorder, Registers,
+    Routine, Split, Statement, Tape, Unary, Value, split, verify,
 };
 pub use lower::{lower, lower_short};
 pub use unshared::unshared_operations;

@@ -309,7 +309,7 @@ impl JointLife {
     }
 
     /// gamma [1], zero if only the profile feeds back.
-    pub(super) fn gamma(&self) -> f64 {
+    pub fn gamma(&self) -> f64 {
         match self.feedback {
             Feedback::Scalar(feedback) => feedback.gamma(),
             Feedback::Profile => 0.0,

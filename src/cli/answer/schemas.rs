@@ -8,7 +8,9 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
 use super::super::shipped_schemas::SCHEMAS;
-use super::{check, diff, equations, errors, explain, fit, identify, life, plan, predict, simulate, study};
+use super::{
+    check, diff, equations, errors, explain, fit, identify, life, plan, predict, sensitivity, simulate, study,
+};
 use crate::provenance::{FORMAT, Provenance};
 use crate::table::{about, tables};
 
@@ -40,6 +42,7 @@ fn outputs() -> Vec<(&'static str, Value)> {
         ("fit", schema::<fit::FitAnswer<'_>>("fit", true)),
         ("fit-file", schema::<fit::FittedProcess>("fit-file", true)),
         ("identify", schema::<identify::IdentifyAnswer<'_>>("identify", true)),
+        ("sensitivity", schema::<sensitivity::SensitivityAnswer<'_>>("sensitivity", true)),
         ("plan", schema::<plan::PlanAnswer>("plan", true)),
         ("predict", schema::<predict::PredictAnswer<'_>>("predict", true)),
         ("diff", schema::<diff::DiffAnswer>("diff", false)),

@@ -1,0 +1,168 @@
+//! `sensitivity`: how wear and life vary with the parameters of a mechanism.
+
+use std::num::NonZero;
+
+use clap::Args;
+use serde_json::json;
+
+use super::answer::Answer;
+use super::answer::sensitivity::SensitivityAnswer;
+use super::failure::Failure;
+use super::input::{options, print_remarks};
+use super::options::Input;
+use super::table::{plural, table};
+use super::value::{positive, threads};
+use crate::mechanism::{Mechanism, read_source};
+use crate::number::number;
+use crate::progress::watched;
+use crate::sensitivity::{Derived, SensitivityError, SensitivityResult, SensitivityStudy};
+
+#[derive(Debug, Args)]
+pub struct SensitivityArguments {
+    #[command(flatten)]
+    pub input: Input,
+    /// Parameters, separated by commas [default: all that are numbers].
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub by: Vec<String>,
+    /// Random lives, whose mean is differentiated too.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub trajectories: u64,
+    /// Seed of the random lives.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Length of the steps of a turn [s] [default: as short as its wear needs].
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub step: Option<f64>,
+    /// Clearances at which turns are run, from that of the unworn mechanism to that of the failed one.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(3..=257))]
+    pub points: u16,
+    /// Threads [default: one per core].
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<NonZero<usize>>,
+}
+
+pub fn run(arguments: &SensitivityArguments) -> Result<Answer, Failure> {
+    let file = &arguments.input.file;
+    let source = read_source(file)?;
+    let options = options(&arguments.input, false);
+    let mechanism = Mechanism::compile(&source, &options, crate::backend::Backend::Auto)?;
+    print_remarks(&mechanism);
+    let study = SensitivityStudy {
+        options,
+        parameters: (!arguments.by.is_empty()).then(|| arguments.by.clone()),
+        step: arguments.step,
+        points: arguments.points.into(),
+        trajectories: arguments.trajectories,
+        seed: arguments.seed,
+        threads: arguments.threads,
+        ..SensitivityStudy::new(&source)
+    };
+    let found = watched("parameters", |watch| study.run_watched(watch));
+    let found = found.map_err(|error| failed(arguments, error))?;
+    let chosen = json!({
+        "by": study.parameters,
+        "trajectories": study.trajectories,
+        "step_s": study.step,
+        "points": study.points,
+    });
+    let seed = (study.trajectories > 0).then_some(study.seed);
+    let provenance = mechanism.provenance(seed, chosen);
+    let name = &mechanism.description.name;
+    Ok(Answer::new(text(name, &found), SensitivityAnswer::new(name, &found), Some(&provenance)))
+}
+
+/// Why there are no derivatives, and what to do about it.
+fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure {
+    let file = &arguments.input.file;
+    let life = |help: &str| Failure::life(file, &error, help, None);
+    match &error {
+        SensitivityError::Mechanism(diagnostics) => Failure::from(diagnostics.clone()),
+        SensitivityError::UnknownParameter { parameter, known } => {
+            Failure::unknown_name("parameter", parameter, known, known)
+        }
+        SensitivityError::Setting { .. } => Failure::usage(&error, "choose another value"),
+        SensitivityError::Interrupted => Failure::stopped_study(file, &error, "it begins anew"),
+        SensitivityError::Run(error) => Failure::run(file, error, None),
+        SensitivityError::Formula { .. } => life("name the parameters in its formula"),
+        SensitivityError::At { .. } | SensitivityError::OtherForm { .. } => {
+            life("leave it out of --by; `study --vary` runs the life at values of it")
+        }
+        SensitivityError::NothingWears => life("give a joint a table in [clearance] and one in [wear]"),
+        SensitivityError::NotSettled { .. } => {
+            life("a motion without a period has no derivative; `study --vary` shows how its lives differ")
+        }
+        SensitivityError::NoProcess { .. } => {
+            life("give it `alpha` and `beta` in [wear], or leave --trajectories out")
+        }
+        SensitivityError::TooLong { .. } => life("look at the motion by `simulate`"),
+        _ => life("`study --vary` runs the life at values of its parameters"),
+    }
+}
+
+fn text(name: &str, found: &SensitivityResult) -> String {
+    let mut text = format!(
+        "{name}: {} fails after {} cycles on its mean path\n\n",
+        found.life.joint,
+        number(found.life.cycles.value)
+    );
+    let wear = found.joints.iter().flat_map(|joint| {
+        [
+            (format!("{}.S", joint.joint), &joint.wear_integral),
+            (format!("{}.depth", joint.joint), &joint.depth),
+        ]
+    });
+    let life = ("life".to_owned(), &found.life.cycles);
+    let mean = found.random.iter().map(|random| ("mean life".to_owned(), &random.mean));
+    let quantities: Vec<(String, &Derived)> = std::iter::once(life).chain(mean).chain(wear).collect();
+    let names = quantities.iter().map(|(name, _)| name.clone());
+    let head: Vec<String> = ["parameter", "value", "unit", "d(life)/d(parameter)", "+-"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(names.map(|name| format!("% of {name} per %")))
+        .collect();
+    let row = |at: usize| {
+        let parameter = &found.parameters[at];
+        let cycles = &found.life.cycles;
+        let mut row = vec![
+            parameter.name.clone(),
+            number(parameter.value),
+            parameter.unit.clone(),
+            number(cycles.by[at]),
+            if cycles.doubts[at].is_finite() { format!("{:.0e}", cycles.doubts[at]) } else { String::new() },
+        ];
+        row.extend(quantities.iter().map(|(_, of)| {
+            found.elasticity(of, at).map_or_else(String::new, |elasticity| format!("{elasticity:.4}"))
+        }));
+        row
+    };
+    text.push_str(&table(&head, &(0..found.parameters.len()).map(row).collect::<Vec<_>>()));
+    if let Some(random) = &found.random {
+        text.push_str(&format!(
+            "\nmean of {}: {} cycles, standard error {}; seed {}\n",
+            plural(random.trajectories, "random life", "random lives"),
+            number(random.mean.value),
+            number(random.error),
+            random.seed
+        ));
+    }
+    text.push_str(&format!(
+        "\n{} of {} s a turn at {} clearances, settled after at most {}; wear differs from that by adaptive steps by at most {:.1e} of \
+         itself\n",
+        plural(found.steps, "step", "steps"),
+        number(found.step),
+        found.points,
+        plural(found.turns.into(), "turn", "turns"),
+        found.step_error
+    ));
+    if found.losses > 0 {
+        text.push_str(&format!(
+            "bodies come apart up to {} a turn: derivatives are less smooth there\n",
+            plural(found.losses.into(), "time", "times")
+        ));
+    }
+    for one in &found.left_out {
+        let reason = one.reason.lines().next().unwrap_or_default();
+        text.push_str(&format!("left out: `{}`: {reason}\n", one.parameter));
+    }
+    text
+}

@@ -1,0 +1,72 @@
+//! A tape with its tangent, run for several directions side by side. In: a tape. Out: values and tangents. Never knows mechanics.
+
+use linkwear_codegen::tape::{self, Tape};
+use linkwear_native::Routine;
+
+/// A tape with its tangent in `N` lanes, a direction in each.
+pub(super) struct Function<const N: usize> {
+    code: Code<N>,
+    /// Inputs, then their tangents.
+    pub(super) input: Vec<[f64; N]>,
+    /// Outputs, then their tangents.
+    output: Vec<[f64; N]>,
+    workspace: Vec<[f64; N]>,
+}
+
+enum Code<const N: usize> {
+    Native(Routine<N>),
+    /// Where this processor has no code, or a system forbids it: lane by lane, in the same bits.
+    Interpreted {
+        routine: tape::Routine,
+        numbers: Vec<f64>,
+    },
+}
+
+impl<const N: usize> Function<N> {
+    /// Of a tape, everything zero.
+    pub(super) fn new(tape: &Tape) -> Self {
+        let tangent = tape.tangent();
+        let (code, workspace) = match Routine::new(&tangent) {
+            Ok(routine) => {
+                let workspace = vec![[0.0; N]; routine.workspace()];
+                (Code::Native(routine), workspace)
+            }
+            Err(_) => {
+                let routine = tape::Routine::new(&tangent);
+                let numbers = tangent.input_len() + tangent.output_len() + routine.workspace();
+                (Code::Interpreted { numbers: vec![0.0; numbers], routine }, Vec::new())
+            }
+        };
+        let (input, output) = (vec![[0.0; N]; tangent.input_len()], vec![[0.0; N]; tangent.output_len()]);
+        Self { code, input, output, workspace }
+    }
+
+    /// Writes an input, the same in all lanes.
+    pub(super) fn put(&mut self, place: usize, value: f64) {
+        self.input[place] = [value; N];
+    }
+
+    /// Writes the tangent of an input.
+    pub(super) fn put_tangent(&mut self, place: usize, tangent: [f64; N]) {
+        let inputs = self.input.len() / 2;
+        self.input[inputs + place] = tangent;
+    }
+
+    /// Runs it. Out: values and tangents.
+    pub(super) fn run(&mut self) -> (&[[f64; N]], &[[f64; N]]) {
+        let Self { code, input, output, workspace } = self;
+        match code {
+            Code::Native(routine) => routine.run(input, output, workspace),
+            Code::Interpreted { routine, numbers } => {
+                let (inputs, rest) = numbers.split_at_mut(input.len());
+                let (outputs, workspace) = rest.split_at_mut(output.len());
+                for lane in 0..N {
+                    inputs.iter_mut().zip(&*input).for_each(|(place, value)| *place = value[lane]);
+                    routine.run(inputs, outputs, workspace);
+                    output.iter_mut().zip(&*outputs).for_each(|(place, value)| place[lane] = *value);
+                }
+            }
+        }
+        output.split_at(output.len() / 2)
+    }
+}

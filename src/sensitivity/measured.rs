@@ -1,0 +1,276 @@
+//! Wear and its derivatives at states of wear along a life. In: a mechanism, its sides. Out: what turns wear there, and how that
+//! varies. Never knows lives.
+
+use std::ops::ControlFlow;
+use std::thread;
+
+use linkwear_codegen::tape::Tape;
+use linkwear_runtime::life::{JointLife, JointWear, WearSource};
+use linkwear_runtime::wear::ContactMeasure;
+use linkwear_runtime::{DynamicsSource, Layout, Orbit, TurnState, Watch};
+
+use super::error::SensitivityError;
+use super::settled::{Pass, Settled, Unsettled};
+use super::turn::{Directions, Turned, Turns, Varied};
+use super::varied::{Sides, Variant};
+
+/// Steps of a turn that are tried first, and the most.
+const FIRST_STEPS: u64 = 1 << 10;
+const MOST_STEPS: u64 = 1 << 18;
+/// Wear of a turn may differ by this part of it from that in half as many steps.
+const FINE: f64 = 1e-5;
+/// The same may differ by this from that by adaptive steps, which is known to 1e-6 to 1e-5.
+const AGREES: f64 = 3e-5;
+/// A motion that is not followed in so many times the steps that were enough before is not followed at all.
+const FINER: u64 = 16;
+
+/// What a settled turn wears at a joint, and its derivatives by all parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Wear {
+    /// Wear integral [J], depth [m].
+    pub values: [f64; 2],
+    pub slopes: Vec<[f64; 2]>,
+}
+
+/// A state of wear.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    /// Wear of the wearing joints [m].
+    pub worn: Vec<f64>,
+    pub measured: Vec<ContactMeasure>,
+    pub wear: Vec<Wear>,
+    /// The same in three quarters of the steps, if these are enough for a turn at all.
+    pub coarse: Option<Vec<Wear>>,
+}
+
+/// All of them, and at what cost.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Points {
+    pub points: Vec<Point>,
+    pub steps: u64,
+    pub step_error: f64,
+    pub turns: u32,
+    pub losses: u32,
+}
+
+/// What is measured.
+pub(super) struct Survey<'s> {
+    pub variant: &'s Variant,
+    pub sides: &'s [Sides],
+    /// Steps of a turn, if they were chosen.
+    pub steps: Option<u64>,
+    /// Threads that share the directions.
+    pub threads: usize,
+}
+
+impl Survey<'_> {
+    /// At these wears of the wearing joints [m], rising.
+    pub(super) fn measure<const N: usize>(
+        &self,
+        source: &mut DynamicsSource<'_>,
+        wears: &[Vec<f64>],
+        watch: Watch<'_>,
+    ) -> Result<Points, SensitivityError> {
+        let contacts = &self.variant.compiled.description().contacts;
+        let wearing: Vec<usize> = (0..contacts.len()).filter(|at| contacts[*at].wear.is_some()).collect();
+        let mut passes = self.passes::<N>();
+        let mut found = Points { steps: self.steps.unwrap_or(0), ..Points::default() };
+        let mut orbit: Option<Orbit> = None;
+        for (place, worn) in wears.iter().enumerate() {
+            if watch.report(place as f64 / wears.len() as f64) == ControlFlow::Break(()) {
+                return Err(SensitivityError::Interrupted);
+            }
+            let joints = self.worn(worn);
+            let measured = source
+                .measure(&joints, &mut orbit)
+                .map_err(|error| SensitivityError::Wear(error.to_string()))?;
+            let Some(orbit) = &orbit else { continue };
+            let at = &orbit.turn;
+            if found.steps == 0 {
+                found.steps = fine(&mut passes[0], at, &wearing)?;
+            }
+            let settled = self.settled((&mut passes, at), &measured, &wearing, &mut found);
+            let settled = settled.map_err(|why| self.told(why, worn[0]))?;
+            found.turns = settled.iter().map(|one| one.turns).fold(found.turns, u32::max);
+            found.losses = settled.iter().map(|one| one.turned.losses).fold(found.losses, u32::max);
+            let wear =
+                |settled: &[Settled<N>]| wearing.iter().map(|joint| self.wear(settled, *joint)).collect();
+            let coarse = self.settle(&mut passes, at, found.steps - found.steps / 4, &wearing).ok();
+            let (wear, coarse) = (wear(&settled), coarse.map(|settled| wear(&settled)));
+            found.points.push(Point { worn: worn.clone(), measured, wear, coarse });
+        }
+        Ok(found)
+    }
+
+    /// Settled turns, in steps that are short enough: what they wear agrees with what was measured.
+    fn settled<const N: usize>(
+        &self,
+        (passes, at): (&mut [Pass<N>], &TurnState),
+        measured: &[ContactMeasure],
+        wearing: &[usize],
+        found: &mut Points,
+    ) -> Result<Vec<Settled<N>>, Unsettled> {
+        let most = self.steps.unwrap_or((FINER * found.steps).min(MOST_STEPS));
+        let mut before: Option<Vec<Settled<N>>> = None;
+        loop {
+            let settled = self.settle(passes, at, found.steps, wearing);
+            let most_of = |differs: &dyn Fn(usize, usize) -> f64| {
+                wearing.iter().enumerate().map(|(at, joint)| differs(at, *joint)).fold(0.0, f64::max)
+            };
+            let apart = settled
+                .as_ref()
+                .map_or(f64::INFINITY, |settled| most_of(&|at, joint| apart(settled, joint, &measured[at])));
+            // Where more steps change nothing, it is the measurement that is rough.
+            let same = match (&before, &settled) {
+                (Some(before), Ok(now)) => {
+                    most_of(&|_, joint| moved(&before[0].turned, &now[0].turned, joint)) <= FINE
+                }
+                _ => false,
+            };
+            if apart <= AGREES || same || 2 * found.steps > most {
+                found.step_error = found.step_error.max(apart);
+                return settled;
+            }
+            before = settled.ok();
+            found.steps *= 2;
+        }
+    }
+
+    /// The wearing joints, worn by so much.
+    fn worn(&self, worn: &[f64]) -> Vec<JointWear> {
+        let one = |(joint, worn): (&JointLife, &f64)| JointWear {
+            clearance: joint.clearance + joint.gamma() * worn,
+            wear: *worn,
+            profile: None,
+            journal: None,
+        };
+        self.variant.joints.iter().zip(worn).map(one).collect()
+    }
+
+    /// All directions, in as many passes as they take.
+    fn passes<const N: usize>(&self) -> Vec<Pass<N>> {
+        let base = self.variant;
+        let lift = |of: fn(&Variant) -> &Tape| {
+            let others: Vec<&Tape> = self.sides.iter().flat_map(|sides| &sides.sides).map(of).collect();
+            of(base).lifted(&others)
+        };
+        let (motion, closure) = (lift(|variant| &variant.motion), lift(|variant| &variant.closure));
+        let (description, sizes) = (base.compiled.description(), base.compiled.sizes());
+        let kept = |kept| description.rows.iter().position(|row| row.kept == Some(kept));
+        let kept: Vec<usize> = (0..sizes.rows).filter_map(kept).collect();
+        let layout = Layout::new(&description.motions);
+        let parameters = base.compiled.parameters();
+        let chunk = |(number, sides): (usize, &[Sides])| {
+            let first = N * number;
+            let varied = |value: f64, slope: &dyn Fn(&Sides, usize) -> f64| {
+                let tangents = std::array::from_fn(|lane| {
+                    sides.get(lane).map_or(0.0, |sides| scale(sides) * slope(sides, first + lane))
+                });
+                Varied { value, tangents }
+            };
+            let lifted = |values: &Vec<f64>| {
+                varied(values[0], &|sides, at| (values[2 * at + 2] - values[2 * at + 1]) / (2.0 * sides.step))
+            };
+            let parameter = |at: usize| {
+                varied(parameters[at], &|sides, _| sides.slope(|side| side.compiled.parameters()[at]))
+            };
+            let directions = Directions {
+                parameters: (0..parameters.len()).map(parameter).collect(),
+                motion_constants: motion.1.iter().map(lifted).collect(),
+                closure_constants: closure.1.iter().map(lifted).collect(),
+                period: varied(base.turn, &|sides, _| sides.slope(|side| side.turn)),
+            };
+            let turns =
+                Turns::new([&motion.0, &closure.0], sizes, (layout.clone(), kept.clone()), &directions);
+            Pass::new(turns, sizes.coordinates + sizes.speeds + sizes.contacts)
+        };
+        // Without a parameter, wear is still asked for.
+        if self.sides.is_empty() {
+            vec![chunk((0, &[]))]
+        } else {
+            self.sides.chunks(N).enumerate().map(chunk).collect()
+        }
+    }
+
+    /// Settled turns of all passes.
+    fn settle<const N: usize>(
+        &self,
+        passes: &mut [Pass<N>],
+        at: &TurnState,
+        steps: u64,
+        wearing: &[usize],
+    ) -> Result<Vec<Settled<N>>, Unsettled> {
+        let share = passes.len().div_ceil(self.threads.max(1)).max(1);
+        let run = |passes: &mut [Pass<N>]| -> Result<Vec<Settled<N>>, Unsettled> {
+            passes.iter_mut().map(|pass| pass.settle(at, steps, wearing)).collect()
+        };
+        thread::scope(|scope| {
+            let mut shares = passes.chunks_mut(share);
+            let own = shares.next();
+            let others: Vec<_> = shares.map(|share| scope.spawn(|| run(share))).collect();
+            let mut settled = own.map_or(Ok(Vec::new()), run)?;
+            for other in others {
+                settled.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?);
+            }
+            Ok(settled)
+        })
+    }
+
+    fn wear<const N: usize>(&self, settled: &[Settled<N>], joint: usize) -> Wear {
+        let values = settled[0].turned.wear[joint].map(|one| one.value);
+        let slopes = self.sides.iter().enumerate().map(|(at, sides)| {
+            settled[at / N].turned.wear[joint].map(|one| one.tangents[at % N] / scale(sides))
+        });
+        Wear { values, slopes: slopes.collect() }
+    }
+
+    fn told(&self, why: Unsettled, wear: f64) -> SensitivityError {
+        match why {
+            Unsettled::TooLong => SensitivityError::TooLong { steps: MOST_STEPS },
+            Unsettled::Never(turns, change) => SensitivityError::NotSettled { wear, turns, change },
+        }
+    }
+}
+
+/// What tangents are counted in: by the logarithm of a parameter where it has one.
+fn scale(sides: &Sides) -> f64 {
+    if sides.of.value == 0.0 { 1.0 } else { sides.of.value.abs() }
+}
+
+/// By how much of it the wear of a turn differs from a measured one.
+fn apart<const N: usize>(settled: &[Settled<N>], joint: usize, known: &ContactMeasure) -> f64 {
+    let found = settled[0].turned.wear[joint];
+    let pairs = [known.wear_integral, known.depth].into_iter().zip(found);
+    pairs.map(|(known, found)| difference_of(known, found.value)).fold(0.0, f64::max)
+}
+
+/// By how much of it a number differs from another.
+fn difference_of(known: f64, found: f64) -> f64 {
+    if known == found { 0.0 } else { (found / known - 1.0).abs() }
+}
+
+/// By how much of it the wear of a joint differs between two lengths of steps.
+fn moved<const N: usize>(before: &Turned<N>, now: &Turned<N>, joint: usize) -> f64 {
+    let pairs = before.wear[joint].iter().zip(&now.wear[joint]);
+    pairs.map(|(before, now)| difference_of(before.value, now.value)).fold(0.0, f64::max)
+}
+
+/// So many steps that half as many give nearly the same.
+fn fine<const N: usize>(
+    pass: &mut Pass<N>,
+    at: &TurnState,
+    wearing: &[usize],
+) -> Result<u64, SensitivityError> {
+    let (mut steps, mut last): (u64, Option<Turned<N>>) = (FIRST_STEPS, None);
+    while steps <= MOST_STEPS {
+        let turned = pass.once(at, steps).ok();
+        if let (Some(last), Some(now)) = (&last, &turned) {
+            if wearing.iter().map(|joint| moved(last, now, *joint)).fold(0.0, f64::max) <= FINE {
+                return Ok(steps);
+            }
+        }
+        last = turned;
+        steps *= 2;
+    }
+    Err(SensitivityError::TooLong { steps: MOST_STEPS })
+}

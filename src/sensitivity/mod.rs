@@ -1,0 +1,18 @@
+//! How wear and life vary with the parameters of a mechanism: derivatives by tangents through the motion, the wear law and the
+//! draws. In: a file. Out: [`SensitivityResult`]. Never knows terminals.
+
+mod error;
+mod function;
+mod measured;
+mod paths;
+mod result;
+mod roots;
+mod settled;
+mod study;
+mod turn;
+mod varied;
+
+pub use error::SensitivityError;
+pub use result::{Derived, JointSensitivity, LeftOut, LifeSensitivity, RandomSensitivity, SensitivityResult};
+pub use study::SensitivityStudy;
+pub use varied::Varying;

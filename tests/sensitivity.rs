@@ -1,0 +1,136 @@
+//! Derivatives of wear and life beside differences of the same over steps of parameters, and beside what is known exactly.
+
+use std::path::Path;
+
+use linkwear::codegen::{Options, SourceFile};
+use linkwear::sensitivity::{SensitivityError, SensitivityResult, SensitivityStudy};
+
+fn file(name: &str) -> SourceFile {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    SourceFile {
+        name: name.to_owned(),
+        text: std::fs::read_to_string(path).expect("a file of this repository"),
+    }
+}
+
+/// Few clearances, and steps that every turn is followed in.
+fn study(source: &SourceFile) -> SensitivityStudy<'_> {
+    SensitivityStudy { points: 3, step: Some(2.5e-5), ..SensitivityStudy::new(source) }
+}
+
+fn by(study: &SensitivityStudy<'_>, names: &[&str]) -> SensitivityResult {
+    let parameters = Some(names.iter().map(|name| (*name).to_owned()).collect());
+    SensitivityStudy { parameters, ..study.clone() }.run().expect("derivatives")
+}
+
+/// S [J] and depth [m] of a revolution of the unworn joint, and the life, with parameters set.
+fn at(study: &SensitivityStudy<'_>, set: &[(&str, String)]) -> [f64; 3] {
+    let mut options = study.options.clone();
+    options.overrides.extend(set.iter().map(|(name, value)| ((*name).to_owned(), value.clone())));
+    let found = by(&SensitivityStudy { options, ..study.clone() }, &[]);
+    [found.joints[0].wear_integral.value, found.joints[0].depth.value, found.life.cycles.value]
+}
+
+/// p/y dy/dp by differences of order 4.
+fn differences(
+    (study, middle): (&SensitivityStudy<'_>, [f64; 3]),
+    (name, value, unit): (&str, f64, &str),
+    part: f64,
+) -> [f64; 3] {
+    let moved = |steps: f64| at(study, &[(name, format!("{:?} {unit}", value * (1.0 + part * steps)))]);
+    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(moved);
+    std::array::from_fn(|which| {
+        let slope = (8.0 * (c[which] - b[which]) - (d[which] - a[which])) / (12.0 * part);
+        slope / middle[which]
+    })
+}
+
+/// Differences agree to what curvature of order 5 and settling to 1e-8 leave. The life is one to 2 um, in which no
+/// body bounces: where bodies do, differences are as rough as the wear itself.
+#[test]
+fn wear_and_life_vary_as_their_differences_do() {
+    let source = file("mechanisms/rssr.toml");
+    let short = [("W_crit".to_owned(), "2 um".to_owned())].to_vec();
+    let options = Options { overrides: short, ..Options::default() };
+    let study = SensitivityStudy { options, ..study(&source) };
+    // Forces bend with the speed: its steps are shorter.
+    let asked = [
+        ("L1", 120.0, "mm", 2e-3),
+        ("c_rocker", 2.0, "N m s/rad", 2e-3),
+        ("E", 210.0, "GPa", 2e-3),
+        ("c0", 10.0, "um", 2e-3),
+        ("speed", 2.0, "Hz", 5e-4),
+    ];
+    let found = by(&study, &asked.map(|(name, ..)| name));
+    let middle = at(&study, &[]);
+    for (place, (name, value, unit, part)) in asked.into_iter().enumerate() {
+        let differences = differences((&study, middle), (name, value, unit), part);
+        let joint = &found.joints[0];
+        for (of, difference) in
+            [&joint.wear_integral, &joint.depth, &found.life.cycles].into_iter().zip(differences)
+        {
+            let own = found.elasticity(of, place).expect("a value");
+            assert!((own - difference).abs() < 1e-5, "{name}: {own} {difference}");
+        }
+    }
+}
+
+/// The life goes as H over k, whatever the motion does; by its threshold it grows as fast as the last cycle wears.
+#[test]
+fn a_life_varies_with_the_constants_of_wear_as_it_must() {
+    let source = file("mechanisms/rssr_ball_wear.toml");
+    let study = study(&source);
+    let found = by(&study, &["k_wear", "hardness"]);
+    let elasticity = |at| found.elasticity(&found.life.cycles, at).expect("a value");
+    assert!((elasticity(0) + 1.0).abs() < 1e-6 && (elasticity(1) - 1.0).abs() < 1e-6);
+    let wear = found.elasticity(&found.joints[0].depth, 0).expect("a value");
+    assert!((wear - 1.0).abs() < 1e-9, "{wear}");
+}
+
+/// The mean of random lives, by the same random numbers on both sides of a parameter: within 3 standard errors of the difference.
+#[test]
+fn the_mean_of_random_lives_varies_as_its_differences_do() {
+    let source = file("mechanisms/rssr.toml");
+    let study = SensitivityStudy { trajectories: 400, ..study(&source) };
+    let found = by(&study, &["c_rocker", "wear_rate"]);
+    let random = found.random.as_ref().expect("random lives");
+    for (place, (name, value, unit)) in
+        [("c_rocker", 2.0, "N m s/rad"), ("wear_rate", 13.65, "1/um")].into_iter().enumerate()
+    {
+        let part = 0.02;
+        let mean = |sign: f64| {
+            let set = (name.to_owned(), format!("{:?} {unit}", value * (1.0 + sign * part)));
+            let options = Options { overrides: vec![set], ..Options::default() };
+            let found = by(&SensitivityStudy { options, ..study.clone() }, &[]);
+            let random = found.random.expect("random lives");
+            (random.mean.value, random.error)
+        };
+        let ((above, error), (below, _)) = (mean(1.0), mean(-1.0));
+        let step = 2.0 * part * found.parameters[place].value;
+        let (difference, own) = ((above - below) / step, random.mean.by[place]);
+        // Draws of the two sides share their numbers, but not what is rejected of them: at worst they are independent.
+        let bound = 3.0 * (random.errors[place].powi(2) + 2.0 * (error / step).powi(2)).sqrt();
+        println!("{name}: {own:e} +- {:e}, difference {difference:e}, bound {bound:e}", random.errors[place]);
+        assert!((own - difference).abs() < bound, "{name}: {own} {difference} {bound}");
+    }
+}
+
+/// Impacts without a period have no derivative; and what cannot be varied says why.
+#[test]
+fn what_has_no_derivative_is_refused() {
+    let chatters = file("mechanisms/four_bar_wear.toml");
+    let asked =
+        SensitivityStudy { parameters: Some(vec!["c2".to_owned()]), step: Some(2e-5), ..study(&chatters) };
+    let refused = asked.run().expect_err("it never settles");
+    assert!(matches!(refused, SensitivityError::NotSettled { .. }), "{refused}");
+    let source = file("mechanisms/rssr.toml");
+    let by =
+        |name: &str| SensitivityStudy { parameters: Some(vec![name.to_owned()]), ..study(&source) }.run();
+    let refused = by("modes").expect_err("a whole number");
+    assert!(matches!(&refused, SensitivityError::At { parameter, .. } if parameter == "modes"), "{refused}");
+    let refused = by("c1").expect_err("no such parameter");
+    assert!(matches!(refused, SensitivityError::UnknownParameter { .. }), "{refused}");
+    let refused =
+        SensitivityStudy::new(&file("mechanisms/rssr_rigid.toml")).run().expect_err("nothing wears");
+    assert!(matches!(refused, SensitivityError::NothingWears), "{refused}");
+}
