@@ -11,16 +11,17 @@ use linkwear_runtime::{DynamicsSource, Layout, Orbit, TurnState, Watch};
 
 use super::error::SensitivityError;
 use super::settled::{Pass, Settled, Unsettled};
-use super::turn::{Directions, Turned, Turns, Varied};
+use super::tangents::Varied;
+use super::turn::{Directions, Turned, Turns};
 use super::varied::{Sides, Variant};
 
 /// Steps of a turn that are tried first, and the most.
 const FIRST_STEPS: u64 = 1 << 10;
 const MOST_STEPS: u64 = 1 << 18;
 /// Wear of a turn may differ by this part of it from that in half as many steps.
-const FINE: f64 = 1e-5;
+const FINE: f64 = 3e-5;
 /// The same may differ by this from that by adaptive steps, which is known to 1e-6 to 1e-5.
-const AGREES: f64 = 3e-5;
+const AGREES: f64 = 1e-4;
 /// A motion that is not followed in so many times the steps that were enough before is not followed at all.
 const FINER: u64 = 16;
 
@@ -264,10 +265,10 @@ fn fine<const N: usize>(
     let (mut steps, mut last): (u64, Option<Turned<N>>) = (FIRST_STEPS, None);
     while steps <= MOST_STEPS {
         let turned = pass.once(at, steps).ok();
-        if let (Some(last), Some(now)) = (&last, &turned) {
-            if wearing.iter().map(|joint| moved(last, now, *joint)).fold(0.0, f64::max) <= FINE {
-                return Ok(steps);
-            }
+        if let (Some(last), Some(now)) = (&last, &turned)
+            && wearing.iter().all(|joint| moved(last, now, *joint) <= FINE)
+        {
+            return Ok(steps);
         }
         last = turned;
         steps *= 2;

@@ -1,6 +1,8 @@
 //! How wear and life vary with the parameters of a mechanism: derivatives by tangents through the motion, the wear law and the
 //! draws. In: a file. Out: [`SensitivityResult`]. Never knows terminals.
 
+mod closing;
+mod doubts;
 mod error;
 mod function;
 mod measured;
@@ -9,8 +11,10 @@ mod result;
 mod roots;
 mod settled;
 mod study;
+mod tangents;
 mod turn;
 mod varied;
+mod worn;
 
 pub use error::SensitivityError;
 pub use result::{Derived, JointSensitivity, LeftOut, LifeSensitivity, RandomSensitivity, SensitivityResult};

@@ -5,7 +5,7 @@
 //! power of the values is taken as linear in time, and goes on beyond the last value to where it is zero; elsewhere Simpson's rule is
 //! taken.
 
-use super::turn::Varied;
+use super::tangents::Varied;
 
 /// The least of three values over the largest, above which Simpson's rule holds them.
 pub(super) const SMOOTH: f64 = 0.7;

@@ -7,14 +7,18 @@
 use linkwear_runtime::TurnState;
 use linkwear_runtime::clearance_joint::ClearanceState;
 
-use super::turn::{State, TooLong, Touch, Turned, Turns, Varied};
+use super::tangents::Varied;
+use super::turn::{State, TooLong, Touch, Turned, Turns};
 
 /// Tangents by the logarithms of parameters have settled when later turns would change them by no more than this part of the wear.
 const SETTLED: f64 = 1e-8;
+/// Where gaps close now in this step, now in the next, nothing settles quite: after so many turns changes of this size are taken, which
+/// the doubts of derivatives tell.
+const JITTER: (u32, f64) = (20, 1e-4);
 /// Turns at most.
 const MOST_TURNS: u32 = 60;
 /// Tangents that have grown to this times the wear do not settle.
-const GROWN: f64 = 1e7;
+const GROWN: f64 = 1e14;
 
 /// Directions that are run side by side, and where their tangents were.
 pub(super) struct Pass<const N: usize> {
@@ -87,11 +91,12 @@ impl<const N: usize> Pass<N> {
             if let Some(change) = change {
                 // What settles by a factor a turn leaves this over the factor's distance from one.
                 let factor = before.map_or(1.0, |before| (change / before).min(1.0));
-                if change <= SETTLED || (factor < 1.0 && change * factor / (1.0 - factor) <= SETTLED) {
+                let is_settled = factor < 1.0 && change * factor / (1.0 - factor) <= SETTLED;
+                if change <= SETTLED || is_settled || (turns >= JITTER.0 && change <= JITTER.1) {
                     self.tangents = begin;
                     return Ok(Settled { turned, turns });
                 }
-                if !(change < GROWN) || turns == MOST_TURNS {
+                if change.is_nan() || change >= GROWN || turns == MOST_TURNS {
                     return Err(Unsettled::Never(turns, change));
                 }
             }

@@ -11,12 +11,11 @@ use linkwear_runtime::life::{LifeSettings, WearFlow, WearSource, WearTable};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, GammaRates, RevolutionSettings, Watch};
 
+use super::doubts::{doubts, every_second, joint_sensitivity};
 use super::error::SensitivityError;
-use super::measured::{Point, Points, Survey, Wear};
+use super::measured::{Point, Points, Survey};
 use super::paths::{Along, Life, Paths};
-use super::result::{
-    Derived, JointSensitivity, LeftOut, LifeSensitivity, RandomSensitivity, SensitivityResult,
-};
+use super::result::{Derived, LeftOut, LifeSensitivity, RandomSensitivity, SensitivityResult};
 use super::varied::{Sides, Variant};
 use crate::backend::Backend;
 use crate::mechanism::Mechanism;
@@ -203,8 +202,8 @@ impl<'s> SensitivityStudy<'s> {
         watch: Watch<'_>,
     ) -> Result<SensitivityResult, SensitivityError> {
         let paths = self.paths(base, &sides, &measured.points, false)?;
-        let is_doubled = measured.points.iter().all(|point| point.coarse.is_some());
-        let coarse = if is_doubled { Some(self.paths(base, &sides, &measured.points, true)?) } else { None };
+        let is_known = measured.points.iter().any(|point| point.coarse.is_some());
+        let coarse = if is_known { Some(self.paths(base, &sides, &measured.points, true)?) } else { None };
         let (mean, coarse) = (paths.mean(), coarse.map(|coarse| coarse.mean()));
         let joints = (0..base.joints.len()).map(|joint| joint_sensitivity(base, &measured.points[0], joint));
         let by_half = self.paths(base, &sides, &every_second(&measured.points), false)?.mean();
@@ -309,31 +308,6 @@ impl<'s> SensitivityStudy<'s> {
             errors: by.iter().map(|(_, error)| *error).collect(),
         })
     }
-}
-
-/// The first, the last and every second point in between.
-fn every_second(points: &[Point]) -> Vec<Point> {
-    let is_kept = |(place, _): &(usize, &Point)| place.is_multiple_of(2) || place + 1 == points.len();
-    points.iter().enumerate().filter(is_kept).map(|(_, point)| point.clone()).collect()
-}
-
-/// Wear of a revolution at a joint of the unworn mechanism.
-fn joint_sensitivity(base: &Variant, point: &Point, joint: usize) -> JointSensitivity {
-    let slopes =
-        |wear: &Wear, which: usize| wear.slopes.iter().map(|slopes| slopes[which]).collect::<Vec<f64>>();
-    let derived = |which: usize| {
-        let by = slopes(&point.wear[joint], which);
-        let coarse = point.coarse.as_ref().map(|coarse| slopes(&coarse[joint], which));
-        let doubts = doubts(&by, coarse.as_deref());
-        Derived { value: point.wear[joint].values[which], by, doubts }
-    };
-    JointSensitivity { joint: base.joints[joint].joint.clone(), wear_integral: derived(0), depth: derived(1) }
-}
-
-/// By how much derivatives differ from coarser ones.
-fn doubts(fine: &[f64], coarse: Option<&[f64]>) -> Vec<f64> {
-    let coarse = |at: usize| coarse.map_or(f64::NAN, |coarse| coarse[at]);
-    fine.iter().enumerate().map(|(at, fine)| (fine - coarse(at)).abs()).collect()
 }
 
 /// ln alpha and ln beta of every wearing joint.

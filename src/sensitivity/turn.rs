@@ -6,28 +6,13 @@
 
 use linkwear_codegen::tape::Tape;
 use linkwear_runtime::contact::crossing_speed;
-use linkwear_runtime::{Dual, Layout, Motion, Scalar, Sizes};
-use nalgebra::DMatrix;
+use linkwear_runtime::{Dual, Layout, Scalar, Sizes};
 
 use super::function::Function;
-use super::roots;
+use super::roots::SMOOTH;
+use super::tangents::Varied;
 use super::varied::{ANSWER, MEMORY};
-
-/// Loops that are open by more at the end of a turn [m], [rad]: steps were too long.
-const DRIFTED: f64 = 1e-5;
-/// Loops count as closed then [m], [rad].
-const CLOSED: f64 = 1e-13;
-/// Corrections at most: each squares what is left.
-const CORRECTIONS: usize = 5;
-/// Singular values of the loops below this part of the largest are none.
-const NO_ROW: f64 = 1e-12;
-
-/// A value and its tangents.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Varied<const N: usize> {
-    pub value: f64,
-    pub tangents: [f64; N],
-}
+use super::worn::{Part, Step, Wear};
 
 /// What varies along the directions of all lanes.
 #[derive(Clone, Debug)]
@@ -70,71 +55,8 @@ pub(super) struct Turned<const N: usize> {
     pub losses: u32,
 }
 
-/// How long a step is: as a part of a turn, and of the steps of the turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Part {
-    of_turn: f64,
-    of_step: f64,
-}
-
 /// Steps that one is made in where what wears begins, ends or changes fast: derivatives jump there.
 const SHORTER: u32 = 32;
-
-/// What a step did, joint by joint.
-struct Step<const N: usize> {
-    /// Rates of depths at its begin and in its middle [m/s].
-    begin: Vec<Varied<N>>,
-    middle: Vec<Varied<N>>,
-    /// What it added to wear integrals [J].
-    integrals: Vec<Varied<N>>,
-    losses: u32,
-    is_rough: bool,
-}
-
-/// What steps have worn, joint by joint.
-struct Wear<const N: usize> {
-    integrals: Vec<Varied<N>>,
-    /// Depths [m] over the length of a step of the turn, until the last time that lengths changed.
-    depths: Vec<Varied<N>>,
-    /// Rates of depths since then, at ends and middles of steps.
-    since: Vec<Vec<Varied<N>>>,
-    part: f64,
-}
-
-impl<const N: usize> Wear<N> {
-    fn new(joints: usize) -> Self {
-        let zeros = vec![Varied::ZERO; joints];
-        Self { integrals: zeros.clone(), depths: zeros, since: vec![Vec::new(); joints], part: 1.0 }
-    }
-
-    fn add(&mut self, step: &Step<N>, part: Part) {
-        if part.of_step != self.part {
-            self.begin_anew(&step.begin);
-            self.part = part.of_step;
-        }
-        for (joint, since) in self.since.iter_mut().enumerate() {
-            since.extend([step.begin[joint], step.middle[joint]]);
-            self.integrals[joint] = self.integrals[joint].plus(1.0, &step.integrals[joint]);
-        }
-    }
-
-    /// Adds up what has been since the lengths changed; `rates` are those at hand.
-    fn begin_anew(&mut self, rates: &[Varied<N>]) {
-        let half = Varied { value: 0.5 * self.part, tangents: [0.0; N] };
-        for ((depth, since), rate) in self.depths.iter_mut().zip(&mut self.since).zip(rates) {
-            since.push(*rate);
-            *depth = depth.plus(1.0, &roots::integral(since, &half));
-            since.clear();
-        }
-    }
-
-    /// Wear integrals and depths, by the length of a step.
-    fn finish(mut self, rates: &[Varied<N>], step: &Varied<N>) -> Vec<[Varied<N>; 2]> {
-        self.begin_anew(rates);
-        let depth = |depth: &Varied<N>| Varied::ZERO.moved(1.0, step, depth);
-        self.integrals.iter().zip(&self.depths).map(|(integral, one)| [*integral, depth(one)]).collect()
-    }
-}
 
 /// Why a turn cannot be made in these steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,11 +65,11 @@ pub(super) struct TooLong;
 /// Turns of a mechanism.
 pub(super) struct Turns<const N: usize> {
     motion: Function<N>,
-    closure: Function<N>,
-    sizes: Sizes,
-    layout: Layout,
+    pub(super) closure: Function<N>,
+    pub(super) sizes: Sizes,
+    pub(super) layout: Layout,
     /// Of every kept row, its row among all.
-    kept: Vec<usize>,
+    pub(super) kept: Vec<usize>,
     period: Varied<N>,
 }
 
@@ -286,7 +208,7 @@ impl<const N: usize> Turns<N> {
         }
         let integrals = of_joints.chunks_exact(ANSWER);
         let integrals = integrals.map(|rates| Varied::ZERO.moved(1.0, &length, &rates[0])).collect();
-        let is_rough = ranges.iter().any(|(least, most)| *least < roots::SMOOTH * most);
+        let is_rough = ranges.iter().any(|(least, most)| *least < SMOOTH * most);
         Step { begin, middle, integrals, losses, is_rough }
     }
 
@@ -309,163 +231,10 @@ impl<const N: usize> Turns<N> {
             *slope = Varied { value: value[0], tangents: *tangents };
         }
     }
-
-    /// Puts a state onto the constraints.
-    fn close(&mut self, t: Varied<N>, state: &mut [Varied<N>]) -> Result<(), TooLong> {
-        self.normalize(state);
-        let Sizes { rows, all_rows, coordinates, speeds, .. } = self.sizes;
-        if rows == 0 {
-            return Ok(());
-        }
-        let mut loops = self.loops(t, state);
-        for correction in 0.. {
-            let positions: Vec<Varied<N>> = self.kept.iter().map(|row| loops.residuals[*row]).collect();
-            let open = positions.iter().fold(0.0_f64, |most, one| most.max(one.value.abs()));
-            // What is no number is open too.
-            if !(open <= DRIFTED) {
-                return Err(TooLong);
-            }
-            let Some(inverse) = loops.inverse.take() else { return Err(TooLong) };
-            let delta = shortest(&inverse, &positions);
-            self.advance(state, &delta);
-            loops = self.loops(t, state);
-            if open <= CLOSED || correction == CORRECTIONS {
-                break;
-            }
-        }
-        let Some(inverse) = loops.inverse else { return Err(TooLong) };
-        let delta = shortest(&inverse, &loops.residuals[all_rows..all_rows + rows]);
-        for (speed, delta) in state[coordinates..coordinates + speeds].iter_mut().zip(&delta) {
-            *speed = speed.plus(1.0, delta);
-        }
-        Ok(())
-    }
-
-    fn loops(&mut self, t: Varied<N>, state: &[Varied<N>]) -> Loops<N> {
-        put_state(&mut self.closure, self.sizes.parameters, (t, state));
-        let Sizes { rows, all_rows, speeds, .. } = self.sizes;
-        let (values, tangents) = self.closure.run();
-        let residual =
-            |(value, tangents): (&[f64; N], &[f64; N])| Varied { value: value[0], tangents: *tangents };
-        let residuals = values.iter().zip(tangents).take(all_rows + rows).map(residual).collect();
-        let jacobian: Vec<f64> = values[all_rows + rows..].iter().map(|value| value[0]).collect();
-        let jacobian = DMatrix::from_row_slice(rows, speeds, &jacobian);
-        let is_finite = jacobian.iter().all(|entry| entry.is_finite());
-        let inverse = if is_finite { jacobian.pseudo_inverse(NO_ROW).ok() } else { None };
-        Loops { residuals, inverse }
-    }
-
-    /// Moves coordinates by a small motion.
-    fn advance(&self, state: &mut [Varied<N>], delta: &[Varied<N>]) {
-        for group in self.layout.free() {
-            let (q, delta) = (&mut state[group.coordinate..], &delta[group.speed..]);
-            match group.motion {
-                Motion::Scalar { .. } => q[0] = q[0].plus(1.0, &delta[0]),
-                Motion::Rotation => rotate(q, delta),
-                Motion::Pose => {
-                    let (shift, [a, b, c, d]) = (&delta[3..6], [0, 1, 2, 3].map(|i| q[i].value));
-                    // By first order, as the motion is small: a moved point by the body's axes.
-                    let axes = [
-                        [1.0 - 2.0 * (c * c + d * d), 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)],
-                        [2.0 * (b * c + a * d), 1.0 - 2.0 * (b * b + d * d), 2.0 * (c * d - a * b)],
-                        [2.0 * (b * d - a * c), 2.0 * (c * d + a * b), 1.0 - 2.0 * (b * b + c * c)],
-                    ];
-                    for (place, axis) in q[4..7].iter_mut().zip(axes) {
-                        for (part, along) in axis.into_iter().zip(shift) {
-                            *place = place.plus(part, along);
-                        }
-                    }
-                    rotate(q, delta);
-                }
-            }
-        }
-        self.normalize(state);
-    }
-
-    /// Scales quaternions to unit length.
-    fn normalize(&self, state: &mut [Varied<N>]) {
-        for group in self.layout.free().filter(|group| !matches!(group.motion, Motion::Scalar { .. })) {
-            let part = &mut state[group.coordinate..][..4];
-            let length = part.iter().map(|one| one.value * one.value).sum::<f64>().sqrt();
-            let along: [f64; N] = std::array::from_fn(|lane| {
-                part.iter().map(|one| one.value * one.tangents[lane]).sum::<f64>() / (length * length)
-            });
-            for one in part {
-                let tangents =
-                    std::array::from_fn(|lane| (one.tangents[lane] - one.value * along[lane]) / length);
-                *one = Varied { value: one.value / length, tangents };
-            }
-        }
-    }
 }
 
 /// Stages of the method: the part of the step where each is, and its weight.
 const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
-
-/// Loops at a state.
-struct Loops<const N: usize> {
-    /// Positions of all rows, speeds of those that are kept.
-    residuals: Vec<Varied<N>>,
-    /// Of their Jacobian; none if that is no number.
-    inverse: Option<DMatrix<f64>>,
-}
-
-impl<const N: usize> Varied<N> {
-    pub(super) const ZERO: Self = Self { value: 0.0, tangents: [0.0; N] };
-
-    /// A multiple.
-    pub(super) fn times(&self, factor: f64) -> Self {
-        Self { value: factor * self.value, tangents: self.tangents.map(|x| factor * x) }
-    }
-
-    /// Plus a multiple of another.
-    pub(super) fn plus(&self, factor: f64, other: &Self) -> Self {
-        let tangents = std::array::from_fn(|lane| self.tangents[lane] + factor * other.tangents[lane]);
-        Self { value: self.value + factor * other.value, tangents }
-    }
-
-    /// Where a rate leads in a part of a step, whose length varies too.
-    fn moved(&self, part: f64, length: &Self, rate: &Self) -> Self {
-        let step = part * length.value;
-        let tangents = std::array::from_fn(|lane| {
-            self.tangents[lane] + step * rate.tangents[lane] + part * length.tangents[lane] * rate.value
-        });
-        Self { value: self.value + step * rate.value, tangents }
-    }
-}
-
-fn put_state<const N: usize>(
-    function: &mut Function<N>,
-    first: usize,
-    (t, state): (Varied<N>, &[Varied<N>]),
-) {
-    for (place, one) in (first..).zip(std::iter::once(&t).chain(state)) {
-        function.put(place, one.value);
-        function.put_tangent(place, one.tangents);
-    }
-}
-
-/// The shortest motion that takes residuals away.
-fn shortest<const N: usize>(inverse: &DMatrix<f64>, residuals: &[Varied<N>]) -> Vec<Varied<N>> {
-    let along = |speed: usize| {
-        residuals
-            .iter()
-            .enumerate()
-            .fold(Varied::ZERO, |sum, (row, one)| sum.plus(-inverse[(speed, row)], one))
-    };
-    (0..inverse.nrows()).map(along).collect()
-}
-
-/// Quaternion times a small rotation by the vector `angle` in the body's own frame.
-fn rotate<const N: usize>(q: &mut [Varied<N>], angle: &[Varied<N>]) {
-    let [a, b, c, d] = [0, 1, 2, 3].map(|i| q[i].value);
-    let rows = [[-b, -c, -d], [a, -d, c], [d, a, -b], [-c, b, a]];
-    for (part, row) in q[..4].iter_mut().zip(rows) {
-        for (factor, angle) in row.into_iter().zip(angle) {
-            *part = part.plus(0.5 * factor, angle);
-        }
-    }
-}
 
 /// What contacts remember where a step begins, by the penetrations there: as runs with steps of one length have it. Whether anything is
 /// new, and how many bodies came apart.
@@ -495,4 +264,16 @@ fn crossing<const N: usize>(before: Option<[Varied<N>; 2]>, after: [Varied<N>; 2
     };
     let speeds: [Dual<f64>; N] = std::array::from_fn(of_lane);
     Varied { value: speeds[0].value, tangents: speeds.map(|speed| speed.derivative) }
+}
+
+/// Writes time and state to the inputs of a function.
+pub(super) fn put_state<const N: usize>(
+    function: &mut Function<N>,
+    first: usize,
+    (t, state): (Varied<N>, &[Varied<N>]),
+) {
+    for (place, one) in (first..).zip(std::iter::once(&t).chain(state)) {
+        function.put(place, one.value);
+        function.put_tangent(place, one.tangents);
+    }
 }

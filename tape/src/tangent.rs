@@ -149,3 +149,64 @@ fn select<'r>((of, _): Varied<'r>, (yes, dyes): Varied<'r>, (no, dno): Varied<'r
     let tangent = || Number::select(of.lt(still), dyes.unwrap_or(still), dno.unwrap_or(still));
     (value, varies.then(tangent))
 }
+
+#[cfg(test)]
+mod tests {
+    use linkwear_runtime::Dual;
+
+    use super::*;
+    use crate::interpreter::Routine;
+
+    /// Every operation, on both sides of every choice: as dual numbers carry it through the interpreter.
+    #[test]
+    fn tangents_are_those_of_dual_numbers() {
+        let recorder = Recorder::default();
+        let [x, y, z] = [0, 1, 2].map(|index| recorder.input(index));
+        let (sine, cosine) = x.sin_cos();
+        let by_angle = recorder.binary(Binary::AngleOverSine, sine * sine, cosine);
+        let coefficient = recorder.unary(Unary::LogCoefficient(0), x * x);
+        let outputs = [
+            x * y + z / y - x,
+            -(y.sqrt() + z.exp() * y.ln()),
+            x.atan2(y),
+            by_angle + coefficient,
+            x.abs() + x.max(y) + (z + z).floor() * x,
+        ];
+        let tape = recorder.finish("all", 3, &outputs.map(Recorder::operand));
+        let (plain, tangent) = (Routine::new(&tape), Routine::new(&tape.tangent()));
+        for [a, b, c] in [[0.4, 1.3, 0.2], [-2.5, 0.7, -1.1], [1e-3, 2.0, 3.3]] {
+            let seeds = [0.3, -1.2, 0.8];
+            let input = [Dual::new(a, seeds[0]), Dual::new(b, seeds[1]), Dual::new(c, seeds[2])];
+            let mut expected = [Dual::new(0.0, 0.0); 5];
+            plain.run(&input, &mut expected, &mut vec![Dual::new(0.0, 0.0); plain.workspace()]);
+            let mut found = [0.0; 10];
+            let question = [a, b, c, seeds[0], seeds[1], seeds[2]];
+            tangent.run(&question, &mut found, &mut vec![0.0; tangent.workspace()]);
+            for (place, dual) in expected.iter().enumerate() {
+                assert_eq!(found[place], dual.value);
+                let size = dual.derivative.abs().max(1.0);
+                // The series of theta / sin theta ends at 1e-12 of it; all else rounds a few times.
+                assert!((found[5 + place] - dual.derivative).abs() < 1e-11 * size, "{place} at {a} {b} {c}");
+            }
+        }
+    }
+
+    /// What differs between two tapes of one form becomes an input; nothing else does.
+    #[test]
+    fn constants_that_differ_become_inputs() {
+        let tape = |factor: f64| {
+            let recorder = Recorder::default();
+            let x = recorder.input(0);
+            let product = x * Number::Known(factor) + Number::Known(2.0) * x;
+            recorder.finish("line", 1, &[Recorder::operand(product)])
+        };
+        let (base, other) = (tape(3.0), tape(3.5));
+        assert!(base.has_form_of(&other));
+        let (lifted, values) = base.lifted(&[&other]);
+        assert_eq!((lifted.input_len(), values), (2, vec![vec![3.0, 3.5]]));
+        let routine = Routine::new(&lifted);
+        let mut answer = [0.0];
+        routine.run(&[2.0, 3.5], &mut answer, &mut vec![0.0; routine.workspace()]);
+        assert_eq!(answer, [11.0]);
+    }
+}

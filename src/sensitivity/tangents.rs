@@ -1,0 +1,32 @@
+//! Numbers with tangents along several directions. Never knows what varies.
+
+/// A value and its tangents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Varied<const N: usize> {
+    pub value: f64,
+    pub tangents: [f64; N],
+}
+
+impl<const N: usize> Varied<N> {
+    pub(super) const ZERO: Self = Self { value: 0.0, tangents: [0.0; N] };
+
+    /// A multiple.
+    pub(super) fn times(&self, factor: f64) -> Self {
+        Self { value: factor * self.value, tangents: self.tangents.map(|x| factor * x) }
+    }
+
+    /// Plus a multiple of another.
+    pub(super) fn plus(&self, factor: f64, other: &Self) -> Self {
+        let tangents = std::array::from_fn(|lane| self.tangents[lane] + factor * other.tangents[lane]);
+        Self { value: self.value + factor * other.value, tangents }
+    }
+
+    /// Where a rate leads in a part of a step, whose length varies too.
+    pub(super) fn moved(&self, part: f64, length: &Self, rate: &Self) -> Self {
+        let step = part * length.value;
+        let tangents = std::array::from_fn(|lane| {
+            self.tangents[lane] + step * rate.tangents[lane] + part * length.tangents[lane] * rate.value
+        });
+        Self { value: self.value + step * rate.value, tangents }
+    }
+}
