@@ -172,7 +172,8 @@ mod tests {
             by_angle + coefficient,
             x.abs() + x.max(y) + (z + z).floor() * x,
         ];
-        let tape = recorder.finish("all", 3, &outputs.map(Recorder::operand));
+        let outputs = outputs.map(Recorder::operand);
+        let tape = recorder.finish("all", 3, &outputs);
         let (plain, tangent) = (Routine::new(&tape), Routine::new(&tape.tangent()));
         for [a, b, c] in [[0.4, 1.3, 0.2], [-2.5, 0.7, -1.1], [1e-3, 2.0, 3.3]] {
             let seeds = [0.3, -1.2, 0.8];
@@ -197,8 +198,8 @@ mod tests {
         let tape = |factor: f64| {
             let recorder = Recorder::default();
             let x = recorder.input(0);
-            let product = x * Number::Known(factor) + Number::Known(2.0) * x;
-            recorder.finish("line", 1, &[Recorder::operand(product)])
+            let output = Recorder::operand(x * Number::Known(factor) + Number::Known(2.0) * x);
+            recorder.finish("line", 1, &[output])
         };
         let (base, other) = (tape(3.0), tape(3.5));
         assert!(base.has_form_of(&other));
