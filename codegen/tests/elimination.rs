@@ -1,12 +1,15 @@
 //! Rows first and the saddle point are two ways to one solution: accelerations, multipliers and drives agree at closed
 //! states.
 
+mod forward;
+
 use std::path::Path;
 
+use forward::{forward_operations, solved};
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Evaluator, State, assemble};
+use linkwear_runtime::{State, assemble};
 
 /// A file of the workspace, with some of its text exchanged.
 struct Case(&'static str, &'static [[&'static str; 2]]);
@@ -24,21 +27,6 @@ fn compiled(Case(path, edits): &Case, closure: Closure, saddle: bool) -> Compile
     let source = SourceFile { name: (*path).to_owned(), text };
     let options = Options { closure: Some(closure), saddle, ..Options::default() };
     compile(&source, &options).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn forward_operations(compiled: &Compiled) -> u64 {
-    let counts = compiled.operations();
-    let forward = counts.iter().find(|count| count.name == "forward_dynamics").expect("it is there");
-    forward.operations.total
-}
-
-/// Accelerations, multipliers and drives.
-fn solved(compiled: &Compiled, t: f64, state: &State) -> [Vec<f64>; 3] {
-    let system = compiled.interpreter();
-    let parameters = compiled.parameters();
-    let mut evaluator = Evaluator::new(&system, compiled.description(), &parameters).expect("parameters");
-    let forward = evaluator.forward(t, &state.q, &state.v);
-    [forward.accelerations, forward.multipliers, forward.drives].map(<[f64]>::to_vec)
 }
 
 #[test]

@@ -1,33 +1,21 @@
 //! Articulated bodies are one more way to the forward dynamics: accelerations, multipliers and drives are those of elimination at
 //! closed states.
 
+mod forward;
+
 use std::path::Path;
 
+use forward::{forward_operations, solved};
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{Evaluator, State, assemble};
+use linkwear_runtime::{State, assemble};
 
 fn compiled(name: &str, text: &str, closure: Closure, link_by_link: bool) -> Compiled {
     let source = SourceFile { name: name.to_owned(), text: text.to_owned() };
     let closure = Some(closure);
     let options = Options { closure, saddle: !link_by_link, link_by_link, ..Options::default() };
     compile(&source, &options).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn forward_operations(compiled: &Compiled) -> u64 {
-    let counts = compiled.operations();
-    let forward = counts.iter().find(|count| count.name == "forward_dynamics").expect("it is there");
-    forward.operations.total
-}
-
-/// Accelerations, multipliers and drives.
-fn solved(compiled: &Compiled, t: f64, state: &State) -> [Vec<f64>; 3] {
-    let system = compiled.interpreter();
-    let parameters = compiled.parameters();
-    let mut evaluator = Evaluator::new(&system, compiled.description(), &parameters).expect("parameters");
-    let forward = evaluator.forward(t, &state.q, &state.v);
-    [forward.accelerations, forward.multipliers, forward.drives].map(<[f64]>::to_vec)
 }
 
 /// Cells of crossed bars on one another; driven or left to its weight.
