@@ -1,11 +1,9 @@
 //! The functions of one mechanism as machine code of this processor. In: tapes. Out: [`Functions`] that can be called.
 
-use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::thread::available_parallelism;
 
 use linkwear_runtime::{Entry, StepPlan};
-use linkwear_tape::Tape;
+use linkwear_tape::{Tape, side_by_side};
 
 #[cfg(target_arch = "aarch64")]
 use crate::aarch64 as processor;
@@ -22,35 +20,14 @@ const SEVERAL_THREADS: usize = 1000;
 /// Threads at most: the longest of the tapes takes a fifth of the time of all.
 const MOST_THREADS: usize = 4;
 
-/// Writes each, on several threads if that is worth it; in the order of the tapes.
-fn side_by_side<W: Send>(tapes: &[Tape], write: impl Fn(&Tape) -> W + Sync) -> Vec<W> {
+/// Threads that writing these tapes is worth.
+fn threads(tapes: &[Tape]) -> usize {
     let operations: usize = tapes.iter().map(|tape| tape.statements.len()).sum();
-    let threads = if operations < SEVERAL_THREADS {
+    if operations < SEVERAL_THREADS {
         1
     } else {
-        thread::available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
-    };
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut written = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            let Some(tape) = tapes.get(place) else { return written };
-            written.push((place, write(tape)));
-        }
-    };
-    let mut written = thread::scope(|scope| {
-        // Where the system gives no thread, this one does it all.
-        let spawn = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
-        let others: Vec<_> = (1..threads).filter_map(spawn).collect();
-        let mut written = work();
-        for other in others {
-            written.extend(other.join().unwrap_or_else(|panic| resume_unwind(panic)));
-        }
-        written
-    });
-    written.sort_unstable_by_key(|(place, _)| *place);
-    written.into_iter().map(|(_, written)| written).collect()
+        available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
+    }
 }
 
 /// Functions of one mechanism, in the order of their tapes.
@@ -72,7 +49,7 @@ impl Functions {
         target: impl Processor + Sync,
     ) -> Result<Self, Refusal> {
         let functions = processor::functions::<LANES>();
-        let written = side_by_side(tapes, |tape| write(tape, target, &functions));
+        let written = side_by_side(tapes, threads(tapes), |tape| write(tape, target, &functions));
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 

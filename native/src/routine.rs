@@ -13,12 +13,11 @@ use crate::unsupported::Functions;
 /// A tape as machine code for `N` inputs side by side, 1, 4 or 8: each has the bits that it would have alone.
 pub struct Routine<const N: usize> {
     functions: Functions,
-    lengths: [usize; 2],
 }
 
 impl<const N: usize> fmt::Debug for Routine<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Routine").field("lanes", &N).field("lengths", &self.lengths).finish_non_exhaustive()
+        f.debug_struct("Routine").field("lanes", &N).finish_non_exhaustive()
     }
 }
 
@@ -28,8 +27,7 @@ impl<const N: usize> Routine<N> {
     /// # Errors
     /// If this processor or this system cannot run it, or the tape makes no sense.
     pub fn new(tape: &Tape) -> Result<Self, Refusal> {
-        let functions = Functions::new::<N>(std::slice::from_ref(tape))?;
-        Ok(Self { functions, lengths: [tape.input_len(), tape.output_len()] })
+        Ok(Self { functions: Functions::new::<N>(std::slice::from_ref(tape))? })
     }
 
     /// Length of the scratch slice.

@@ -15,6 +15,7 @@
 
 mod block;
 mod constants;
+mod evaluate;
 mod interpreter;
 mod needed;
 mod operation;
@@ -22,6 +23,7 @@ mod operations;
 mod program;
 mod recorder;
 mod registers;
+mod side_by_side;
 mod split;
 pub mod stored;
 mod tangent;
@@ -35,6 +37,7 @@ pub use operations::Operations;
 pub use program::Program;
 pub use recorder::{Mask, Number, Recorder};
 pub use registers::Registers;
+pub use side_by_side::side_by_side;
 pub use split::{PART_LIMIT, Part, Split, split};
 pub use tape::{Statement, Tape};
 pub use verify::verify;

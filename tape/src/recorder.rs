@@ -51,35 +51,9 @@ impl Recorder {
 
     /// Runs a tape on numbers of this one. A function that is told apart by tapes stays one operation.
     pub fn run<'r>(&'r self, tape: &Tape, inputs: &[Number<'r>]) -> Vec<Number<'r>> {
-        let mut values: Vec<Number<'r>> = Vec::with_capacity(tape.values as usize);
-        let mut outputs = vec![Number::Known(0.0); tape.output_len()];
-        let find = |operand, values: &[Number<'r>]| match operand {
-            Operand::Constant(number) => Number::Known(number),
-            Operand::Input(index) => inputs[index as usize],
-            Operand::Value(value) => values[value as usize],
-        };
-        for (index, operand) in &tape.direct {
-            outputs[*index as usize] = find(*operand, &values);
-        }
-        for Statement { op, stores, .. } in &tape.statements {
-            let get = |operand| find(operand, &values);
-            match *op {
-                Op::Unary(operation, a) => values.push(self.unary(operation, get(a))),
-                Op::Binary(operation, a, b) => values.push(self.binary(operation, get(a), get(b))),
-                Op::Select(of, yes, no) => {
-                    let of = get(of).lt(Number::Known(0.0));
-                    values.push(Number::select(of, get(yes), get(no)));
-                }
-                Op::SinCos(angle) => {
-                    let (sine, cosine) = get(angle).sin_cos();
-                    values.extend([sine, cosine]);
-                }
-            }
-            for (index, operand) in stores {
-                outputs[*index as usize] = find(*operand, &values);
-            }
-        }
-        outputs
+        let unary = |operation, a| self.unary(operation, a);
+        let binary = |operation, a, b| self.binary(operation, a, b);
+        tape.evaluate_by(&|index| inputs[index as usize], (&unary, &binary))
     }
 
     /// The tape with this many inputs that gives these outputs; what they do not need is left out.
@@ -123,13 +97,17 @@ impl Recorder {
     }
 
     pub(crate) fn unary<'r>(&'r self, operation: Unary, a: Number<'r>) -> Number<'r> {
-        let Number::Recorded(_, operand) = a else { return known_unary(operation, a) };
-        Number::Recorded(self, Operand::Value(self.write(Op::Unary(operation, operand))))
+        match a {
+            Number::Known(value) => Number::Known(operation.of(value)),
+            Number::Recorded(_, operand) => {
+                Number::Recorded(self, Operand::Value(self.write(Op::Unary(operation, operand))))
+            }
+        }
     }
 
     pub(crate) fn binary<'r>(&'r self, operation: Binary, a: Number<'r>, b: Number<'r>) -> Number<'r> {
         if let (Number::Known(a), Number::Known(b)) = (a, b) {
-            return Number::Known(known_binary(operation, a, b));
+            return Number::Known(operation.of(a, b));
         }
         let op = Op::Binary(operation, Self::operand(a), Self::operand(b));
         Number::Recorded(self, Operand::Value(self.write(op)))
@@ -151,41 +129,17 @@ fn key(op: &Op) -> Key {
     (kind, std::array::from_fn(|_| operands.next()))
 }
 
-fn known_unary(operation: Unary, a: Number<'_>) -> Number<'_> {
-    match operation {
-        Unary::Neg => -a,
-        Unary::Sqrt => a.sqrt(),
-        Unary::Sin => a.sin_cos().0,
-        Unary::Cos => a.sin_cos().1,
-        Unary::Exp => a.exp(),
-        Unary::Ln => a.ln(),
-        Unary::Floor => a.floor(),
-        Unary::LogCoefficient(rank) => linkwear_runtime::log_coefficient(rank, a),
-    }
-}
-
-fn known_binary(operation: Binary, a: f64, b: f64) -> f64 {
-    match operation {
-        Binary::Add => a + b,
-        Binary::Sub => a - b,
-        Binary::Mul => a * b,
-        Binary::Div => a / b,
-        Binary::Atan2 => Scalar::atan2(a, b),
-        Binary::AngleOverSine => linkwear_runtime::angle_over_sine(a, b),
-    }
-}
-
 impl<'r> Number<'r> {
-    fn of_one(self, operation: Unary, of_known: impl Fn(f64) -> f64) -> Self {
+    fn of_one(self, operation: Unary) -> Self {
         match self {
-            Self::Known(value) => Self::Known(of_known(value)),
+            Self::Known(value) => Self::Known(operation.of(value)),
             Self::Recorded(recorder, _) => recorder.unary(operation, self),
         }
     }
 
     fn with(self, operation: Binary, other: Self) -> Self {
         match (self, other) {
-            (Self::Known(a), Self::Known(b)) => Self::Known(known_binary(operation, a, b)),
+            (Self::Known(a), Self::Known(b)) => Self::Known(operation.of(a, b)),
             (Self::Recorded(recorder, _), _) | (_, Self::Recorded(recorder, _)) => {
                 recorder.binary(operation, self, other)
             }
@@ -224,7 +178,7 @@ impl Div for Number<'_> {
 impl Neg for Number<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        self.of_one(Unary::Neg, |value| -value)
+        self.of_one(Unary::Neg)
     }
 }
 
@@ -241,7 +195,7 @@ impl<'r> Scalar for Number<'r> {
     }
 
     fn sqrt(self) -> Self {
-        self.of_one(Unary::Sqrt, f64::sqrt)
+        self.of_one(Unary::Sqrt)
     }
 
     fn sin_cos(self) -> (Self, Self) {
@@ -259,11 +213,11 @@ impl<'r> Scalar for Number<'r> {
     }
 
     fn exp(self) -> Self {
-        self.of_one(Unary::Exp, Scalar::exp)
+        self.of_one(Unary::Exp)
     }
 
     fn ln(self) -> Self {
-        self.of_one(Unary::Ln, Scalar::ln)
+        self.of_one(Unary::Ln)
     }
 
     fn atan2(self, x: Self) -> Self {
@@ -300,6 +254,6 @@ impl<'r> Scalar for Number<'r> {
     }
 
     fn floor(self) -> Self {
-        self.of_one(Unary::Floor, Scalar::floor)
+        self.of_one(Unary::Floor)
     }
 }

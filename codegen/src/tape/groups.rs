@@ -1,14 +1,12 @@
 //! Which functions are lowered together, and on which cores. In: functions, how one is lowered. Out: tapes, in the order of the
 //! functions. Never knows graphs.
 
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread::{Builder, available_parallelism};
+use std::thread::available_parallelism;
 
 use crate::derive::{Equations, Function};
 
 use super::cut::{Joined, cut};
-use super::{Tape, verify};
+use super::{Tape, side_by_side, verify};
 
 /// A function, and the one that goes on from it.
 pub type Group<'a> = (&'a Function, Option<&'a Function>);
@@ -25,22 +23,8 @@ pub fn groups(equations: &Equations) -> Vec<Group<'_>> {
 
 /// Every group by itself, some of them on other cores: which are changes no byte.
 pub fn in_threads(groups: &[Group<'_>], lower: &(dyn Fn(&Function) -> Tape + Sync)) -> Vec<Tape> {
-    let done: Vec<OnceLock<Vec<Tape>>> = groups.iter().map(|_| OnceLock::new()).collect();
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let take = || groups.iter().zip(&done).nth(next.fetch_add(1, Ordering::Relaxed));
-        while let Some((group, done)) = take() {
-            done.get_or_init(|| of_group(*group, lower));
-        }
-    };
     let cores = available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        // Where no thread is to be had, this one does all.
-        let others = 1..cores.min(groups.len());
-        let _all: Vec<_> = others.map_while(|_| Builder::new().spawn_scoped(scope, work).ok()).collect();
-        work();
-    });
-    done.into_iter().filter_map(OnceLock::into_inner).flatten().collect()
+    side_by_side(groups, cores, |group| of_group(*group, lower)).into_iter().flatten().collect()
 }
 
 /// One tape for every function: of a function and the one that goes on from it as one, then cut.

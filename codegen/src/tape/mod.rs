@@ -9,7 +9,7 @@ mod unshared;
 
 pub use linkwear_tape::{
     Binary, Block, Interpreted, Number, Op, Operand, Operations, PART_LIMIT, Part, Recorder, Registers,
-    Routine, Split, Statement, Tape, Unary, Value, split, verify,
+    Routine, Split, Statement, Tape, Unary, Value, side_by_side, split, verify,
 };
 pub use lower::{lower, lower_short};
 pub use unshared::unshared_operations;

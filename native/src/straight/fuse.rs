@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use linkwear_runtime::{Entry, Evaluate, StepPlan};
 use linkwear_tape::{Tape, verify};
 
-use super::lower::{Lowered, run};
+use super::lower::Lowered;
 use super::number::{Number, Recorder};
 
 /// A part of a plan that is a function of its own.
@@ -66,7 +66,7 @@ fn ask<'g>(
     entry: Entry,
     input: &[Number<'g>],
 ) -> Vec<Number<'g>> {
-    let answer = run(&tapes[entry as usize], &|index| input[index as usize]);
+    let answer = tapes[entry as usize].evaluate(&|index| input[index as usize]);
     answers.borrow_mut().extend(&answer);
     answer
 }
