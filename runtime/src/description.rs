@@ -149,7 +149,7 @@ impl Description {
     }
 
     /// Of every kept row, its row among all; fewer than `count` where the description misses one.
-    pub(crate) fn kept_rows(&self, count: usize) -> Vec<usize> {
+    pub fn kept_rows(&self, count: usize) -> Vec<usize> {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
     }
 

@@ -10,6 +10,16 @@ pub(super) fn every_second(points: &[Point]) -> Vec<Point> {
     points.iter().enumerate().filter(is_kept).map(|(_, point)| point.clone()).collect()
 }
 
+/// The same points with what fewer steps wear, as far as that is known; nothing if it is known of none.
+pub(super) fn coarser(points: &[Point]) -> Option<Vec<Point>> {
+    let coarse = |point: &Point| Point {
+        wear: point.coarse.clone().unwrap_or_else(|| point.wear.clone()),
+        ..point.clone()
+    };
+    let is_known = points.iter().any(|point| point.coarse.is_some());
+    is_known.then(|| points.iter().map(coarse).collect())
+}
+
 /// Wear of a revolution at a joint of the unworn mechanism.
 pub(super) fn joint_sensitivity(base: &Variant, point: &Point, joint: usize) -> JointSensitivity {
     let slopes =

@@ -2,9 +2,9 @@
 //! varies. Never knows lives.
 
 use std::ops::ControlFlow;
-use std::thread;
+use std::sync::{Mutex, PoisonError};
 
-use linkwear_codegen::tape::Tape;
+use linkwear_codegen::tape::{Tape, side_by_side};
 use linkwear_runtime::life::{JointLife, JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, Layout, Orbit, TurnState, Watch};
@@ -157,8 +157,7 @@ impl Survey<'_> {
         };
         let (motion, closure) = (lift(|variant| &variant.motion), lift(|variant| &variant.closure));
         let (description, sizes) = (base.compiled.description(), base.compiled.sizes());
-        let kept = |kept| description.rows.iter().position(|row| row.kept == Some(kept));
-        let kept: Vec<usize> = (0..sizes.rows).filter_map(kept).collect();
+        let kept = description.kept_rows(sizes.rows);
         let layout = Layout::new(&description.motions);
         let parameters = base.compiled.parameters();
         let chunk = |(number, sides): (usize, &[Sides])| {
@@ -201,20 +200,11 @@ impl Survey<'_> {
         steps: u64,
         wearing: &[usize],
     ) -> Result<Vec<Settled<N>>, Unsettled> {
-        let share = passes.len().div_ceil(self.threads.max(1)).max(1);
-        let run = |passes: &mut [Pass<N>]| -> Result<Vec<Settled<N>>, Unsettled> {
-            passes.iter_mut().map(|pass| pass.settle(at, steps, wearing)).collect()
-        };
-        thread::scope(|scope| {
-            let mut shares = passes.chunks_mut(share);
-            let own = shares.next();
-            let others: Vec<_> = shares.map(|share| scope.spawn(|| run(share))).collect();
-            let mut settled = own.map_or(Ok(Vec::new()), run)?;
-            for other in others {
-                settled.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?);
-            }
-            Ok(settled)
-        })
+        let passes: Vec<_> = passes.iter_mut().map(Mutex::new).collect();
+        let settled = side_by_side(&passes, self.threads, |pass| {
+            pass.lock().unwrap_or_else(PoisonError::into_inner).settle(at, steps, wearing)
+        });
+        settled.into_iter().collect()
     }
 
     fn wear<const N: usize>(&self, settled: &[Settled<N>], joint: usize) -> Wear {

@@ -32,10 +32,7 @@ pub(super) fn integral<const N: usize>(values: &[Varied<N>], apart: &Varied<N>) 
             }
         }
     }
-    // The time between two values varies too.
-    let tangents =
-        std::array::from_fn(|lane| sum.tangents[lane] * apart.value + sum.value * apart.tangents[lane]);
-    Varied { value: sum.value * apart.value, tangents }
+    sum.over(apart)
 }
 
 /// Integral from a value to the next, in units of the time between.

@@ -11,7 +11,7 @@ use linkwear_runtime::life::{LifeSettings, WearFlow, WearSource, WearTable};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, GammaRates, RevolutionSettings, Watch};
 
-use super::doubts::{doubts, every_second, joint_sensitivity};
+use super::doubts::{coarser, doubts, every_second, joint_sensitivity};
 use super::error::SensitivityError;
 use super::measured::{Point, Points, Survey};
 use super::paths::{Along, Life, Paths};
@@ -201,12 +201,12 @@ impl<'s> SensitivityStudy<'s> {
         measured: &Points,
         watch: Watch<'_>,
     ) -> Result<SensitivityResult, SensitivityError> {
-        let paths = self.paths(base, &sides, &measured.points, false)?;
-        let is_known = measured.points.iter().any(|point| point.coarse.is_some());
-        let coarse = if is_known { Some(self.paths(base, &sides, &measured.points, true)?) } else { None };
+        let paths = |points: &[Point]| self.paths(base, &sides, points);
+        let coarse = coarser(&measured.points).map(|points| paths(&points)).transpose()?;
+        let by_half = paths(&every_second(&measured.points))?.mean();
+        let paths = paths(&measured.points)?;
         let (mean, coarse) = (paths.mean(), coarse.map(|coarse| coarse.mean()));
         let joints = (0..base.joints.len()).map(|joint| joint_sensitivity(base, &measured.points[0], joint));
-        let by_half = self.paths(base, &sides, &every_second(&measured.points), false)?.mean();
         let of_steps = doubts(&mean.slopes, coarse.as_ref().map(|coarse| &*coarse.slopes));
         let of_points = doubts(&mean.slopes, Some(&by_half.slopes));
         let doubts = of_steps.iter().zip(of_points).map(|(steps, points)| steps + HALVED * points);
@@ -229,14 +229,8 @@ impl<'s> SensitivityStudy<'s> {
     }
 
     /// Lives of the mechanism and of those beside it.
-    fn paths(
-        &self,
-        base: &Variant,
-        sides: &[Sides],
-        points: &[Point],
-        coarse: bool,
-    ) -> Result<Paths, SensitivityError> {
-        let along = |variant, shift| self.along(variant, (points, coarse), shift);
+    fn paths(&self, base: &Variant, sides: &[Sides], points: &[Point]) -> Result<Paths, SensitivityError> {
+        let along = |variant, shift| self.along(variant, points, shift);
         let beside = sides.iter().enumerate().map(|(at, sides)| {
             let [below, above] = &sides.sides;
             let pair = [along(below, Some((at, -sides.step)))?, along(above, Some((at, sides.step)))?];
@@ -249,13 +243,12 @@ impl<'s> SensitivityStudy<'s> {
     fn along(
         &self,
         variant: &Variant,
-        (points, coarse): (&[Point], bool),
+        points: &[Point],
         shift: Option<(usize, f64)>,
     ) -> Result<Along, SensitivityError> {
         let settings = LifeSettings::new(variant.joints.clone());
         let moved = |point: &Point| {
-            let wear = point.coarse.as_ref().filter(|_| coarse).unwrap_or(&point.wear);
-            let each = point.measured.iter().zip(wear);
+            let each = point.measured.iter().zip(&point.wear);
             let measured = each.map(|(known, wear)| {
                 let value = |which: usize| {
                     let slope = shift.map_or(0.0, |(at, step)| step * wear.slopes[at][which]);

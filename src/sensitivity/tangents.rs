@@ -21,6 +21,11 @@ impl<const N: usize> Varied<N> {
         Self { value: self.value + factor * other.value, tangents }
     }
 
+    /// What a rate adds up to in a time that varies too.
+    pub(super) fn over(&self, time: &Self) -> Self {
+        Self::ZERO.moved(1.0, time, self)
+    }
+
     /// Where a rate leads in a part of a step, whose length varies too.
     pub(super) fn moved(&self, part: f64, length: &Self, rate: &Self) -> Self {
         let step = part * length.value;

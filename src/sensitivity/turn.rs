@@ -207,7 +207,7 @@ impl<const N: usize> Turns<N> {
             *state = state.moved(1.0, &length, rate);
         }
         let integrals = of_joints.chunks_exact(ANSWER);
-        let integrals = integrals.map(|rates| Varied::ZERO.moved(1.0, &length, &rates[0])).collect();
+        let integrals = integrals.map(|rates| rates[0].over(&length)).collect();
         let is_rough = ranges.iter().any(|(least, most)| *least < SMOOTH * most);
         Step { begin, middle, integrals, losses, is_rough }
     }

@@ -10,8 +10,7 @@ use linkwear_codegen::tape::{Number, Operand, Recorder, Tape};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_runtime::life::JointLife;
 use linkwear_runtime::{
-    CONTACT_MOTION, Description, DynamicsSource, Entry, Evaluate, RevolutionSettings, SAMPLE, StepPlan,
-    TOTALS,
+    CONTACT_MOTION, Description, DynamicsSource, Entry, Evaluate, RevolutionSettings, StepPlan, TOTALS,
 };
 
 use super::error::SensitivityError;
@@ -25,9 +24,6 @@ pub(super) const MEMORY: usize = 3;
 /// Numbers per joint with clearance behind the rates of a state: powers of wear integral [W] and depth [m/s], penetration [m] and
 /// its rate [m/s].
 pub(super) const ANSWER: usize = 4;
-/// Numbers of a contact in the answer of [`StepPlan::derivative`], and where the penetration is among them, its rate behind it.
-const CONTACT: usize = 14;
-const PENETRATION: usize = 3;
 
 /// A mechanism at one value of its parameters.
 pub(super) struct Variant {
@@ -128,7 +124,7 @@ fn check(description: &Description) -> Result<(), SensitivityError> {
     if !description.missions.is_empty() {
         return Err(SensitivityError::Mission);
     }
-    if description.channels.iter().any(|channel| channel.name.starts_with(SAMPLE)) {
+    if description.acts_at_samples() {
         return Err(SensitivityError::Samples);
     }
     let profile =
@@ -158,9 +154,9 @@ fn motion(tapes: &[Tape], plan: &StepPlan) -> Tape {
     let sizes = plan.sizes();
     let (equations, laws) = answer.split_at(sizes.output(Entry::Derivative));
     let (totals, contacts) = laws.split_at(TOTALS * sizes.contacts);
-    let each = totals.chunks_exact(TOTALS).zip(contacts.chunks_exact(CONTACT));
-    let laws = each
-        .flat_map(|(totals, contact)| [totals[0], totals[1], contact[PENETRATION], contact[PENETRATION + 1]]);
+    let each = totals.chunks_exact(TOTALS).zip(contacts.chunks_exact(StepPlan::CONTACT_ANSWER));
+    let [depth, rate] = StepPlan::PENETRATION;
+    let laws = each.flat_map(|(totals, contact)| [totals[0], totals[1], contact[depth], contact[rate]]);
     let rates = equations[..sizes.coordinates + sizes.speeds].iter().copied();
     let outputs: Vec<Operand> = rates.chain(laws).map(Recorder::operand).collect();
     recorder.finish("motion", count, &outputs)

@@ -61,7 +61,7 @@ impl<const N: usize> Wear<N> {
     /// Wear integrals and depths, by the length of a step.
     pub(super) fn finish(mut self, rates: &[Varied<N>], step: &Varied<N>) -> Vec<[Varied<N>; 2]> {
         self.begin_anew(rates);
-        let depth = |depth: &Varied<N>| Varied::ZERO.moved(1.0, step, depth);
-        self.integrals.iter().zip(&self.depths).map(|(integral, one)| [*integral, depth(one)]).collect()
+        let pairs = self.integrals.iter().zip(&self.depths);
+        pairs.map(|(integral, depth)| [*integral, depth.over(step)]).collect()
     }
 }

@@ -68,6 +68,11 @@ struct Answer<T> {
 }
 
 impl StepPlan {
+    /// Numbers of a contact in the answer of [`Self::derivative`].
+    pub const CONTACT_ANSWER: usize = CONTACT_ANSWER;
+    /// Places of its penetration and of the rate of that among them.
+    pub const PENETRATION: [usize; 2] = PENETRATION;
+
     /// Of a mechanism with these counts.
     ///
     /// # Errors
