@@ -90,7 +90,7 @@ fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_w
     // The first revolution begins at rest and wears less than a settled one, 1.66 um a cycle.
     for said in [
         "full coupling",
-        "would have 3 cycles: 30 to 30 measurements",
+        "would have 3 cycles: 9 to 130 measurements",
         "--coupling table takes 17 measurements",
     ] {
         assert!(full.err.contains(said), "{said}: {}", full.err);

@@ -32,6 +32,23 @@ fn lives(mechanism: &Mechanism, threads: usize, count: u64, shard: Option<Shard>
 }
 
 #[test]
+fn the_mean_path_is_the_same_in_lanes_and_alone() {
+    let path = |backend| {
+        let mechanism = mechanism(backend);
+        let study = LifeStudy {
+            coupling: Some(Coupling::Full),
+            trajectories: Trajectories::MeanPath,
+            ..LifeStudy::new(&mechanism)
+        };
+        let life = study.run().expect("a life");
+        (life.end, life.measurements, life.cycles, life.turn_errors, life.warnings)
+    };
+    let native = path(Backend::Native);
+    assert!(native.1 >= 9, "{} measurements", native.1);
+    assert_eq!(path(Backend::Compiled), native);
+}
+
+#[test]
 fn lives_are_the_same_alone_side_by_side_and_in_shards() {
     let native = mechanism(Backend::Native);
     let all = lives(&native, 1, 11, None);

@@ -1,67 +1,51 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod measuring;
+mod settings;
 mod settling;
+mod side_by_side;
 mod steadiness;
+mod wearing;
 
 use crate::bundle::Bundle;
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::RunError;
-use crate::life::{JointLife, JointWear, SettingsError, WearOf, WearSource};
-use crate::linear::largest_of;
-use crate::simulate::{Integrator, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState, WholeSteps};
+use crate::life::{JointLife, JointWear, SettingsError, WearSource};
+use crate::simulate::{
+    LaneTurns, RunWarning, TurnMeasures, TurnQueue, TurnRunner, TurnState, WholeSteps, WideBundle,
+};
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+use measuring::{Done, Measuring};
+pub use settings::RevolutionSettings;
 pub use settling::Orbit;
 use settling::Settling;
+use side_by_side::{Begun, SideBySide};
 pub use steadiness::Steadiness;
-
-/// How revolutions are run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RevolutionSettings {
-    /// The method.
-    pub integrator: Integrator,
-    /// Turns after each change of wear before one is measured. Nothing: until later turns would wear alike.
-    pub settle: Option<u32>,
-    /// Turns whose mean is taken, at least 1. One is enough for a periodic motion; one that chatters needs 20 or more.
-    pub average: u32,
-}
-
-impl Default for RevolutionSettings {
-    /// Adaptive Runge-Kutta, until later turns would wear alike.
-    ///
-    /// The wear of a revolution is off by 1e-6 to 1e-5 of itself then in the case study, the more the looser the joint has
-    /// become; its life by 3e-6 of itself.
-    fn default() -> Self {
-        Self { integrator: Integrator::Rk43 { tolerance: 1e-6, max_step: None }, settle: None, average: 1 }
-    }
-}
-
-/// A motion that has not settled after so many turns is taken as one that never does, ...
-const MOST_TO_SETTLE: u32 = 4;
-/// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
-/// is left, and the budget tells it; ...
-const SCATTERED: f64 = 1e-3;
-/// ... or of so many turns.
-const MOST_TO_AVERAGE: usize = 20;
+use wearing::Wearing;
 
 /// Revolutions of one mechanism.
 #[must_use]
 pub struct DynamicsSource<'a> {
-    runner: TurnRunner<'a>,
+    system: &'a dyn System<f64>,
     description: &'a Description,
+    runner: TurnRunner<'a>,
     start: TurnState,
-    /// Indices of the wearing joints among those with clearance, with their clearance at the start [m].
-    wearing: Vec<(usize, f64)>,
+    wearing: Wearing<'a>,
     settings: RevolutionSettings,
     /// Where turns are run, if not by the runner: elsewhere, or in whole steps.
     queue: Option<TurnQueue>,
     whole: Option<WholeSteps<'a>>,
+    /// Where turns of several measurements are run, and its lanes once they are used.
+    bundle: Option<WideBundle<'a>>,
+    lanes: Option<Box<dyn LaneTurns<'a> + 'a>>,
     watch: Watch<'a>,
     warnings: Vec<RunWarning>,
-    steadiness: Vec<Steadiness>,
+    /// Of the last measurement, or of the last ones that were made together.
+    steadiness: Vec<Vec<Steadiness>>,
     /// The first measurements of a life that begins with unworn joints.
     beginning: Vec<Known>,
 }
@@ -71,7 +55,7 @@ struct Known {
     joints: Vec<JointWear>,
     from: Option<Orbit>,
     measured: Vec<ContactMeasure>,
-    steadiness: Vec<Steadiness>,
+    steadiness: Vec<Vec<Steadiness>>,
     state: Option<Orbit>,
 }
 
@@ -91,24 +75,24 @@ impl<'a> DynamicsSource<'a> {
     ) -> Result<Self, RunError> {
         let mut runner =
             TurnRunner::new(system, description, parameters, settings.integrator, SINGULAR_PIVOT)?;
-        let clearances = runner.clearances();
-        let wearing = (0..clearances.len()).filter(|at| description.contacts[*at].wear.is_some());
-        let wearing = wearing.map(|at| (at, clearances[at])).collect();
+        let wearing = Wearing::new(description, &runner.clearances());
         let start = runner.state();
-        let (warnings, steadiness) = (Vec::new(), Vec::new());
-        let (queue, whole, watch) = (None, None, Watch::NONE);
+        let (warnings, steadiness, beginning) = (Vec::new(), Vec::new(), Vec::new());
         Ok(Self {
-            runner,
+            system,
             description,
+            runner,
             start,
             wearing,
             settings,
-            queue,
-            whole,
-            watch,
+            queue: None,
+            whole: None,
+            bundle: None,
+            lanes: None,
+            watch: Watch::NONE,
             warnings,
             steadiness,
-            beginning: Vec::new(),
+            beginning,
         })
     }
 
@@ -119,12 +103,22 @@ impl<'a> DynamicsSource<'a> {
 
     /// How steady the turns of the last measurement were, per wearing joint.
     pub fn steadiness(&self) -> &[Steadiness] {
+        self.steadiness.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// The same of each of the last measurements, where they were made together.
+    pub fn steadiness_of_each(&self) -> &[Vec<Steadiness>] {
         &self.steadiness
     }
 
     /// Has its turns run in whole steps of machine code of the same mechanism, in the same bits.
     pub fn in_whole_steps(self, bundle: &'a dyn Bundle<1>) -> Self {
         Self { whole: Some(WholeSteps::new(bundle, &self.runner)), ..self }
+    }
+
+    /// Has the turns of measurements that are asked for together run side by side, in the same bits: in a bundle of the same mechanism.
+    pub fn side_by_side(self, bundle: WideBundle<'a>) -> Self {
+        Self { bundle: Some(bundle), ..self }
     }
 
     /// Has its turns run side by side with those of others, in the same bits: the queue is that of a bundle of the same mechanism.
@@ -145,21 +139,12 @@ impl<'a> DynamicsSource<'a> {
     /// # Errors
     /// If a number of a joint is out of range.
     pub fn joints(&self) -> Result<Vec<JointLife>, SettingsError> {
-        let of = |(at, clearance): &(usize, f64)| {
-            JointLife::of_joint(self.description, *at, *clearance).transpose()
-        };
-        self.wearing.iter().filter_map(of).collect()
+        self.wearing.lives()
     }
 
     /// The wearing joints as they are at the start.
     pub fn unworn(&self) -> Vec<JointWear> {
-        let joint = |(_, clearance): &(usize, f64)| JointWear {
-            clearance: *clearance,
-            wear: 0.0,
-            profile: None,
-            journal: None,
-        };
-        self.wearing.iter().map(joint).collect()
+        self.wearing.unworn()
     }
 
     /// Goes on after measurements of another source, which doubted this: it is not told again.
@@ -172,78 +157,66 @@ impl<'a> DynamicsSource<'a> {
         &self.warnings
     }
 
-    /// Settles, then measures turn by turn; the last that settled comes first, if there is one.
-    fn turns(
-        &mut self,
-        settling: &mut Settling,
-    ) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
-        let average = self.settings.average.max(1);
-        let Some(settle) = self.settings.settle else { return self.turns_alike(average, settling) };
-        let part = f64::from(settle) / f64::from(settle + average);
-        let settled = self.run(settle, (0.0, part))?.pop();
-        Ok((settled, self.run(average, (part, 1.0))?))
-    }
-
-    /// The same until a turn wears as later ones would: it is the first that is measured.
-    fn turns_alike(
-        &mut self,
-        average: u32,
-        settling: &mut Settling,
-    ) -> Result<(Option<TurnMeasures>, Vec<TurnMeasures>), RunError> {
-        // Nobody knows how many there will be: every turn is half of what is left.
-        let mut done = 0.5;
-        let mut last = self.run(1, (0.0, done))?.pop();
-        for _ in 1..MOST_TO_SETTLE {
-            let next = 0.5 * (1.0 + done);
-            let mut turns = self.run(1, (done, next))?;
-            done = next;
-            let differs = last.iter().zip(&turns).map(|(last, now)| self.differs(last, now));
-            if settling.has_settled(differs) {
-                turns.extend(self.run(average - 1, (done, 1.0))?);
-                return Ok((last, turns));
-            }
-            last = turns.pop();
+    /// Sets the joints, to go on from an orbit or to begin.
+    fn begin(&mut self, joints: &[JointWear], from: Option<&Orbit>) -> Result<Measuring, RunError> {
+        self.runner.restore(from.map_or(&self.start, |orbit| &orbit.turn))?;
+        let mut far = 1.0_f64;
+        for ((at, unworn), joint) in self.wearing.joints.iter().zip(joints) {
+            let surfaces = [joint.profile.clone(), joint.journal.clone()];
+            let worn = joint.clearance - unworn;
+            self.runner.set_worn_pair(*at, worn, surfaces)?;
+            let before = from.and_then(|orbit| orbit.turn.joints.get(*at)).map_or(0.0, |joint| joint.worn);
+            let ratio = (unworn + worn) / (unworn + before);
+            far = far.max(ratio).max(1.0 / ratio);
         }
-        let mut turns = self.run(average, (done, 0.5 * (1.0 + done)))?;
-        while turns.len() < MOST_TO_AVERAGE && !self.is_mean_known(&turns) {
-            done = 0.5 * (1.0 + done);
-            turns.extend(self.run(1, (done, 0.5 * (1.0 + done)))?);
-        }
-        Ok((last, turns))
+        Ok(Measuring::new(&self.settings, Settling::new(from, far)))
     }
 
-    /// Whether the wear of all joints scatters little in the mean of these turns.
-    fn is_mean_known(&self, turns: &[TurnMeasures]) -> bool {
-        self.wearing.iter().all(|(at, _)| {
-            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of(None, &wears).scatter.is_some_and(|scatter| scatter <= SCATTERED)
-        })
-    }
-
-    /// Runs turns, from one part of a measurement to another.
-    fn run(&mut self, turns: u32, (from, to): (f64, f64)) -> Result<Vec<TurnMeasures>, RunError> {
-        let one = |watch| match (&self.queue, &mut self.whole) {
+    /// Runs one turn, as a part of a measurement.
+    fn turn(&mut self, (from, to): (f64, f64)) -> Result<TurnMeasures, RunError> {
+        let watch = self.watch.piece(from, to);
+        match (&self.queue, &mut self.whole) {
             (Some(queue), _) => queue.measure(&mut self.runner, watch),
             (None, Some(whole)) => whole.measure(&mut self.runner, watch),
             (None, None) => self.runner.measure(watch),
-        };
-        self.watch.piece(from, to).pieces(turns).map(one).collect()
+        }
     }
 
-    /// By how much of its wear a turn differs from the one before, of the joint where that is most.
-    fn differs(&self, last: &TurnMeasures, now: &TurnMeasures) -> f64 {
-        let part = |(at, _): &(usize, f64)| {
-            let (last, now) = (self.wear(*at, last), self.wear(*at, now));
-            // What does not wear at all is settled.
-            if now == last { 0.0 } else { ((now - last) / now).abs() }
-        };
-        largest_of(self.wearing.iter().map(part))
+    /// The lanes, if there are any.
+    fn take_lanes(&mut self) -> Result<Option<Box<dyn LaneTurns<'a> + 'a>>, RunError> {
+        if let (None, Some(bundle)) = (&self.lanes, self.bundle) {
+            let (system, description, integrator) = (self.system, self.description, self.settings.integrator);
+            let parameters = self.runner.parameters();
+            let runner = || TurnRunner::new(system, description, parameters, integrator, SINGULAR_PIVOT);
+            self.lanes = Some(bundle.turns(&runner)?);
+        }
+        Ok(self.lanes.take())
     }
 
-    /// W per turn [m] of a wearing joint.
-    fn wear(&self, at: usize, turn: &TurnMeasures) -> f64 {
-        let wear = self.description.contacts[at].wear.as_ref();
-        wear.map_or(0.0, |wear| WearOf::described(wear).of(&turn.joints[at]))
+    /// Runs all turns of one measurement, from where it has begun.
+    fn one_after_the_other(&mut self, one: &mut Begun) -> Result<(), RunError> {
+        self.runner.restore(&one.at)?;
+        self.all_turns(&mut one.measuring)?;
+        one.at = self.runner.state();
+        Ok(())
+    }
+
+    /// Runs turns until a measurement is done.
+    fn all_turns(&mut self, measuring: &mut Measuring) -> Result<(), RunError> {
+        loop {
+            let turn = self.turn(measuring.next())?;
+            if measuring.take(turn, &self.wearing) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// What a measurement has come to; its state is where the next one goes on.
+    fn end(&mut self, done: Done, state: &mut Option<Orbit>) -> Vec<ContactMeasure> {
+        *state = Some(done.orbit);
+        self.note(&done.turns);
+        self.steadiness.push(done.steadiness);
+        done.measured
     }
 
     fn note(&mut self, turns: &[TurnMeasures]) {
@@ -274,24 +247,11 @@ impl WearSource for DynamicsSource<'_> {
             return Ok(known.measured.clone());
         }
         let from = state.clone();
-        self.runner.restore(from.as_ref().map_or(&self.start, |orbit| &orbit.turn))?;
-        let mut settling = Settling::new(from.as_ref());
-        for ((at, unworn), joint) in self.wearing.iter().zip(joints) {
-            let surfaces = [joint.profile.clone(), joint.journal.clone()];
-            self.runner.set_worn_pair(*at, joint.clearance - unworn, surfaces)?;
-        }
-        let (settled, turns) = self.turns(&mut settling)?;
-        *state = Some(Orbit { turn: self.runner.state(), contraction: settling.contraction() });
-        self.note(&turns);
-        let steady = |(at, _): &(usize, f64)| {
-            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of(settled.as_ref().map(|turn| self.wear(*at, turn)), &wears)
-        };
-        self.steadiness = self.wearing.iter().map(steady).collect();
-        let of = |(at, _): &(usize, f64)| {
-            ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
-        };
-        let measured: Vec<_> = self.wearing.iter().map(of).collect();
+        let mut measuring = self.begin(joints, from.as_ref())?;
+        self.all_turns(&mut measuring)?;
+        self.steadiness.clear();
+        let done = measuring.end(self.runner.state(), &self.wearing);
+        let measured = self.end(done, state);
         let begins = from.is_none() || self.beginning.iter().any(|known| known.state == from);
         if begins && self.beginning.len() < MOST_KNOWN {
             let (joints, steadiness) = (joints.to_vec(), self.steadiness.clone());
@@ -299,5 +259,29 @@ impl WearSource for DynamicsSource<'_> {
             self.beginning.push(Known { joints, from, measured, steadiness, state });
         }
         Ok(measured)
+    }
+
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [Self::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, RunError> {
+        let mut begun = Vec::with_capacity(joints.len());
+        for (joints, state) in joints.iter().zip(&*states) {
+            let measuring = self.begin(joints, state.as_ref())?;
+            begun.push(Begun { measuring, at: self.runner.state(), looked_at: None });
+        }
+        match self.take_lanes()? {
+            Some(mut lanes) => {
+                let Self { runner, wearing, watch, .. } = self;
+                let done = SideBySide { runner, wearing, watch: *watch }.run(&mut *lanes, &mut begun);
+                self.lanes = Some(lanes);
+                done?;
+            }
+            None => begun.iter_mut().try_for_each(|one| self.one_after_the_other(one))?,
+        }
+        self.steadiness.clear();
+        let each = begun.into_iter().zip(states);
+        Ok(each.map(|(one, state)| self.end(one.measuring.end(one.at, &self.wearing), state)).collect())
     }
 }

@@ -133,9 +133,9 @@ pub use {
     signals::{SampledSignals, Signals},
     simulate::{
         At, BRANCH_PART, ContactEvent, ENVELOPE_PIECES, Extremes, IdealJoint, Integrator, JUMP_FLOOR,
-        KnownAngles, Peak, Run, RunWarning, Settings, Simulation, SimulationState, Span, StateSpace,
-        Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue, TurnRequests, TurnRunner, TurnState,
-        WholeSteps, WideBundle, simulate, simulate_with_inputs, turn_queue,
+        KnownAngles, LaneTurns, Peak, Run, RunWarning, Settings, Simulation, SimulationState, Span,
+        StateSpace, Statistics, TurnBundle, TurnMeasures, TurnOutcome, TurnQueue, TurnRequests, TurnRunner,
+        TurnState, WholeSteps, WideBundle, simulate, simulate_with_inputs, turn_queue,
     },
     singular_dynamics::{LOST_RANK, NEARLY_LOST},
     watch::Watch,

@@ -8,11 +8,12 @@ use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
 
 use super::error::{Cause, LifeError};
 use super::mission::Duty;
-use super::run::{Plan, in_whole_steps, joints};
+use super::run::{Plan, joints};
 use super::study::{Coupling, LifeStudy};
 
-/// Measurements per cycle of a mean path: fewest where steps grow to their longest, most where wear is noisy or steps stay within
-/// a cycle.
+/// Measurements of a mean path that is measured ahead: fewest where wear is smooth, most where it scatters.
+const AHEAD: [f64; 2] = [9.0, 130.0];
+/// Measurements per cycle of others: fewest where steps grow to their longest, most where wear is noisy or steps stay within a cycle.
 const PER_CYCLE: [f64; 2] = [0.2, 5.0];
 /// Measurements per cycle of a random life: one in its middle, and now and then three; four where a profile is fed back.
 const PER_DRAWN_CYCLE: [f64; 2] = [1.3, 4.0];
@@ -34,6 +35,8 @@ pub struct Cost {
     pub cycles: f64,
     /// Measurements of the mean path, from and to.
     pub mean_path: [f64; 2],
+    /// How many times shorter they take than others: those that do not wait for each other are made side by side, where a thread has lanes.
+    pub mean_path_side_by_side: f64,
     /// Measurements of the random lives that one thread makes.
     pub lives: f64,
     /// How many times shorter they take than others: they are lived side by side in the lanes of a thread, where it has some.
@@ -59,8 +62,8 @@ impl LifeStudy<'_> {
         let system = self.mechanism.system();
         let once = RevolutionSettings { settle: Some(0), average: 1, ..self.revolutions };
         let duty = Duty::new(self, &*system)?;
-        let whole = self.whole_steps();
-        let sources = in_whole_steps(duty.sources(&*system, once, watch)?, whole.as_ref());
+        let code = self.machine_code();
+        let sources = code.run(duty.sources(&*system, once, watch)?);
         let unworn = sources.first().map_or_else(Vec::new, DynamicsSource::unworn);
         let plan = Plan::new(self, &duty, joints(&sources)?, None, (watch, watch))?;
         let mut source = duty.compose(sources);
@@ -75,7 +78,9 @@ impl LifeStudy<'_> {
             joint.threshold / (joint.revolutions_per_cycle * joint.wear.of(measured))
         });
         let cycles = life.fold(f64::INFINITY, f64::min);
-        let [least, most] = PER_CYCLE.map(|per_cycle| (per_cycle * cycles).max(FEWEST));
+        let is_ahead = plan.settings.is_measured_ahead();
+        let by_cycle = PER_CYCLE.map(|per_cycle| (per_cycle * cycles).max(FEWEST));
+        let shorter = if code.has_lanes() { SHORTER_IN_LANES } else { 1.0 };
         let lives = plan.trajectories.unwrap_or(0) as f64 / plan.threads.get() as f64;
         let has_table = joints.iter().all(|joint| joint.feedback != Feedback::Profile);
         // With several joints every point needs a predictor.
@@ -84,7 +89,8 @@ impl LifeStudy<'_> {
             seconds_per_revolution,
             revolutions: self.revolutions.settle.unwrap_or(TO_SETTLE) + self.revolutions.average.max(1),
             cycles,
-            mean_path: [least, most],
+            mean_path: if is_ahead { AHEAD } else { by_cycle },
+            mean_path_side_by_side: if is_ahead { shorter } else { 1.0 },
             lives: lives * PER_DRAWN_CYCLE[usize::from(!has_table)] * cycles,
             side_by_side: plan.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
             table: has_table.then_some(table),

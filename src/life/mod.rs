@@ -13,6 +13,7 @@ mod error;
 mod facts;
 mod fit;
 mod journal;
+mod machine_code;
 mod mission;
 mod mission_choice;
 mod mission_result;

@@ -9,12 +9,11 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
 use linkwear_codegen::limits;
-use linkwear_native::NativeBundle;
 use linkwear_runtime::life::{
     CycleRecord, DEFAULT_POINTS, IncrementModel, JointLife, LifeError as Stop, LifeOutcome, LifeSettings,
     LifeState, MeanIncrement, MissionError, MissionSource, WearSource, WearStep, WearTable, run_life,
 };
-use linkwear_runtime::{DynamicsSource, Integrator, Orbit, RunError, System, Watch};
+use linkwear_runtime::{DynamicsSource, Orbit, RunError, System, Watch};
 
 use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
@@ -83,8 +82,8 @@ impl LifeStudy<'_> {
         self.wears()?;
         let system = self.mechanism.system();
         let duty = Duty::new(self, &*system)?;
-        let whole = self.whole_steps();
-        let sources = in_whole_steps(duty.sources(&*system, self.revolutions, between)?, whole.as_ref());
+        let code = self.machine_code();
+        let sources = code.run(duty.sources(&*system, self.revolutions, between)?);
         let mut plan = Plan::new(self, &duty, joints(&sources)?, journal, (told, between))?;
         if let Some(journal) = journal {
             journal.begin(self.identity(plan.coupling)).map_err(Cause::from)?;
@@ -108,31 +107,11 @@ impl LifeStudy<'_> {
         Ok(result)
     }
 
-    /// Machine code for whole steps of its turns; none where their method or a mission has none.
-    pub(super) fn whole_steps(&self) -> Option<NativeBundle<1>> {
-        if self.takes_bundles() { self.mechanism.whole_steps() } else { None }
-    }
-
-    /// Whether its turns may be run in bundles: these are of one method, and run one description and one set of parameters.
-    pub(super) fn takes_bundles(&self) -> bool {
-        let has_mission = matches!(self.chosen_mission(), Ok(Some(_)));
-        !has_mission && matches!(self.revolutions.integrator, Integrator::Rk43 { .. })
-    }
-
     /// Whether there is anything to live.
     pub(super) fn wears(&self) -> Result<(), Cause> {
         let mut contacts = self.mechanism.description.contacts.iter();
         if contacts.any(|contact| contact.wear.is_some()) { Ok(()) } else { Err(Cause::NoWear) }
     }
-}
-
-/// These sources, with their turns in whole steps where there is code for them.
-pub(super) fn in_whole_steps<'s>(
-    sources: Vec<DynamicsSource<'s>>,
-    whole: Option<&'s NativeBundle<1>>,
-) -> Vec<DynamicsSource<'s>> {
-    let Some(whole) = whole else { return sources };
-    sources.into_iter().map(|source| source.in_whole_steps(whole)).collect()
 }
 
 /// The wearing joints, as they are in the first of these sources.

@@ -35,8 +35,8 @@ pub(super) struct KeptSource<'a> {
 struct KeptSegment<'a> {
     source: DynamicsSource<'a>,
     log: Rc<Log<'a>>,
-    /// That of the last measurement.
-    steadiness: Vec<Steadiness>,
+    /// Of the last measurement, or of each of the last ones that were made together.
+    steadiness: Vec<Vec<Steadiness>>,
 }
 
 impl<'a> KeptSource<'a> {
@@ -72,11 +72,19 @@ impl<'a> KeptSource<'a> {
         TurnErrors::of(self.seen.iter().map(one).collect())
     }
 
-    /// How steady the turns of all segments were, of a joint: drifts add, scatter is independent.
-    fn steadiness(&self, joint: usize) -> Option<Steadiness> {
+    fn see(&mut self, which: usize, joints: &[JointWear]) {
+        let steadiness = (0..joints.len()).filter_map(|joint| self.steadiness(which, joint)).collect();
+        self.seen.push((joints.iter().map(|joint| joint.wear).collect(), steadiness));
+    }
+
+    /// How steady the turns of all segments were, of a joint in one of the last measurements: drifts add, scatter is independent.
+    fn steadiness(&self, which: usize, joint: usize) -> Option<Steadiness> {
         let segments = self.source.segments();
-        let each =
-            || segments.iter().filter_map(|one| Some((one.revolutions, one.source.steadiness.get(joint)?)));
+        let each = || {
+            segments
+                .iter()
+                .filter_map(|one| Some((one.revolutions, one.source.steadiness.get(which)?.get(joint)?)))
+        };
         if let [_] = segments {
             return each().next().map(|(_, alone)| *alone);
         }
@@ -99,9 +107,55 @@ impl WearSource for KeptSource<'_> {
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, Self::Error> {
         let measured = self.source.measure(joints, state)?;
-        let wear = joints.iter().map(|joint| joint.wear).collect();
-        self.seen.push((wear, (0..joints.len()).filter_map(|joint| self.steadiness(joint)).collect()));
+        self.see(0, joints);
         Ok(measured)
+    }
+
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [Self::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
+        if self.source.segments().len() > 1 {
+            return joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect();
+        }
+        let each = self.source.measure_each(joints, states)?;
+        joints.iter().enumerate().for_each(|(which, joints)| self.see(which, joints));
+        Ok(each)
+    }
+}
+
+impl KeptSegment<'_> {
+    /// The next measurement of the log, if the journal has it.
+    fn known(&mut self, joints: &[JointWear], state: &mut Option<Orbit>) -> Option<Vec<ContactMeasure>> {
+        let wear: Vec<f64> = joints.iter().map(|joint| joint.wear).collect();
+        let made = self.log.made.get();
+        let known = self.log.journal?.measurement(made, &wear)?;
+        self.source.known(&known.warnings);
+        state.clone_from(&known.state);
+        self.log.made.set(made + 1);
+        self.steadiness.push(known.steadiness.clone());
+        Some(known.measured.clone())
+    }
+
+    /// Keeps one that was made.
+    fn keep(
+        &mut self,
+        joints: &[JointWear],
+        (measured, steadiness): (&[ContactMeasure], &[Steadiness]),
+        state: &Option<Orbit>,
+    ) {
+        self.log.made.set(self.log.made.get() + 1);
+        self.steadiness.push(steadiness.to_vec());
+        if let Some(journal) = self.log.journal {
+            journal.keep_measurement(Measurement {
+                wear: joints.iter().map(|joint| joint.wear).collect(),
+                measured: measured.to_vec(),
+                steadiness: steadiness.to_vec(),
+                state: state.clone(),
+                warnings: self.source.warnings().to_vec(),
+            });
+        }
     }
 }
 
@@ -114,27 +168,33 @@ impl WearSource for KeptSegment<'_> {
         joints: &[JointWear],
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, RunError> {
-        let wear: Vec<f64> = joints.iter().map(|joint| joint.wear).collect();
-        let made = self.log.made.get();
-        if let Some(known) = self.log.journal.and_then(|journal| journal.measurement(made, &wear)) {
-            self.source.known(&known.warnings);
-            state.clone_from(&known.state);
-            self.log.made.set(made + 1);
-            self.steadiness.clone_from(&known.steadiness);
-            return Ok(known.measured.clone());
+        self.steadiness.clear();
+        if let Some(known) = self.known(joints, state) {
+            return Ok(known);
         }
         let measured = self.source.measure(joints, state)?;
-        self.log.made.set(made + 1);
-        self.steadiness = self.source.steadiness().to_vec();
-        if let Some(journal) = self.log.journal {
-            journal.keep_measurement(Measurement {
-                wear,
-                measured: measured.clone(),
-                steadiness: self.steadiness.clone(),
-                state: state.clone(),
-                warnings: self.source.warnings().to_vec(),
-            });
-        }
+        let steadiness = self.source.steadiness().to_vec();
+        self.keep(joints, (&measured, &steadiness), state);
         Ok(measured)
+    }
+
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [Self::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, RunError> {
+        self.steadiness.clear();
+        let mut each = Vec::with_capacity(joints.len());
+        for (joints, state) in joints.iter().zip(&mut *states) {
+            let Some(known) = self.known(joints, state) else { break };
+            each.push(known);
+        }
+        let made = each.len();
+        each.extend(self.source.measure_each(&joints[made..], &mut states[made..])?);
+        let steadiness = self.source.steadiness_of_each().to_vec();
+        for (which, steadiness) in (made..).zip(&steadiness) {
+            self.keep(&joints[which], (&each[which], steadiness), &states[which]);
+        }
+        Ok(each)
     }
 }

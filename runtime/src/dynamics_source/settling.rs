@@ -15,6 +15,10 @@ const SAFETY: f64 = 2.0;
 const GROWS: f64 = 1.5;
 /// ... and is forgotten this fast where smaller ones are seen.
 const FORGETS: f64 = 0.25;
+/// Where a clearance is another by more than this part, the factor may have grown by this power of that: in the case study it grows with
+/// the square of the clearance or the third power.
+const FAR: f64 = 0.2;
+const FAR_POWER: i32 = 4;
 
 /// What a life's motion goes on from.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +40,11 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// Of a motion that goes on from an orbit, or begins.
-    pub(super) fn new(from: Option<&Orbit>) -> Self {
-        Self { known: from.map_or(1.0, |orbit| orbit.contraction), seen: None, last: None }
+    /// Of a motion that goes on from an orbit, where no clearance is more than so many times as large or as small; or begins.
+    pub(super) fn new(from: Option<&Orbit>, far: f64) -> Self {
+        let grown = if far > 1.0 + FAR { far.powi(FAR_POWER) } else { 1.0 };
+        let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
+        Self { known, seen: None, last: None }
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -68,7 +74,7 @@ mod tests {
 
     #[test]
     fn turns_count_once_their_factor_tells_that_later_ones_are_alike() {
-        let mut first = Settling::new(None);
+        let mut first = Settling::new(None, 1.0);
         // Nothing is known: two turns have to be alike themselves.
         assert!(!first.has_settled([1e-3].into_iter()));
         // By a factor of 0.02, and so do the next ones: 4e-7.
@@ -76,13 +82,15 @@ mod tests {
         assert_eq!(first.contraction(), 0.25);
         let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
         let from = |contraction| Orbit { turn: turn.clone(), contraction };
-        let mut next = Settling::new(Some(&from(0.02)));
+        let mut next = Settling::new(Some(&from(0.02)), 1.1);
         // 2 times 0.03 times 1e-4.
         assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);
-        let mut slow = Settling::new(Some(&from(0.02)));
+        let mut slow = Settling::new(Some(&from(0.02)), 1.1);
         assert!(!slow.has_settled([1e-3].into_iter()) && !slow.has_settled([5e-4].into_iter()));
         assert_eq!(slow.contraction(), 0.5);
-        let mut still = Settling::new(Some(&from(0.5)));
+        // From afar, sixteen times as large.
+        assert!(!Settling::new(Some(&from(0.02)), 2.0).has_settled([1e-4].into_iter()));
+        let mut still = Settling::new(Some(&from(0.5)), 1.1);
         assert!(still.has_settled([0.0].into_iter()) && !still.has_settled([f64::NAN, 0.0].into_iter()));
     }
 }

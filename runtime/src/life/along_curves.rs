@@ -79,9 +79,7 @@ impl<F: WearSource> Walker<'_, F> {
         }
         let joints = measured.iter_mut().zip(&curves).zip(own.iter().zip(self.base));
         for ((measured, [_, curve]), (own, base)) in joints.filter(|(_, (own, _))| own.rate > 0.0) {
-            let part = curve.rate(base.wear) / own.rate;
-            measured.wear_integral *= part;
-            measured.depth *= part;
+            measured.scale_wear(curve.rate(base.wear) / own.rate);
         }
         Ok(Some((path, measured)))
     }
@@ -115,7 +113,7 @@ impl<F: WearSource> Walker<'_, F> {
         }
         let (error, ratio) = self.judge(&errors, &to, length);
         let segment = Segment { start: 0.0, length, from: nothing, to, from_rate, to_rate };
-        (Path { segments: vec![segment], span, end: None, error }, ratio)
+        (Path { segments: vec![segment], span, end: None, error, seen: Vec::new() }, ratio)
     }
 }
 

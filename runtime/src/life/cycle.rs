@@ -3,6 +3,7 @@
 //! Never knows whether the fine scale is a table or the dynamics, nor where random numbers come from.
 
 use std::ops::ControlFlow;
+use std::slice;
 
 use super::error::LifeError;
 use super::increment::IncrementModel;
@@ -82,20 +83,33 @@ fn advance<F: WearSource>(
                 None => walker.go_on_to(&vec![0.0; settings.width()])?,
             };
             let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
-            (walker.follow(&measured, &mut control, most)?, measured)
+            let left = settings.most_cycles.saturating_sub(state.cycle);
+            let ahead = if draw.is_mean() { walker.ahead(&measured, left) } else { None };
+            let path = match ahead {
+                Some(path) => path,
+                None => walker.follow(&measured, &mut control, most)?,
+            };
+            (path, measured)
         }
     };
     let (fine_state, measurements, earlier) = (walker.state, walker.measurements, walker.earlier);
 
     let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;
     // From here on nothing fails: the state changes as a whole.
-    for (joint, wear) in measured.iter().enumerate() {
-        let Some(mut seen) = wear.observed else { continue };
-        seen.depth_per_cycle = cycles.first_increment(joint);
-        settings.joints[joint].limits.warnings(&seen).for_each(|warning| state.warn(joint, warning));
+    let begin = (0.0, measured);
+    let seen = if path.seen.is_empty() { slice::from_ref(&begin) } else { &path.seen };
+    for (time, measured) in seen {
+        // What was measured beyond the end warns of nothing.
+        let Some((gains, _)) = cycles.ends.get(*time as usize) else { break };
+        for (joint, wear) in measured.iter().enumerate() {
+            let Some(mut seen) = wear.observed else { continue };
+            seen.depth_per_cycle = gains[joint];
+            let warnings = settings.joints[joint].limits.warnings(&seen);
+            warnings.for_each(|warning| state.warn(joint, warning, *time as u64));
+        }
     }
     let mut flow = ControlFlow::Continue(());
-    for record in cycles.records(settings, &base, state.cycle, &measured) {
+    for record in cycles.records(settings, &base, state.cycle, (&path, &begin.1)) {
         if watch.report(record.used.min(1.0)).is_break() {
             flow = ControlFlow::Break(());
         }
@@ -200,20 +214,16 @@ impl Cycles {
         Ok(cycles)
     }
 
-    /// Mean increment of the first cycle [m].
-    fn first_increment(&self, joint: usize) -> f64 {
-        self.ends.first().map_or(0.0, |(gains, _)| gains[joint])
-    }
-
     fn records<'c>(
         &'c self,
         settings: &'c LifeSettings,
         base: &'c [WearState],
         done: u64,
-        measured: &'c [ContactMeasure],
+        (path, begin): (&'c Path, &'c [ContactMeasure]),
     ) -> impl Iterator<Item = CycleRecord> + 'c {
         let record = move |(index, (gains, joints)): (usize, &'c (Vec<f64>, Vec<WearState>))| {
             let before = if index == 0 { base } else { self.ends[index - 1].1.as_slice() };
+            let measured = revolution(settings, path, begin, index as f64);
             let joint = |at: usize| CycleJoint {
                 clearance: before[at].clearance,
                 mean_increment: gains[at],
@@ -230,6 +240,24 @@ impl Cycles {
         };
         self.ends.iter().enumerate().map(record)
     }
+}
+
+/// What a revolution does at a time of a path: as it was measured next to it, with the wear of the path; or at its begin.
+fn revolution(
+    settings: &LifeSettings,
+    path: &Path,
+    begin: &[ContactMeasure],
+    time: f64,
+) -> Vec<ContactMeasure> {
+    let far = |(known, _): &&(f64, Vec<ContactMeasure>)| (known - time).abs();
+    let Some((_, nearest)) = path.seen.iter().min_by(|a, b| far(a).total_cmp(&far(b))) else {
+        return begin.iter().map(ContactMeasure::numbers).collect();
+    };
+    let mut measured: Vec<_> = nearest.iter().map(ContactMeasure::numbers).collect();
+    for ((measured, there), here) in measured.iter_mut().zip(rates(settings, nearest)).zip(path.rates(time)) {
+        measured.scale_wear(here / there);
+    }
+    measured
 }
 
 /// All joints after `factors` times the increments.

@@ -139,6 +139,20 @@ impl<F: WearSource> WearSource for MissionSource<F> {
         self.measured.push(SegmentsMeasured { wear, segments: all });
         Ok(mean)
     }
+
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [Self::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
+        let [alone] = &mut self.segments[..] else {
+            return joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect();
+        };
+        let mut own: Vec<F::State> = states.iter_mut().map(|state| state.pop().unwrap_or_default()).collect();
+        let measured = alone.source.measure_each(joints, &mut own).map_err(MissionError::Alone);
+        states.iter_mut().zip(own).for_each(|(state, own)| *state = vec![own]);
+        measured
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,9 @@
 //! `full` coupling measures with the dynamics themselves, `table` coupling with a [`WearTable`] made from them once. Both
 //! are fine scales to the same loop, [`run_life`].
 
+mod ahead;
 mod along_curves;
+mod asked;
 mod calibrate;
 mod curve;
 mod cycle;

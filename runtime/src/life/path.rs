@@ -4,6 +4,7 @@
 //! Bogacki and Shampine's pair of order 3 and 2 (Appl. Math. Lett. 2 (1989) 321-325): its last stage is the first of
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
+use super::asked::{measure, measure_each};
 use super::curve::Measured;
 use super::error::LifeError;
 use super::interpolate::{at, cubic};
@@ -44,6 +45,8 @@ pub(super) struct Path {
     pub(super) end: Option<Vec<ContactMeasure>>,
     /// Estimated error per joint [cycles].
     pub(super) error: Vec<f64>,
+    /// What was measured on its way, with the times [cycles]; nothing where that is what stands at its begin alone.
+    pub(super) seen: Vec<(f64, Vec<ContactMeasure>)>,
 }
 
 impl Path {
@@ -55,8 +58,16 @@ impl Path {
 
     /// Increments at a time in cycles after its begin.
     pub(super) fn at(&self, time: f64) -> Increments {
-        let index = self.segments.partition_point(|segment| segment.start < time).max(1) - 1;
-        self.segments.get(index).map_or_else(Vec::new, |segment| segment.at(time))
+        self.segment(time).map_or_else(Vec::new, |segment| segment.at(time))
+    }
+
+    /// What a cycle adds to them at that time.
+    pub(super) fn rates(&self, time: f64) -> Increments {
+        self.segment(time).map_or_else(Vec::new, |segment| segment.rates(time))
+    }
+
+    fn segment(&self, time: f64) -> Option<&Segment> {
+        self.segments.get(self.segments.partition_point(|segment| segment.start < time).max(1) - 1)
     }
 }
 
@@ -67,11 +78,20 @@ impl Segment {
         if part >= 1.0 - 1e-9 {
             return self.to.clone();
         }
-        let value = |i: usize| {
-            let begin = (self.from[i], self.length * self.from_rate[i]);
-            at(&cubic(begin, (self.to[i], self.length * self.to_rate[i])), part)
+        (0..self.from.len()).map(|i| at(&self.cubic(i), part)).collect()
+    }
+
+    fn rates(&self, time: f64) -> Increments {
+        let part = (time - self.start) / self.length;
+        let rate = |i: usize| {
+            let [a, b, c, _] = self.cubic(i);
+            ((3.0 * a * part + 2.0 * b) * part + c) / self.length
         };
-        (0..self.from.len()).map(value).collect()
+        (0..self.from.len()).map(rate).collect()
+    }
+
+    fn cubic(&self, i: usize) -> [f64; 4] {
+        cubic((self.from[i], self.length * self.from_rate[i]), (self.to[i], self.length * self.to_rate[i]))
     }
 }
 
@@ -112,14 +132,30 @@ impl<F: WearSource> Walker<'_, F> {
         increments: &[f64],
         state: &mut F::State,
     ) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
+        let joints = self.worn(increments);
+        self.measurements += 1;
+        measure(self.settings, self.fine, &joints, state, self.cycle + 1)
+    }
+
+    /// What revolutions wear after each of these increments, each from a state of its own.
+    pub(super) fn measure_each(
+        &mut self,
+        increments: &[Increments],
+        states: &mut [F::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, LifeError<F::Error>> {
+        let joints: Vec<Vec<JointWear>> = increments.iter().map(|one| self.worn(one)).collect();
+        self.measurements += joints.len() as u64;
+        measure_each(self.settings, self.fine, &joints, states, self.cycle + 1)
+    }
+
+    /// The joints after these increments, as the fine scale has to know them.
+    fn worn(&self, increments: &[f64]) -> Vec<JointWear> {
         let worn = |((joint, increment), base): ((&JointLife, &[f64]), &WearState)| {
             let WearState { clearance, wear, profile, journal, .. } = joint.after(base, increment, 1.0);
             let fed_back = |profile: Option<Profile>| profile.filter(|_| joint.feedback == Feedback::Profile);
             JointWear { clearance, wear, profile: fed_back(profile), journal: fed_back(journal) }
         };
-        let joints: Vec<JointWear> = self.settings.parts(increments).zip(self.base).map(worn).collect();
-        self.measurements += 1;
-        measure(self.settings, self.fine, &joints, state, self.cycle + 1)
+        self.settings.parts(increments).zip(self.base).map(worn).collect()
     }
 
     /// The same of the motion that goes on from there.
@@ -146,7 +182,7 @@ impl<F: WearSource> Walker<'_, F> {
             let (from_rate, to_rate) = (rates.clone(), rates.clone());
             let segment = Segment { start: 0.0, length: 1.0, from: nothing, to: rates, from_rate, to_rate };
             let error = vec![0.0; self.base.len()];
-            return Ok(Path { segments: vec![segment], span: 1, end: None, error });
+            return Ok(Path { segments: vec![segment], span: 1, end: None, error, seen: Vec::new() });
         };
         // A jump of several cycles is one step.
         let mut span = (control.step.floor() as u64).clamp(1, most.min(longest).max(1));
@@ -159,7 +195,8 @@ impl<F: WearSource> Walker<'_, F> {
             }
             *control = before;
         }
-        let mut path = Path { segments: Vec::new(), span, end: None, error: vec![0.0; self.base.len()] };
+        let error = vec![0.0; self.base.len()];
+        let mut path = Path { segments: Vec::new(), span, end: None, error, seen: Vec::new() };
         let (mut time, mut from, mut from_rate) = (0.0, nothing, rates);
         let mut refused: Option<(f64, f64)> = None;
         loop {
@@ -292,48 +329,4 @@ pub(super) fn rates(settings: &LifeSettings, measured: &[ContactMeasure]) -> Inc
         }
     }
     rates
-}
-
-/// Asks the fine scale in a cycle (from 1), and refuses joints and answers that mean nothing.
-pub(super) fn measure<F: WearSource>(
-    settings: &LifeSettings,
-    fine: &mut F,
-    joints: &[JointWear],
-    state: &mut F::State,
-    cycle: u64,
-) -> Result<Vec<ContactMeasure>, LifeError<F::Error>> {
-    for (joint, worn) in settings.joints.iter().zip(joints) {
-        let profiles = worn.profile.iter().chain(&worn.journal);
-        let clearance = worn.clearance + profiles.map(Profile::maximum).sum::<f64>();
-        let (name, journal_radius) = (joint.joint.clone(), joint.journal_radius);
-        if clearance >= journal_radius {
-            return Err(LifeError::ClearanceAboveJournal { joint: name, cycle, clearance, journal_radius });
-        }
-    }
-    let measured = fine.measure(joints, state).map_err(|error| LifeError::Fine { cycle, error })?;
-    let shape = |what, expected, found| {
-        if expected == found { Ok(()) } else { Err(LifeError::Shape { what, expected, found }) }
-    };
-    shape("joints", settings.joints.len(), measured.len())?;
-    for (joint, wear) in settings.joints.iter().zip(&measured) {
-        if let Some(bins) = joint.bins {
-            let found = wear.deposit.as_ref().map_or(0, |profile| profile.depths().len());
-            shape("bins of a profile", bins, found)?;
-        }
-        if let Some(bins) = joint.journal_bins {
-            let found = wear.journal.as_ref().map_or(0, |profile| profile.depths().len());
-            shape("bins of a journal", bins, found)?;
-        }
-        if let Some((name, value)) = wear.flaw() {
-            return Err(LifeError::Measured { joint: joint.joint.clone(), cycle, name, value });
-        }
-        if wear.touching < settings.least_touching {
-            return Err(LifeError::ContactLost {
-                joint: joint.joint.clone(),
-                cycle,
-                touching: wear.touching,
-            });
-        }
-    }
-    Ok(measured)
 }

@@ -195,6 +195,13 @@ impl LifeSettings {
         self
     }
 
+    /// Whether the mean path is measured ahead, at many states of wear together: with one joint whose wear is a number, and steps that
+    /// remember what was measured.
+    pub fn is_measured_ahead(&self) -> bool {
+        matches!(&self.joints[..], [joint] if joint.width() == 1)
+            && matches!(self.step, WearStep::Adaptive { remembers: true, .. })
+    }
+
     /// Length of the increments of all joints.
     pub(super) fn width(&self) -> usize {
         self.joints.iter().map(JointLife::width).sum()

@@ -25,6 +25,18 @@ pub trait WearSource {
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, Self::Error>;
 
+    /// The same at several states of wear, each from a state of its own: side by side, where the fine scale can, in the same bits.
+    ///
+    /// # Errors
+    /// If one of the revolutions cannot be computed.
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [Self::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
+        joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect()
+    }
+
     /// The mean paths of the joints, solved beforehand. Nothing unless what a joint wears depends on its own W alone and nothing
     /// can stop a life before its threshold; lives then go cycle by cycle through [`run_life`](super::run_life).
     fn flow(&self, settings: &LifeSettings) -> Option<WearFlow> {
@@ -43,6 +55,14 @@ impl<F: WearSource + ?Sized> WearSource for &mut F {
         state: &mut F::State,
     ) -> Result<Vec<ContactMeasure>, F::Error> {
         (**self).measure(joints, state)
+    }
+
+    fn measure_each(
+        &mut self,
+        joints: &[Vec<JointWear>],
+        states: &mut [F::State],
+    ) -> Result<Vec<Vec<ContactMeasure>>, F::Error> {
+        (**self).measure_each(joints, states)
     }
 
     fn flow(&self, settings: &LifeSettings) -> Option<WearFlow> {

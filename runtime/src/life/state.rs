@@ -171,13 +171,13 @@ impl<S> LifeState<S> {
         same("the number of measured joints", settings.joints.len(), measured)
     }
 
-    /// Notes a warning unless the joint had one of its kind; numbers are those of the first.
-    pub(super) fn warn(&mut self, joint: usize, warning: Warning) {
+    /// Notes a warning after so many cycles more, unless the joint had one of its kind; numbers are those of the first.
+    pub(super) fn warn(&mut self, joint: usize, warning: Warning, after: u64) {
         let kind = core::mem::discriminant(&warning);
         let known =
             |seen: &JointWarning| seen.joint == joint && core::mem::discriminant(&seen.warning) == kind;
         if !self.warnings.iter().any(known) {
-            self.warnings.push(JointWarning { joint, cycle: self.cycle + 1, warning });
+            self.warnings.push(JointWarning { joint, cycle: self.cycle + after + 1, warning });
         }
     }
 }

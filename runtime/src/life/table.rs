@@ -10,10 +10,10 @@
 
 use core::convert::Infallible;
 
+use super::asked::measure;
 use super::error::LifeError;
 use super::flow::{JointFlow, WearFlow};
 use super::interpolate::{Curve, find};
-use super::path::measure;
 use super::settings::{Feedback, JointLife, LifeSettings, SettingsError, WearOf, WearStep};
 use super::source::{JointWear, WearSource};
 use crate::contact::OutOfRange;

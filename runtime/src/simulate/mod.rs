@@ -33,7 +33,9 @@ mod turns;
 mod unbounded;
 mod warning;
 
-pub use bundle::{TurnBundle, TurnOutcome, TurnQueue, TurnRequests, WholeSteps, WideBundle, turn_queue};
+pub use bundle::{
+    LaneTurns, TurnBundle, TurnOutcome, TurnQueue, TurnRequests, WholeSteps, WideBundle, turn_queue,
+};
 pub use contact_event::ContactEvent;
 pub use extremes::{At, ENVELOPE_PIECES, Extremes, Peak};
 pub use ideal::IdealJoint;

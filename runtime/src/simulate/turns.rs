@@ -136,6 +136,11 @@ impl<'a> TurnRunner<'a> {
         Ok(())
     }
 
+    /// Parameters that it runs with, in SI.
+    pub(crate) fn parameters(&self) -> &[f64] {
+        self.motion.dynamics.evaluator.parameters()
+    }
+
     /// Present radial clearances with their mean wear [m], joint by joint.
     pub fn clearances(&mut self) -> Vec<f64> {
         let evaluator = &mut self.motion.dynamics.evaluator;
@@ -253,13 +258,13 @@ impl<'a> TurnRunner<'a> {
     }
 
     /// The clearances [m], if the next turn has to be looked at for forces that jump with an angle.
-    pub(super) fn looks(&mut self) -> Option<Vec<f64>> {
+    pub(crate) fn looks(&mut self) -> Option<Vec<f64>> {
         let clearances = self.clearances();
         self.may_differ(&clearances).then_some(clearances)
     }
 
     /// Goes on after a turn that was run elsewhere; `looked_at` as [`Self::looks`] has it.
-    pub(super) fn go_on(&mut self, state: &TurnState, looked_at: Option<Vec<f64>>) -> Result<(), SetupError> {
+    pub(crate) fn go_on(&mut self, state: &TurnState, looked_at: Option<Vec<f64>>) -> Result<(), SetupError> {
         if let Some(clearances) = looked_at {
             self.looked_at = clearances;
         }

@@ -98,6 +98,12 @@ impl ContactMeasure {
         Self { deposit: None, journal: None, observed: None, ..*self }
     }
 
+    /// The same revolution, had it worn this part of what it has.
+    pub(crate) fn scale_wear(&mut self, part: f64) {
+        self.wear_integral *= part;
+        self.depth *= part;
+    }
+
     /// The mean of turns of one joint; extremes are those of all turns.
     pub fn mean(turns: &[&Self]) -> Self {
         let count = turns.len() as f64;

@@ -47,15 +47,15 @@ pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
 /// What a life with the dynamics at every wear step will cost, and what a table would.
 pub fn cost(cost: &Cost) -> String {
     let Cost { seconds_per_revolution, revolutions, cycles, mean_path: [least, most], .. } = cost;
-    let Cost { lives, side_by_side, table, .. } = cost;
+    let Cost { mean_path_side_by_side: together, lives, side_by_side, table, .. } = cost;
     let time = |measurements: f64| about(cost.seconds(measurements));
     let mut text = format!(
         "full coupling runs the dynamics at every wear step: {} a measurement ({revolutions} revolutions of {}). If all wore as \
          the first does, the mean path would have {cycles:.0} cycles: {least:.0} to {most:.0} measurements, {} to {}",
         time(1.0),
         about(*seconds_per_revolution),
-        time(*least),
-        time(*most),
+        time(*least / together),
+        time(*most / together),
     );
     if *lives > 0.0 {
         let _ =

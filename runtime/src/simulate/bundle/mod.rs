@@ -15,7 +15,7 @@ mod wide;
 
 pub use outcome::TurnOutcome;
 pub use whole::WholeSteps;
-pub use wide::WideBundle;
+pub use wide::{LaneTurns, WideBundle};
 
 pub use queue::{TurnQueue, TurnRequests, turn_queue};
 

@@ -1,0 +1,114 @@
+//! How a measurement goes from turn to turn. In: turns, as they are done. Out: whether one more is needed, and what they come to.
+//! Never runs one.
+
+use super::settings::RevolutionSettings;
+use super::settling::{Orbit, Settling};
+use super::steadiness::Steadiness;
+use super::wearing::Wearing;
+use crate::simulate::{TurnMeasures, TurnState};
+use crate::wear::ContactMeasure;
+
+/// A motion that has not settled after so many turns is taken as one that never does, ...
+const MOST_TO_SETTLE: u32 = 4;
+/// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
+/// is left, and the budget tells it; ...
+const SCATTERED: f64 = 1e-3;
+/// ... or of so many turns.
+const MOST_TO_AVERAGE: usize = 20;
+
+/// A measurement under way.
+pub(super) struct Measuring {
+    settle: Option<u32>,
+    average: usize,
+    settling: Settling,
+    stage: Stage,
+    done: u32,
+    /// The last turn that settled.
+    last: Option<TurnMeasures>,
+    /// Those that are measured.
+    turns: Vec<TurnMeasures>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Stage {
+    Settles,
+    /// Turns are alike, or as many have settled as were asked for.
+    IsSettled,
+    NeverSettles,
+}
+
+/// What a measurement has come to.
+pub(super) struct Done {
+    pub measured: Vec<ContactMeasure>,
+    /// Joint by joint.
+    pub steadiness: Vec<Steadiness>,
+    pub orbit: Orbit,
+    /// The turns that it is the mean of.
+    pub turns: Vec<TurnMeasures>,
+}
+
+impl Measuring {
+    /// Of a motion that goes on from an orbit, or begins.
+    pub fn new(settings: &RevolutionSettings, settling: Settling) -> Self {
+        let average = settings.average.max(1) as usize;
+        let stage = if settings.settle == Some(0) { Stage::IsSettled } else { Stage::Settles };
+        let (settle, last, turns) = (settings.settle, None, Vec::new());
+        Self { settle, average, settling, stage, done: 0, last, turns }
+    }
+
+    /// The part of the measurement that the next turn is, from and to. Where nobody knows how many there will be, every turn is half of
+    /// what is left.
+    pub fn next(&self) -> (f64, f64) {
+        let part = |done: u32| match self.settle {
+            Some(settle) => f64::from(done) / (f64::from(settle) + self.average as f64),
+            None => 1.0 - 0.5_f64.powi(i32::try_from(done).unwrap_or(i32::MAX)),
+        };
+        (part(self.done), part(self.done + 1))
+    }
+
+    /// Takes a turn; whether it was the last one.
+    pub fn take(&mut self, turn: TurnMeasures, wearing: &Wearing<'_>) -> bool {
+        self.done += 1;
+        if self.stage != Stage::Settles {
+            self.turns.push(turn);
+            return self.is_done(wearing);
+        }
+        let settled = match self.settle {
+            Some(_) => false,
+            None => self
+                .last
+                .as_ref()
+                .is_some_and(|last| self.settling.has_settled(std::iter::once(wearing.differs(last, &turn)))),
+        };
+        if settled {
+            self.stage = Stage::IsSettled;
+            self.turns.push(turn);
+            return self.is_done(wearing);
+        }
+        self.last = Some(turn);
+        self.stage = match self.settle {
+            Some(settle) if self.done >= settle => Stage::IsSettled,
+            None if self.done >= MOST_TO_SETTLE => Stage::NeverSettles,
+            _ => Stage::Settles,
+        };
+        false
+    }
+
+    fn is_done(&self, wearing: &Wearing<'_>) -> bool {
+        let count = self.turns.len();
+        let enough = self.stage == Stage::IsSettled
+            || count >= MOST_TO_AVERAGE
+            || wearing
+                .steadiness(None, &self.turns)
+                .all(|one| one.scatter.is_some_and(|scatter| scatter <= SCATTERED));
+        count >= self.average && enough
+    }
+
+    /// What it has come to, at the end of its last turn.
+    pub fn end(self, turn: TurnState, wearing: &Wearing<'_>) -> Done {
+        let steadiness = wearing.steadiness(self.last.as_ref(), &self.turns).collect();
+        let measured = wearing.mean(&self.turns);
+        let orbit = Orbit { turn, contraction: self.settling.contraction() };
+        Done { measured, steadiness, orbit, turns: self.turns }
+    }
+}

@@ -1,0 +1,78 @@
+//! The joints that wear, among those with clearance. In: turns. Out: what they wear there. Never runs one.
+
+use super::steadiness::Steadiness;
+use crate::description::Description;
+use crate::life::{JointLife, JointWear, SettingsError, WearOf};
+use crate::linear::largest_of;
+use crate::simulate::TurnMeasures;
+use crate::wear::ContactMeasure;
+
+/// The joints of a mechanism that wear.
+pub(super) struct Wearing<'a> {
+    description: &'a Description,
+    /// Their indices among those with clearance, with their clearance at the start [m].
+    pub joints: Vec<(usize, f64)>,
+}
+
+impl<'a> Wearing<'a> {
+    /// Of a mechanism with these clearances [m] at the start.
+    pub fn new(description: &'a Description, clearances: &[f64]) -> Self {
+        let joints = (0..clearances.len()).filter(|at| description.contacts[*at].wear.is_some());
+        Self { description, joints: joints.map(|at| (at, clearances[at])).collect() }
+    }
+
+    /// As the mechanism describes them.
+    pub fn lives(&self) -> Result<Vec<JointLife>, SettingsError> {
+        let of = |(at, clearance): &(usize, f64)| {
+            JointLife::of_joint(self.description, *at, *clearance).transpose()
+        };
+        self.joints.iter().filter_map(of).collect()
+    }
+
+    /// As they are at the start.
+    pub fn unworn(&self) -> Vec<JointWear> {
+        let joint = |(_, clearance): &(usize, f64)| JointWear {
+            clearance: *clearance,
+            wear: 0.0,
+            profile: None,
+            journal: None,
+        };
+        self.joints.iter().map(joint).collect()
+    }
+
+    /// By how much of its wear a turn differs from the one before, of the joint where that is most.
+    pub fn differs(&self, last: &TurnMeasures, now: &TurnMeasures) -> f64 {
+        let part = |(at, _): &(usize, f64)| {
+            let (last, now) = (self.wear(*at, last), self.wear(*at, now));
+            // What does not wear at all is settled.
+            if now == last { 0.0 } else { ((now - last) / now).abs() }
+        };
+        largest_of(self.joints.iter().map(part))
+    }
+
+    /// How steady turns are, joint by joint, beside one before them.
+    pub fn steadiness(
+        &self,
+        before: Option<&TurnMeasures>,
+        turns: &[TurnMeasures],
+    ) -> impl Iterator<Item = Steadiness> {
+        self.joints.iter().map(move |(at, _)| {
+            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
+            Steadiness::of(before.map(|turn| self.wear(*at, turn)), &wears)
+        })
+    }
+
+    /// The mean of turns, joint by joint.
+    pub fn mean(&self, turns: &[TurnMeasures]) -> Vec<ContactMeasure> {
+        let of = |(at, _): &(usize, f64)| {
+            ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
+        };
+        self.joints.iter().map(of).collect()
+    }
+
+    /// W per turn [m] of a wearing joint.
+    fn wear(&self, at: usize, turn: &TurnMeasures) -> f64 {
+        let wear = self.description.contacts[at].wear.as_ref();
+        wear.map_or(0.0, |wear| WearOf::described(wear).of(&turn.joints[at]))
+    }
+}
