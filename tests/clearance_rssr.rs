@@ -11,7 +11,7 @@ use linkwear_codegen::compile::Compiled;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{IdealJoint, Integrator, SINGULAR_PIVOT, Settings, Span, TurnRunner, Watch};
-use support::{Recorded, Table, compile_source, compiled, run_with, shipped};
+use support::{Recorded, Table, compile_source, compiled, run_with, shipped, system};
 use truth::reached;
 
 /// Of the coupler in the reference [Hz]; each in both planes.
@@ -130,10 +130,10 @@ fn an_ideal_joint_wears_by_its_reaction() {
 #[test]
 fn the_wear_integral_converges_with_order_four() {
     let compiled = rssr(REFERENCE, &[]);
-    let (system, parameters) = (compiled.interpreter(), compiled.parameters());
+    let (system, parameters) = (system(&compiled), compiled.parameters());
     let runner = |step| {
         let method = Integrator::Rk4 { step };
-        TurnRunner::new(&system, compiled.description(), &parameters, method, SINGULAR_PIVOT).unwrap()
+        TurnRunner::new(&*system, compiled.description(), &parameters, method, SINGULAR_PIVOT).unwrap()
     };
     let mut settling = runner(STEP);
     settling.turns(SETTLE as u32, Watch::NONE).unwrap();

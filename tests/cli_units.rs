@@ -146,7 +146,7 @@ fn a_unit_is_told_by_its_own_readings() {
     // The readings move the parameters of the population as well, but little beside 240 increments.
     close(&inspected["mean"], same["mean"].as_f64().expect("a number"), 0.02);
     let gauge =
-        ask(&["--inspections", &log, "--time", "t", "--wear", "w", "--gauge", "0.2", "--particles", "40000"])
+        ask(&["--inspections", &log, "--time", "t", "--wear", "w", "--gauge", "0.2", "--particles", "10000"])
             .json();
     // An error of 0.2 leaves the rate open by 0.2 of 9 more, and the wear by 0.2 of 6.
     close(&gauge["mean"], same["mean"].as_f64().expect("a number"), 0.06);

@@ -51,17 +51,32 @@ fn files(archive: &[u8]) -> Vec<(String, Vec<u8>)> {
     files
 }
 
+/// Mechanisms whose units several tests drive: packing one takes longer than most runs of it.
+const SHARED: [&str; 4] = ["pendulum", "rssr_rigid", "rssr_flexible", "rssr"];
+
 impl Unpacked {
     fn new(name: &str) -> Self {
-        Self::of(compiled(name))
+        static UNITS: [OnceLock<(Compiled, Vec<u8>)>; SHARED.len()] =
+            [const { OnceLock::new() }; SHARED.len()];
+        let place = SHARED.iter().position(|shared| *shared == name).expect("a name of the list");
+        let (compiled, bytes) = UNITS[place].get_or_init(|| {
+            let compiled = compiled(name);
+            let bytes = fmu::unit(&compiled).expect("a unit");
+            (compiled, bytes)
+        });
+        Self::written(compiled.clone(), bytes)
     }
 
     fn of(compiled: Compiled) -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
         let bytes = fmu::unit(&compiled).expect("a unit");
-        fs::write(folder.path().join("unit.fmu"), &bytes).expect("written");
+        Self::written(compiled, &bytes)
+    }
+
+    fn written(compiled: Compiled, bytes: &[u8]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("unit.fmu"), bytes).expect("written");
         let mut binary = PathBuf::new();
-        for (name, content) in files(&bytes) {
+        for (name, content) in files(bytes) {
             let path = folder.path().join(&name);
             fs::create_dir_all(path.parent().expect("a folder")).expect("made");
             fs::write(&path, content).expect("written");

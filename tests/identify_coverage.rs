@@ -3,6 +3,7 @@
 //! `cargo test --release --test identify_coverage -- --ignored --nocapture`.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::thread::{available_parallelism, scope};
 
 use linkwear::backend::Backend;
@@ -105,7 +106,13 @@ fn live(c0: f64) -> WearPath {
 }
 
 impl Paths {
-    fn new() -> Self {
+    /// The same for all who ask.
+    fn known() -> &'static Self {
+        static PATHS: OnceLock<Paths> = OnceLock::new();
+        PATHS.get_or_init(Self::live)
+    }
+
+    fn live() -> Self {
         let (first, last) = (10.0_f64.ln(), 250.0_f64.ln());
         let step = (last - first) / (PATHS - 1) as f64;
         let all = (0..PATHS).map(|at| live((first + step * at as f64).exp())).collect();
@@ -143,13 +150,13 @@ fn noise(count: usize, seed: u64) -> Vec<f64> {
 
 /// Of each parameter: intervals that hold the truth, and estimates.
 fn held(case: &Case, seeds: std::ops::Range<u64>) -> Vec<(u64, u64)> {
-    let paths = case.curve.is_none().then(Paths::new);
+    let paths = case.curve.is_none().then(Paths::known);
     let threads = available_parallelism().map_or(1, |count| count.get() as u64);
     let count_of = |thread: u64| {
         let (cases, frees) = (cases(case), frees(case));
         let places = (curve(case), case.curve.map_or_else(|| vec![inspections()], |_| Vec::new()));
         let machine = Machine::new(&cases, &frees, places, RevolutionSettings::default());
-        let model: &dyn Model = paths.as_ref().map_or(&machine, |paths| paths);
+        let model: &dyn Model = paths.map_or(&machine, |paths| paths);
         let clean = model.predict(case.truth, Watch::NONE).expect("a run");
         let group = machine.readings().expect("readings").groups()[0].clone();
         let level = case.curve.map_or(GAUGE, |(_, level, ..)| level);
@@ -222,7 +229,7 @@ fn a_damper_and_a_load_lie_in_their_intervals() {
 
 #[test]
 fn paths_between_paths_are_right_and_wear_lies_in_its_intervals() {
-    let paths = Paths::new();
+    let paths = Paths::known();
     for c0 in [11.0, 33.3, 47.0, 111.0, 222.0] {
         let right = live(c0).at(&inspections(), 2e-7).expect("wear");
         let found = paths.predict(&[2e-7, c0], Watch::NONE).expect("wear");

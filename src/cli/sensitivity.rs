@@ -140,3 +140,33 @@ fn text(name: &str, found: &SensitivityResult) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensitivity::{LeftOut, LifeSensitivity, Varying};
+
+    #[test]
+    fn what_derivatives_are_worth_is_told_below_them() {
+        let cycles = Derived { value: 25.0, by: vec![-5.0], doubts: vec![0.1] };
+        let found = SensitivityResult {
+            parameters: vec![Varying { name: "c".into(), value: 2.0, unit: "N m s".into() }],
+            left_out: vec![LeftOut { parameter: "modes".into(), reason: "a whole number\nmore".into() }],
+            joints: Vec::new(),
+            life: LifeSensitivity { joint: "R1".into(), cycles },
+            random: None,
+            steps: 1000,
+            step: 5e-4,
+            step_error: 2e-5,
+            turns: 9,
+            losses: 4,
+            points: 5,
+        };
+        let told = text("m", &found);
+        assert!(told.starts_with("m: R1 fails after 25.00 cycles on its mean path\n"), "{told}");
+        assert!(told.contains("-5.000  1e-1          -0.4000\n"), "{told}");
+        let rough = "bodies come apart up to 4 times a turn: derivatives are less smooth there\n";
+        assert!(told.ends_with(&format!("{rough}left out: `modes`: a whole number\n")), "{told}");
+        assert!(!text("m", &SensitivityResult { losses: 0, ..found }).contains("apart"));
+    }
+}

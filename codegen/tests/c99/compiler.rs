@@ -1,9 +1,11 @@
 //! The C compilers there are, and programs that they make of a mechanism's files. One that is missing is said to be.
 
+use std::collections::HashMap;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use linkwear_codegen::Compiled;
 
@@ -90,11 +92,29 @@ pub fn build(name: &str, compiled: &Compiled, driver: &str, flags: &[&str]) -> V
         .into_iter()
         .filter(|compiler| is_there(compiler))
         .map(|compiler| {
-            let files = ["mechanism.c", "main.c", "-o", compiler, "-lm"];
+            let object = object(compiler, &folder, flags);
+            let files = ["main.c", &object, "-o", compiler, "-lm"];
             call(compiler, &folder, &[&STRICT, flags, &files].concat());
             Built { compiler, program: folder.join(compiler) }
         })
         .collect()
+}
+
+/// The object of the mechanism in a folder: several tests want the same one, which is compiled once.
+fn object(compiler: &str, folder: &Path, flags: &[&str]) -> String {
+    type Known = Mutex<HashMap<String, Arc<OnceLock<String>>>>;
+    static KNOWN: OnceLock<Known> = OnceLock::new();
+    let [source, header] =
+        ["mechanism.c", "mechanism.h"].map(|file| fs::read_to_string(folder.join(file)).unwrap());
+    let key = format!("{compiler} {flags:?}\n{header}{source}");
+    let slot = Arc::clone(KNOWN.get_or_init(Known::default).lock().unwrap().entry(key).or_default());
+    let compile = || {
+        let object = folder.join(format!("{compiler}.o"));
+        let path = object.to_str().expect("UTF-8").to_owned();
+        call(compiler, folder, &[&STRICT, flags, &["-c", "mechanism.c", "-o", &path]].concat());
+        path
+    };
+    slot.get_or_init(compile).clone()
 }
 
 /// What a program of C++ writes that includes the header; nothing without a compiler.

@@ -6,6 +6,7 @@ mod run;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use compiler::{Numbers, build};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
@@ -55,32 +56,43 @@ fn driver(compiled: &Compiled, states: usize) -> String {
 
 #[test]
 fn every_entry_point_of_every_shipped_mechanism_gives_the_interpreter_s_bits() {
+    let (files, next) = (mechanisms(), AtomicUsize::new(0));
+    let work = || {
+        while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
+            gives_the_interpreter_s_bits(file);
+        }
+    };
+    // A compiler at a time for each of two cores.
+    std::thread::scope(|scope| {
+        [scope.spawn(work), scope.spawn(work)].map(|thread| thread.join().expect("the same bits"))
+    });
+}
+
+fn gives_the_interpreter_s_bits(file: &Path) {
     const STATES: usize = 40;
-    for file in mechanisms() {
-        let compiled = compiled(&file);
-        let name = &compiled.mechanism.name;
-        let (sizes, system) = (compiled.sizes(), compiled.interpreter());
-        let mut numbers = Numbers::default();
-        let (mut input, mut expected) = (Vec::new(), Vec::new());
-        let mut workspace = vec![0.0; System::<f64>::sizes(&system).workspace];
-        for entry in Entry::ALL {
-            for _ in 0..STATES {
-                let x: Vec<f64> = (0..sizes.input(entry)).map(|_| numbers.next()).collect();
-                let mut y = vec![0.0; sizes.output(entry)];
-                system.evaluate(entry, &x, &mut y, &mut workspace);
-                input.extend(x);
-                expected.extend(y);
-            }
+    let compiled = compiled(file);
+    let name = &compiled.mechanism.name;
+    let (sizes, system) = (compiled.sizes(), compiled.interpreter());
+    let mut numbers = Numbers::default();
+    let (mut input, mut expected) = (Vec::new(), Vec::new());
+    let mut workspace = vec![0.0; System::<f64>::sizes(&system).workspace];
+    for entry in Entry::ALL {
+        for _ in 0..STATES {
+            let x: Vec<f64> = (0..sizes.input(entry)).map(|_| numbers.next()).collect();
+            let mut y = vec![0.0; sizes.output(entry)];
+            system.evaluate(entry, &x, &mut y, &mut workspace);
+            input.extend(x);
+            expected.extend(y);
         }
-        // Compilers take their time for forty loops in a row; their bits are the same without it.
-        let level = if name == "n_four_bar_40" { "-O0" } else { "-O2" };
-        for built in build(&format!("entries_{name}"), &compiled, &driver(&compiled, STATES), &[level]) {
-            let found = built.run(&input);
-            assert_eq!(found.len(), expected.len(), "{name}: {}", built.compiler);
-            let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
-            let differs = found.iter().zip(&expected).position(|pair| !same(pair));
-            assert_eq!(differs, None, "{name}: {}", built.compiler);
-        }
+    }
+    // Compilers take their time for forty loops in a row; their bits are the same without it.
+    let level = if name == "n_four_bar_40" { "-O0" } else { "-O2" };
+    for built in build(&format!("entries_{name}"), &compiled, &driver(&compiled, STATES), &[level]) {
+        let found = built.run(&input);
+        assert_eq!(found.len(), expected.len(), "{name}: {}", built.compiler);
+        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
+        let differs = found.iter().zip(&expected).position(|pair| !same(pair));
+        assert_eq!(differs, None, "{name}: {}", built.compiler);
     }
 }
 
