@@ -12,6 +12,7 @@ macro_rules! typed_index {
             ///
             /// # Panics
             /// Beyond 2^32 entries.
+            #[inline]
             pub fn new(position: usize) -> Self {
                 Self(u32::try_from(position).expect("fewer than 2^32 entries"))
             }

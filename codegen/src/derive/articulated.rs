@@ -8,7 +8,7 @@
 //! A row leaves at the link where the two branches of its loop meet: it has no entries by speeds further inwards, so that
 //! its pivot vanishes only where the rows lose rank. `a` is what free accelerations add to the motion of the [`Problem`].
 
-use std::collections::BTreeMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::expr::{Expr, Scope};
 
@@ -49,15 +49,21 @@ struct Closed<'g> {
 /// Rows of open loops.
 struct Rows<'g> {
     g: &'g Scope,
-    /// D, by the smaller number first; what is not there is zero.
-    coupling: BTreeMap<(usize, usize), Expr<'g>>,
+    /// D, of every row by the rows that it is tied to; what is not there is zero.
+    coupling: Vec<FxHashMap<usize, Expr<'g>>>,
     /// d.
     left: Vec<Expr<'g>>,
 }
 
 impl<'g> Rows<'g> {
     fn between(&self, a: usize, b: usize) -> Expr<'g> {
-        self.coupling.get(&(a.min(b), a.max(b))).copied().unwrap_or_else(|| self.g.zero())
+        self.coupling[a].get(&b).copied().unwrap_or_else(|| self.g.zero())
+    }
+
+    /// How many of the `open` rows a row is tied to.
+    fn ties(&self, row: usize, open: &FxHashSet<usize>) -> usize {
+        let others = self.coupling[row].iter().filter(|(other, tie)| **other != row && !tie.is_zero());
+        others.filter(|(other, _)| open.contains(other)).count()
     }
 
     /// Adds `factor m mᵀ` to D, and `force m` to d.
@@ -66,7 +72,10 @@ impl<'g> Rows<'g> {
         for (at, (row, m)) in loops.iter().enumerate() {
             let scaled = factor * *m;
             for (other, n) in &loops[at..] {
-                *self.coupling.entry((*row.min(other), *row.max(other))).or_insert(zero) += scaled * *n;
+                let tie = self.coupling[*row].entry(*other).or_insert(zero);
+                *tie += scaled * *n;
+                let tie = *tie;
+                self.coupling[*other].insert(*row, tie);
             }
             self.left[*row] += force * *m;
         }
@@ -118,7 +127,8 @@ impl<'a, 'g> Sweep<'a, 'g> {
             ArticulatedBody::new(g, &problem.masses[at].rigid, felt, moves[at])
         };
         let bodies: Vec<ArticulatedBody<'g>> = (0..linkage.links.len()).map(of_link).collect();
-        let rows = Rows { g, coupling: BTreeMap::new(), left: problem.target() };
+        let coupling = vec![FxHashMap::default(); problem.rows.len()];
+        let rows = Rows { g, coupling, left: problem.target() };
         let mut sweep = Self {
             g,
             problem,
@@ -169,14 +179,12 @@ impl<'a, 'g> Sweep<'a, 'g> {
                 Some(at) => self.bodies[at].loops.iter().map(|(row, _)| *row).collect(),
                 None => rows.clone(),
             };
-            let tied = |row: usize| -> Vec<(usize, Expr<'g>)> {
-                let others = open.iter().filter(|other| **other != row);
-                let ties = others.map(|other| (*other, self.rows.between(row, *other)));
-                ties.filter(|(_, tie)| !tie.is_zero()).collect()
-            };
-            let next = (0..rows.len()).min_by_key(|at| tied(rows[*at]).len())?;
-            let loops = tied(rows[next]);
+            let known: FxHashSet<usize> = open.iter().copied().collect();
+            let next = (0..rows.len()).min_by_key(|at| self.rows.ties(rows[*at], &known))?;
             let row = rows.remove(next);
+            let others = open.iter().filter(|other| **other != row);
+            let ties = others.map(|other| (*other, self.rows.between(row, *other)));
+            let loops: Vec<(usize, Expr<'g>)> = ties.filter(|(_, tie)| !tie.is_zero()).collect();
             let pivot = -self.rows.between(row, row);
             if pivot.is_zero() {
                 return None;

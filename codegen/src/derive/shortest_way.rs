@@ -200,6 +200,8 @@ pub fn forward<'g>(
     };
     let all = PlanBlock { rows: (0..pattern.len()).collect(), speeds: (0..speeds).collect() };
     let mut first = plain;
+    // What has been gone link by link, if it has.
+    let mut gone_by_links = None;
     if link_by_link || least(&all) > MOST_TO_ELIMINATE {
         let known = by_links();
         let is_longer = |block| known.as_ref().is_some_and(|(operations, _)| *operations < least(block));
@@ -209,8 +211,10 @@ pub fn forward<'g>(
             Some((_, forward)) if link_by_link || (all_is_longer && rows_first_is_longer) => {
                 return forward.into();
             }
-            _ if all_is_longer => first = Way { rows_first: true, ..plain },
-            _ => {}
+            known => gone_by_links = Some(known),
+        }
+        if all_is_longer {
+            first = Way { rows_first: true, ..plain };
         }
     }
     let mut best = search.first(first);
@@ -250,7 +254,7 @@ pub fn forward<'g>(
     });
     // Of few unknowns other orders of elimination do as well, which are chosen from more forms.
     if speeds + pattern.len() > MOST_TO_ORDER
-        && let Some(solved) = by_links()
+        && let Some(solved) = gone_by_links.unwrap_or_else(by_links)
     {
         best.take(problem, solved);
     }

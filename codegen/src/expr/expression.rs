@@ -48,6 +48,9 @@ impl Scope {
     /// A number. `-0.0` becomes `0.0`.
     #[inline]
     pub fn number(&self, value: f64) -> Expr<'_> {
+        if value == 0.0 {
+            return self.zero();
+        }
         self.expression(Node::Constant((value + 0.0).to_bits()))
     }
 
@@ -70,7 +73,20 @@ impl Scope {
     /// Zero.
     #[inline]
     pub fn zero(&self) -> Expr<'_> {
-        self.number(0.0)
+        match self.make(|g| g.zero) {
+            Some(id) => Expr { scope: self, id, form: Form::Zero },
+            None => self.first_zero(),
+        }
+    }
+
+    #[cold]
+    fn first_zero(&self) -> Expr<'_> {
+        let zero = self.expression(Node::Constant(0));
+        // Beyond the limit another node stands for it.
+        if zero.is_zero() {
+            self.make(|g| g.zero = Some(zero.id));
+        }
+        zero
     }
 
     /// The nodes that roots need, themselves included, each after those that it reads.

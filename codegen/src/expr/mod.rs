@@ -49,6 +49,8 @@ pub struct Graph {
     /// Index of the section of every node.
     section_of: Vec<usize>,
     current_section: usize,
+    /// Zero, once there is one: it is asked for more often than all else.
+    zero: Option<ExprId>,
     /// Nodes that came after the limit.
     left_out: usize,
 }
@@ -79,7 +81,13 @@ impl Graph {
 
     /// The nodes that are read at all, each after those that it reads.
     pub fn live(&self, uses: &[u32]) -> Vec<ExprId> {
-        (0..uses.len()).filter(|index| uses[*index] > 0).map(ExprId::new).collect()
+        let mut live = Vec::new();
+        for (index, used) in uses.iter().enumerate() {
+            if *used > 0 {
+                live.push(ExprId::new(index));
+            }
+        }
+        live
     }
 
     /// A new input; a valid Rust identifier is made of its name later.

@@ -95,6 +95,9 @@ impl Neg for Expr<'_> {
         if !self.may_change_sign() {
             return self.unary(Unary::Neg);
         }
+        if self.is_zero() {
+            return self;
+        }
         match self.node() {
             Node::Constant(bits) => self.scope().number(-f64::from_bits(bits)),
             Node::Unary(Unary::Neg, inner) => self.at(inner),
@@ -138,14 +141,15 @@ impl Mul for Expr<'_> {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        if let (Some(x), Some(y)) = (self.as_number(), other.as_number()) {
-            return self.scope().number(x * y);
-        }
+        // Most factors of most matrices are zero.
         if self.is_zero() {
             return self;
         }
         if other.is_zero() {
             return other;
+        }
+        if let (Some(x), Some(y)) = (self.as_number(), other.as_number()) {
+            return self.scope().number(x * y);
         }
         let ((x, x_negated), (y, y_negated)) = (self.strip_sign(), other.strip_sign());
         x.positive_product(y).with_sign(x_negated != y_negated)

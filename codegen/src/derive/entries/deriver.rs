@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use nalgebra::DMatrix;
 
-use crate::expr::{Expr, Scope, Vec3};
+use crate::expr::{Expr, Scope, Section, Vec3};
 use crate::id::{JointId, ParameterId};
 use crate::model::Mechanism;
 
@@ -20,7 +20,7 @@ use crate::derive::formula_to_expr::Inputs;
 use crate::derive::geometry::Geometry;
 use crate::derive::joint_state::JointStates;
 use crate::derive::kept_rows::Partition;
-use crate::derive::kinematics::{Poses, twists};
+use crate::derive::kinematics::{Poses, Twist, twists};
 use crate::derive::link_mass::{LinkMass, link_masses};
 use crate::derive::linkage::{Freedom, Link};
 use crate::derive::loads::Loads;
@@ -117,18 +117,21 @@ pub struct Instant<'g> {
     pub own_rates: Vec<Expr<'g>>,
     /// Laws of the forces that ask for the solution.
     pub laws: Vec<Expr<'g>>,
+    /// The section that was open when all of it was there.
+    pub section: Section,
 }
 
 impl<'g> Instant<'g> {
-    /// What `by` makes of the rows of the cuts, with its operations: of those whose terms are summed up along the axes of
+    /// What `by` makes of the rows of the `cuts`, with its operations: of those whose terms are summed up along the axes of
     /// the links, or of W where that is shorter. `compare`: whether the second way is tried at all.
     pub fn by_shorter_rows<T>(
         &self,
+        cuts: &[CutRows<'g>],
         exact_or_apart: (bool, bool),
         compare: bool,
         by: impl Fn(&[CutRows<'g>]) -> (usize, T),
     ) -> T {
-        let mut shortest = by(&self.cuts);
+        let mut shortest = by(cuts);
         for (_, cuts) in self.other_rows(exact_or_apart, compare) {
             let next = by(&cuts);
             if next.0 < shortest.0 {
@@ -294,14 +297,30 @@ impl<'g> Deriver<'g> {
     }
 
     /// Link motion, loads and closure rows for the given coordinates, speeds and accelerations.
-    pub fn instant(&self, [q, v, v_dot]: [Vec<Expr<'g>>; 3], exact: bool) -> Instant<'g> {
+    pub fn instant(&self, [q, v, v_dot]: [Vec<Expr<'g>>; 3]) -> Instant<'g> {
         let geometry = self.geometry;
-        let Geometry { g, linkage, .. } = geometry;
+        let g = geometry.g;
         g.begin_section("poses of the links, [CS (2)]");
         let poses = Poses::new(geometry, &q);
         self.label_poses(&poses, &q);
         g.begin_section("twists of the links, [CS (5)]");
         let twists = twists(&poses, &v);
+        self.moved((poses, twists), [q, v, v_dot])
+    }
+
+    /// The same with other accelerations of the free speeds: positions and speeds are made once.
+    pub fn accelerated(&self, instant: &Instant<'g>, free: &[Expr<'g>]) -> Instant<'g> {
+        let Motion { poses, twists, .. } = &instant.state.motion;
+        self.moved((poses.clone(), twists.clone()), self.driven_state(free))
+    }
+
+    fn moved(
+        &self,
+        (poses, twists): (Poses<'g>, Vec<Twist<'g>>),
+        [q, v, v_dot]: [Vec<Expr<'g>>; 3],
+    ) -> Instant<'g> {
+        let geometry = self.geometry;
+        let Geometry { g, linkage, .. } = geometry;
         g.begin_section("accelerations of the links");
         let ground = -self.gravity();
         let accelerations = accelerations(&poses, &twists, (&v, &v_dot), ground);
@@ -319,7 +338,7 @@ impl<'g> Deriver<'g> {
         let responses = Rc::clone(&self.responses);
         let state = JointStates { geometry, motion, q, v, v_dot, own, responses, points_in_ground: true };
         let loads = loads(g, &state, &self.contacts);
-        let cuts = cut_rows(&state.motion, exact, Sums::Links);
+        let cuts = cut_rows(&state.motion, false, Sums::Links);
         let couplings = coupling_rows(g, &state);
         let laws = self.responses.take_laws();
         let rates = geometry.mechanism.states.iter().take(self.own.len());
@@ -329,7 +348,7 @@ impl<'g> Deriver<'g> {
                 state.lower(g, &own.rate)
             })
             .collect();
-        Instant { state, loads, cuts, couplings, own_rates, laws }
+        Instant { state, loads, cuts, couplings, own_rates, laws, section: g.section() }
     }
 
     pub(super) fn own_integrals(&self) -> impl Iterator<Item = Expr<'g>> {

@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
 use super::row_axes::MOST_TO_COMPARE;
-use crate::derive::closure::CutRows;
+use crate::derive::closure::{CutRows, cut_rows};
 use crate::derive::contacts::contact_motion;
 use crate::derive::dynamics::{all_bias_forces, kinetic_energy, weight_energy};
 use crate::derive::forward::{Forward, Problem};
@@ -203,9 +203,10 @@ impl<'g> Deriver<'g> {
         Function { goes_on: true, ..function(Entry::Derivative, doc, inputs, outputs) }
     }
 
-    pub(super) fn closure(&self) -> (Function, Vec<RowInfo>) {
+    pub(super) fn closure(&self, instant: &Instant<'g>) -> (Function, Vec<RowInfo>) {
         let g = self.geometry.g;
-        let instant = self.instant(self.driven_state(&[]), true);
+        let exact = cut_rows(&instant.state.motion, true, Sums::Links);
+        g.enter(instant.section);
         let free = &self.partition.free;
         // States of the file's own are in no loop.
         let beside = || self.own.iter().map(|_| g.zero());
@@ -223,7 +224,7 @@ impl<'g> Deriver<'g> {
             let entries = [&all, &rates, &jacobian].into_iter().flatten().copied();
             (g.operations(entries.filter(|entry| !entry.is_zero())), [all, rates, jacobian])
         };
-        let [all, rates, jacobian] = instant.by_shorter_rows((true, false), self.compares, by);
+        let [all, rates, jacobian] = instant.by_shorter_rows(&exact, (true, false), self.compares, by);
         let outputs = vec![
             Block::vector("phi", all)
                 .doc("Position residuals of all rows, dropped ones included [rad, m].")
@@ -236,7 +237,7 @@ impl<'g> Deriver<'g> {
                 .cites("[CS (3)]"),
         ];
         let doc = "How well the loops close, and how the residuals change with the free speeds.";
-        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(&instant))
+        (function(Entry::Closure, doc, self.state_inputs([]), outputs), self.row_infos(instant))
     }
 
     fn energies(&self, instant: &Instant<'g>, masses: &[LinkMass<'g>]) -> [Expr<'g>; 2] {
@@ -259,12 +260,12 @@ impl<'g> Deriver<'g> {
     /// `switches`: values whose signs say which pieces of formulas hold.
     pub(super) fn observe(
         &self,
-        masses: &[LinkMass<'g>],
+        (dynamic, masses): (&Instant<'g>, &[LinkMass<'g>]),
         with_poses: bool,
         switches: &[Expr<'g>],
     ) -> (Function, Vec<Channel>) {
         let g = self.geometry.g;
-        let mut instant = self.instant(self.driven_state(&self.v_dot), false);
+        let mut instant = self.accelerated(dynamic, &self.v_dot);
         let list = |instant: &Instant<'g>| {
             let mut list = Channels::new(self, instant, masses, self.energies(instant, masses));
             if with_poses {
@@ -325,13 +326,18 @@ impl<'g> Deriver<'g> {
     /// `solved`: the forward dynamics, whose rows these are.
     pub(super) fn equations_of_motion(
         &self,
-        masses: &[LinkMass<'g>],
+        (dynamic, masses): (&Instant<'g>, &[LinkMass<'g>]),
         solved: Option<&Forward<'g>>,
     ) -> Function {
         let g = self.geometry.g;
         let n = self.v_all.len();
         let own = self.own.len();
-        let instant = self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]], false);
+        let released = if self.drivers.is_empty() {
+            None
+        } else {
+            Some(self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]]))
+        };
+        let instant = released.as_ref().unwrap_or(dynamic);
         let motion = &instant.state.motion;
         g.begin_section("mass matrix by composite bodies");
         let [links, ground] = [Axes::ALL[0], Axes::ALL[2]];
@@ -376,7 +382,8 @@ impl<'g> Deriver<'g> {
                 .unwrap_or_default();
             (operations, (rows, mass, h))
         };
-        let (rows, mass, h) = instant.by_shorter_rows((false, self.is_short()), self.compares, by);
+        let (rows, mass, h) =
+            instant.by_shorter_rows(&instant.cuts, (false, self.is_short()), self.compares, by);
         let beside = || vec![g.zero(); own];
         let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied().chain(beside()));
         // Each state of the file's own by itself: one times its rate is its rate.
@@ -405,7 +412,7 @@ impl<'g> Deriver<'g> {
                 .cites("[CS (6)]"),
         ];
         let mut inputs = self.base_inputs();
-        let (q, v) = (instant.state.q.into_iter(), instant.state.v.into_iter());
+        let (q, v) = (instant.state.q.iter().copied(), instant.state.v.iter().copied());
         let (q, v) = (q.chain(self.own_integrals()), v.chain(self.own_values()));
         inputs.push(Block::vector("q", q).doc("All coordinates, driven ones included."));
         inputs.push(Block::vector("v", v).doc("All speeds, driven ones included."));

@@ -84,7 +84,7 @@ fn insert<'g>(g: &'g Scope, functions: &mut [Function], values: &[(Expr<'g>, Exp
 /// All functions, in the order of [`Entry::ALL`], with their layout and names.
 fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, Description) {
     let masses = deriver.masses();
-    let dynamic = deriver.instant(deriver.driven_state(&[]), false);
+    let dynamic = deriver.instant(deriver.driven_state(&[]));
     let prescribed = deriver.prescribed();
     let (start, start_values) = deriver.start();
     let nothing = |entry| function(entry, "", Vec::new(), Vec::new());
@@ -102,14 +102,14 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
         alone.map_or_else(|| nothing(Entry::Accelerations), |alone| deriver.accelerations(alone, own));
     let state_rates = deriver.state_rates(&dynamic);
     let rates = deriver.rates(&state_rates);
-    let (closure, rows) = deriver.closure();
+    let (closure, rows) = deriver.closure(&dynamic);
     let energy = deriver.energy(&dynamic, &masses);
     let g = deriver.geometry.g;
     let roots = [&forward_dynamics, &rates].into_iter().flat_map(|function| &function.outputs);
     let roots: Vec<ExprId> = roots.flat_map(|block| block.entries.iter().copied()).collect();
     let switches = g.switches(&g.with_ids(&roots, &responses));
-    let (observe, channels) = deriver.observe(&masses, purpose == Purpose::Picture, &switches);
-    let equations_of_motion = deriver.equations_of_motion(&masses, solved);
+    let (observe, channels) = deriver.observe((&dynamic, &masses), purpose == Purpose::Picture, &switches);
+    let equations_of_motion = deriver.equations_of_motion((&dynamic, &masses), solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));

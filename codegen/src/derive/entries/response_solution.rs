@@ -41,7 +41,7 @@ impl<'g> Deriver<'g> {
             return symbols.map(|symbol| (*symbol, g.zero())).collect();
         };
         let symbols: Vec<Expr<'g>> = asked.iter().map(|(_, symbol)| *symbol).collect();
-        let instant = self.instant(self.driven_state(&self.v_dot), false);
+        let instant = self.instant(self.driven_state(&self.v_dot));
         let responses =
             g.with(&self.responses_by_symbols(masses, &asked, &instant), &self.solution_values(solved));
         g.begin_section("accelerations and joint forces that forces ask for");

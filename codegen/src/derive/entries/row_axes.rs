@@ -61,7 +61,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
     let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
     let deriver = Deriver::new(geometry, parameters, None, false);
     let masses = deriver.masses();
-    let instant = deriver.instant(deriver.driven_state(&[]), false);
+    let instant = deriver.instant(deriver.driven_state(&[]));
     let (motion, partition) = (&instant.state.motion, &deriver.partition);
     let mut rows = kept_rows(motion, (&instant.cuts, &instant.couplings), &deriver.keep);
     // In a plane, rows out of it say nothing.
