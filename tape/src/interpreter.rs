@@ -24,6 +24,7 @@ pub struct Interpreted {
 pub struct Routine {
     constants: Vec<f64>,
     inputs: usize,
+    outputs: usize,
     instructions: Vec<Instruction>,
     workspace: usize,
 }
@@ -76,7 +77,15 @@ impl Interpreted {
 impl Routine {
     /// Prepares a tape.
     pub fn new(tape: &Tape) -> Self {
-        let registers = Registers::assign(tape);
+        Self::with(tape, &Registers::assign(tape))
+    }
+
+    /// The same to be run a few times: with a register for every value, which are found at once.
+    pub fn for_a_look(tape: &Tape) -> Self {
+        Self::with(tape, &Registers::of_values(tape))
+    }
+
+    fn with(tape: &Tape, registers: &Registers) -> Self {
         let mut constants: Vec<f64> = Vec::new();
         let mut positions = std::collections::HashMap::new();
         // Most of the entries of large matrices are zero.
@@ -132,7 +141,13 @@ impl Routine {
             store(&mut instructions, &statement.stores);
         }
         let workspace = first_register + registers.count as usize;
-        Self { constants, inputs: tape.input_len(), instructions, workspace }
+        let (inputs, outputs) = (tape.input_len(), tape.output_len());
+        Self { constants, inputs, outputs, instructions, workspace }
+    }
+
+    /// Length of the output.
+    pub fn outputs(&self) -> usize {
+        self.outputs
     }
 
     /// Length of the scratch slice that it works in.

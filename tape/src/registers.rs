@@ -14,12 +14,17 @@ pub struct Registers {
 }
 
 impl Registers {
+    /// One for every value.
+    pub fn of_values(tape: &Tape) -> Self {
+        Self { of_value: (0..tape.values).collect(), count: tape.values }
+    }
+
     /// Assigns registers in statement order; a register is free again after its value's last use.
     pub fn assign(tape: &Tape) -> Self {
         let last_use = last_uses(tape);
         let mut of_value = vec![0; tape.values as usize];
         let mut free: Vec<u32> = Vec::new();
-        let mut count = 0;
+        let (mut count, mut ending) = (0, Vec::new());
         for (at, statement) in tape.statements.iter().enumerate() {
             for value in statement.results() {
                 of_value[value as usize] = free.pop().unwrap_or_else(|| {
@@ -28,11 +33,11 @@ impl Registers {
                 });
             }
             // Freed after the results are placed: an operation never overwrites its own operands.
-            let mut ending: Vec<Value> =
-                touched(statement).filter(|value| last_use[*value as usize] == at).collect();
+            ending.clear();
+            ending.extend(touched(statement).filter(|value| last_use[*value as usize] == at));
             ending.sort_unstable();
             ending.dedup();
-            free.extend(ending.into_iter().map(|value| of_value[value as usize]));
+            free.extend(ending.iter().map(|value| of_value[*value as usize]));
         }
         Self { of_value, count }
     }

@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use linkwear_runtime::clearance_joint::Clearances;
-use linkwear_runtime::{Description, Entry, Sizes, motion_sizes};
+use linkwear_runtime::{Description, Entry, Sizes, System, motion_sizes};
 
 use crate::backend::Start;
 use crate::backend::c::{self, CFiles, CInput};
@@ -16,7 +16,7 @@ use crate::model::{Closure, Mechanism, Topology};
 use crate::preflight::{self, Analysis, Assemblies};
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
-use crate::tape::{self, Operations, PART_LIMIT, Tape};
+use crate::tape::{self, AtHand, Lowered, Operations, PART_LIMIT, Tape};
 
 /// A mechanism, understood: equations, tapes and all that is known about it.
 #[derive(Clone, Debug)]
@@ -37,8 +37,8 @@ pub struct Compiled {
     pub equations: Equations,
     /// One tape per function, once somebody asks: half of the work on a large mechanism, which a check does not need.
     pub(super) tapes: OnceLock<Vec<Tape>>,
-    /// The same as the derivation made them, for looks that come before.
-    pub(super) at_hand: OnceLock<Vec<Tape>>,
+    /// Of the same as the derivation made them what looks have asked for that came before.
+    pub(super) lowered: Lowered,
     pub(super) description: Description,
     /// Without what tapes hold between two calls.
     pub(super) sizes: Sizes,
@@ -73,6 +73,11 @@ impl Compiled {
         self.tapes.get_or_init(|| tape::lower_short(&self.equations))
     }
 
+    /// Whether the mass matrix is left out of `equations_of_motion`, as it is of long mechanisms: zeros stand in its place.
+    pub fn mass_is_left_out(&self) -> bool {
+        self.equations.mass_is_left_out()
+    }
+
     /// Names, units, rows and channels.
     pub fn description(&self) -> &Description {
         &self.description
@@ -98,12 +103,12 @@ impl Compiled {
         self.interpreter_of(self.tapes())
     }
 
-    /// The same for a look at a state or two: by tapes as the derivation made them, unless shorter ones are there already. To
-    /// shorten them takes longer than such a look. Values differ by rounding.
-    pub fn interpreter_at_hand(&self) -> Interpreted {
+    /// The same for a look at a state or two: by tapes as the derivation made them, and of those that it asks for alone, unless
+    /// shorter ones are there already. To shorten them takes longer than such a look. Values differ by rounding.
+    pub fn interpreter_at_hand(&self) -> Box<dyn System<f64> + '_> {
         match self.tapes.get() {
-            Some(tapes) => self.interpreter_of(tapes),
-            None => self.interpreter_of(self.at_hand.get_or_init(|| tape::lower(&self.equations))),
+            Some(tapes) => Box::new(self.interpreter_of(tapes)),
+            None => Box::new(AtHand::new(&self.equations, &self.lowered, self.sizes)),
         }
     }
 
@@ -116,7 +121,7 @@ impl Compiled {
         if !preflight::are_looked_for(self.sizes) {
             return Assemblies::default();
         }
-        preflight::assemblies(&self.description, &self.interpreter_at_hand())
+        preflight::assemblies(&self.description, &*self.interpreter_at_hand())
     }
 
     /// Operations, statements and parts of every entry point.

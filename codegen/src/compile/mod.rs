@@ -5,7 +5,6 @@ mod compiled;
 
 use std::sync::OnceLock;
 
-use crate::backend::interp::Interpreted;
 use crate::derive::{self, Derived, Guide, Purpose};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::input::Reach;
@@ -14,7 +13,7 @@ use crate::model::{self, Closure, Mechanism, Overrides, Topology};
 use crate::preflight::{self, Case, Findings, OwnUnits, Waypoint};
 use crate::source::SourceFile;
 use crate::spec;
-use crate::tape;
+use crate::tape::{AtHand, Lowered};
 
 pub use compiled::{Compiled, FunctionCount};
 
@@ -132,7 +131,7 @@ fn understood(
         warnings,
         equations: derived.equations,
         tapes: OnceLock::new(),
-        at_hand: OnceLock::new(),
+        lowered: Lowered::default(),
         description: derived.description,
         sizes: derived.sizes,
     };
@@ -151,8 +150,8 @@ fn try_out(compiled: &Compiled, waypoints: &[Waypoint]) -> Result<Vec<Diagnostic
         return Ok(Vec::new());
     }
     let system = compiled.interpreter_at_hand();
-    preflight::check_prescribed(source, mechanism, description, &system)?;
-    let start = preflight::check_start(source, mechanism, description, &system)?;
+    preflight::check_prescribed(source, mechanism, description, &*system)?;
+    let start = preflight::check_start(source, mechanism, description, &*system)?;
     let near = start.map(|start| preflight::contacts_near_modes(mechanism, start, waypoints));
     Ok(near.unwrap_or_default())
 }
@@ -182,19 +181,19 @@ fn examine<T>(
 ) -> Result<T, Diagnostics> {
     let released = preflight::released(mechanism);
     let derived = derived(source, &released, topology, None, Purpose::Analysis)?;
-    let tapes = tape::lower(&derived.equations);
-    if !tapes.iter().all(tape::Tape::is_finite) {
+    if !derived.equations.is_finite() {
         let beyond = preflight::beyond_numbers(mechanism);
         return Err(Diagnostics::from_list(vec![beyond]).located(source));
     }
-    let interpreter = Interpreted::new(&tapes, derived.sizes, derived.description.clone());
+    let lowered = Lowered::default();
+    let system = AtHand::new(&derived.equations, &lowered, derived.sizes);
     let case = Case {
         source,
         mechanism,
         topology,
         linkage: &derived.linkage,
         description: &derived.description,
-        system: &interpreter,
+        system: &system,
         units: OwnUnits::new(mechanism, &derived.description),
     };
     ask(&case)

@@ -7,10 +7,10 @@
 //!   force  = m a_O + spin s
 //!   moment = s x a_O + axial(spin P),  axial(A)_x = A_zy - A_yz, and cyclic.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
-use crate::expr::{Expr, Vec3};
+use crate::expr::{Expr, Mat3, Vec3};
 
 use super::fields::{Fields, Shapes};
 use super::geometry::Geometry;
@@ -28,6 +28,30 @@ use super::wrench::Wrench;
 pub struct BodyFields<'g> {
     pub shapes: Rc<Shapes<'g>>,
     pub fields: Fields<'g>,
+    /// Wrenches that were made, by the motion of the frame: many ways ask for few of them.
+    wrenches: RefCell<Vec<(Frame<'g>, Wrench<'g>)>>,
+}
+
+/// Acceleration of the origin of a frame, and its spin.
+type Frame<'g> = (Vec3<'g>, Mat3<'g>);
+
+impl<'g> BodyFields<'g> {
+    pub fn new(shapes: &Rc<Shapes<'g>>, fields: Fields<'g>) -> Self {
+        Self { shapes: Rc::clone(shapes), fields, wrenches: RefCell::default() }
+    }
+
+    /// Inertial wrench about the origin of the floating frame.
+    fn wrench(&self, frame: &Acceleration<'g>) -> Wrench<'g> {
+        let is_same = |(origin, spin): &Frame<'g>| {
+            origin.is(frame.origin) && (0..3).all(|row| spin[row].is(frame.spin[row]))
+        };
+        let known = self.wrenches.borrow().iter().find(|(of, _)| is_same(of)).map(|(_, wrench)| *wrench);
+        known.unwrap_or_else(|| {
+            let wrench = self.shapes.wrench(&self.fields, frame);
+            self.wrenches.borrow_mut().push(((frame.origin, frame.spin), wrench));
+            wrench
+        })
+    }
 }
 
 /// Shape functions of every flexible body that has such, by link; nothing if none has.
@@ -48,7 +72,7 @@ pub fn fields_of<'g>(motion: &Motion<'g>, shapes: &[Option<Rc<Shapes<'g>>>]) -> 
         let shapes = shapes.as_ref()?;
         g.begin_section(format!("accelerations in {}", link.name));
         let fields = shapes.fields(motion.accelerations[at].spin, motion.twists[at].omega, &motion.modes[at]);
-        Some(BodyFields { shapes: Rc::clone(shapes), fields })
+        Some(BodyFields::new(shapes, fields))
     });
     fields.collect()
 }
@@ -156,7 +180,7 @@ pub fn forces_besides<'g>(
         let (frame, modes) = (&motion.accelerations[at], &motion.modes[at]);
         let by_fields = fields.get(at).and_then(Option::as_ref);
         let inertial = match by_fields {
-            Some(BodyFields { shapes, fields }) => shapes.wrench(fields, frame),
+            Some(body) => body.wrench(frame),
             None => inertial_wrench(motion, masses, at),
         };
         let applied = loads.external[at] + loads.reactions[at];
@@ -175,9 +199,9 @@ pub fn forces_besides<'g>(
             let own = match (by_fields, &masses[at].modal) {
                 (None, None) if !inboard => rigid_force_in_ground(motion, masses, at, less),
                 (None, None) => turn * (frame.spin * masses[at].rigid.first - less),
-                (Some(BodyFields { shapes, fields }), _) if inboard => {
+                (Some(body), _) if inboard => {
                     let still = Acceleration { origin: g.zero_vector(), ..*frame };
-                    turn * (shapes.wrench(fields, &still).force - less)
+                    turn * (body.wrench(&still).force - less)
                 }
                 _ => turn * (inertial.force - less),
             };
@@ -188,7 +212,7 @@ pub fn forces_besides<'g>(
         let mut felt = total.generalised(link.freedom, poses.nodes[at].as_ref());
         if let Some(modal) = &masses[at].modal {
             let deforming = match by_fields {
-                Some(BodyFields { shapes, fields }) => shapes.forces(fields, frame, &modes.v_dot),
+                Some(BodyFields { shapes, fields, .. }) => shapes.forces(fields, frame, &modes.v_dot),
                 None => modal.modal_forces(&motion.twists[at], frame, modes),
             };
             felt = felt.into_iter().zip(deforming).map(|(held, deforming)| deforming + held).collect();

@@ -396,7 +396,7 @@ impl<'g> Problem<'_, 'g> {
         for (at, speed) in self.partition.free.iter().enumerate() {
             change[*speed] = accelerations[at] - before[at];
         }
-        let change = self.motion.changed(&change, way.axes);
+        let change = self.known.changed(self.motion, &change, way.axes);
         let mut followed = Vec::new();
         for body in way.local {
             g.begin_section("accelerations of the modes");
@@ -411,7 +411,7 @@ impl<'g> Problem<'_, 'g> {
             }
             if let Some(Some(by)) = moving.fields.get(body.link) {
                 let fields = by.shapes.changed(&by.fields, moved.alpha, &own);
-                followed.push((body.link, BodyFields { shapes: Rc::clone(&by.shapes), fields }));
+                followed.push((body.link, BodyFields::new(&by.shapes, fields)));
             }
         }
         self.moving(accelerations, way).with_fields(followed)

@@ -70,6 +70,8 @@ pub use entries::{Derived, Purpose, derive, shorter_in_ground, splits_plane_rows
 pub use linkage::{Freedom, Link, Linkage};
 pub use plan::Guide;
 
+use linkwear_runtime::Entry;
+
 use crate::expr::{ExprId, Graph};
 
 /// Everything derived for one mechanism: one graph, several functions over it.
@@ -79,6 +81,24 @@ pub struct Equations {
     pub graph: Graph,
     /// One function per [`linkwear_runtime::Entry`], in the order of `Entry::ALL`.
     pub functions: Vec<Function>,
+}
+
+impl Equations {
+    /// Whether zeros stand in the place of the mass matrix.
+    pub fn mass_is_left_out(&self) -> bool {
+        let equations = self.functions.iter().find(|one| one.name == Entry::EquationsOfMotion.name());
+        let mass = equations.and_then(|equations| equations.outputs.first());
+        let is_zero = |id: &ExprId| self.graph.as_constant(*id) == Some(0.0);
+        mass.is_some_and(|mass| !mass.entries.is_empty() && mass.entries.iter().all(is_zero))
+    }
+
+    /// Whether every number that they need is finite.
+    pub fn is_finite(&self) -> bool {
+        let outputs = self.functions.iter().flat_map(|function| &function.outputs);
+        let roots: Vec<ExprId> = outputs.flat_map(|block| block.entries.iter().copied()).collect();
+        let needed = self.graph.live(&self.graph.uses(&roots));
+        needed.iter().all(|id| self.graph.as_constant(*id).is_none_or(f64::is_finite))
+    }
 }
 
 /// A function over the graph: what one entry point computes.

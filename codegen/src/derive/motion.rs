@@ -57,13 +57,17 @@ impl<'g> Motion<'g> {
         motion
     }
 
-    /// What changes of the speeds' derivatives change of all links' accelerations, made along the given axes.
-    pub fn changed(&self, v_dot: &[Expr<'g>], axes: Axes) -> Vec<Acceleration<'g>> {
+    /// What changes of the speeds' derivatives change of all links' accelerations.
+    pub fn changed(&self, v_dot: &[Expr<'g>]) -> Vec<Acceleration<'g>> {
         let Geometry { g, linkage, .. } = self.poses.geometry;
         g.begin_section("accelerations of the links");
         let still = vec![g.zero(); v_dot.len()];
         let twists = vec![Twist::none(g); linkage.links.len()];
-        let mut changes = accelerations(&self.poses, &twists, (&still, v_dot), g.zero_vector());
+        accelerations(&self.poses, &twists, (&still, v_dot), g.zero_vector())
+    }
+
+    /// Such changes, made along the given axes.
+    pub fn changed_along(&self, mut changes: Vec<Acceleration<'g>>, axes: Axes) -> Vec<Acceleration<'g>> {
         if axes.accelerations_in_ground {
             for (change, pose) in changes.iter_mut().zip(&self.poses.world) {
                 let [ground, own] = change.turned.parts();
@@ -81,7 +85,7 @@ impl<'g> Motion<'g> {
     pub fn velocity(&self, link: LinkIndex, point: Vec3<'g>, rotation: Mat3<'g>) -> [Vec3<'g>; 2] {
         let twist = self.twist(link);
         let velocity = twist.at(point);
-        [twist.omega, velocity].map(|v| rotation * v)
+        [rotation * twist.omega, rotation * velocity]
     }
 
     /// Angular acceleration of a link and acceleration of a point of it, turned by `rotation`.
@@ -90,7 +94,7 @@ impl<'g> Motion<'g> {
             None => (self.ground.scope().zero_vector(), self.ground),
             Some(at) => (self.accelerations[at].alpha, self.accelerations[at].at(point)),
         };
-        [alpha, of_point].map(|v| rotation * v)
+        [rotation * alpha, rotation * of_point]
     }
 
     /// Place of a point of a link, along the axes of W and along the link's own: if the `whole` is asked for, all along those

@@ -13,6 +13,7 @@ use crate::expr::{Expr, ExprId, Scope, Section};
 
 use super::dynamics::{BodyFields, bias_forces_by, fields_of};
 use super::fields::Shapes;
+use super::kinematics::Acceleration;
 use super::link_mass::LinkMass;
 use super::loads::Loads;
 use super::motion::Motion;
@@ -62,6 +63,7 @@ pub struct Known<'g> {
     moving: Made<(Nodes, Axes, bool), Rc<Moving<'g>>>,
     masses: Made<(bool, bool), Rc<Vec<Vec<Expr<'g>>>>>,
     biases: Made<(Nodes, bool, Sums), Vec<Expr<'g>>>,
+    changed: Made<Nodes, Vec<Acceleration<'g>>>,
     operations: Made<Nodes, usize>,
 }
 
@@ -85,6 +87,13 @@ impl<'g> Known<'g> {
             };
             Rc::new(Moving { motion, fields, axes, felt: OnceCell::new() })
         })
+    }
+
+    /// What changes of the speeds' derivatives change of the accelerations of `motion`, made along the given axes.
+    pub fn changed(&self, motion: &Motion<'g>, change: &[Expr<'g>], axes: Axes) -> Vec<Acceleration<'g>> {
+        let g = motion.poses.geometry.g;
+        let changes = once(&self.changed, g, ids(change), || motion.changed(change));
+        motion.changed_along(changes, axes)
     }
 
     /// The mass matrix along the given axes, with local modes eliminated or not.

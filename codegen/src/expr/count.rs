@@ -11,12 +11,20 @@ impl Graph {
         // Of all that was ever tried, one way needs little.
         let (needed, uses) = self.needed(roots);
         let live: Vec<ExprId> = (0..uses.len()).map(ExprId::new).collect();
-        let signs = Signs::of(&needed, &uses, &live);
+        needed.count(&uses, &live)
+    }
+
+    /// The same of a graph that has little else.
+    pub fn operations_of_most(&self, roots: &[ExprId]) -> usize {
+        let uses = self.uses(roots);
+        self.count(&uses, &self.live(&uses))
+    }
+
+    fn count(&self, uses: &[u32], live: &[ExprId]) -> usize {
+        let signs = Signs::of(self, uses, live);
         let mut angles = vec![false; uses.len()];
-        needed
-            .nodes
-            .iter()
-            .filter(|node| match **node {
+        live.iter()
+            .filter(|id| match self.node(**id) {
                 Node::Constant(_) | Node::Symbol(_) => false,
                 Node::Unary(Unary::Neg, inner) => !signs.is_reversed(inner),
                 Node::Unary(Unary::Sin | Unary::Cos, angle) => {

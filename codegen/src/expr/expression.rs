@@ -2,6 +2,7 @@
 //! In: a [`Scope`]. Out: [`Expr`]s of it. Never knows what is computed.
 
 use std::fmt;
+use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -199,7 +200,7 @@ impl<'g> Expr<'g> {
     }
 
     /// Gives the node a readable name, unless it is a constant, an input or named already.
-    pub fn label(self, name: impl Into<String>) {
+    pub fn label(self, name: impl Into<Arc<str>>) {
         self.scope.make(|g| g.label(self.id, name));
     }
 

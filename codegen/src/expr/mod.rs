@@ -18,6 +18,8 @@ mod substitute;
 mod turned_back;
 mod vector;
 
+use std::sync::Arc;
+
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::limits::EXPRESSIONS;
@@ -40,12 +42,13 @@ pub struct Graph {
     nodes: Vec<Node>,
     known: Interned,
     symbols: Vec<String>,
-    labels: FxHashMap<ExprId, String>,
+    labels: FxHashMap<ExprId, Arc<str>>,
     /// Conditions whose sides meet so well that no step has to end there.
     quiet: FxHashSet<ExprId>,
-    sections: Vec<String>,
+    /// Shared with copies, which add none.
+    sections: Arc<Vec<String>>,
     /// Index of every section by its title.
-    section_by_title: FxHashMap<String, usize>,
+    section_by_title: Arc<FxHashMap<String, usize>>,
     /// Index of the section of every node.
     section_of: Vec<usize>,
     current_section: usize,
@@ -131,8 +134,8 @@ impl Graph {
             return;
         }
         self.current_section = self.sections.len();
-        self.section_by_title.insert(title.clone(), self.current_section);
-        self.sections.push(title);
+        Arc::make_mut(&mut self.section_by_title).insert(title.clone(), self.current_section);
+        Arc::make_mut(&mut self.sections).push(title);
     }
 
     /// Title of the section in which a node was first made.
@@ -146,7 +149,7 @@ impl Graph {
         self.section_of[id.index()]
     }
 
-    fn label(&mut self, id: ExprId, name: impl Into<String>) {
+    fn label(&mut self, id: ExprId, name: impl Into<Arc<str>>) {
         if matches!(self.node(id), Node::Unary(..) | Node::Binary(..) | Node::Select(..)) {
             self.labels.entry(id).or_insert_with(|| name.into());
         }
@@ -155,7 +158,7 @@ impl Graph {
     /// The readable name of a node.
     #[inline]
     pub fn label_of(&self, id: ExprId) -> Option<&str> {
-        self.labels.get(&id).map(String::as_str)
+        self.labels.get(&id).map(|name| &**name)
     }
 
     fn intern(&mut self, node: Node) -> ExprId {

@@ -2,7 +2,7 @@
 //! angle, because `c² + s²` is one.
 
 use super::expression::Expr;
-use super::{Binary, ExprId, Node, Unary};
+use super::{Binary, ExprId, Graph, Node, Unary};
 
 /// A factor with its sign; nothing is zero.
 type Part = Option<(ExprId, bool)>;
@@ -14,40 +14,71 @@ enum Circular {
     Sine,
 }
 
-fn circular(x: Expr<'_>) -> Option<(Circular, ExprId)> {
-    match x.node() {
-        Node::Unary(Unary::Cos, angle) => Some((Circular::Cosine, angle)),
-        Node::Unary(Unary::Sin, angle) => Some((Circular::Sine, angle)),
-        _ => None,
-    }
-}
-
-/// Every way to see a product as cosine or sine times something.
-fn products<'g>(x: Expr<'g>) -> impl Iterator<Item = (Circular, ExprId, Expr<'g>)> {
-    let pair = match x.node() {
-        Node::Binary(Binary::Mul, a, b) => Some((x.at(a), x.at(b))),
-        _ => None,
-    };
-    let both = pair.into_iter().flat_map(|(a, b)| [(a, b), (b, a)]);
-    both.filter_map(|(factor, other)| circular(factor).map(|(kind, angle)| (kind, angle, other)))
-}
-
-/// What cosine and sine of `angle` are multiplied with in `x`, if it is a sum of such products.
-fn parts(x: Expr<'_>, angle: ExprId, negated: bool) -> Option<[Part; 2]> {
-    let terms = match x.node() {
-        Node::Binary(Binary::Add, a, b) => [Some((a, negated)), Some((b, negated))],
-        Node::Binary(Binary::Sub, a, b) => [Some((a, negated)), Some((b, !negated))],
-        _ => [Some((x.id(), negated)), None],
-    };
-    let mut found = [None; 2];
-    for (term, negated) in terms.into_iter().flatten() {
-        let (kind, _, other) = products(x.at(term)).find(|(_, of, _)| *of == angle)?;
-        let place = &mut found[usize::from(kind == Circular::Sine)];
-        if place.replace((other.id(), negated)).is_some() {
-            return None;
+impl Graph {
+    fn circular(&self, x: ExprId) -> Option<(Circular, ExprId)> {
+        match self.node(x) {
+            Node::Unary(Unary::Cos, angle) => Some((Circular::Cosine, angle)),
+            Node::Unary(Unary::Sin, angle) => Some((Circular::Sine, angle)),
+            _ => None,
         }
     }
-    Some(found)
+
+    /// What cosine or sine of `angle` is multiplied with in a product.
+    fn beside(&self, product: ExprId, angle: ExprId) -> Option<(Circular, ExprId)> {
+        let Node::Binary(Binary::Mul, a, b) = self.node(product) else { return None };
+        let of = |factor, other| {
+            let (kind, _) = self.circular(factor).filter(|(_, of)| *of == angle)?;
+            Some((kind, other))
+        };
+        of(a, b).or_else(|| of(b, a))
+    }
+
+    /// What cosine and sine of `angle` are multiplied with in `x`, if it is a sum of such products.
+    fn parts(&self, x: ExprId, angle: ExprId, negated: bool) -> Option<[Part; 2]> {
+        let terms = match self.node(x) {
+            Node::Binary(Binary::Add, a, b) => [Some((a, negated)), Some((b, negated))],
+            Node::Binary(Binary::Sub, a, b) => [Some((a, negated)), Some((b, !negated))],
+            _ => [Some((x, negated)), None],
+        };
+        let mut found = [None; 2];
+        for (term, negated) in terms.into_iter().flatten() {
+            let (kind, other) = self.beside(term, angle)?;
+            let place = &mut found[usize::from(kind == Circular::Sine)];
+            if place.replace((other, negated)).is_some() {
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    /// The sum or difference of two products, if it is what a turn and the same turn back leave.
+    fn turned_back(&self, one: ExprId, other: ExprId, difference: bool) -> Option<Part> {
+        let (Node::Binary(Binary::Mul, a, b), Node::Binary(Binary::Mul, c, d)) =
+            (self.node(one), self.node(other))
+        else {
+            return None;
+        };
+        for (factor, inner) in [(a, b), (b, a)] {
+            let Some((kind, angle)) = self.circular(factor) else { continue };
+            for (other_factor, other_inner) in [(c, d), (d, c)] {
+                let Some((other_kind, other_angle)) = self.circular(other_factor) else { continue };
+                if kind == other_kind || angle != other_angle {
+                    continue;
+                }
+                let [(of_cosine, minus_cosine), (of_sine, minus_sine)] = match kind {
+                    Circular::Cosine => [(inner, false), (other_inner, difference)],
+                    Circular::Sine => [(other_inner, difference), (inner, false)],
+                };
+                let Some([a, b]) = self.parts(of_cosine, angle, minus_cosine) else { continue };
+                let Some([b_back, a_again]) = self.parts(of_sine, angle, minus_sine) else { continue };
+                // c (c a + s b) + s (s a - c b)
+                if a == a_again && b == opposite(b_back) {
+                    return Some(a);
+                }
+            }
+        }
+        None
+    }
 }
 
 fn opposite(part: Part) -> Part {
@@ -57,26 +88,8 @@ fn opposite(part: Part) -> Part {
 impl Expr<'_> {
     /// `self + other`, or `self - other`, if it is what a turn and the same turn back leave.
     pub(super) fn turned_back(self, other: Self, difference: bool) -> Option<Self> {
-        for (kind, angle, inner) in products(self) {
-            for (other_kind, other_angle, other_inner) in products(other) {
-                if kind == other_kind || angle != other_angle {
-                    continue;
-                }
-                let [(of_cosine, minus_cosine), (of_sine, minus_sine)] = match kind {
-                    Circular::Cosine => [(inner, false), (other_inner, difference)],
-                    Circular::Sine => [(other_inner, difference), (inner, false)],
-                };
-                let by_cosine = parts(of_cosine, angle, minus_cosine);
-                let by_sine = parts(of_sine, angle, minus_sine);
-                let (Some([a, b]), Some([b_back, a_again])) = (by_cosine, by_sine) else { continue };
-                // c (c a + s b) + s (s a - c b)
-                if a == a_again && b == opposite(b_back) {
-                    let zero = self.scope().zero();
-                    return Some(a.map_or(zero, |(id, negated)| self.at(id).with_sign(negated)));
-                }
-            }
-        }
-        None
+        let left = self.scope().make(|g| g.turned_back(self.id(), other.id(), difference))?;
+        Some(left.map_or_else(|| self.scope().zero(), |(id, negated)| self.at(id).with_sign(negated)))
     }
 }
 

@@ -19,13 +19,13 @@ pub struct Mat3<'g>(pub [Vec3<'g>; 3]);
 
 impl Scope {
     /// A vector of numbers.
-    pub fn vector(&self, components: [f64; 3]) -> Vec3<'_> {
-        Vec3(components.map(|component| self.number(component)))
+    pub fn vector(&self, [x, y, z]: [f64; 3]) -> Vec3<'_> {
+        Vec3([self.number(x), self.number(y), self.number(z)])
     }
 
     /// A matrix of numbers, row by row.
-    pub fn matrix(&self, rows: [[f64; 3]; 3]) -> Mat3<'_> {
-        Mat3(rows.map(|row| self.vector(row)))
+    pub fn matrix(&self, [x, y, z]: [[f64; 3]; 3]) -> Mat3<'_> {
+        Mat3([self.vector(x), self.vector(y), self.vector(z)])
     }
 
     /// The zero vector.
@@ -99,7 +99,8 @@ impl Neg for Vec3<'_> {
 impl Neg for Mat3<'_> {
     type Output = Self;
     fn neg(self) -> Self {
-        Self(self.0.map(|row| -row))
+        let [x, y, z] = self.0;
+        Self([-x, -y, -z])
     }
 }
 
@@ -108,6 +109,11 @@ impl<'g> Vec3<'g> {
     #[inline]
     pub fn from_fn(mut component: impl FnMut(usize) -> Expr<'g>) -> Self {
         Self([component(0), component(1), component(2)])
+    }
+
+    /// Whether it is the same three nodes.
+    pub fn is(self, other: Self) -> bool {
+        (0..3).all(|i| self[i].id() == other[i].id())
     }
 
     /// The first three of a list.

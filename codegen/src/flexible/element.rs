@@ -9,7 +9,7 @@
 use super::legendre::{double_integral, integral, legendre};
 
 /// What resists along the element.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rigidity {
     /// Bending in one plane.
     Bending {
@@ -23,7 +23,7 @@ pub enum Rigidity {
 }
 
 /// A uniform element in one family of motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Element {
     /// Where it begins [m].
     pub start: f64,

@@ -9,7 +9,7 @@ use super::element::{Element, Field, Rigidity};
 use super::legendre::gauss;
 
 /// Elements in a row; element e lies between stations e and e + 1.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     /// The elements, in order.
     pub elements: Vec<Element>,

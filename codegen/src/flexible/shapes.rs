@@ -120,13 +120,17 @@ impl<'a> Plane<'a> {
                 rows.push(line.station(station, 1).clone());
             }
         }
-        let mass = line.mass();
         let interface = orthonormal(&rows).ok_or(BeamError::Extreme)?;
-        let modes = match known {
-            Some(known) if known.mass == mass && known.interface == interface => known.modes.clone(),
-            // One more than can be kept is left out and named.
-            _ => lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?,
-        };
+        if let Some(known) = known
+            && known.interface == interface
+            && mesh.line(known.family) == line
+        {
+            let (mass, modes) = (known.mass.clone(), known.modes.clone());
+            return Ok(Self { family, mesh, mass, interface, modes });
+        }
+        let mass = line.mass();
+        // One more than can be kept is left out and named.
+        let modes = lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?;
         Ok(Self { family, mesh, mass, interface, modes })
     }
 

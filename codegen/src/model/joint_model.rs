@@ -68,34 +68,36 @@ impl JointModel {
     }
 
     fn number_of(&self, wanted: Primitive) -> Option<usize> {
-        let found = self.primitives().into_iter().find(|(_, primitive)| *primitive == wanted);
-        found.map(|(number, _)| number)
+        self.numbered().find(|(_, primitive)| *primitive == wanted).map(|(number, _)| number)
     }
 
     /// Its primitives from parent to child, each with the number of its first coordinate.
     pub fn primitives(&self) -> Vec<(usize, Primitive)> {
-        let number = |list: &[Primitive], mut first: usize| -> Vec<(usize, Primitive)> {
-            let mut numbered = Vec::new();
-            for primitive in list {
-                numbered.push((first, *primitive));
-                first += primitive.values().len();
-            }
-            numbered
-        };
-        let play = number(&self.play(), self.start_values().len());
-        // The ends of a journal go along with it: it slides along the axis of its bearing before it leaves that.
-        let before = |(_, primitive): &(usize, Primitive)| {
-            self.tilt == Some(Ends::Journal) && matches!(primitive, Slide(_))
-        };
-        let (inner, outer): (Vec<_>, Vec<_>) = number(self.kind.primitives, 0).into_iter().partition(before);
-        [inner, play, outer].concat()
+        self.numbered().collect()
     }
 
-    /// What clearance adds.
-    fn play(&self) -> Vec<Primitive> {
+    fn numbered(&self) -> impl Iterator<Item = (usize, Primitive)> {
+        let number = |first: usize, list: &'static [Primitive]| {
+            list.iter().scan(first, |next, primitive| {
+                let number = *next;
+                *next += primitive.values().len();
+                Some((number, *primitive))
+            })
+        };
+        // What clearance adds.
         let across = if self.clearance { self.kind.clearance } else { &[] };
         let tilting = if self.tilt.is_some() { TILTING } else { &[] };
-        [across, tilting].concat()
+        let (offsets, tilts) = match (across, tilting) {
+            ([], []) => (0, 0),
+            _ => (self.offsets().start, self.tilts().start),
+        };
+        let play = number(offsets, across).chain(number(tilts, tilting));
+        // The ends of a journal go along with it: it slides along the axis of its bearing before it leaves that.
+        let ends_go_along = self.tilt == Some(Ends::Journal);
+        let before =
+            move |(_, primitive): &(usize, Primitive)| ends_go_along && matches!(primitive, Slide(_));
+        let own = number(0, self.kind.primitives);
+        own.clone().filter(before).chain(play).chain(own.filter(move |one| !before(one)))
     }
 
     /// The scalar coordinates; none for spherical and free joints, whose position is no list of scalars.
@@ -149,7 +151,7 @@ impl JointModel {
     }
 
     fn any(&self, wanted: impl Fn(Primitive) -> bool) -> bool {
-        self.primitives().iter().any(|(_, primitive)| wanted(*primitive))
+        self.numbered().any(|(_, primitive)| wanted(primitive))
     }
 
     /// Whether the child can turn about any axis, its orientation being no list of scalars.
@@ -194,7 +196,7 @@ impl JointModel {
             Thread => Some(Z),
             Slide(_) | Ball | Shift | Pose => None,
         };
-        self.primitives().into_iter().filter_map(turn).collect()
+        self.numbered().filter_map(turn).collect()
     }
 
     /// Advance of a thread per angle [m/rad]; nothing if the joint has none.

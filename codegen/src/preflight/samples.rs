@@ -133,7 +133,11 @@ impl Walker<'_> {
         let first = n * (n + 1) / 2 + n;
         let OwnUnits { speeds, rows, .. } = self.units;
         let phi = DVector::from_fn(m, |i, _| output[first + i] / rows[i]);
-        let jacobian = DMatrix::from_fn(m, n, |i, j| output[first + m + i * n + j] * (speeds[j] / rows[i]));
+        // Most entries are zero in any unit.
+        let in_units = |entry: f64, i: usize, j: usize| {
+            if entry == 0.0 { entry } else { entry * (speeds[j] / rows[i]) }
+        };
+        let jacobian = DMatrix::from_fn(m, n, |i, j| in_units(output[first + m + i * n + j], i, j));
         (phi, jacobian)
     }
 

@@ -46,7 +46,8 @@ pub fn lower_short(equations: &Equations) -> Vec<Tape> {
     })
 }
 
-fn lower_function(graph: &Graph, function: &Function) -> Tape {
+/// Lowers a function, operation by operation as the graph has it.
+pub fn lower_function(graph: &Graph, function: &Function) -> Tape {
     let roots: Vec<ExprId> =
         function.outputs.iter().flat_map(|block| block.entries.iter().copied()).collect();
     let uses = graph.uses(&roots);
@@ -109,6 +110,8 @@ struct Lowerer<'a> {
     defined: Vec<Option<u32>>,
     /// Sections of the graph as those of the tape.
     sections: FxHashMap<usize, usize>,
+    /// The same of the last statement, which most others follow in.
+    last_section: Option<(usize, usize)>,
     tape: Tape,
 }
 
@@ -132,7 +135,8 @@ impl<'a> Lowerer<'a> {
         let operands = vec![Operand::Constant(f64::NAN); nodes];
         let defined = vec![None; nodes];
         let (negations, angles, sections) = Default::default();
-        Self { graph, signs, negations, inputs, operands, angles, defined, sections, tape }
+        let last_section = None;
+        Self { graph, signs, negations, inputs, operands, angles, defined, sections, last_section, tape }
     }
 
     fn operand(&self, id: ExprId) -> Operand {
@@ -227,11 +231,18 @@ impl<'a> Lowerer<'a> {
     }
 
     fn push(&mut self, id: ExprId, op: Op) -> Operand {
-        let titles = &mut self.tape.sections;
-        let section = *self.sections.entry(self.graph.section_index(id)).or_insert_with(|| {
-            titles.push(self.graph.section(id).to_owned());
-            titles.len() - 1
-        });
+        let of_graph = self.graph.section_index(id);
+        let section = match self.last_section {
+            Some((known, section)) if known == of_graph => section,
+            _ => {
+                let titles = &mut self.tape.sections;
+                *self.sections.entry(of_graph).or_insert_with(|| {
+                    titles.push(self.graph.section(id).to_owned());
+                    titles.len() - 1
+                })
+            }
+        };
+        self.last_section = Some((of_graph, section));
         let label = self.graph.label_of(id).map(str::to_owned);
         let first = self.tape.values;
         let statement = Statement { op, first, labels: [label, None], section, stores: Vec::new() };

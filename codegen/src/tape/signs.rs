@@ -17,8 +17,9 @@ struct Signed<'a> {
     made: Vec<usize>,
     /// By value: of which value it is the negative, or itself.
     is: Vec<(Value, bool)>,
-    /// By statement: those that read it, in order.
-    readers: Vec<Vec<usize>>,
+    /// Those that read a statement, in order, statement by statement; and where those of each begin.
+    readers: Vec<usize>,
+    first_readers: Vec<usize>,
     /// By value: whether it is made with the other sign.
     turned: Vec<bool>,
     /// By statement: how often it is stored as it is, and with the other sign.
@@ -48,11 +49,13 @@ impl<'a> Signed<'a> {
             tape,
             made: vec![0; values],
             is: (0..tape.values).map(|value| (value, false)).collect(),
-            readers: vec![Vec::new(); tape.statements.len()],
+            readers: Vec::new(),
+            first_readers: Vec::new(),
             turned: vec![false; values],
             stored: vec![[0; 2]; tape.statements.len()],
             costs: Vec::new(),
         };
+        let mut reads: Vec<(usize, usize)> = Vec::with_capacity(2 * tape.statements.len());
         for (at, statement) in tape.statements.iter().enumerate() {
             statement.results().for_each(|value| signed.made[value as usize] = at);
             if let Op::Unary(Unary::Neg, Operand::Value(value)) = statement.op {
@@ -61,7 +64,7 @@ impl<'a> Signed<'a> {
             } else {
                 for operand in statement.op.operands() {
                     if let Operand::Value(value) = operand {
-                        signed.readers[signed.made[signed.is[value as usize].0 as usize]].push(at);
+                        reads.push((signed.made[signed.is[value as usize].0 as usize], at));
                     }
                 }
             }
@@ -72,8 +75,15 @@ impl<'a> Signed<'a> {
                 }
             }
         }
-        // What reads a value twice was noted twice in turn.
-        signed.readers.iter_mut().for_each(Vec::dedup);
+        // What reads a value twice was noted twice.
+        reads.sort_unstable();
+        reads.dedup();
+        let mut next = reads.iter().enumerate().peekable();
+        for at in 0..=tape.statements.len() {
+            while next.next_if(|(_, (read, _))| *read < at).is_some() {}
+            signed.first_readers.push(next.peek().map_or(reads.len(), |(first, _)| *first));
+        }
+        signed.readers = reads.into_iter().map(|(_, reader)| reader).collect();
         signed.costs = (0..tape.statements.len()).map(|at| signed.cost(at)).collect();
         signed
     }
@@ -87,6 +97,10 @@ impl<'a> Signed<'a> {
             }
             other => (other, false),
         }
+    }
+
+    fn readers(&self, at: usize) -> &[usize] {
+        &self.readers[self.first_readers[at]..self.first_readers[at + 1]]
     }
 
     /// Whether a statement may be made with the other sign at all.
@@ -121,8 +135,8 @@ impl<'a> Signed<'a> {
 
     /// A statement, perhaps with one that reads it, and all that read them: each once.
     fn around(&self, at: usize, with: Option<usize>) -> impl Iterator<Item = usize> {
-        let near = &self.readers[at];
-        let far = with.into_iter().flat_map(|reader| &self.readers[reader]);
+        let near = self.readers(at);
+        let far = with.into_iter().flat_map(|reader| self.readers(reader));
         let far = far.filter(|reader| near.binary_search(reader).is_err());
         std::iter::once(at).chain(near.iter().chain(far).copied())
     }
@@ -165,8 +179,8 @@ impl<'a> Signed<'a> {
                     changed = true;
                     continue;
                 }
-                for position in 0..self.readers[at].len() {
-                    let reader = self.readers[at][position];
+                for position in 0..self.readers(at).len() {
+                    let reader = self.readers(at)[position];
                     if self.turns(reader) && self.try_turning(at, Some(reader)) {
                         changed = true;
                         break;

@@ -71,6 +71,11 @@ fn solve(
                 }
             }
             rows.extend((0..m).filter(|row| jacobian[row * n..][..n].iter().any(|entry| *entry != 0.0)));
+            let rests = rows.iter().all(|row| closure.speeds[*row] == 0.0);
+            if rests {
+                // Nothing to correct, as of every mechanism that starts at rest.
+                break;
+            }
             for (place, row) in rows.iter().enumerate() {
                 jacobian.copy_within(row * n..(row + 1) * n, place * n);
             }

@@ -23,7 +23,7 @@ impl Start {
     pub fn of(compiled: &Compiled) -> Option<Self> {
         let (system, description) = (compiled.interpreter_at_hand(), compiled.description());
         let settings = Settings { span: Span::Time(1.0), ..Settings::default() };
-        let mut run = Simulation::start(&system, description, &compiled.parameters(), &settings).ok()?;
+        let mut run = Simulation::start(&*system, description, &compiled.parameters(), &settings).ok()?;
         let joints = &compiled.mechanism.joints;
         let is_position = |column: &str| {
             column.rsplit_once('.').is_some_and(|(joint, member)| {

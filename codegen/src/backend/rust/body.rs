@@ -23,13 +23,13 @@ pub fn direct(tape: &Tape) -> String {
     for (index, operand) in &tape.direct {
         let bits = if let Operand::Constant(number) = operand { Some(number.to_bits()) } else { None };
         if bits.is_none() || bits != last.0 {
-            let value = match operand {
-                Operand::Input(input) => format!("x[{input}]"),
-                other => number(*other),
-            };
-            last = (bits, value);
+            last = (bits, String::new());
+            match operand {
+                Operand::Input(input) => push_indexed(&mut last.1, "x", *input),
+                other => push_number(&mut last.1, *other),
+            }
         }
-        lines.push(&format!("y[{index}] = {};", last.1));
+        lines.line(|line| push_store(line, *index, &last.1));
     }
     lines.text
 }
@@ -50,7 +50,11 @@ pub fn part(tape: &Tape, part: &Part) -> String {
         writer.statement(statement);
     }
     for (value, slot) in &part.saves {
-        writer.lines.push(&format!("w[{slot}] = {};", writer.values[value]));
+        let Writer { lines, values, .. } = &mut writer;
+        lines.line(|line| {
+            push_indexed(line, "w", *slot);
+            line.extend([" = ", &values[value], ";"]);
+        });
     }
     writer.lines.text
 }
@@ -65,11 +69,19 @@ impl Lines {
         let _ = writeln!(self.text, "    // {text}");
     }
 
-    fn push(&mut self, statement: &str) {
-        if statement.len() <= SURELY_ONE_LINE {
-            self.text.extend(["    ", statement, "\n"]);
+    /// A statement, written at the end of the text: what is written elsewhere and copied takes as long as all the rest.
+    fn line(&mut self, write: impl FnOnce(&mut String)) {
+        const INDENT: &str = "    ";
+        let begin = self.text.len();
+        self.text.push_str(INDENT);
+        let from = self.text.len();
+        write(&mut self.text);
+        if self.text.len() - from <= SURELY_ONE_LINE {
+            self.text.push('\n');
         } else {
-            self.text.push_str(&formatted(statement));
+            let lines = formatted(&self.text[from..]);
+            self.text.truncate(begin);
+            self.text.push_str(&lines);
         }
     }
 }
@@ -102,81 +114,170 @@ impl Writer {
             }
         }
         for (index, name) in &read {
-            self.lines.push(&format!("let {name} = x[{index}];"));
+            self.lines.line(|line| {
+                line.extend(["let ", name, " = "]);
+                push_indexed(line, "x", *index);
+                line.push(';');
+            });
         }
         self.inputs.extend(read);
     }
 
     fn statement(&mut self, statement: &Statement) {
-        let right = match statement.op {
-            Op::Unary(operation, a) => unary(operation, &self.operand(a)),
-            Op::Binary(operation, a, b) => binary(operation, &self.operand(a), &self.operand(b)),
-            Op::SinCos(a) => format!("T::sin_cos({})", self.operand(a)),
-            Op::Select(a, yes, no) => {
-                let [a, yes, no] = [a, yes, no].map(|operand| self.operand(operand));
-                format!("T::select({a}.lt(T::constant(0.0)), {yes}, {no})")
+        statement
+            .results()
+            .zip(&statement.labels)
+            .for_each(|(value, label)| self.name(value, label.as_deref()));
+        let Self { inputs, values, lines, .. } = self;
+        let names = Known { inputs, values };
+        let name = |which: u32| values[&(statement.first + which)].as_str();
+        lines.line(|line| {
+            match statement.op {
+                Op::SinCos(_) => line.extend(["let (", name(0), ", ", name(1), ") = "]),
+                _ => line.extend(["let ", name(0), " = "]),
+            }
+            names.push_operation(line, &statement.op);
+            line.push(';');
+        });
+        for (index, operand) in &statement.stores {
+            lines.line(|line| match operand {
+                Operand::Constant(_) => {
+                    let mut value = String::new();
+                    push_number(&mut value, *operand);
+                    push_store(line, *index, &value);
+                }
+                Operand::Input(input) => push_store(line, *index, &inputs[input]),
+                Operand::Value(value) => push_store(line, *index, &values[value]),
+            });
+        }
+    }
+
+    fn name(&mut self, value: u32, label: Option<&str>) {
+        let name = match label {
+            Some(label) => self.names.unique(label),
+            None => {
+                let mut name = "t".to_owned();
+                push_digits(&mut name, value);
+                self.names.unique_clean(name)
             }
         };
-        let left = match statement.op {
-            Op::SinCos(_) => format!("({}, {})", self.named(statement, 0), self.named(statement, 1)),
-            _ => self.named(statement, 0),
-        };
-        self.lines.push(&format!("let {left} = {right};"));
-        for (index, operand) in &statement.stores {
-            self.lines.push(&format!("y[{index}] = {};", self.operand(*operand)));
-        }
+        self.values.insert(value, name);
     }
+}
 
-    fn named(&mut self, statement: &Statement, which: u32) -> String {
-        let value = statement.first + which;
-        let name = match &statement.labels[which as usize] {
-            Some(label) => self.names.unique(label),
-            None => self.names.unique(&format!("t{value}")),
-        };
-        self.values.insert(value, name.clone());
-        name
-    }
+/// Names of what has been read and made so far.
+struct Known<'a> {
+    inputs: &'a FxHashMap<u32, String>,
+    values: &'a FxHashMap<u32, String>,
+}
 
-    fn operand(&self, operand: Operand) -> String {
+impl Known<'_> {
+    fn push(&self, text: &mut String, operand: Operand) {
         match operand {
-            Operand::Constant(_) => number(operand),
-            Operand::Input(index) => self.inputs[&index].clone(),
-            Operand::Value(value) => self.values[&value].clone(),
+            Operand::Constant(_) => push_number(text, operand),
+            Operand::Input(index) => text.push_str(&self.inputs[&index]),
+            Operand::Value(value) => text.push_str(&self.values[&value]),
         }
     }
+
+    /// Operands with something before, between and behind them.
+    fn push_call(
+        &self,
+        text: &mut String,
+        before: &str,
+        [a, b]: [Operand; 2],
+        (between, behind): (&str, &str),
+    ) {
+        text.push_str(before);
+        self.push(text, a);
+        text.push_str(between);
+        self.push(text, b);
+        text.push_str(behind);
+    }
+
+    fn push_operation(&self, text: &mut String, op: &Op) {
+        match *op {
+            Op::Unary(operation, a) => {
+                let behind = push_function(text, operation);
+                self.push(text, a);
+                text.push_str(behind);
+            }
+            Op::Binary(operation, a, b) => {
+                let (before, between, behind) = match operation {
+                    Binary::Add => ("", " + ", ""),
+                    Binary::Sub => ("", " - ", ""),
+                    Binary::Mul => ("", " * ", ""),
+                    Binary::Div => ("", " / ", ""),
+                    Binary::Atan2 => ("T::atan2(", ", ", ")"),
+                    Binary::AngleOverSine => ("angle_over_sine(", ", ", ")"),
+                };
+                self.push_call(text, before, [a, b], (between, behind));
+            }
+            Op::SinCos(a) => {
+                text.push_str("T::sin_cos(");
+                self.push(text, a);
+                text.push(')');
+            }
+            Op::Select(a, yes, no) => {
+                text.push_str("T::select(");
+                self.push(text, a);
+                self.push_call(text, ".lt(T::constant(0.0)), ", [yes, no], (", ", ")"));
+            }
+        }
+    }
+}
+
+fn push_digits(text: &mut String, number: u32) {
+    let mut digits = [0_u8; 10];
+    let (mut left, mut first) = (number, digits.len());
+    while left > 0 || first == digits.len() {
+        first -= 1;
+        digits[first] = b'0' + (left % 10) as u8;
+        left /= 10;
+    }
+    text.extend(digits[first..].iter().map(|digit| char::from(*digit)));
+}
+
+fn push_indexed(text: &mut String, list: &str, index: u32) {
+    text.extend([list, "["]);
+    push_digits(text, index);
+    text.push(']');
+}
+
+fn push_store(text: &mut String, index: u32, value: &str) {
+    push_indexed(text, "y", index);
+    text.extend([" = ", value, ";"]);
 }
 
 /// A number as its shortest literal that reads back to the same bits.
-fn number(operand: Operand) -> String {
-    match operand {
-        Operand::Constant(number) if number.is_nan() => "T::constant(f64::NAN)".to_owned(),
-        Operand::Constant(f64::INFINITY) => "T::constant(f64::INFINITY)".to_owned(),
-        Operand::Constant(f64::NEG_INFINITY) => "T::constant(f64::NEG_INFINITY)".to_owned(),
-        Operand::Constant(number) => format!("T::constant({number:?})"),
-        Operand::Input(_) | Operand::Value(_) => String::new(),
-    }
+fn push_number(text: &mut String, operand: Operand) {
+    let _ = match operand {
+        Operand::Constant(number) if number.is_nan() => write!(text, "T::constant(f64::NAN)"),
+        Operand::Constant(f64::INFINITY) => write!(text, "T::constant(f64::INFINITY)"),
+        Operand::Constant(f64::NEG_INFINITY) => write!(text, "T::constant(f64::NEG_INFINITY)"),
+        Operand::Constant(number) => write!(text, "T::constant({number:?})"),
+        Operand::Input(_) | Operand::Value(_) => Ok(()),
+    };
 }
 
+/// What stands before an operand; gives back what stands behind it.
 #[expect(clippy::unreachable, reason = "lowering turns sines and cosines into pairs")]
-fn unary(operation: Unary, a: &str) -> String {
-    match operation {
-        Unary::Neg => format!("-{a}"),
-        Unary::Sqrt => format!("T::sqrt({a})"),
-        Unary::Exp => format!("T::exp({a})"),
-        Unary::Ln => format!("T::ln({a})"),
-        Unary::Floor => format!("T::floor({a})"),
-        Unary::LogCoefficient(rank) => format!("log_coefficient({rank}, {a})"),
+fn push_function(text: &mut String, operation: Unary) -> &'static str {
+    let before = match operation {
+        Unary::Neg => {
+            text.push('-');
+            return "";
+        }
+        Unary::LogCoefficient(rank) => {
+            let _ = write!(text, "log_coefficient({rank}, ");
+            return ")";
+        }
+        Unary::Sqrt => "T::sqrt(",
+        Unary::Exp => "T::exp(",
+        Unary::Ln => "T::ln(",
+        Unary::Floor => "T::floor(",
         Unary::Sin | Unary::Cos => unreachable!("lowering turns sines and cosines into pairs"),
-    }
-}
-
-fn binary(operation: Binary, a: &str, b: &str) -> String {
-    match operation {
-        Binary::Add => format!("{a} + {b}"),
-        Binary::Sub => format!("{a} - {b}"),
-        Binary::Mul => format!("{a} * {b}"),
-        Binary::Div => format!("{a} / {b}"),
-        Binary::Atan2 => format!("T::atan2({a}, {b})"),
-        Binary::AngleOverSine => format!("angle_over_sine({a}, {b})"),
-    }
+    };
+    text.push_str(before);
+    ")"
 }

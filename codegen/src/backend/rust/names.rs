@@ -21,6 +21,7 @@ const TAKEN: &[&str] = &[
     "Err",
     "SIZES",
     "SOURCE_SHA256",
+    "MASS_IS_LEFT_OUT",
     "PARAMETERS",
     "INPUTS",
     "COORDINATES",
@@ -63,6 +64,11 @@ impl Names {
     /// The name, or the name with a number if it is taken.
     pub fn unique(&mut self, wanted: &str) -> String {
         self.0.of(clean(wanted))
+    }
+
+    /// The same of a name that is a valid identifier and no word of the language.
+    pub fn unique_clean(&mut self, wanted: String) -> String {
+        self.0.of(wanted)
     }
 
     /// The same as a token.

@@ -122,18 +122,18 @@ pub struct Instant<'g> {
 }
 
 impl<'g> Instant<'g> {
-    /// What `by` makes of the rows of the `cuts`, with its operations: of those whose terms are summed up along the axes of
-    /// the links, or of W where that is shorter. `compare`: whether the second way is tried at all.
+    /// What `by` makes of the rows of the `cuts`, with its operations if it is to count them: of those whose terms are summed
+    /// up along the axes of the links, or of W where that is shorter. `compare`: whether the second way is tried at all.
     pub fn by_shorter_rows<T>(
         &self,
         cuts: &[CutRows<'g>],
         exact_or_apart: (bool, bool),
         compare: bool,
-        by: impl Fn(&[CutRows<'g>]) -> (usize, T),
+        by: impl Fn(&[CutRows<'g>], bool) -> (usize, T),
     ) -> T {
-        let mut shortest = by(cuts);
+        let mut shortest = by(cuts, compare && self.has_other_rows());
         for (_, cuts) in self.other_rows(exact_or_apart, compare) {
-            let next = by(&cuts);
+            let next = by(&cuts, true);
             if next.0 < shortest.0 {
                 shortest = next;
             }
@@ -158,9 +158,12 @@ impl<'g> Instant<'g> {
 
     /// The rows of the cuts with what they are made of summed up along other axes; nothing if that makes no difference.
     fn cuts_by(&self, exact: bool, sums: Sums) -> Option<Vec<CutRows<'g>>> {
+        self.has_other_rows().then(|| cut_rows(&self.state.motion, exact, sums))
+    }
+
+    fn has_other_rows(&self) -> bool {
         let linkage = self.state.geometry.linkage;
-        let changes = linkage.cuts.iter().any(|cut| !(cut.plane && linkage.rows_in_ground));
-        changes.then(|| cut_rows(&self.state.motion, exact, sums))
+        linkage.cuts.iter().any(|cut| !(cut.plane && linkage.rows_in_ground))
     }
 }
 

@@ -29,7 +29,8 @@ use crate::expr::{Expr, ExprId, Vec3};
 const MOST_OF_MASS: usize = 5_000;
 
 /// What stands in the place of M.
-const MASS_LEFT_OUT: &str = "Zeros: of mechanisms as long as this one M is left out.";
+const MASS_LEFT_OUT: &str =
+    "No masses: of mechanisms as long as this one M is left out, and zeros stand in its place.";
 
 pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
     Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs, goes_on: false }
@@ -210,7 +211,7 @@ impl<'g> Deriver<'g> {
         let free = &self.partition.free;
         // States of the file's own are in no loop.
         let beside = || self.own.iter().map(|_| g.zero());
-        let by = |cuts: &[CutRows<'g>]| {
+        let by = |cuts: &[CutRows<'g>], counts: bool| {
             let of_cuts = cuts.iter().flat_map(|cut| &cut.rows);
             let of_couplings = instant.couplings.iter().map(|coupling| &coupling.row);
             let all: Vec<Expr<'g>> = of_cuts.chain(of_couplings).map(|row| row.residual).collect();
@@ -221,8 +222,10 @@ impl<'g> Deriver<'g> {
                 jacobian.extend(free.iter().map(|j| row.jacobian[*j]).chain(beside()));
             }
             // Zeros, which are most of the Jacobian, take no operations.
-            let entries = [&all, &rates, &jacobian].into_iter().flatten().copied();
-            (g.operations(entries.filter(|entry| !entry.is_zero())), [all, rates, jacobian])
+            let entries = || [&all, &rates, &jacobian].into_iter().flatten().copied();
+            let operations =
+                if counts { g.operations(entries().filter(|entry| !entry.is_zero())) } else { 0 };
+            (operations, [all, rates, jacobian])
         };
         let [all, rates, jacobian] = instant.by_shorter_rows(&exact, (true, false), self.compares, by);
         let outputs = vec![
@@ -271,7 +274,8 @@ impl<'g> Deriver<'g> {
             if with_poses {
                 list.poses();
             }
-            (g.operations(list.values.iter().copied()), (list.channels, list.values))
+            let operations = if self.is_short() { g.operations(list.values.iter().copied()) } else { 0 };
+            (operations, (list.channels, list.values))
         };
         let in_ground = list(&instant);
         instant.state.points_in_ground = false;
@@ -358,7 +362,7 @@ impl<'g> Deriver<'g> {
         let all = vec![true; self.keep.len()];
         let closed = solved.is_some_and(|solved| solved.closed);
         let forces = std::cell::OnceCell::new();
-        let by = |cuts: &[CutRows<'g>]| {
+        let by = |cuts: &[CutRows<'g>], counts: bool| {
             let rows: Vec<_> = kept_rows(motion, (cuts, &instant.couplings), &all)
                 .into_iter()
                 .map(|kept| (kept.row.residual, kept.jacobian, -kept.row.bias.of(closed)))
@@ -372,9 +376,10 @@ impl<'g> Deriver<'g> {
             let forces =
                 forces.get_or_init(|| each_once(all_bias_forces(motion, masses, &instant.loads, axes)));
             let both = matrices.iter().flat_map(|mass| forces.iter().map(move |h| (mass, h)));
+            let counts = counts || matrices.len() * forces.len() > 1;
             let counted = both.map(|((mass, entries), h)| {
                 let all = entries.iter().chain(&of_rows).chain(h).copied();
-                (g.operations(all), mass, h)
+                (if counts { g.operations(all) } else { 0 }, mass, h)
             });
             let shortest = counted.min_by_key(|(operations, ..)| *operations);
             let (operations, mass, h) = shortest

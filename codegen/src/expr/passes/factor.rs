@@ -18,20 +18,24 @@ pub fn factor(program: &Program) -> Option<Program> {
     let mut found = false;
     let is_product =
         |id: ExprId| uses[id.index()] == 1 && matches!(graph.node(id), Node::Binary(Binary::Mul, ..));
-    for sum in terms(graph, &uses, Kind::Sum) {
+    // Every sum is looked at and few have a common factor: no lists of its own for each.
+    let (mut lists, mut counted) = (Lists::default(), Vec::new());
+    for sum in terms(graph, &uses, Kind::Sum).iter() {
         if sum.terms.iter().filter(|(_, id)| is_product(*id)).count() < 2 {
             continue;
         }
-        let mut inner = sum.inner;
-        let products: Vec<Product> = sum
-            .terms
-            .iter()
-            .map(|(negative, id)| (*negative, factors(graph, &uses, *id, &mut inner)))
-            .collect();
-        if commonest(&products).is_some() {
+        lists.inner.clear();
+        counted.clear();
+        for (at, (_, id)) in sum.terms.iter().enumerate() {
+            let factors = lists.factors(graph, &uses, *id);
+            counted.extend(factors.iter().filter(|_| factors.len() > 1).map(|factor| (*factor, at)));
+        }
+        if most_counted(&mut counted).is_some() {
             found = true;
-            formulas[sum.root.index()] = Some(Formula::Sum(grouped(products)));
-            inner.iter().for_each(|id| left_out[id.index()] = true);
+            lists.inner.iter().chain(sum.inner).for_each(|id| left_out[id.index()] = true);
+            let products =
+                sum.terms.iter().map(|(negative, id)| (*negative, lists.factors(graph, &uses, *id).to_vec()));
+            formulas[sum.root.index()] = Some(Formula::Sum(grouped(products.collect())));
         }
     }
     found.then(|| {
@@ -46,20 +50,31 @@ pub fn factor(program: &Program) -> Option<Program> {
     })
 }
 
-/// Factors of a term; the products that only it reads go to `inner`.
-fn factors(graph: &Graph, uses: &[u32], id: ExprId, inner: &mut Vec<ExprId>) -> Vec<ExprId> {
-    let mut factors = Vec::new();
-    let mut stack = vec![id];
-    while let Some(id) = stack.pop() {
-        match graph.node(id) {
-            Node::Binary(Binary::Mul, a, b) if uses[id.index()] == 1 => {
-                inner.push(id);
-                stack.extend([b, a]);
+/// Lists that are filled anew for every term.
+#[derive(Default)]
+struct Lists {
+    factors: Vec<ExprId>,
+    /// Products that only the sum reads.
+    inner: Vec<ExprId>,
+    stack: Vec<ExprId>,
+}
+
+impl Lists {
+    /// Factors of a term; the products that only it reads come to the others.
+    fn factors(&mut self, graph: &Graph, uses: &[u32], id: ExprId) -> &[ExprId] {
+        self.factors.clear();
+        self.stack.push(id);
+        while let Some(id) = self.stack.pop() {
+            match graph.node(id) {
+                Node::Binary(Binary::Mul, a, b) if uses[id.index()] == 1 => {
+                    self.inner.push(id);
+                    self.stack.extend([b, a]);
+                }
+                _ => self.factors.push(id),
             }
-            _ => factors.push(id),
         }
+        &self.factors
     }
-    factors
 }
 
 /// The factor of most products, if several have it; the first made among equals.
@@ -67,6 +82,11 @@ fn commonest(products: &[Product]) -> Option<ExprId> {
     let several = products.iter().enumerate().filter(|(_, (_, factors))| factors.len() > 1);
     let mut all: Vec<(ExprId, usize)> =
         several.flat_map(|(at, (_, factors))| factors.iter().map(move |factor| (*factor, at))).collect();
+    most_counted(&mut all)
+}
+
+/// The same of factors, each with the number of its product.
+fn most_counted(all: &mut Vec<(ExprId, usize)>) -> Option<ExprId> {
     all.sort_unstable();
     // Of a square, one factor counts.
     all.dedup();

@@ -34,24 +34,24 @@ const ROUNDS: usize = 4;
 pub fn shortened(graph: &Graph, inputs: &[ExprId], roots: &[ExprId]) -> Program {
     let whole = Whole { graph, inputs, roots };
     let merged = equal::merged(&whole);
-    let mut best = passed(&merged, &ORDERS[0]);
+    let whole = merged.operations();
+    let (mut least, mut best) = passed((whole, &merged), &ORDERS[0]);
     for order in &ORDERS[1..] {
         // The same again if the first pass finds nothing.
-        let Some(first) = order[0](&merged).filter(|first| first.operations() < merged.operations()) else {
-            continue;
-        };
-        let next = passed(&first, order);
-        if next.operations() < best.operations() {
-            best = next;
+        let first = order[0](&merged).map(|first| (first.operations(), first));
+        let Some((count, first)) = first.filter(|(count, _)| *count < whole) else { continue };
+        let (count, next) = passed((count, &first), order);
+        if count < least {
+            (least, best) = (count, Some(next.unwrap_or(first)));
         }
     }
-    best
+    best.unwrap_or(merged)
 }
 
-/// The program after rounds of the passes, each kept where it makes it shorter.
-fn passed(program: &Program, passes: &[Pass]) -> Program {
-    let mut best = program.clone();
-    let mut least = best.operations();
+/// What rounds of the passes leave of a program of so many operations, each kept where it makes it shorter: how many
+/// operations, and the program, if it has changed.
+fn passed((count, program): (usize, &Program), passes: &[Pass]) -> (usize, Option<Program>) {
+    let (mut best, mut least) = (None, count);
     // By pass: for how many operations it found nothing. Of the same program it would find nothing again.
     let mut nothing = vec![usize::MAX; passes.len()];
     for _ in 0..ROUNDS {
@@ -60,9 +60,9 @@ fn passed(program: &Program, passes: &[Pass]) -> Program {
             if *nothing == least {
                 continue;
             }
-            let next = pass(&best).map(|next| (next.operations(), next));
+            let next = pass(best.as_ref().unwrap_or(program)).map(|next| (next.operations(), next));
             match next.filter(|(count, _)| *count < least) {
-                Some((count, next)) => (best, least) = (next, count),
+                Some((count, next)) => (best, least) = (Some(next), count),
                 None => *nothing = least,
             }
         }
@@ -70,7 +70,7 @@ fn passed(program: &Program, passes: &[Pass]) -> Program {
             break;
         }
     }
-    best
+    (least, best)
 }
 
 #[cfg(test)]

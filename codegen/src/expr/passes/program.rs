@@ -23,7 +23,7 @@ pub struct Whole<'a> {
 impl Program {
     /// What it costs.
     pub fn operations(&self) -> usize {
-        self.graph.operations(&self.roots)
+        self.graph.operations_of_most(&self.roots)
     }
 
     /// See [`Graph::uses`].

@@ -1,6 +1,8 @@
 //! Copies a function to a graph of its own, node by node, through the constructors that fold and order.
 //! Names and sections come along.
 
+use std::sync::Arc;
+
 use super::program::{Program, Whole};
 use crate::expr::{Expr, ExprId, Graph, Node, Scope};
 
@@ -19,8 +21,8 @@ pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>
     let (inputs, roots) = {
         let mut rebuild = Rebuild { old: whole.graph, scope: &scope, made: vec![None; uses.len()] };
         scope.make(|g| {
-            g.sections = whole.graph.sections.clone();
-            g.section_by_title = whole.graph.section_by_title.clone();
+            g.sections = Arc::clone(&whole.graph.sections);
+            g.section_by_title = Arc::clone(&whole.graph.section_by_title);
         });
         for id in whole.inputs {
             if let Some(symbol) = whole.graph.as_symbol(*id) {
@@ -32,8 +34,8 @@ pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>
             if rebuild.made[index].is_none() {
                 scope.make(|g| g.current_section = whole.graph.section_of[index]);
                 each(&mut rebuild, id);
-                if let (Some(new), Some(name)) = (rebuild.made[index], whole.graph.label_of(id)) {
-                    new.label(name);
+                if let (Some(new), Some(name)) = (rebuild.made[index], whole.graph.labels.get(&id)) {
+                    new.label(Arc::clone(name));
                 }
             }
         }

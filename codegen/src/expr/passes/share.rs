@@ -29,7 +29,8 @@ pub fn share_products(program: &Program) -> Option<Program> {
 
 fn share(program: &Program, kind: Kind) -> Option<Program> {
     let (graph, uses) = (&program.graph, program.uses());
-    let sums = terms(graph, &uses, kind);
+    let list = terms(graph, &uses, kind);
+    let sums: Vec<Terms<'_>> = list.iter().collect();
     let mut sharing = Sharing::new(kind, &sums, uses.len());
     sharing.run();
     if sharing.pairs.is_empty() {
@@ -70,7 +71,7 @@ struct Sharing {
     kind: Kind,
     /// Old nodes.
     nodes: usize,
-    /// Signed terms of every sum.
+    /// Signed terms of every sum that may have a common pair.
     terms: Vec<Vec<(bool, Term)>>,
     changed: Vec<bool>,
     /// Sums that had the pair when it was found.
@@ -82,29 +83,29 @@ struct Sharing {
 }
 
 impl Sharing {
-    fn new(kind: Kind, sums: &[Terms], nodes: usize) -> Self {
+    fn new(kind: Kind, sums: &[Terms<'_>], nodes: usize) -> Self {
         // What one sum has alone is in no common pair.
         let mut sums_with = vec![0_u32; nodes];
-        for (_, term) in sums.iter().flat_map(|sum| &sum.terms) {
+        for (_, term) in sums.iter().flat_map(|sum| sum.terms) {
             sums_with[term.index()] += 1;
         }
-        let number = |id: ExprId| -> Term { id.number() };
-        let terms: Vec<Vec<(bool, Term)>> = sums
-            .iter()
-            .map(|sum| sum.terms.iter().map(|(negative, id)| (*negative, number(*id))).collect())
-            .collect();
         let mut sharing = Self {
             kind,
             nodes,
-            changed: vec![false; terms.len()],
-            terms,
+            changed: vec![false; sums.len()],
+            terms: vec![Vec::new(); sums.len()],
             places: FxHashMap::default(),
             queue: BinaryHeap::new(),
             pairs: Vec::new(),
         };
-        for at in 0..sharing.terms.len() {
-            let common: Vec<(bool, Term)> =
-                sharing.terms[at].iter().filter(|(_, term)| sums_with[*term as usize] > 1).copied().collect();
+        let signed = |(negative, id): &(bool, ExprId)| -> (bool, Term) { (*negative, id.number()) };
+        let mut common: Vec<(bool, Term)> = Vec::new();
+        for (at, sum) in sums.iter().enumerate() {
+            common.clear();
+            common.extend(sum.terms.iter().map(signed).filter(|(_, term)| sums_with[*term as usize] > 1));
+            if common.len() > 1 {
+                sharing.terms[at].extend(sum.terms.iter().map(signed));
+            }
             for (position, first) in common.iter().enumerate() {
                 for second in &common[position + 1..] {
                     sharing.note(at, pair(*first, *second));

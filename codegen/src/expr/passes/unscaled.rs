@@ -17,11 +17,9 @@ struct Scaled {
 /// Takes terms out of sums that only a product with a number reads.
 pub fn unscaled(program: &Program) -> Option<Program> {
     let (graph, uses) = (&program.graph, program.uses());
-    let mut sums: Vec<Option<Terms>> = vec![None; uses.len()];
-    for sum in terms(graph, &uses, Kind::Sum) {
-        let root = sum.root;
-        sums[root.index()] = Some(sum);
-    }
+    let list = terms(graph, &uses, Kind::Sum);
+    let mut sums: Vec<Option<Terms<'_>>> = vec![None; uses.len()];
+    list.iter().for_each(|sum| sums[sum.root.index()] = Some(sum));
     let mut formulas: Vec<Option<Scaled>> = (0..uses.len()).map(|_| None).collect();
     let mut left_out = vec![false; uses.len()];
     let mut found = false;
@@ -29,7 +27,7 @@ pub fn unscaled(program: &Program) -> Option<Program> {
         let Some((factor, inner)) = by_number(graph, ExprId::new(index)) else { continue };
         let Some(sum) = sums[inner.index()].as_ref().filter(|_| uses[inner.index()] == 1) else { continue };
         let mut formula = Scaled { factor, scaled: Vec::new(), plain: Vec::new() };
-        for (negative, term) in &sum.terms {
+        for (negative, term) in sum.terms {
             match by_number(graph, *term) {
                 // What is made anew itself stays as it is.
                 Some((number, plain))
