@@ -51,6 +51,42 @@ fn a_long_chain_without_its_mass_matrix_is_not() {
 }
 
 #[test]
+fn zeros_in_the_place_of_a_mass_matrix_are_told_wherever_equations_are_read() {
+    let left_out =
+        |links| compile(&chain(links), &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
+    let [short, long] = [2, 60].map(left_out);
+    assert_eq!([short.mass_is_left_out(), long.mass_is_left_out()], [false, true]);
+    let text = |compiled: &linkwear_codegen::Compiled| {
+        let only = ["mass".to_owned()];
+        compiled.equations_text(&only, linkwear_codegen::render::TextFormat::Text)
+    };
+    assert!(text(&short).contains("mass[1] = "), "{}", text(&short));
+    assert!(text(&long).contains("No masses") && !text(&long).contains("mass["), "{}", text(&long));
+    // Who calls the function by its usual name finds none.
+    let crate_of = |compiled: &linkwear_codegen::Compiled| {
+        let files = compiled.c_crate();
+        files.into_iter().map(|(_, text)| text).collect::<String>()
+    };
+    for (compiled, is_told) in [(&short, false), (&long, true)] {
+        let (rust, c) = (compiled.rust_source(), compiled.c_files("chain.h"));
+        let says = |text: &str, word: &str| assert_eq!(text.contains(word), is_told, "{word}");
+        says(&rust, "pub const MASS_IS_LEFT_OUT: bool = true;");
+        says(&rust, "pub fn equations_of_motion_without_mass<");
+        says(&c.header, "void chain_equations_of_motion_without_mass(");
+        says(&c.source, "void chain_equations_of_motion_without_mass(");
+        assert_ne!(rust.contains("pub fn equations_of_motion<"), is_told);
+        assert_ne!(c.header.contains("void chain_equations_of_motion("), is_told);
+        for text in [&rust, &c.header, &c.source] {
+            says(text, "zeros stand in its place");
+        }
+        let library = crate_of(compiled);
+        says(&library, "CHAIN_MASS_LEFT_OUT = 6");
+        says(&library, "return Err(MASS_LEFT_OUT);");
+        assert!(!library.contains("OF_MASS"));
+    }
+}
+
+#[test]
 fn more_bodies_than_the_limit_are_refused() {
     let message = refusal(&chain(401));
     assert!(message.contains("401 bodies"), "{message}");

@@ -17,12 +17,14 @@ pub fn run(arguments: &EquationsArguments) -> Result<Answer, Failure> {
         return Err(Failure::unknown_name("output or function", name, &known, &known));
     }
     let text = compiled.equations_text(only, arguments.notation);
+    let mass_left_out = compiled.mass_is_left_out();
     let meant =
         outputs.iter().filter(|output| only.is_empty() || only.iter().any(|name| is_meant(output, name)));
     let told = EquationsAnswer {
         name: &compiled.mechanism.name,
         outputs: meant.map(entry).collect(),
         text: &text,
+        mass_left_out,
         warnings,
     };
     let json = json!(told);

@@ -19,6 +19,11 @@ use super::options::Replace;
 use super::own_file::is_own;
 use super::table::{count, duration, plural, table};
 
+/// Told behind the table.
+const MASS_LEFT_OUT: &str = "
+The mass matrix is left out of equations_of_motion, as of all mechanisms that are as long: zeros stand in its place.
+";
+
 pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     let out = arguments.out.as_deref();
     let start = Instant::now();
@@ -55,6 +60,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
         statements,
         seconds,
         entry_points: functions.iter().map(entry).collect(),
+        mass_left_out: compiled.mass_is_left_out(),
         warnings,
         files: written.iter().map(|path| path.display().to_string()).collect(),
         source: None,
@@ -66,8 +72,9 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     };
     let others: String = written[1..].iter().map(|path| format!(", {}", path.display())).collect();
     let rows: Vec<_> = functions.iter().map(row).collect();
+    let left_out = if compiled.mass_is_left_out() { MASS_LEFT_OUT } else { "" };
     let text = format!(
-        "{}{others}: {}, {} in {}\n\n{}",
+        "{}{others}: {}, {} in {}\n\n{}{left_out}",
         first.display(),
         if arguments.check { "up to date" } else { "written" },
         plural(statements as u64, "statement", "statements"),

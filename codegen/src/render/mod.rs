@@ -86,6 +86,11 @@ pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: Te
     text
 }
 
+/// Whether a block stands for a mass matrix that is left out: to write so many zeros tells less than its comment.
+fn mass_is_left_out(equations: &Equations, function: &Function, block: &Block) -> bool {
+    function.name == Entry::EquationsOfMotion.name() && block.name == "mass" && equations.mass_is_left_out()
+}
+
 struct Writer<'a> {
     graph: &'a Graph,
     equations: &'a Equations,
@@ -194,6 +199,9 @@ impl<'a> Writer<'a> {
                     block.name, block.doc, cost.operations.total, cost.operations_unshared.total
                 ),
             );
+            if mass_is_left_out(self.equations, self.function, block) {
+                continue;
+            }
             for (index, id) in block.entries.iter().enumerate() {
                 let left = self.formula().entry(&block.name, &self.entry_name(block, index));
                 self.line(text, &left, &self.formula().write(*id));

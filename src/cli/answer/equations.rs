@@ -23,6 +23,8 @@ pub struct EquationsAnswer<'a> {
     pub outputs: Vec<OutputAnswer<'a>>,
     /// The equations in the notation that was asked for.
     pub text: &'a str,
+    /// Whether the mass matrix is left out of `equations_of_motion`, as it is of long mechanisms: zeros stand in its place.
+    pub mass_left_out: bool,
     /// Remarks on the file.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
     pub warnings: Vec<Value>,
@@ -148,6 +150,8 @@ pub struct GenerateAnswer<'a> {
     pub seconds: f64,
     /// Each function.
     pub entry_points: Vec<FunctionAnswer<'a>>,
+    /// Whether the mass matrix is left out of `equations_of_motion`, as it is of long mechanisms: zeros stand in its place.
+    pub mass_left_out: bool,
     /// Remarks on the file.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
     pub warnings: Vec<Value>,

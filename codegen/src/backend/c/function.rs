@@ -3,7 +3,7 @@
 use crate::tape::{Split, Tape};
 
 use super::super::comment::count_text;
-use super::super::interface::{blocks, cost};
+use super::super::interface::{blocks, cost, function_name};
 use super::body;
 use super::text::block;
 
@@ -11,7 +11,7 @@ const ARGUMENTS: &str = "const double *restrict x, double *restrict y, double *r
 
 /// The public function and its parts; `pfx_` stands for the prefix.
 pub fn functions(tape: &Tape, split: &Split) -> String {
-    let name = &tape.name;
+    let name = function_name(tape);
     let read = body::read(tape);
     let mut parts: Vec<String> = split.parts.iter().map(|part| body::part(tape, part, &read)).collect();
     let mut public = body::direct(tape);
@@ -42,5 +42,6 @@ pub fn declaration(tape: &Tape, split: &Split) -> String {
     let mut lines = vec![tape.doc.clone(), String::new()];
     lines.extend(blocks(tape, str::to_owned).iter().map(|line| line.replace('`', "")));
     lines.extend([String::new(), cost(tape, split).replace('`', "")]);
-    format!("{}void pfx_{}(const double *x, double *y, double *w);\n\n", block(&lines), tape.name)
+    let (doc, name) = (block(&lines), function_name(tape));
+    format!("{doc}void pfx_{name}(const double *x, double *y, double *w);\n\n")
 }

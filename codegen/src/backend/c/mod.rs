@@ -26,6 +26,7 @@ use linkwear_runtime::{Description, Sizes};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
+use super::interface::{MASS_LEFT_OUT, mass_is_left_out};
 use super::start::Start;
 pub use names::prefix;
 use text::{comment, literal, number};
@@ -114,6 +115,9 @@ fn banner(input: &CInput<'_>) -> String {
     for tape in input.tapes {
         let total = tape.operations().total;
         let _ = writeln!(text, "/* {:<22} {:>10} {:>10} */", tape.name, total, tape.statements.len());
+    }
+    if input.tapes.iter().any(mass_is_left_out) {
+        let _ = writeln!(text, "/* {MASS_LEFT_OUT} */");
     }
     text + "\n"
 }

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use crate::tape::{Split, Tape};
 
 use super::super::comment::one_line;
-use super::super::interface::{blocks, cost};
+use super::super::interface::{blocks, cost, function_name};
 use super::body;
 use super::format::format_items;
 
@@ -18,9 +18,9 @@ const STATEMENTS: &str = "__statements";
 pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> String {
     let several = split.parts.len() > 1;
     let mut parts: Vec<String> = split.parts.iter().map(|part| body::part(tape, part)).collect();
-    let mut public = body::direct(tape);
+    let (mut public, name) = (body::direct(tape), function_name(tape));
     if several {
-        public.extend((1..=parts.len()).map(|number| format!("    {}_part_{number}(x, y, w);\n", tape.name)));
+        public.extend((1..=parts.len()).map(|number| format!("    {name}_part_{number}(x, y, w);\n")));
     } else {
         public.push_str(&parts.remove(0));
     }
@@ -38,11 +38,12 @@ pub fn functions(tape: &Tape, split: &Split, runtime: &TokenStream) -> String {
 
 /// The functions with their documentation and bounds, without statements.
 fn frames(tape: &Tape, split: &Split, runtime: &TokenStream) -> TokenStream {
-    let name = format_ident!("{}", tape.name);
+    let own = function_name(tape);
+    let name = format_ident!("{own}");
     let docs = documentation(tape, split);
     let (inputs, outputs, slots) = (tape.input_len(), tape.output_len(), split.slots as usize);
     let calls: Vec<Ident> =
-        (1..=split.parts.len()).map(|number| format_ident!("{}_part_{}", tape.name, number)).collect();
+        (1..=split.parts.len()).map(|number| format_ident!("{own}_part_{number}")).collect();
     let bounds = bounds(inputs, outputs, slots);
     let statements = format_ident!("{}", STATEMENTS);
     let parts = calls.iter().filter(|_| calls.len() > 1).map(|call| {

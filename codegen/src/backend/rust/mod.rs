@@ -15,6 +15,7 @@ use quote::{format_ident, quote};
 use crate::tape::{PART_LIMIT, Split, Tape, split};
 
 use super::comment::one_line;
+use super::interface::{MASS_LEFT_OUT, function_name, mass_is_left_out};
 use super::start::Start;
 use describe::Long;
 use format::format_items;
@@ -72,6 +73,9 @@ fn header(input: &EmitInput<'_>) -> String {
         let total = tape.operations().total;
         lines.push(format!("// {:<22} {:>10} {:>10}", tape.name, total, tape.statements.len()));
     }
+    if input.tapes.iter().any(mass_is_left_out) {
+        lines.extend(["//".to_owned(), format!("// {MASS_LEFT_OUT}")]);
+    }
     lines.join("\n") + "\n\n"
 }
 
@@ -96,10 +100,17 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes, long: &mut 
     let sizes: TokenStream = format!("{sizes:?}").parse().expect("a literal");
     let description = describe::description(input.description, runtime, long);
     let start = input.start.map(|start| describe::start(start, runtime));
-    let arms = Entry::ALL.iter().map(|entry| {
+    let arms = Entry::ALL.iter().zip(input.tapes).map(|(entry, tape)| {
         let variant = format_ident!("{}", format!("{entry:?}"));
-        let function = format_ident!("{}", entry.name());
+        let function = format_ident!("{}", function_name(tape));
         quote!(#runtime::Entry::#variant => #function(input, output, workspace))
+    });
+    let left_out = input.tapes.iter().any(mass_is_left_out).then(|| {
+        let doc = format!(" {MASS_LEFT_OUT}");
+        quote! {
+            #[doc = #doc]
+            pub const MASS_IS_LEFT_OUT: bool = true;
+        }
     });
     let derives = quote!(#[derive(Clone, Copy, Debug, PartialEq)]);
     quote! {
@@ -109,6 +120,7 @@ fn items(input: &EmitInput<'_>, runtime: &TokenStream, sizes: Sizes, long: &mut 
         pub const SOURCE_SHA256: &str = #sha;
         /// Layout of inputs and outputs.
         pub const SIZES: #runtime::Sizes = #runtime::#sizes;
+        #left_out
         #[doc = #title]
         #derives
         pub struct Mechanism { #(#[doc = #docs] pub #fields: f64,)* }

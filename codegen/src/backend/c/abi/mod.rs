@@ -7,11 +7,18 @@ use linkwear_runtime::{Description, Entry, Sizes};
 
 use crate::tape::Tape;
 
-use super::super::interface::blocks;
+use super::super::interface::{blocks, mass_is_left_out};
 use super::super::names::plain;
 use super::header;
 use super::names::prefix;
 use super::text::{block, comment};
+
+/// What tells of a mass matrix that is left out: a code, who answers it, how the header has it.
+const LEFT_OUT: &str =
+    "/// All is written, but zeros stand in the place of the mass matrix.\nconst MASS_LEFT_OUT: c_int = 6;\n";
+const ANSWER_LEFT_OUT: &str =
+    "        if entry == Entry::EquationsOfMotion {\n            return Err(MASS_LEFT_OUT);\n        }\n";
+const STATUS_LEFT_OUT: &str = ",\n    /* all is written, but zeros stand in the place of the mass matrix, which is left out of so long a mechanism */\n    PFX_MASS_LEFT_OUT = 6";
 
 /// A file of the crate: where it lies, what is in it.
 pub type CrateFile = (String, String);
@@ -34,7 +41,11 @@ pub fn crate_files(
     let channels = pairs(&mut description.channels.iter().map(|own| (&*own.name, &*own.unit)));
     let entries: String =
         Entry::ALL.iter().map(|entry| format!("    pfx_{} => {entry:?},\n", entry.name())).collect();
-    let library = named(&include_str!("lib.rs.txt").replace("ENTRIES", &entries))
+    let left_out = tapes.iter().any(mass_is_left_out);
+    let [code, answer] = if left_out { [LEFT_OUT, ANSWER_LEFT_OUT] } else { [""; 2] };
+    let library = include_str!("lib.rs.txt").replace("ENTRIES", &entries);
+    let library = library.replace("CODE_OF_MASS\n", code).replace("ANSWER_OF_MASS\n", answer);
+    let library = named(&library)
         .replace("`NAME`", &format!("`{}`", comment(&description.name)))
         .replace("PARAMETER_COUNT", &description.parameters.len().to_string())
         .replace("CHANNEL_COUNT", &description.channels.len().to_string())
@@ -59,7 +70,8 @@ pub fn crate_files(
 
 fn declarations(description: &Description, sizes: &Sizes, tapes: &[Tape]) -> String {
     let mut text = header::lengths(description, sizes, false) + &header::places(description);
-    text.push_str(include_str!("status.h"));
+    let left_out = if tapes.iter().any(mass_is_left_out) { STATUS_LEFT_OUT } else { "" };
+    text.push_str(&include_str!("status.h").replace("STATUS_OF_MASS", left_out));
     for tape in tapes {
         let mut lines = vec![tape.doc.clone(), String::new()];
         lines.extend(blocks(tape, str::to_owned).iter().map(|line| line.replace('`', "")));

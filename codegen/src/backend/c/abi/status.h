@@ -10,6 +10,6 @@ enum {
     /* the run cannot begin, or stopped before its end */
     PFX_FAILED = 4,
     /* a defect of linkwear */
-    PFX_PANICKED = 5
+    PFX_PANICKED = 5STATUS_OF_MASS
 };
 
