@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use super::settings::SettingsError;
+use super::settings_error::SettingsError;
 
 /// A life that cannot go on. Cycles are counted from 1; the state is that of the last whole cycle before.
 #[derive(Clone, Debug, PartialEq, Error)]

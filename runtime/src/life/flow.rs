@@ -9,7 +9,7 @@
 //! made smaller until gain and time are met in between to [`ERROR`].
 
 use super::interpolate::{at, cubic};
-use super::settings::JointLife;
+use super::joint::JointLife;
 
 /// Largest error of a gain in between, as a part of it, and of a time over a cell, as a part of that.
 pub const ERROR: f64 = 1e-9;

@@ -2,7 +2,8 @@
 //! the records of cycles. Never knows files or formats.
 
 use super::curve::Measured;
-use super::settings::{LifeSettings, SettingsError};
+use super::settings::LifeSettings;
+use super::settings_error::SettingsError;
 use super::worn::WearState;
 use crate::column::{Column, Quantity};
 use crate::wear::{ContactMeasure, Profile, Warning};
