@@ -94,6 +94,13 @@ fn there_is_one_command_to_run_and_one_to_test() {
     }
 }
 
+/// Where a link to a heading leads.
+fn anchor_of(heading: &str) -> String {
+    let kept = |c: &char| c.is_alphanumeric() || [' ', '-', '_'].contains(c);
+    let words = heading.trim_start_matches('#').trim().to_lowercase();
+    words.chars().filter(kept).map(|c| if c == ' ' { '-' } else { c }).collect()
+}
+
 #[test]
 fn links_between_documents_lead_somewhere() {
     let documents = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "tests/README.md"];
@@ -102,13 +109,20 @@ fn links_between_documents_lead_somewhere() {
         let folder = Path::new(document).parent().expect("a folder");
         for part in text.split("](").skip(1) {
             let target = part.split(')').next().expect("a target");
-            if !target.starts_with("http") {
-                let path = if target.starts_with("tests/") {
-                    Path::new("").join(target)
-                } else {
-                    folder.join(target)
-                };
-                assert!(path.exists(), "{document} links to {target}");
+            if target.starts_with("http") {
+                continue;
+            }
+            let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
+            let path = match file {
+                "" => Path::new(document).to_path_buf(),
+                file if file.starts_with("tests/") => Path::new("").join(file),
+                file => folder.join(file),
+            };
+            assert!(path.exists(), "{document} links to {target}");
+            if !anchor.is_empty() {
+                let text = fs::read_to_string(path).expect("a document");
+                let mut headings = text.lines().filter(|line| line.starts_with('#')).map(anchor_of);
+                assert!(headings.any(|heading| heading == anchor), "{document} links to {target}");
             }
         }
     }

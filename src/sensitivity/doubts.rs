@@ -10,6 +10,26 @@ pub(super) fn every_second(points: &[Point]) -> Vec<Point> {
     points.iter().enumerate().filter(is_kept).map(|(_, point)| point.clone()).collect()
 }
 
+/// The points but for one, for each of those between the ends.
+pub(super) fn without_each(points: &[Point]) -> impl Iterator<Item = Vec<Point>> {
+    let inner = 1..points.len().saturating_sub(1);
+    inner.map(|out| [&points[..out], &points[out + 1..]].concat())
+}
+
+/// Part of the difference between a life by all points and one by fewer that is left to the former: curves between points are of
+/// order 2 at least.
+const HALVED: f64 = 1.0 / 3.0;
+
+/// How far derivatives may be off by what curves between points miss: by the difference to every second point, in which errors of
+/// neighbours may cancel, or by the differences to those without one of them, as if they were of either sign by chance.
+pub(super) fn doubts_of_points(fine: &[f64], by_half: &[f64], without: &[Vec<f64>]) -> Vec<f64> {
+    let doubt = |at: usize| {
+        let squares = without.iter().map(|one| (fine[at] - one[at]) * (fine[at] - one[at])).sum::<f64>();
+        HALVED * (fine[at] - by_half[at]).abs().max(squares.sqrt())
+    };
+    (0..fine.len()).map(doubt).collect()
+}
+
 /// The same points with what fewer steps wear, as far as that is known; nothing if it is known of none.
 pub(super) fn coarser(points: &[Point]) -> Option<Vec<Point>> {
     let coarse = |point: &Point| Point {
@@ -37,4 +57,16 @@ pub(super) fn joint_sensitivity(base: &Variant, point: &Point, joint: usize) -> 
 pub(super) fn doubts(fine: &[f64], coarse: Option<&[f64]>) -> Vec<f64> {
     let coarse = |at: usize| coarse.map_or(f64::NAN, |coarse| coarse[at]);
     fine.iter().enumerate().map(|(at, fine)| (fine - coarse(at)).abs()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_of_neighbours_that_cancel_in_every_second_point_are_seen_without_each() {
+        let doubts = doubts_of_points(&[1.0, 1.0], &[1.0, 1.6], &[vec![1.3, 1.0], vec![0.6, 1.0]]);
+        // sqrt(0.3² + 0.4²) = 0.5 and 0.6, a third of each.
+        assert!((doubts[0] - 0.5 / 3.0).abs() < 1e-15 && (doubts[1] - 0.2).abs() < 1e-15, "{doubts:?}");
+    }
 }

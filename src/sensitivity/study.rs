@@ -11,7 +11,7 @@ use linkwear_runtime::life::{LifeSettings, WearFlow, WearSource, WearTable};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, GammaRates, RevolutionSettings, Watch};
 
-use super::doubts::{coarser, doubts, every_second, joint_sensitivity};
+use super::doubts::{coarser, doubts, doubts_of_points, every_second, joint_sensitivity, without_each};
 use super::error::SensitivityError;
 use super::measured::{Point, Points, Survey};
 use super::paths::{Along, Life, Paths};
@@ -19,10 +19,6 @@ use super::result::{Derived, LeftOut, LifeSensitivity, RandomSensitivity, Sensit
 use super::varied::{Sides, Variant};
 use crate::backend::Backend;
 use crate::mechanism::Mechanism;
-
-/// Part of the difference between a life by all points and one by every second of them that is left to the former: curves between points
-/// are of order 2 at least.
-const HALVED: f64 = 1.0 / 3.0;
 
 /// How wear and life vary with parameters.
 ///
@@ -204,12 +200,14 @@ impl<'s> SensitivityStudy<'s> {
         let paths = |points: &[Point]| self.paths(base, &sides, points);
         let coarse = coarser(&measured.points).map(|points| paths(&points)).transpose()?;
         let by_half = paths(&every_second(&measured.points))?.mean();
+        let without = without_each(&measured.points).map(|points| Ok(paths(&points)?.mean().slopes));
+        let without = without.collect::<Result<Vec<_>, SensitivityError>>()?;
         let paths = paths(&measured.points)?;
         let (mean, coarse) = (paths.mean(), coarse.map(|coarse| coarse.mean()));
         let joints = (0..base.joints.len()).map(|joint| joint_sensitivity(base, &measured.points[0], joint));
         let of_steps = doubts(&mean.slopes, coarse.as_ref().map(|coarse| &*coarse.slopes));
-        let of_points = doubts(&mean.slopes, Some(&by_half.slopes));
-        let doubts = of_steps.iter().zip(of_points).map(|(steps, points)| steps + HALVED * points);
+        let of_points = doubts_of_points(&mean.slopes, &by_half.slopes, &without);
+        let doubts = of_steps.iter().zip(of_points).map(|(steps, points)| steps + points);
         let cycles = Derived { value: mean.cycles, doubts: doubts.collect(), by: mean.slopes };
         let life = LifeSensitivity { joint: base.joints[mean.joint].joint.clone(), cycles };
         let random = if self.trajectories > 0 { Some(self.random(&paths, watch)?) } else { None };
