@@ -9,6 +9,7 @@ use super::curve::{Curve, Measured};
 use super::path::{Increments, Path, Segment, Walker, rates};
 use super::settings::{LifeSettings, WearStep};
 use super::source::WearSource;
+use crate::watch::Watch;
 use crate::wear::ContactMeasure;
 
 /// Measurements of a round: as many as the widest registers have lanes.
@@ -51,7 +52,9 @@ impl<F: WearSource> Walker<'_, F> {
     ///
     /// Nothing where what a revolution wears does not go with one number, or cannot be measured all the way: a path that goes step by
     /// step then says where it ends, and why.
-    pub(super) fn ahead(&mut self, start: &[ContactMeasure], most: u64) -> Option<Path> {
+    ///
+    /// The watch hears how sure it is already; who wants it stopped is heard by the measurements.
+    pub(super) fn ahead(&mut self, start: &[ContactMeasure], most: u64, watch: Watch<'_>) -> Option<Path> {
         let WearStep::Adaptive { tolerance, .. } = self.settings.step else { return None };
         let ([joint], [base], true) =
             (&self.settings.joints[..], self.base, self.settings.is_measured_ahead())
@@ -77,6 +80,8 @@ impl<F: WearSource> Walker<'_, F> {
                     return self.path(stations, &pieces, (squares.sqrt(), most));
                 }
             }
+            // The error falls with a power of the number of measurements.
+            let _ = watch.report((PART * tolerance * cycles / error).sqrt());
             before.push((pieces.len(), error));
             let places = next(&stations, &pieces, PART * tolerance * cycles);
             self.add(&mut stations, &places)?;

@@ -84,7 +84,7 @@ fn advance<F: WearSource>(
             };
             let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
             let left = settings.most_cycles.saturating_sub(state.cycle);
-            let ahead = if draw.is_mean() { walker.ahead(&measured, left) } else { None };
+            let ahead = if draw.is_mean() { walker.ahead(&measured, left, watch) } else { None };
             let path = match ahead {
                 Some(path) => path,
                 None => walker.follow(&measured, &mut control, most)?,

@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use linkwear_runtime::Watch;
 use linkwear_runtime::life::{
@@ -88,7 +89,20 @@ impl WearSource for Kinked {
 fn measurements_of_the_mean_path_do_not_wait_for_each_other_and_gather_where_wear_is_least_known() {
     let settings = settings(0.5, 1.0, 25.1, WearStep::FULL);
     let mut fine = Kinked { kink: 33.3e-6, end: 1.0, asked: Vec::new() };
-    let (life, state) = live(&settings, &mut fine).unwrap();
+    let mut state = LifeState::new(&settings, 0).unwrap();
+    let heard = Mutex::new(Vec::new());
+    let hear = |part: f64| {
+        heard.lock().unwrap().push(part);
+        ControlFlow::Continue(())
+    };
+    let outcome = run_life(&settings, &mut fine, &MeanIncrement, &mut state, Watch::new(&hear)).unwrap();
+    let LifeOutcome::Failed(failure) = outcome else { panic!("{outcome:?}") };
+    let life = failure.cycles;
+    // One report a round but the last, before those of the cycles.
+    let heard = heard.into_inner().unwrap();
+    let rounds = &heard[..fine.asked.len() - 1];
+    assert!(rounds.is_sorted() && rounds.iter().all(|part| *part > 0.05 && *part < 1.0), "{rounds:?}");
+    assert_eq!(heard.len(), rounds.len() + state.cycles.len());
     let exact = {
         // Simpson's rule over both sides of the kink.
         let rate = |clearance: f64| {
