@@ -31,7 +31,6 @@ use wearing::Wearing;
 #[must_use]
 pub struct DynamicsSource<'a> {
     system: &'a dyn System<f64>,
-    description: &'a Description,
     runner: TurnRunner<'a>,
     start: TurnState,
     wearing: Wearing<'a>,
@@ -80,7 +79,6 @@ impl<'a> DynamicsSource<'a> {
         let (warnings, steadiness, beginning) = (Vec::new(), Vec::new(), Vec::new());
         Ok(Self {
             system,
-            description,
             runner,
             start,
             wearing,
@@ -185,7 +183,8 @@ impl<'a> DynamicsSource<'a> {
     /// The lanes, if there are any.
     fn take_lanes(&mut self) -> Result<Option<Box<dyn LaneTurns<'a> + 'a>>, RunError> {
         if let (None, Some(bundle)) = (&self.lanes, self.bundle) {
-            let (system, description, integrator) = (self.system, self.description, self.settings.integrator);
+            let (system, description) = (self.system, self.wearing.description);
+            let integrator = self.settings.integrator;
             let parameters = self.runner.parameters();
             let runner = || TurnRunner::new(system, description, parameters, integrator, SINGULAR_PIVOT);
             self.lanes = Some(bundle.turns(&runner)?);

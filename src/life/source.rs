@@ -4,7 +4,9 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use linkwear_runtime::life::{JointWear, MissionError, MissionSource, SegmentsMeasured, WearSource};
+use linkwear_runtime::life::{
+    JointWear, MissionError, MissionSource, SegmentsMeasured, WearSource, one_by_one,
+};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, Orbit, RunError, Steadiness};
 
@@ -74,7 +76,7 @@ impl<'a> KeptSource<'a> {
 
     fn see(&mut self, which: usize, joints: &[JointWear]) {
         let steadiness = (0..joints.len()).filter_map(|joint| self.steadiness(which, joint)).collect();
-        self.seen.push((joints.iter().map(|joint| joint.wear).collect(), steadiness));
+        self.seen.push((wears(joints), steadiness));
     }
 
     /// How steady the turns of all segments were, of a joint in one of the last measurements: drifts add, scatter is independent.
@@ -97,6 +99,11 @@ impl<'a> KeptSource<'a> {
     }
 }
 
+/// Wear of the joints [m].
+fn wears(joints: &[JointWear]) -> Vec<f64> {
+    joints.iter().map(|joint| joint.wear).collect()
+}
+
 impl WearSource for KeptSource<'_> {
     type State = Vec<Option<Orbit>>;
     type Error = MissionError<RunError>;
@@ -117,7 +124,7 @@ impl WearSource for KeptSource<'_> {
         states: &mut [Self::State],
     ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
         if self.source.segments().len() > 1 {
-            return joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect();
+            return one_by_one(self, joints, states);
         }
         let each = self.source.measure_each(joints, states)?;
         joints.iter().enumerate().for_each(|(which, joints)| self.see(which, joints));
@@ -128,9 +135,8 @@ impl WearSource for KeptSource<'_> {
 impl KeptSegment<'_> {
     /// The next measurement of the log, if the journal has it.
     fn known(&mut self, joints: &[JointWear], state: &mut Option<Orbit>) -> Option<Vec<ContactMeasure>> {
-        let wear: Vec<f64> = joints.iter().map(|joint| joint.wear).collect();
         let made = self.log.made.get();
-        let known = self.log.journal?.measurement(made, &wear)?;
+        let known = self.log.journal?.measurement(made, &wears(joints))?;
         self.source.known(&known.warnings);
         state.clone_from(&known.state);
         self.log.made.set(made + 1);
@@ -149,7 +155,7 @@ impl KeptSegment<'_> {
         self.steadiness.push(steadiness.to_vec());
         if let Some(journal) = self.log.journal {
             journal.keep_measurement(Measurement {
-                wear: joints.iter().map(|joint| joint.wear).collect(),
+                wear: wears(joints),
                 measured: measured.to_vec(),
                 steadiness: steadiness.to_vec(),
                 state: state.clone(),

@@ -69,19 +69,12 @@ impl Measuring {
     /// Takes a turn; whether it was the last one.
     pub fn take(&mut self, turn: TurnMeasures, wearing: &Wearing<'_>) -> bool {
         self.done += 1;
-        if self.stage != Stage::Settles {
-            self.turns.push(turn);
-            return self.is_done(wearing);
-        }
-        let settled = match self.settle {
-            Some(_) => false,
-            None => self
-                .last
-                .as_ref()
-                .is_some_and(|last| self.settling.has_settled(std::iter::once(wearing.differs(last, &turn)))),
-        };
-        if settled {
+        if let (Stage::Settles, None, Some(last)) = (self.stage, self.settle, &self.last)
+            && self.settling.has_settled([wearing.differs(last, &turn)].into_iter())
+        {
             self.stage = Stage::IsSettled;
+        }
+        if self.stage != Stage::Settles {
             self.turns.push(turn);
             return self.is_done(wearing);
         }

@@ -6,11 +6,8 @@ use std::collections::VecDeque;
 use super::measuring::Measuring;
 use super::wearing::Wearing;
 use crate::error::RunError;
-use crate::simulate::{LaneTurns, TurnOutcome, TurnRunner, TurnState};
+use crate::simulate::{LOOKS_EVERY, LaneTurns, TurnOutcome, TurnRunner, TurnState};
 use crate::watch::Watch;
-
-/// Steps of all lanes after which they ask whether to go on: some milliseconds.
-const LOOKS_EVERY: u32 = 1000;
 
 /// One of several measurements.
 pub(super) struct Begun {

@@ -9,7 +9,8 @@ use crate::wear::ContactMeasure;
 
 /// The joints of a mechanism that wear.
 pub(super) struct Wearing<'a> {
-    description: &'a Description,
+    /// That of the mechanism.
+    pub description: &'a Description,
     /// Their indices among those with clearance, with their clearance at the start [m].
     pub joints: Vec<(usize, f64)>,
 }

@@ -70,7 +70,8 @@ impl<F: WearSource> Walker<'_, F> {
             let pieces = pieces(&stations)?;
             let cycles: f64 = pieces.iter().map(|piece| piece.cycles).sum();
             let error: f64 = pieces.iter().map(|piece| piece.error).sum();
-            if error <= PART * tolerance * cycles || pieces.len() >= MOST {
+            let allowed = PART * tolerance * cycles;
+            if error <= allowed || pieces.len() >= MOST {
                 return self.path(stations, &pieces, (error, most));
             }
             let half = before.iter().rev().find(|(count, _)| 2 * count <= pieces.len() + 1);
@@ -81,9 +82,9 @@ impl<F: WearSource> Walker<'_, F> {
                 }
             }
             // The error falls with a power of the number of measurements.
-            let _ = watch.report((PART * tolerance * cycles / error).sqrt());
+            let _ = watch.report((allowed / error).sqrt());
             before.push((pieces.len(), error));
-            let places = next(&stations, &pieces, PART * tolerance * cycles);
+            let places = next(&stations, &pieces, allowed);
             self.add(&mut stations, &places)?;
         }
     }

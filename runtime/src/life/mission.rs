@@ -7,7 +7,7 @@
 
 use thiserror::Error;
 
-use super::source::{JointWear, WearSource};
+use super::source::{JointWear, WearSource, one_by_one};
 use crate::wear::ContactMeasure;
 
 /// A segment's fine scale, and how much of the mission it is.
@@ -146,7 +146,7 @@ impl<F: WearSource> WearSource for MissionSource<F> {
         states: &mut [Self::State],
     ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
         let [alone] = &mut self.segments[..] else {
-            return joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect();
+            return one_by_one(self, joints, states);
         };
         let mut own: Vec<F::State> = states.iter_mut().map(|state| state.pop().unwrap_or_default()).collect();
         let measured = alone.source.measure_each(joints, &mut own).map_err(MissionError::Alone);

@@ -38,7 +38,7 @@ pub use joint::{Feedback, JointLife, WearOf};
 pub use mission::{MissionError, MissionSegment, MissionSource, SegmentsMeasured};
 pub use settings::{LifeSettings, WearStep};
 pub use settings_error::SettingsError;
-pub use source::{JointWear, WearSource};
+pub use source::{JointWear, WearSource, one_by_one};
 pub use state::{Control, CycleJoint, CycleRecord, FailureEvent, JointWarning, LifeState};
 pub use table::{DEFAULT_POINTS, TableReport, WearTable};
 pub use worn::WearState;

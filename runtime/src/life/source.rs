@@ -34,7 +34,7 @@ pub trait WearSource {
         joints: &[Vec<JointWear>],
         states: &mut [Self::State],
     ) -> Result<Vec<Vec<ContactMeasure>>, Self::Error> {
-        joints.iter().zip(states).map(|(joints, state)| self.measure(joints, state)).collect()
+        one_by_one(self, joints, states)
     }
 
     /// The mean paths of the joints, solved beforehand. Nothing unless what a joint wears depends on its own W alone and nothing
@@ -43,6 +43,18 @@ pub trait WearSource {
         let _ = settings;
         None
     }
+}
+
+/// Measures at several states of wear, one after the other.
+///
+/// # Errors
+/// Of the first that cannot be measured.
+pub fn one_by_one<F: WearSource + ?Sized>(
+    source: &mut F,
+    joints: &[Vec<JointWear>],
+    states: &mut [F::State],
+) -> Result<Vec<Vec<ContactMeasure>>, F::Error> {
+    joints.iter().zip(states).map(|(joints, state)| source.measure(joints, state)).collect()
 }
 
 impl<F: WearSource + ?Sized> WearSource for &mut F {

@@ -33,6 +33,7 @@ mod turns;
 mod unbounded;
 mod warning;
 
+pub(crate) use bundle::LOOKS_EVERY;
 pub use bundle::{
     LaneTurns, TurnBundle, TurnOutcome, TurnQueue, TurnRequests, WholeSteps, WideBundle, turn_queue,
 };

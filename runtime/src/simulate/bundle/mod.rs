@@ -25,6 +25,9 @@ use crate::error::RunError;
 use lanes::{Lanes, Steps};
 use trajectory::Trajectory;
 
+/// Steps of all lanes after which they look for turns that are not wanted any more: some milliseconds.
+pub(crate) const LOOKS_EVERY: u32 = 1000;
+
 /// Runs turns of one mechanism in `N` lanes.
 pub struct TurnBundle<'a, const N: usize> {
     lanes: Lanes<'a, N>,

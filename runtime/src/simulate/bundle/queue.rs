@@ -8,15 +8,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, TryRecvError, channel, sync_channel};
 use std::time::Duration;
 
-use super::{TurnBundle, TurnOutcome};
+use super::{LOOKS_EVERY, TurnBundle, TurnOutcome};
 use crate::error::RunError;
 use crate::simulate::turns::{TurnMeasures, TurnRunner, TurnState};
 use crate::watch::Watch;
 
 /// How long a thread sleeps before it asks whether its turn is still wanted.
 const ASKED_EVERY: Duration = Duration::from_millis(100);
-/// Steps of all lanes after which they look for turns that are not wanted any more: some milliseconds.
-const LOOKS_EVERY: u32 = 1000;
 
 /// Where turns are asked for.
 #[derive(Clone, Debug)]
