@@ -9,7 +9,7 @@ use linkwear_codegen::compile::Compiled;
 use linkwear_runtime::{CONTACT_WRENCH, Entry, Scalar, System, assemble};
 use nalgebra::DMatrix;
 use support::random::Random;
-use support::{compiled, evaluate};
+use support::{compile_source, compiled, evaluate, in_data};
 use truth::reached;
 
 /// An unevaluated sum of two doubles, 31 digits (T. J. Dekker, Numer. Math. 18 (1971) 224).
@@ -239,14 +239,16 @@ fn forward_dynamics_loses_few_digits() {
         "slider_crank_clearance",
         "spatial_slider_crank",
     ] {
-        let (error, states) = worst(&compiled(name, &[], None));
-        assert_eq!(states, 20, "{name}");
-        // A condition of 1e4 on roundings of 1e-16.
-        reached(
-            &format!("{name}, rounding"),
-            "forward dynamics beside 31 digits, of the largest",
-            error,
-            1e-12,
-        );
+        is_exact(name, &compiled(name, &[], None));
     }
+    for name in ["delta", "stewart"] {
+        is_exact(name, &compile_source(&in_data(name), &[], None));
+    }
+}
+
+fn is_exact(name: &str, compiled: &Compiled) {
+    let (error, states) = worst(compiled);
+    assert_eq!(states, 20, "{name}");
+    // A condition of 1e4 on roundings of 1e-16.
+    reached(&format!("{name}, rounding"), "forward dynamics beside 31 digits, of the largest", error, 1e-12);
 }

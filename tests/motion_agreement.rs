@@ -20,7 +20,7 @@ use linkwear_oracle::Oracle;
 use linkwear_oracle::random::Recipe;
 use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
 
-use support::{compile_source, shipped};
+use support::{compile_source, in_data, shipped};
 use truth::reached;
 
 /// Largest share of a quantity's scale by which the two may differ. Both are exact up to rounding; loops are
@@ -81,6 +81,16 @@ fn shipped_mechanisms_agree() {
         [Closure::Joint, Closure::Log].map(|closure| check(&source, Some(closure), seconds))
     };
     worst("shipped mechanisms, of each scale", SHIPPED.into_iter().flat_map(both));
+}
+
+/// Six legs under a plate, three parallelograms over a platform: many loops meet at one body.
+#[test]
+fn platforms_agree() {
+    let both = |name: &str| {
+        let source = in_data(name);
+        [Closure::Joint, Closure::Log].map(|closure| check(&source, Some(closure), 0.2))
+    };
+    worst("platforms on many legs, of each scale", ["delta", "stewart"].into_iter().flat_map(both));
 }
 
 #[test]

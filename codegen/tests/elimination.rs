@@ -9,7 +9,7 @@ use forward::{forward_operations, solved};
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_runtime::{State, assemble};
+use linkwear_runtime::{Evaluator, State, assemble};
 
 /// A file of the workspace, with some of its text exchanged.
 struct Case(&'static str, &'static [[&'static str; 2]]);
@@ -24,7 +24,11 @@ fn compiled(Case(path, edits): &Case, closure: Closure, saddle: bool) -> Compile
         assert!(text.contains(old), "{path}: {old}");
         text = text.replace(old, new);
     }
-    let source = SourceFile { name: (*path).to_owned(), text };
+    of_text(path, text, closure, saddle)
+}
+
+fn of_text(path: &str, text: String, closure: Closure, saddle: bool) -> Compiled {
+    let source = SourceFile { name: path.to_owned(), text };
     let options = Options { closure: Some(closure), saddle, ..Options::default() };
     compile(&source, &options).unwrap_or_else(|errors| panic!("{errors}"))
 }
@@ -56,30 +60,67 @@ fn both_ways_agree_and_rows_first_is_never_dearer() {
         for closure in [Closure::Joint, Closure::Log] {
             let [rows_first, saddle] = [false, true].map(|saddle| compiled(case, closure, saddle));
             assert!(forward_operations(&rows_first) <= forward_operations(&saddle), "{name} {closure:?}");
-            let system = rows_first.interpreter();
-            // From one start the loops are closed for the drivers' place at several times, as far as Newton comes.
-            let times = (0..12).map(|i| 0.01 * f64::from(i));
-            let states: Vec<(f64, State)> = times
-                .filter_map(|t| {
-                    assemble(&system, rows_first.description(), &rows_first.parameters(), t)
-                        .ok()
-                        .map(|state| (t, state))
-                })
-                .collect();
-            assert!(states.len() >= 3, "{name} {closure:?}: {} states", states.len());
-            for (t, state) in states {
-                let [ours, theirs] = [&rows_first, &saddle].map(|compiled| solved(compiled, t, &state));
-                for (a, b) in ours.iter().zip(&theirs) {
-                    let size = b.iter().fold(1e-6, |size: f64, x| size.max(x.abs()));
-                    let error = a.iter().zip(b).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
-                    // The saddle point squares the condition of the loops, some 1e2, on roundings of 1e-16.
-                    assert!(
-                        error <= 1e-10 * size,
-                        "{name} {:?} {closure:?} at {t} s: {error:e} of {size:e}",
-                        case.1
-                    );
-                }
-            }
+            let states = agree((&rows_first, &saddle), &format!("{name} {:?} {closure:?}", case.1));
+            assert!(states >= 3, "{name} {closure:?}: {states} states");
         }
     }
+}
+
+/// Loops that meet at one body: above its base and below it.
+#[test]
+fn both_ways_agree_where_many_loops_meet_at_one_body() {
+    let below = |legs: &[&str], turned: &str, ball: &str| {
+        let legs: String = legs.iter().map(|leg| format!("{leg} = {{ q1 = \"{turned}\" }}\n")).collect();
+        format!("\n[assembly]\n{legs}{ball}\n")
+    };
+    let of_delta = below(
+        &["U1a", "U1b", "U2a", "U2b", "U3a", "U3b"],
+        "104 deg",
+        r#"S1a = ["0 deg", "-104 deg", "0 deg"]"#,
+    );
+    let of_stewart =
+        below(&["U1", "U2", "U3", "U4", "U5", "U6"], "133 deg", r#"S1 = ["-36 deg", "128 deg", "0 deg"]"#);
+    for (path, other) in [("tests/data/delta.toml", of_delta), ("tests/data/stewart.toml", of_stewart)] {
+        let text = compiled(&Case(path, &[]), Closure::Joint, false).source.text;
+        let heights = [String::new(), other].map(|guess| {
+            let text = format!("{text}{guess}");
+            let both = [false, true].map(|saddle| of_text(path, text.clone(), Closure::Joint, saddle));
+            let [rows_first, saddle] = &both;
+            assert!(2 * forward_operations(rows_first) < forward_operations(saddle), "{path}");
+            let states = agree((rows_first, saddle), &format!("{path} {guess}"));
+            assert!(states >= 3, "{path} {guess}: {states} states");
+            height(rows_first)
+        });
+        assert!(heights[0] * heights[1] < 0.0, "{path}: {heights:?}");
+    }
+}
+
+/// Of the body that all loops meet at, at the start.
+fn height(compiled: &Compiled) -> f64 {
+    let system = compiled.interpreter();
+    let parameters = compiled.parameters();
+    let state = assemble(&system, compiled.description(), &parameters, 0.0).expect("a start");
+    let mut evaluator = Evaluator::new(&system, compiled.description(), &parameters).expect("parameters");
+    let channels = evaluator.observe(0.0, &state.q, &state.v).to_vec();
+    let names = compiled.description().channels.iter();
+    let at = names.map(|channel| &*channel.name).position(|name| name == "C.z").expect("a column");
+    channels[at]
+}
+
+/// From one start the loops are closed for the drivers' place at several times, as far as Newton comes. Out: how many states.
+fn agree((rows_first, saddle): (&Compiled, &Compiled), name: &str) -> usize {
+    let system = rows_first.interpreter();
+    let times = (0..12).map(|i| 0.01 * f64::from(i));
+    let closed = |t: f64| assemble(&system, rows_first.description(), &rows_first.parameters(), t).ok();
+    let states: Vec<(f64, State)> = times.filter_map(|t| Some((t, closed(t)?))).collect();
+    for (t, state) in &states {
+        let [ours, theirs] = [rows_first, saddle].map(|compiled| solved(compiled, *t, state));
+        for (a, b) in ours.iter().zip(&theirs) {
+            let size = b.iter().fold(1e-6, |size: f64, x| size.max(x.abs()));
+            let error = a.iter().zip(b).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
+            // The saddle point squares the condition of the loops, some 1e2, on roundings of 1e-16.
+            assert!(error <= 1e-10 * size, "{name} at {t} s: {error:e} of {size:e}");
+        }
+    }
+    states.len()
 }

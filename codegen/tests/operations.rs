@@ -1,4 +1,5 @@
-//! Operations of every entry point of the shipped mechanisms and the benchmarks, which may only fall.
+//! Operations of every entry point of the shipped mechanisms and the benchmarks, and of some that only tests have, which may only
+//! fall.
 //! `operations.txt` has the least so far; `LINKWEAR_WRITE_OPERATIONS=1` writes what has fallen.
 
 use std::collections::BTreeMap;
@@ -18,14 +19,19 @@ fn folder(place: &str) -> PathBuf {
 /// By mechanism and entry point.
 type Counts = BTreeMap<(String, String), u64>;
 
+/// Not shipped: many loops that meet at one body, and modes from a file of data.
+const FURTHER: [&str; 3] = ["delta", "flexible_slider_crank", "stewart"];
+
 fn measured() -> Counts {
     let entries = std::fs::read_dir(folder("../mechanisms")).expect("a folder of mechanisms");
-    let files = entries.map(|entry| entry.expect("an entry").path());
+    let further = FURTHER.map(|name| folder(&format!("../tests/data/{name}.toml")));
+    let files = entries.map(|entry| entry.expect("an entry").path()).chain(further);
     let mut counts = Counts::new();
     for path in files.filter(|path| path.extension().is_some_and(|extension| extension == "toml")) {
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).expect("a mechanism file");
-        let source = SourceFile { name: name.clone(), text };
+        // Files of data are looked for beside it.
+        let source = SourceFile { name: path.display().to_string(), text };
         let compiled = compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
         for function in compiled.operations() {
             counts.insert((name.clone(), function.name), function.operations.total);

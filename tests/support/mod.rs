@@ -21,6 +21,14 @@ pub fn shipped(name: &str) -> SourceFile {
     SourceFile { name: format!("mechanisms/{name}.toml"), text }
 }
 
+/// A mechanism of tests/data.
+pub fn in_data(name: &str) -> SourceFile {
+    let name = format!("tests/data/{name}.toml");
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(&name);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    SourceFile { name, text }
+}
+
 /// Compiles a shipped mechanism with overrides like `("speed", "10 Hz")`.
 pub fn compiled(name: &str, overrides: &[(&str, &str)], closure: Option<Closure>) -> Compiled {
     compile_source(&shipped(name), overrides, closure)

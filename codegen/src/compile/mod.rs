@@ -107,6 +107,7 @@ fn understood(
     }
     let mut topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
     topology.rows_in_ground = derive::shorter_in_ground(&mechanism, &topology);
+    topology.rows_off_balls = derive::shorter_off_balls(&mechanism, &topology);
     let mut findings = analyse(source, &mechanism, &topology)?;
     if derive::splits_plane_rows(&mechanism, &topology, &findings.guide.keep) {
         topology.rows_in_ground = false;

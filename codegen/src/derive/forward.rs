@@ -58,8 +58,8 @@ pub struct Problem<'a, 'g> {
 /// A way to the solution.
 #[derive(Clone, Copy)]
 pub struct Way<'s, 'g> {
-    /// What the rows fix comes from them.
-    pub rows_first: bool,
+    /// What the rows fix comes from them, by a plan; nothing does else.
+    pub rows_first: Option<&'s Plan>,
     /// Of a row, what known accelerations make of it comes from the motion that they make, else by the Jacobian.
     pub rows_moved: bool,
     /// What known multipliers do comes from the wrenches that they make on the links, else by the Jacobian.
@@ -87,7 +87,8 @@ impl Way<'_, '_> {
                 Order::Cheapest(_) => 1,
                 Order::PairsFirst(_) => 2,
             };
-            let of_rows = (way.rows_first, way.rows_moved, way.rows_push);
+            let plan = way.rows_first.map(std::ptr::from_ref);
+            let of_rows = (plan, way.rows_moved, way.rows_push);
             (of_rows, way.shapes.is_empty(), way.local.is_empty(), way.again, order, way.axes, way.slid)
         };
         key(self) == key(other)
@@ -179,8 +180,8 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// The solution by one way.
-    pub fn by(&self, plan: &Plan, way: Way<'_, 'g>) -> Forward<'g> {
-        if way.rows_first { self.rows_first(plan, way) } else { self.saddle(way) }
+    pub fn by(&self, way: Way<'_, 'g>) -> Forward<'g> {
+        way.rows_first.map_or_else(|| self.saddle(way), |plan| self.rows_first(plan, way))
     }
 
     /// By the structured elimination of [`solve`] alone.
@@ -286,8 +287,9 @@ impl<'g> Problem<'_, 'g> {
             g.begin_section("multipliers");
             let rights: Vec<Expr<'g>> =
                 block.plan.speeds.iter().map(|speed| felt[self.partition.free[*speed]]).collect();
-            let pivot = block.pivot();
-            for (row, multiplier) in block.plan.rows.iter().zip(block.solve_transposed(&rights)) {
+            let of_rows = block.pivots();
+            let solved = block.solve_transposed(&rights).into_iter().zip(of_rows);
+            for (row, (multiplier, pivot)) in block.plan.rows.iter().zip(solved) {
                 (multipliers[*row], pivots[*row]) = (multiplier, pivot);
             }
         }

@@ -29,7 +29,9 @@ pub fn joint_links(geometry: &Geometry<'_>, joint: JointId) -> [LinkIndex; 2] {
 /// is fixed in the parent, as is a surface.
 pub fn joint_in_child(geometry: &Geometry<'_>, joint: JointId, [parent, child]: [LinkIndex; 2]) -> bool {
     let model = &geometry.mechanism.joint(joint).model;
-    !model.is_held_in_parent() && seen_from_child(geometry.linkage, parent, child)
+    let is_cut = || geometry.linkage.cuts.iter().any(|cut| cut.joint == joint);
+    let off_balls = geometry.linkage.rows_off_balls && model.turns_freely() && is_cut();
+    !model.is_held_in_parent() && seen_from_child(geometry.linkage, [parent, child], off_balls)
 }
 
 /// Markers at a joint on the links of its parent and child. They are parallel when all coordinates are zero;

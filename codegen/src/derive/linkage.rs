@@ -165,6 +165,8 @@ pub struct Linkage {
     pub cuts: Vec<Cut>,
     /// Whether rows of plane cuts are along the axes of W.
     pub rows_in_ground: bool,
+    /// Whether rows of cuts at a ball or free link are along the axes of the other link.
+    pub rows_off_balls: bool,
     /// Link that carries each body on its own branch.
     pub link_of_body: Vec<usize>,
     /// Last link of each joint's chain, for joints in the tree.

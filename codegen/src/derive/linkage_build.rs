@@ -17,6 +17,7 @@ pub fn linkage(mechanism: &Mechanism, topology: &Topology, parameters: &[f64]) -
             links: Vec::new(),
             cuts: Vec::new(),
             rows_in_ground: topology.rows_in_ground,
+            rows_off_balls: topology.rows_off_balls,
             link_of_body: vec![usize::MAX; mechanism.bodies.len()],
             link_of_joint: vec![None; mechanism.joints.len()],
             reversed: vec![false; mechanism.joints.len()],

@@ -47,6 +47,7 @@ mod motion;
 mod mount;
 mod moving;
 mod orientation;
+mod orthogonal;
 mod plan;
 mod relative_motion;
 mod responses;
@@ -66,7 +67,7 @@ mod wear_factor;
 mod wrench;
 
 pub use closure::row_count;
-pub use entries::{Derived, Purpose, derive, shorter_in_ground, splits_plane_rows};
+pub use entries::{Derived, Purpose, derive, shorter_in_ground, shorter_off_balls, splits_plane_rows};
 pub use linkage::{Freedom, Link, Linkage};
 pub use plan::Guide;
 

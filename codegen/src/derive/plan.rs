@@ -38,8 +38,11 @@ pub struct Plan {
     pub rest: PlanBlock,
 }
 
-/// Blocks larger than this are left to the equations of motion: their adjugates cost more than elimination.
+/// Blocks larger than this are not solved by adjugates: these cost more than elimination.
 pub const LARGEST: usize = 3;
+
+/// Blocks larger than this are left to the equations of motion whatever they cost.
+pub const LARGEST_ORTHOGONAL: usize = 12;
 
 /// A block counts as singular at a position where its smallest singular value is below this part of its rows. Above it,
 /// no more digits are lost than loops close to.
@@ -50,28 +53,47 @@ const PASSED: f64 = 0.1;
 
 impl Plan {
     /// For a Jacobian of kept rows by free speeds that is not zero where `pattern` says; `numbers` are its values at
-    /// closed positions.
-    pub fn new(pattern: &[Vec<bool>], speeds: usize, numbers: &[DMatrix<f64>]) -> Self {
+    /// closed positions. With blocks that adjugates serve, and with larger ones as well, where there are such.
+    pub fn new(pattern: &[Vec<bool>], speeds: usize, numbers: &[DMatrix<f64>]) -> (Self, Option<Self>) {
         let rows = pattern.len();
-        let everything = PlanBlock { rows: (0..rows).collect(), speeds: (0..speeds).collect() };
         let Some(speed_of) = matching(pattern, speeds) else {
-            return Self { blocks: Vec::new(), rest: everything };
+            let everything = PlanBlock { rows: (0..rows).collect(), speeds: (0..speeds).collect() };
+            return (Self { blocks: Vec::new(), rest: everything }, None);
         };
-        let mut rest_row = reached(pattern, speeds, &speed_of);
-        let mut blocks = Vec::new();
-        for rows in components(pattern, &speed_of, &rest_row) {
+        let rest_row = reached(pattern, speeds, &speed_of);
+        let components = components(pattern, &speed_of, &rest_row);
+        let blocks = components.into_iter().map(|rows| {
             let block = PlanBlock { speeds: rows.iter().map(|row| speed_of[*row]).collect(), rows };
+            let is_regular = block.rows.len() <= LARGEST_ORTHOGONAL && block.is_regular(numbers);
+            (block, is_regular)
+        });
+        let blocks: Vec<(PlanBlock, bool)> = blocks.collect();
+        let of = |largest: usize| Self::up_to(largest, &blocks, pattern, (speeds, &speed_of, &rest_row));
+        let is_large = blocks.iter().any(|(block, is_regular)| *is_regular && block.rows.len() > LARGEST);
+        (of(LARGEST), is_large.then(|| of(LARGEST_ORTHOGONAL)))
+    }
+
+    /// Of blocks, each with whether it is regular, those that are not larger and need none that is left out.
+    fn up_to(
+        largest: usize,
+        all: &[(PlanBlock, bool)],
+        pattern: &[Vec<bool>],
+        (speeds, speed_of, rest_row): (usize, &[usize], &[bool]),
+    ) -> Self {
+        let mut rest_row = rest_row.to_vec();
+        let mut blocks = Vec::new();
+        for (block, is_regular) in all {
             let needs_rest = (0..pattern.len())
                 .any(|other| rest_row[other] && block.rows.iter().any(|row| pattern[*row][speed_of[other]]));
-            if needs_rest || block.rows.len() > LARGEST || !block.is_regular(numbers) {
+            if needs_rest || block.rows.len() > largest || !is_regular {
                 block.rows.iter().for_each(|row| rest_row[*row] = true);
             } else {
-                blocks.push(block);
+                blocks.push(block.clone());
             }
         }
         let solved: Vec<usize> = blocks.iter().flat_map(|block| block.speeds.iter().copied()).collect();
         let rest = PlanBlock {
-            rows: (0..rows).filter(|row| rest_row[*row]).collect(),
+            rows: (0..pattern.len()).filter(|row| rest_row[*row]).collect(),
             speeds: (0..speeds).filter(|speed| !solved.contains(speed)).collect(),
         };
         Self { blocks, rest }
@@ -197,7 +219,7 @@ mod tests {
     use super::*;
 
     /// The plan of a Jacobian of ones and zeros that is regular wherever its pattern is.
-    fn plan(rows: &[&str]) -> Plan {
+    fn plans(rows: &[&str]) -> (Plan, Option<Plan>) {
         let pattern: Vec<Vec<bool>> =
             rows.iter().map(|row| row.chars().map(|entry| entry != '.').collect()).collect();
         let speeds = pattern[0].len();
@@ -207,6 +229,10 @@ mod tests {
             if pattern[i][j] { 1.0 + (seed >> 40) as f64 / 1e7 } else { 0.0 }
         });
         Plan::new(&pattern, speeds, &[numbers])
+    }
+
+    fn plan(rows: &[&str]) -> Plan {
+        plans(rows).0
     }
 
     fn sizes(plan: &Plan) -> Vec<usize> {
@@ -231,7 +257,11 @@ mod tests {
     fn blocks_that_are_singular_or_too_large_are_left_with_all_that_needs_them() {
         let pattern = vec![vec![true, false], vec![true, true]];
         let singular = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 1.0]);
-        assert_eq!(Plan::new(&pattern, 2, &[singular]).blocks, []);
+        assert_eq!(Plan::new(&pattern, 2, &[singular]).0.blocks, []);
         assert_eq!(sizes(&plan(&["xxxx", "xxxx", "xxxx", "xxxx"])), [0; 0]);
+        let [larger, small] =
+            [&["xxxxx", "xxxxx", "xxxxx", "xxxxx", "....x"], &["xxx..", "xxx..", "xxx..", "...xx", "....x"]]
+                .map(|rows| plans(rows).1.map(|plan| sizes(&plan)));
+        assert_eq!((larger, small), (Some(vec![1, 4]), None));
     }
 }

@@ -84,24 +84,25 @@ pub struct RelativeMotion<'g> {
 }
 
 /// Whether the frame of the child's link makes more Jacobian columns constant than that of the parent's: that of a
-/// ball or free link does best, then that of a moving link.
-pub fn seen_from_child(linkage: &Linkage, parent: LinkIndex, child: LinkIndex) -> bool {
-    fn rank(linkage: &Linkage, link: LinkIndex) -> usize {
+/// ball or free link does best, then that of a moving link. `off_balls`: they shall be along the axes of the other link.
+pub fn seen_from_child(linkage: &Linkage, [parent, child]: [LinkIndex; 2], off_balls: bool) -> bool {
+    fn rank(linkage: &Linkage, link: LinkIndex, ball: usize) -> usize {
         let Some(at) = link else { return 0 };
         let link = &linkage.links[at];
         match link.freedom {
-            Freedom::Ball | Freedom::Free => 2,
+            Freedom::Ball | Freedom::Free => ball,
             // Parallel to the link that carries it.
             Freedom::Flexible { .. } | Freedom::Node
                 if link.mount == Frame::IDENTITY
                     && link.node.as_ref().is_none_or(|node| node.rotation.is_empty()) =>
             {
-                rank(linkage, link.parent)
+                rank(linkage, link.parent, ball)
             }
             _ => 1,
         }
     }
-    rank(linkage, child) >= rank(linkage, parent)
+    let ball = if off_balls { 0 } else { 2 };
+    rank(linkage, child, ball) >= rank(linkage, parent, ball)
 }
 
 impl<'g> RelativeMotion<'g> {

@@ -7,23 +7,70 @@
 
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::plan::PlanBlock;
+use super::orthogonal::Orthogonal;
+use super::plan::{LARGEST, PlanBlock};
 
 /// A diagonal block of the loop Jacobian, to be solved for its own unknowns and, transposed, for its multipliers.
 pub struct Block<'a, 'g> {
-    g: &'g Scope,
     pub plan: &'a PlanBlock,
-    /// Adjugate: `B adj(B) = det(B) 1`.
+    inverse: Inverse<'g>,
+}
+
+enum Inverse<'g> {
+    Adjugate(Adjugate<'g>),
+    Orthogonal(Orthogonal<'g>),
+}
+
+impl<'a, 'g> Block<'a, 'g> {
+    /// Of a Jacobian of kept rows by free speeds.
+    pub fn new(g: &'g Scope, plan: &'a PlanBlock, jacobian: &[Vec<Expr<'g>>]) -> Self {
+        let of_row = |row: &usize| plan.speeds.iter().map(|speed| jacobian[*row][*speed]).collect();
+        let matrix: Vec<Vec<Expr<'g>>> = plan.rows.iter().map(of_row).collect();
+        let inverse = match plan.rows.len() {
+            0..=LARGEST => Inverse::Adjugate(Adjugate::new(g, &matrix)),
+            _ => Inverse::Orthogonal(Orthogonal::new(g, &matrix)),
+        };
+        Self { plan, inverse }
+    }
+
+    /// `B⁻¹ right`.
+    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        match &self.inverse {
+            Inverse::Adjugate(inverse) => inverse.solve(right),
+            Inverse::Orthogonal(inverse) => inverse.solve(right),
+        }
+    }
+
+    /// `B⁻ᵀ right`.
+    pub fn solve_transposed(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        match &self.inverse {
+            Inverse::Adjugate(inverse) => inverse.solve_transposed(right),
+            Inverse::Orthogonal(inverse) => inverse.solve_transposed(right),
+        }
+    }
+
+    /// One for each row.
+    pub fn pivots(&self) -> Vec<Expr<'g>> {
+        match &self.inverse {
+            Inverse::Adjugate(inverse) => vec![inverse.pivot(); self.plan.rows.len()],
+            Inverse::Orthogonal(inverse) => inverse.pivots(),
+        }
+    }
+}
+
+/// A matrix that is at most 3 by 3.
+struct Adjugate<'g> {
+    g: &'g Scope,
+    /// `B adj(B) = det(B) 1`.
     adjugate: Vec<Vec<Expr<'g>>>,
     determinant: Expr<'g>,
     reciprocal: Expr<'g>,
 }
 
-impl<'a, 'g> Block<'a, 'g> {
-    /// Of a Jacobian of kept rows by free speeds; at most 3 by 3.
-    pub fn new(g: &'g Scope, plan: &'a PlanBlock, jacobian: &[Vec<Expr<'g>>]) -> Self {
-        let entry = |i: usize, j: usize| jacobian[plan.rows[i]][plan.speeds[j]];
-        let (adjugate, determinant) = match plan.rows.len() {
+impl<'g> Adjugate<'g> {
+    fn new(g: &'g Scope, matrix: &[Vec<Expr<'g>>]) -> Self {
+        let entry = |i: usize, j: usize| matrix[i][j];
+        let (adjugate, determinant) = match matrix.len() {
             1 => (vec![vec![g.number(1.0)]], entry(0, 0)),
             2 => {
                 let [a, b, c, d] = [entry(0, 0), entry(0, 1), entry(1, 0), entry(1, 1)];
@@ -36,19 +83,17 @@ impl<'a, 'g> Block<'a, 'g> {
                 (adjugate, row(0).dot(columns[0]))
             }
         };
-        Self { g, plan, adjugate, determinant, reciprocal: determinant.recip() }
+        Self { g, adjugate, determinant, reciprocal: determinant.recip() }
     }
 
-    /// `B⁻¹ right`.
-    pub fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    fn solve(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let sum = |row: &Vec<Expr<'g>>| {
             self.reciprocal * self.g.sum(row.iter().zip(right).map(|(entry, right)| *entry * *right))
         };
         self.adjugate.iter().map(sum).collect()
     }
 
-    /// `B⁻ᵀ right`.
-    pub fn solve_transposed(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    fn solve_transposed(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let sum = |i: usize| {
             let column = self.adjugate.iter().map(|row| row[i]);
             self.reciprocal * self.g.sum(column.zip(right).map(|(entry, right)| entry * *right))
@@ -58,8 +103,8 @@ impl<'a, 'g> Block<'a, 'g> {
 
     /// About the square of the smallest singular value: `1 / |B⁻¹|²`; of two rows with the usual size of the adjugate, by
     /// which the pivot is only measured.
-    pub fn pivot(&self) -> Expr<'g> {
-        if self.plan.rows.len() == 2 {
+    fn pivot(&self) -> Expr<'g> {
+        if self.adjugate.len() == 2 {
             let size: f64 = self.adjugate.iter().flatten().map(|entry| entry.size().powi(2)).sum();
             return (size.sqrt().recip() * self.determinant).square();
         }
@@ -75,9 +120,15 @@ mod tests {
     #[test]
     fn blocks_of_numbers_are_solved_both_ways() {
         let g = Scope::new();
-        let matrix = [[2.0, -1.0, 0.5], [1.0, 3.0, -2.0], [0.25, 1.5, 4.0]];
+        let matrix = [
+            [2.0, -1.0, 0.5, 0.0, 1.0],
+            [1.0, 3.0, -2.0, 0.0, 0.5],
+            [0.25, 1.5, 4.0, 1.0, -3.0],
+            [0.0, 2.0, -1.0, 0.0, 1.5],
+            [-1.0, 0.5, 0.0, 2.0, 1.0],
+        ];
         let jacobian: Vec<Vec<_>> = matrix.iter().map(|row| row.map(|x| g.number(x)).to_vec()).collect();
-        for n in 1..=3 {
+        for n in 1..=5 {
             let plan = PlanBlock { rows: (0..n).collect(), speeds: (0..n).collect() };
             let block = Block::new(&g, &plan, &jacobian);
             let right: Vec<_> = (0..n).map(|i| g.number(1.0 + i as f64)).collect();
@@ -89,10 +140,16 @@ mod tests {
             let right = nalgebra::DVector::from_fn(n, |i, _| 1.0 + i as f64);
             let [x, y] = [x, y].map(nalgebra::DVector::from_vec);
             // A few roundings of numbers below ten.
-            assert!((&matrix * x - &right).amax() < 1e-14);
-            assert!((matrix.transpose() * y - &right).amax() < 1e-14);
-            let norm = matrix.try_inverse().expect("regular").norm();
-            assert!((numbers(vec![block.pivot()])[0] * norm * norm - 1.0).abs() < 1e-14);
+            assert!((&matrix * x - &right).amax() < 2e-14);
+            assert!((matrix.transpose() * y - &right).amax() < 2e-14);
+            let pivots = numbers(block.pivots());
+            let norm = matrix.clone().try_inverse().expect("regular").norm();
+            if n <= LARGEST {
+                assert!((pivots[0] * norm * norm - 1.0).abs() < 1e-14);
+            } else {
+                let determinant = matrix.determinant();
+                assert!((pivots.iter().product::<f64>() / determinant.powi(2) - 1.0).abs() < 1e-13);
+            }
         }
     }
 }

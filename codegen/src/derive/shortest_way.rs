@@ -82,16 +82,15 @@ impl<'g> From<Forward<'g>> for Shortest<'g> {
     }
 }
 
-/// A problem, and its plan.
+/// Among the ways to solve a problem.
 struct Search<'a, 'g> {
     problem: &'a Problem<'a, 'g>,
-    plan: &'a Plan,
 }
 
 impl<'g> Search<'_, 'g> {
     fn first<'s>(&self, way: Way<'s, 'g>) -> Best<'s, 'g> {
         let g = self.problem.motion.poses.geometry.g;
-        let forward = self.problem.by(self.plan, way);
+        let forward = self.problem.by(way);
         let Problem { known, .. } = self.problem;
         let alone = known.operations(g, &forward.solution.of_accelerations());
         let operations = (known.operations(g, &forward.all()), alone);
@@ -121,7 +120,7 @@ impl<'g> Search<'_, 'g> {
         let way = best.way;
         let unknowns = self.problem.partition.free.len() + self.problem.rows.len();
         let short = unknowns <= MOST_TO_ORDER;
-        let by_wrenches = !self.plan.blocks.is_empty() && way.rows_first && short;
+        let by_wrenches = way.rows_first.is_some_and(|plan| !plan.blocks.is_empty()) && short;
         let mut shorter = false;
         for axes in Axes::choices(short).iter().copied() {
             if short || axes != way.axes {
@@ -142,11 +141,10 @@ impl<'g> Search<'_, 'g> {
     /// The other orders of what is left to the equations of motion.
     fn in_order<'s>(&self, best: &mut Best<'s, 'g>, constant: &'s [Vec<bool>]) {
         let way = best.way;
-        let rest = &self.plan.rest;
         let local: usize = way.local.iter().map(|body| body.speeds.len()).sum();
         let unknowns = match way.rows_first {
-            true => rest.speeds.len() + rest.rows.len() - local,
-            false => self.problem.partition.free.len() + self.problem.rows.len(),
+            Some(Plan { rest, .. }) => rest.speeds.len() + rest.rows.len() - local,
+            None => self.problem.partition.free.len() + self.problem.rows.len(),
         };
         // What nothing drives passes singular positions, and pivots of pairs do not tell how near they are: their own are constant,
         // and the others vary with the rest of the row.
@@ -172,9 +170,10 @@ pub fn forward<'g>(
         .into_iter()
         .map(|row| row.into_iter().map(|entry| !entry.is_zero()).collect())
         .collect();
-    let plan = Plan::new(&pattern, speeds, jacobians);
+    // Larger blocks may cost more than elimination.
+    let (plan, larger) = Plan::new(&pattern, speeds, jacobians);
     let plain = Way {
-        rows_first: false,
+        rows_first: None,
         rows_moved: false,
         rows_push: false,
         shapes: &[],
@@ -193,7 +192,7 @@ pub fn forward<'g>(
     let shapes = shapes_of(problem.masses);
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
     let constant = large_entries(problem.rows.len(), speeds, jacobians);
-    let search = Search { problem, plan: &plan };
+    let search = Search { problem };
     let least = |block: &PlanBlock| {
         let (linkage, free) = (problem.motion.poses.geometry.linkage, &problem.partition.free);
         least_elimination(linkage, free, &pattern, (&block.speeds, &block.rows))
@@ -214,7 +213,7 @@ pub fn forward<'g>(
             known => gone_by_links = Some(known),
         }
         if all_is_longer {
-            first = Way { rows_first: true, ..plain };
+            first = Way { rows_first: Some(&plan), ..plain };
         }
     }
     let mut best = search.first(first);
@@ -229,13 +228,15 @@ pub fn forward<'g>(
         if !shapes.is_empty() {
             search.offer(&mut best, Way { shapes, ..plain });
         }
-        let first = Way { rows_first: true, shapes, ..plain };
-        if !plan.blocks.is_empty() {
-            search.offer(&mut best, first);
-        }
-        if !local.is_empty() {
-            for again in [false, true] {
-                search.offer(&mut best, Way { local: &local, again, ..first });
+        for plan in std::iter::once(&plan).chain(&larger) {
+            let first = Way { rows_first: Some(plan), shapes, ..plain };
+            if !plan.blocks.is_empty() {
+                search.offer(&mut best, first);
+            }
+            if !local.is_empty() {
+                for again in [false, true] {
+                    search.offer(&mut best, Way { local: &local, again, ..first });
+                }
             }
         }
     }
@@ -247,7 +248,7 @@ pub fn forward<'g>(
     search.along_axes(&mut best);
     search.in_order(&mut best, &constant);
     others(&mut |problem| {
-        let search = Search { problem, plan: &plan };
+        let search = Search { problem };
         best.gone.clear();
         search.along_axes(&mut best);
         search.in_order(&mut best, &constant);

@@ -104,6 +104,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
         tree: vec![tree(0, Carrier::Ground, 0), tree(2, Carrier::Ground, 2), tree(1, body(0), 1)],
         cuts: vec![JointId::new(3)],
         rows_in_ground: false,
+        rows_off_balls: false,
     };
     (mechanism, topology)
 }
@@ -247,7 +248,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
         attached: Vec::new(),
         sources: crate::source::Sources::default(),
     };
-    (mechanism, Topology { tree, cuts, rows_in_ground: false })
+    (mechanism, Topology { tree, cuts, rows_in_ground: false, rows_off_balls: false })
 }
 
 fn live_operations(derived: &Derived, entry: Entry) -> usize {

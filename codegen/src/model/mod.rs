@@ -264,6 +264,9 @@ pub struct Topology {
     pub cuts: Vec<JointId>,
     /// Whether rows of plane loops are along the axes of W, else along those of the links: what is shorter.
     pub rows_in_ground: bool,
+    /// Whether rows of cut joints at a body that turns freely are along the axes of the other body, else along its own: what is
+    /// shorter.
+    pub rows_off_balls: bool,
 }
 
 /// One step outwards in the spanning tree.

@@ -38,7 +38,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
     let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
     let cuts: Vec<JointId> =
         (0..mechanism.joints.len()).map(JointId::new).filter(|joint| !carries(joint)).collect();
-    let topology = Topology { tree, cuts, rows_in_ground: false };
+    let topology = Topology { tree, cuts, rows_in_ground: false, rows_off_balls: false };
     faults.extend(unreached(mechanism, &depths));
     if faults.is_empty() {
         faults.extend(driven_loops(mechanism, &topology));

@@ -25,7 +25,7 @@ use super::plan::Guide;
 use super::{Equations, Function};
 use deriver::{Deriver, inputs};
 use functions::function;
-pub use row_axes::{shorter_in_ground, splits_plane_rows};
+pub use row_axes::{shorter_in_ground, shorter_off_balls, splits_plane_rows};
 
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]

@@ -1,17 +1,17 @@
-//! Along which axes the rows of plane loops are shortest.
+//! Along which axes the rows of loops are shortest.
 //! In: [`Mechanism`], [`Topology`]. Out: a choice, the same for all entry points. Never knows positions.
 
 use nalgebra::DMatrix;
 
 use crate::expr::{Expr, Scope};
-use crate::model::{Mechanism, Topology};
+use crate::model::{Closure, Mechanism, Topology};
 
 use super::deriver::{Deriver, inputs};
 use crate::derive::closure::{cut_rows, row_count};
 use crate::derive::forward::Problem;
 use crate::derive::geometry::Geometry;
 use crate::derive::kept_rows::kept_rows;
-use crate::derive::linkage::Linkage;
+use crate::derive::linkage::{Freedom, LinkIndex, Linkage};
 use crate::derive::linkage_build::linkage;
 use crate::derive::moving::Known;
 use crate::derive::relative_motion::Sums;
@@ -24,11 +24,40 @@ pub(super) const MOST_TO_COMPARE: usize = 60;
 /// Of a cut in a plane, the others say nothing.
 const ROWS_IN_PLANE: usize = 2;
 
+/// Of a cut where one of the two bodies turns freely.
+const ROWS_AT_BALL: usize = 3;
+
 /// Whether the equations of a mechanism with plane loops are no longer with their rows along the axes of W than with them
 /// along those of the links.
 pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
+    let linkage = tree(mechanism, topology);
+    let rows = ROWS_IN_PLANE * linkage.cuts.iter().filter(|cut| cut.plane).count();
+    if rows == 0 || linkage.speeds() + rows > MOST_TO_COMPARE {
+        return false;
+    }
     let by = |rows_in_ground: bool| operations(mechanism, &Topology { rows_in_ground, ..topology.clone() });
-    by(true).is_some_and(|ground| by(false).is_some_and(|links| ground <= links))
+    by(true) <= by(false)
+}
+
+/// Whether the equations of a mechanism in which loops meet at a body that turns freely are shorter with their rows there along
+/// the axes of the other bodies: along a rod no acceleration of its own joints is felt, so that one row of three is left to the
+/// body that they carry.
+pub fn shorter_off_balls(mechanism: &Mechanism, topology: &Topology) -> bool {
+    let linkage = tree(mechanism, topology);
+    let turns = |link: LinkIndex| link.is_some_and(|at| linkage.links[at].freedom == Freedom::Ball);
+    let at_balls = linkage.cuts.iter().filter(|cut| {
+        let model = &mechanism.joint(cut.joint).model;
+        let is_ball = cut.closure == Closure::Joint && model.turns_freely() && !model.is_held_in_parent();
+        is_ball && turns(cut.parent) != turns(cut.child)
+    });
+    let rows = ROWS_AT_BALL * at_balls.count();
+    let is_driven = mechanism.joints.iter().any(|joint| !joint.drives.is_empty());
+    // Those of one cut are few enough as they are.
+    if rows <= ROWS_AT_BALL || !is_driven || linkage.speeds() + rows > MOST_TO_COMPARE {
+        return false;
+    }
+    let by = |rows_off_balls: bool| operations(mechanism, &Topology { rows_off_balls, ..topology.clone() });
+    by(true) < by(false)
 }
 
 /// Whether of a plane loop's two rows along axes of W one alone is kept. Which of them the other rows make redundant changes
@@ -49,13 +78,9 @@ fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
 }
 
 /// Operations of the forward dynamics and of the closure, which a run asks for both, before positions say more than the pattern of
-/// the loop Jacobian does; nothing where there is no choice.
-fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
+/// the loop Jacobian does.
+fn operations(mechanism: &Mechanism, topology: &Topology) -> usize {
     let linkage = tree(mechanism, topology);
-    let rows = ROWS_IN_PLANE * linkage.cuts.iter().filter(|cut| cut.plane).count();
-    if rows == 0 || linkage.speeds() + rows > MOST_TO_COMPARE {
-        return None;
-    }
     let scope = Scope::new();
     let (inputs, parameters) = inputs(&scope, mechanism);
     let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
@@ -88,7 +113,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> Option<usize> {
         let jacobian = cut.jacobian(&motion.poses, row);
         [row.residual, row.rate].into_iter().chain(jacobian).collect::<Vec<_>>()
     });
-    Some(solved + scope.operations(closed))
+    solved + scope.operations(closed)
 }
 
 /// A number for an entry, such that blocks of them are regular wherever their pattern lets them.
@@ -96,6 +121,8 @@ fn any_number(entry: Expr<'_>, row: usize, speed: usize) -> f64 {
     if entry.is_zero() {
         0.0
     } else {
-        1.0 + (1.0 + 3.7 * row as f64 + 1.3 * (speed * speed) as f64).sin() / 2.0
+        // Of a sum of what row and speed make alone, no more than three rows would be independent.
+        let (row, speed) = (row as f64, speed as f64);
+        1.0 + (1.0 + 3.7 * row + 1.3 * speed * speed + 2.3 * row * speed).sin() / 2.0
     }
 }
