@@ -80,19 +80,46 @@ fn both_ways_agree_where_many_loops_meet_at_one_body() {
     );
     let of_stewart =
         below(&["U1", "U2", "U3", "U4", "U5", "U6"], "133 deg", r#"S1 = ["-36 deg", "128 deg", "0 deg"]"#);
-    for (path, other) in [("tests/data/delta.toml", of_delta), ("tests/data/stewart.toml", of_stewart)] {
+    // Directions that are rounded leave no entry of a row zero.
+    let cases = [
+        ("tests/data/delta.toml", &of_delta, false),
+        ("tests/data/stewart.toml", &of_stewart, false),
+        ("tests/data/stewart.toml", &of_stewart, true),
+    ];
+    for (path, other, is_rounded) in cases {
         let text = compiled(&Case(path, &[]), Closure::Joint, false).source.text;
-        let heights = [String::new(), other].map(|guess| {
+        let text = if is_rounded { rounded(&text) } else { text };
+        let heights = ["", other].map(|guess| {
             let text = format!("{text}{guess}");
             let both = [false, true].map(|saddle| of_text(path, text.clone(), Closure::Joint, saddle));
             let [rows_first, saddle] = &both;
-            assert!(2 * forward_operations(rows_first) < forward_operations(saddle), "{path}");
+            assert!(4 * forward_operations(rows_first) < 3 * forward_operations(saddle), "{path}");
             let states = agree((rows_first, saddle), &format!("{path} {guess}"));
             assert!(states >= 3, "{path} {guess}: {states} states");
             height(rows_first)
         });
         assert!(heights[0] * heights[1] < 0.0, "{path}: {heights:?}");
     }
+}
+
+/// With six digits behind the point.
+fn rounded(text: &str) -> String {
+    let is_digit = |letter: char| letter.is_ascii_digit() || letter == '.';
+    let short = |number: &str| match number.parse::<f64>() {
+        Ok(value) if number.len() > 9 => format!("{value:.6}"),
+        _ => number.to_owned(),
+    };
+    let mut digits = String::new();
+    let mut rounded = String::new();
+    for letter in text.chars() {
+        if is_digit(letter) {
+            digits.push(letter);
+        } else {
+            rounded += &short(&std::mem::take(&mut digits));
+            rounded.push(letter);
+        }
+    }
+    rounded
 }
 
 /// Of the body that all loops meet at, at the start.

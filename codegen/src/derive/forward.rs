@@ -8,18 +8,17 @@ use std::rc::Rc;
 
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::dynamics::{BodyFields, forces_besides, section_of};
+use super::dynamics::{forces_besides, section_of};
 use super::fields::Shapes;
-use super::kept_rows::{KeptRow, Partition, closed_biases};
+use super::kept_rows::{KeptRow, Partition};
 use super::link_mass::LinkMass;
 use super::loads::Loads;
 use super::local_modes::LocalModes;
-use super::mass_matrix::{Eliminated, mass_matrix, reduced_mass_matrix};
+use super::mass_matrix::mass_matrix;
 use super::motion::Motion;
 use super::moving::{Known, Moving};
-use super::plan::{Plan, PlanBlock};
+use super::plan::Plan;
 use super::relative_motion::{RelativeMotion, Sums};
-use super::rows::Block;
 use super::slid_drive::slid_drive;
 use super::solve::{Order, Saddle, Solution, solve};
 use super::turned::Axes;
@@ -101,7 +100,7 @@ impl<'g> Problem<'_, 'g> {
         self.rows.iter().map(|row| self.pick(&row.jacobian)).collect()
     }
 
-    fn pick(&self, row: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn pick(&self, row: &[Expr<'g>]) -> Vec<Expr<'g>> {
         self.partition.free.iter().map(|j| row[*j]).collect()
     }
 
@@ -116,7 +115,11 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// Motion with these accelerations of the free speeds.
-    fn moving(&self, accelerations: &[Expr<'g>], Way { shapes, axes, .. }: Way<'_, 'g>) -> Rc<Moving<'g>> {
+    pub(super) fn moving(
+        &self,
+        accelerations: &[Expr<'g>],
+        Way { shapes, axes, .. }: Way<'_, 'g>,
+    ) -> Rc<Moving<'g>> {
         let mut rates = self.rates.to_vec();
         for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
             rates[*speed] = *acceleration;
@@ -125,12 +128,17 @@ impl<'g> Problem<'_, 'g> {
     }
 
     /// What all speeds feel at given accelerations.
-    fn felt<'m>(&self, moving: &'m Moving<'g>) -> &'m [Expr<'g>] {
+    pub(super) fn felt<'m>(&self, moving: &'m Moving<'g>) -> &'m [Expr<'g>] {
         moving.felt(self.masses, self.loads)
     }
 
     /// What all speeds feel besides what the rows with these multipliers hold.
-    fn unheld(&self, moving: &Moving<'g>, multipliers: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
+    pub(super) fn unheld(
+        &self,
+        moving: &Moving<'g>,
+        multipliers: &[Expr<'g>],
+        way: Way<'_, 'g>,
+    ) -> Vec<Expr<'g>> {
         let poses = &self.motion.poses;
         let g = poses.geometry.g;
         let mut held = vec![Wrench::zero(g); self.masses.len()];
@@ -219,7 +227,12 @@ impl<'g> Problem<'_, 'g> {
         Forward { solution, drive, closed: self.is_driven(), slid }
     }
 
-    fn slid_drive(&self, moving: &Moving<'g>, way: Way<'_, 'g>, driven: usize) -> Option<Expr<'g>> {
+    pub(super) fn slid_drive(
+        &self,
+        moving: &Moving<'g>,
+        way: Way<'_, 'g>,
+        driven: usize,
+    ) -> Option<Expr<'g>> {
         let of = || slid_drive(&moving.motion, self.masses, self.loads, self.partition, driven);
         way.slid.then(of).flatten()
     }
@@ -229,202 +242,6 @@ impl<'g> Problem<'_, 'g> {
         let g = self.motion.poses.geometry.g;
         g.sum(self.rows.iter().zip(multipliers).map(|(row, multiplier)| row.jacobian[speed] * *multiplier))
     }
-
-    /// Rows first, by a plan: the blocks from the rows, the rest by [`solve`], then multipliers and drives from
-    /// inverse dynamics with all accelerations known.
-    fn rows_first(&self, plan: &Plan, way: Way<'_, 'g>) -> Forward<'g> {
-        let g = self.motion.poses.geometry.g;
-        let (jacobian, mut target) = (self.jacobian(), self.target());
-        for row in plan.blocks.iter().flat_map(|block| &block.rows) {
-            target[*row] = -self.rows[*row].row.bias.closed;
-        }
-        g.begin_section("accelerations that the loops fix");
-        let blocks: Vec<Block<'_, 'g>> =
-            plan.blocks.iter().map(|block| Block::new(g, block, &jacobian)).collect();
-        let zero = g.zero();
-        let mut accelerations = vec![zero; self.partition.free.len()];
-        let right = |accelerations: &[Expr<'g>], moved: &[Expr<'g>], row: usize| {
-            if let Some(bias) = moved.get(row) {
-                return -*bias;
-            }
-            let known = jacobian[row].iter().zip(accelerations);
-            known.fold(target[row], |sum, (entry, acceleration)| sum - *entry * *acceleration)
-        };
-        for block in &blocks {
-            let moved = self.moved_biases(&accelerations, way);
-            let rights: Vec<Expr<'g>> =
-                block.plan.rows.iter().map(|row| right(&accelerations, &moved, *row)).collect();
-            for (speed, acceleration) in block.plan.speeds.iter().zip(block.solve(&rights)) {
-                accelerations[*speed] = acceleration;
-            }
-        }
-        let (mut multipliers, mut pivots) = (vec![zero; self.rows.len()], vec![zero; self.rows.len()]);
-        let mut last = None;
-        if !plan.rest.speeds.is_empty() {
-            let moved = self.moved_biases(&accelerations, way);
-            let rights: Vec<Expr<'g>> =
-                plan.rest.rows.iter().map(|row| right(&accelerations, &moved, *row)).collect();
-            let moving = self.with_local_modes(&mut accelerations, way);
-            let before = accelerations.clone();
-            let rest = self.rest(&plan.rest, &moving, way, &jacobian, &rights);
-            for (speed, acceleration) in rest.speeds.iter().zip(&rest.solution.accelerations) {
-                accelerations[*speed] = *acceleration;
-            }
-            let rows = plan.rest.rows.iter().zip(rest.solution.multipliers).zip(rest.solution.pivots);
-            for ((row, multiplier), pivot) in rows {
-                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
-            }
-            if way.again {
-                self.with_local_modes(&mut accelerations, way);
-            } else {
-                last = Some(self.followed(&mut accelerations, &before, &moving, way));
-            }
-        }
-        // J^T lambda carries what inertia and loads leave over.
-        let moving = last.unwrap_or_else(|| self.moving(&accelerations, way));
-        for block in blocks.iter().rev() {
-            let felt = self.unheld(&moving, &multipliers, way);
-            g.begin_section("multipliers");
-            let rights: Vec<Expr<'g>> =
-                block.plan.speeds.iter().map(|speed| felt[self.partition.free[*speed]]).collect();
-            let of_rows = block.pivots();
-            let solved = block.solve_transposed(&rights).into_iter().zip(of_rows);
-            for (row, (multiplier, pivot)) in block.plan.rows.iter().zip(solved) {
-                (multipliers[*row], pivots[*row]) = (multiplier, pivot);
-            }
-        }
-        let felt = self.unheld(&moving, &multipliers, way);
-        g.begin_section("drive forces");
-        let slides: Vec<_> =
-            self.partition.driven.iter().map(|d| self.slid_drive(&moving, way, *d)).collect();
-        let drive = self.partition.driven.iter().zip(&slides).map(|(d, slid)| slid.unwrap_or(felt[*d]));
-        let drive = drive.collect();
-        let slid = slides.iter().any(Option::is_some);
-        let solution = Solution { accelerations, multipliers, pivots };
-        Forward { solution, drive, closed: self.is_driven() || plan.rest.rows.is_empty(), slid }
-    }
-
-    /// Acceleration residuals of the rows of cuts in the motion that these accelerations make; none where the Jacobian does.
-    fn moved_biases(&self, accelerations: &[Expr<'g>], way: Way<'_, 'g>) -> Vec<Expr<'g>> {
-        if !way.rows_moved || accelerations.iter().all(|acceleration| acceleration.is_zero()) {
-            return Vec::new();
-        }
-        let (sums, keep) = self.made;
-        let make = || {
-            let moving = self.moving(accelerations, Way { shapes: &[], ..way });
-            closed_biases(&moving.motion, sums, keep)
-        };
-        self.known.biases(self.motion.poses.geometry.g, (accelerations, way.axes, sums), make)
-    }
-
-    /// Puts in the accelerations that local modes have while all others are as they stand.
-    fn with_local_modes(&self, accelerations: &mut [Expr<'g>], way: Way<'_, 'g>) -> Rc<Moving<'g>> {
-        let g = self.motion.poses.geometry.g;
-        let local = way.local;
-        for speed in local.iter().flat_map(|body| &body.speeds) {
-            accelerations[*speed] = g.zero();
-        }
-        let moving = self.moving(accelerations, way);
-        if local.is_empty() {
-            return moving;
-        }
-        let felt = self.felt(&moving);
-        g.begin_section("accelerations of the modes");
-        for body in local {
-            let forces: Vec<Expr<'g>> =
-                body.speeds.iter().map(|speed| felt[self.partition.free[*speed]]).collect();
-            for (speed, row) in body.speeds.iter().zip(&body.reduced.inverse) {
-                accelerations[*speed] = -g.weighted(row.iter().copied(), &forces);
-            }
-        }
-        self.moving(accelerations, way)
-    }
-
-    /// What rows do not fix, local modes left out.
-    fn rest(
-        &self,
-        plan: &PlanBlock,
-        moving: &Moving<'g>,
-        Way { local, order, axes, .. }: Way<'_, 'g>,
-        jacobian: &[Vec<Expr<'g>>],
-        rights: &[Expr<'g>],
-    ) -> Rest<'g> {
-        let g = self.motion.poses.geometry.g;
-        let is_local = |speed: &usize| local.iter().any(|body| body.speeds.contains(speed));
-        let speeds: Vec<usize> = plan.speeds.iter().copied().filter(|speed| !is_local(speed)).collect();
-        let h = self.felt(moving);
-        g.begin_section("mass matrix by composite bodies");
-        let mass = self.known.mass(g, (!local.is_empty(), axes), || {
-            let eliminated: Vec<Eliminated<'g>> =
-                local.iter().map(|body| body.eliminated(g, &self.motion.modes[body.link].q)).collect();
-            reduced_mass_matrix(&self.motion.poses, self.masses, &eliminated, axes)
-        });
-        let free = |speed: &usize| self.partition.free[*speed];
-        let of_rest = |row: &[Expr<'g>]| speeds.iter().map(|speed| row[*speed]).collect();
-        let block: Vec<Vec<Expr<'g>>> =
-            speeds.iter().map(|speed| of_rest(&self.pick(&mass[free(speed)]))).collect();
-        let entries: Vec<Vec<Expr<'g>>> = plan.rows.iter().map(|row| of_rest(&jacobian[*row])).collect();
-        let force: Vec<Expr<'g>> = speeds.iter().map(|speed| -h[free(speed)]).collect();
-        let of_plan = |list: &[Vec<bool>]| -> Vec<Vec<bool>> {
-            plan.rows.iter().map(|row| speeds.iter().map(|speed| list[*row][*speed]).collect()).collect()
-        };
-        let constant;
-        let order = match order {
-            Order::Leaves => order,
-            Order::Cheapest(all) => {
-                constant = of_plan(all);
-                Order::Cheapest(&constant)
-            }
-            Order::PairsFirst(all) => {
-                constant = of_plan(all);
-                Order::PairsFirst(&constant)
-            }
-        };
-        let saddle = Saddle { mass: &block, jacobian: &entries, force: &force, target: rights };
-        let solution = solve(g, &saddle, order);
-        Rest { speeds, solution }
-    }
-
-    /// Local modes follow the change of their frames' accelerations since `before`, when the motion was `moving`.
-    fn followed(
-        &self,
-        accelerations: &mut [Expr<'g>],
-        before: &[Expr<'g>],
-        moving: &Moving<'g>,
-        way: Way<'_, 'g>,
-    ) -> Rc<Moving<'g>> {
-        let g = self.motion.poses.geometry.g;
-        let mut change = vec![g.zero(); self.v.len()];
-        for (at, speed) in self.partition.free.iter().enumerate() {
-            change[*speed] = accelerations[at] - before[at];
-        }
-        let change = self.known.changed(self.motion, &change, way.axes);
-        let mut followed = Vec::new();
-        for body in way.local {
-            g.begin_section("accelerations of the modes");
-            let moved = &change[body.link];
-            let columns = body.columns(&self.masses[body.link]);
-            let felt: Vec<Expr<'g>> =
-                columns.into_iter().map(|column| column.power(moved.alpha, moved.origin)).collect();
-            let own: Vec<Expr<'g>> =
-                body.reduced.inverse.iter().map(|row| -g.weighted(row.iter().copied(), &felt)).collect();
-            for (speed, own) in body.speeds.iter().zip(&own) {
-                accelerations[*speed] += *own;
-            }
-            if let Some(Some(by)) = moving.fields.get(body.link) {
-                let fields = by.shapes.changed(&by.fields, moved.alpha, &own);
-                followed.push((body.link, BodyFields::new(&by.shapes, fields)));
-            }
-        }
-        self.moving(accelerations, way).with_fields(followed)
-    }
-}
-
-/// What is left to the equations of motion.
-struct Rest<'g> {
-    /// Speeds, by number among the free ones.
-    speeds: Vec<usize>,
-    solution: Solution<'g>,
 }
 
 impl<'g> Forward<'g> {

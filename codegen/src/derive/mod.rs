@@ -2,12 +2,13 @@
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
-//! `plan`, `rows`, `dynamics`, `solve`, `forward`, `articulated`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
+//! `plan`, `rows`, `dynamics`, `solve`, `forward`, `by_rows`, `articulated`, `shortest_way`, then `entries`, which asks them for what each entry point returns.
 
 mod accelerations;
 mod articulated;
 mod articulated_body;
 mod attachment;
+mod by_rows;
 mod closure;
 mod contact_wrench;
 mod contacts;
@@ -48,6 +49,8 @@ mod mount;
 mod moving;
 mod orientation;
 mod orthogonal;
+mod own_plan;
+mod own_speeds;
 mod plan;
 mod relative_motion;
 mod responses;

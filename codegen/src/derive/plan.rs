@@ -32,6 +32,9 @@ pub struct PlanBlock {
 /// How the forward dynamics is solved.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
+    /// Rows of a cut each and the speeds that they alone have, one fewer: among the blocks, what is left of them when these are
+    /// taken out stands for the last of the rows ([`PlanBlock::left`]).
+    pub own: Vec<PlanBlock>,
     /// Solved from the rows alone, in this order.
     pub blocks: Vec<PlanBlock>,
     /// What is left to the equations of motion.
@@ -57,8 +60,8 @@ impl Plan {
     pub fn new(pattern: &[Vec<bool>], speeds: usize, numbers: &[DMatrix<f64>]) -> (Self, Option<Self>) {
         let rows = pattern.len();
         let Some(speed_of) = matching(pattern, speeds) else {
-            let everything = PlanBlock { rows: (0..rows).collect(), speeds: (0..speeds).collect() };
-            return (Self { blocks: Vec::new(), rest: everything }, None);
+            let rest = PlanBlock { rows: (0..rows).collect(), speeds: (0..speeds).collect() };
+            return (Self { rest, ..Self::default() }, None);
         };
         let rest_row = reached(pattern, speeds, &speed_of);
         let components = components(pattern, &speed_of, &rest_row);
@@ -96,12 +99,17 @@ impl Plan {
             rows: (0..pattern.len()).filter(|row| rest_row[*row]).collect(),
             speeds: (0..speeds).filter(|speed| !solved.contains(speed)).collect(),
         };
-        Self { blocks, rest }
+        Self { own: Vec::new(), blocks, rest }
     }
 }
 
 impl PlanBlock {
-    fn is_regular(&self, numbers: &[DMatrix<f64>]) -> bool {
+    /// Of a cut whose own speeds are taken out: the row that what is left stands for.
+    pub fn left(&self) -> usize {
+        self.rows[self.rows.len() - 1]
+    }
+
+    pub(super) fn is_regular(&self, numbers: &[DMatrix<f64>]) -> bool {
         let singular = numbers.iter().filter(|jacobian| {
             let rows = jacobian.select_rows(&self.rows);
             let values = singular_values(&rows.select_columns(&self.speeds));
@@ -215,20 +223,24 @@ fn components(pattern: &[Vec<bool>], speed_of: &[usize], left_out: &[bool]) -> V
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    /// The plan of a Jacobian of ones and zeros that is regular wherever its pattern is.
-    fn plans(rows: &[&str]) -> (Plan, Option<Plan>) {
+    /// A Jacobian of ones and zeros, and numbers that are regular wherever its pattern is.
+    pub fn numbered(rows: &[&str]) -> (Vec<Vec<bool>>, DMatrix<f64>) {
         let pattern: Vec<Vec<bool>> =
             rows.iter().map(|row| row.chars().map(|entry| entry != '.').collect()).collect();
-        let speeds = pattern[0].len();
         let mut seed = 7_u64;
-        let numbers = DMatrix::from_fn(rows.len(), speeds, |i, j| {
+        let numbers = DMatrix::from_fn(rows.len(), pattern[0].len(), |i, j| {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             if pattern[i][j] { 1.0 + (seed >> 40) as f64 / 1e7 } else { 0.0 }
         });
-        Plan::new(&pattern, speeds, &[numbers])
+        (pattern, numbers)
+    }
+
+    fn plans(rows: &[&str]) -> (Plan, Option<Plan>) {
+        let (pattern, numbers) = numbered(rows);
+        Plan::new(&pattern, pattern[0].len(), &[numbers])
     }
 
     fn plan(rows: &[&str]) -> Plan {

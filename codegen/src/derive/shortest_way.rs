@@ -8,6 +8,7 @@ use nalgebra::DMatrix;
 use super::articulated::articulated;
 use super::dynamics::shapes_of;
 use super::forward::{Forward, Problem, Way};
+use super::kept_rows::KeptRow;
 use super::least_elimination::least_elimination;
 use super::local_modes::local_modes;
 use super::plan::{Plan, PlanBlock};
@@ -156,6 +157,18 @@ impl<'g> Search<'_, 'g> {
     }
 }
 
+/// The cut of every row by number; rows of couplings are alone.
+fn cuts(rows: &[KeptRow<'_, '_>]) -> Vec<usize> {
+    let first = |(at, row): (usize, &KeptRow<'_, '_>)| {
+        let same = |other: &KeptRow<'_, '_>| match (row.between, other.between) {
+            (Some(one), Some(other)) => std::ptr::eq(one, other),
+            _ => false,
+        };
+        rows.iter().position(same).unwrap_or(at)
+    };
+    rows.iter().enumerate().map(first).collect()
+}
+
 /// Forward dynamics by the way that takes the fewest operations, the first among equals: rows first where the loops fix
 /// accelerations, else, or where that is dearer, by elimination alone. Without `jacobians`, by elimination of everything.
 /// `others` shows the problem with rows that are made in other ways.
@@ -172,6 +185,11 @@ pub fn forward<'g>(
         .collect();
     // Larger blocks may cost more than elimination.
     let (plan, larger) = Plan::new(&pattern, speeds, jacobians);
+    let without_own = if plan.rest.rows.is_empty() {
+        None
+    } else {
+        Plan::without_own(&pattern, speeds, jacobians, &cuts(problem.rows))
+    };
     let plain = Way {
         rows_first: None,
         rows_moved: false,
@@ -228,7 +246,7 @@ pub fn forward<'g>(
         if !shapes.is_empty() {
             search.offer(&mut best, Way { shapes, ..plain });
         }
-        for plan in std::iter::once(&plan).chain(&larger) {
+        for plan in std::iter::once(&plan).chain(&larger).chain(&without_own) {
             let first = Way { rows_first: Some(plan), shapes, ..plain };
             if !plan.blocks.is_empty() {
                 search.offer(&mut best, first);

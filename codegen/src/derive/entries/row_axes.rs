@@ -27,6 +27,9 @@ const ROWS_IN_PLANE: usize = 2;
 /// Of a cut where one of the two bodies turns freely.
 const ROWS_AT_BALL: usize = 3;
 
+/// A step asks for accelerations at four states and more, and closes loops about twice.
+const SOLVED_PER_CLOSED: usize = 2;
+
 /// Whether the equations of a mechanism with plane loops are no longer with their rows along the axes of W than with them
 /// along those of the links.
 pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
@@ -35,7 +38,10 @@ pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
     if rows == 0 || linkage.speeds() + rows > MOST_TO_COMPARE {
         return false;
     }
-    let by = |rows_in_ground: bool| operations(mechanism, &Topology { rows_in_ground, ..topology.clone() });
+    let by = |rows_in_ground: bool| {
+        let [solved, closed] = operations(mechanism, &Topology { rows_in_ground, ..topology.clone() });
+        solved + closed
+    };
     by(true) <= by(false)
 }
 
@@ -56,7 +62,10 @@ pub fn shorter_off_balls(mechanism: &Mechanism, topology: &Topology) -> bool {
     if rows <= ROWS_AT_BALL || !is_driven || linkage.speeds() + rows > MOST_TO_COMPARE {
         return false;
     }
-    let by = |rows_off_balls: bool| operations(mechanism, &Topology { rows_off_balls, ..topology.clone() });
+    let by = |rows_off_balls: bool| {
+        let [solved, closed] = operations(mechanism, &Topology { rows_off_balls, ..topology.clone() });
+        SOLVED_PER_CLOSED * solved + closed
+    };
     by(true) < by(false)
 }
 
@@ -77,9 +86,9 @@ fn tree(mechanism: &Mechanism, topology: &Topology) -> Linkage {
     linkage(mechanism, topology, &mechanism.parameter_values())
 }
 
-/// Operations of the forward dynamics and of the closure, which a run asks for both, before positions say more than the pattern of
+/// Operations of the forward dynamics, and of the closure, which a run asks for both, before positions say more than the pattern of
 /// the loop Jacobian does.
-fn operations(mechanism: &Mechanism, topology: &Topology) -> usize {
+fn operations(mechanism: &Mechanism, topology: &Topology) -> [usize; 2] {
     let linkage = tree(mechanism, topology);
     let scope = Scope::new();
     let (inputs, parameters) = inputs(&scope, mechanism);
@@ -113,7 +122,7 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> usize {
         let jacobian = cut.jacobian(&motion.poses, row);
         [row.residual, row.rate].into_iter().chain(jacobian).collect::<Vec<_>>()
     });
-    solved + scope.operations(closed)
+    [solved, scope.operations(closed)]
 }
 
 /// A number for an entry, such that blocks of them are regular wherever their pattern lets them.
