@@ -167,7 +167,7 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        Ok(Measuring::new(&self.settings, Settling::new(from, far)))
+        Ok(Measuring::new(&self.settings, Settling::new(from, far, self.settings.settled())))
     }
 
     /// Runs one turn, as a part of a measurement.

@@ -87,12 +87,13 @@ pub fn lives<'m>(
     mechanism: &'m Mechanism,
 ) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
     let (fits, warnings) = fits(&arguments.fit, &mechanism.description)?;
+    let default = LifeStudy::new(mechanism);
     let study = LifeStudy {
         revolutions: RevolutionSettings {
             integrator: match (step, tolerance) {
                 (Some(step), _) => Integrator::Rk4 { step },
                 (None, Some(tolerance)) => Integrator::Rk43 { tolerance, max_step: None },
-                (None, None) => RevolutionSettings::default().integrator,
+                (None, None) => default.revolutions.integrator,
             },
             settle: arguments.settle,
             average: arguments.average,
@@ -112,7 +113,7 @@ pub fn lives<'m>(
             (None, false) => MissionChoice::Only,
         },
         shared_factor: arguments.shared_factor,
-        ..LifeStudy::new(mechanism)
+        ..default
     };
     Ok((study, warnings))
 }

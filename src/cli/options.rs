@@ -67,7 +67,7 @@ pub struct EquationsChoice {
 /// How well the wear of a revolution is known.
 #[derive(Debug, Args)]
 pub struct RevolutionArguments {
-    /// Relative error of the wear integral of a revolution [default: 1e-6].
+    /// Relative error of the wear integral of a revolution [default: 1e-6; 1e-5 with `profile = true`].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
     /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.

@@ -108,7 +108,7 @@ impl<'m> LifeStudy<'m> {
     pub fn new(mechanism: &'m Mechanism) -> Self {
         Self {
             mechanism,
-            revolutions: RevolutionSettings::default(),
+            revolutions: RevolutionSettings::of(&mechanism.description),
             coupling: None,
             feedback: true,
             trajectories: Trajectories::Default,

@@ -7,7 +7,7 @@ use crate::description::Description;
 use crate::error::SetupError;
 use crate::system::{CONTACT_MOTION, CONTACT_WRENCH};
 use crate::tables::ContactInfo;
-use crate::wear::{Profile, Surfaces};
+use crate::wear::{Extent, Profile, Surfaces};
 
 /// What belongs to a joint with clearance between two steps, besides coordinates and speeds: saved and
 /// restored with them.
@@ -31,10 +31,14 @@ impl ClearanceState {
         Self { memory: ImpactMemory::apart(), worn: 0.0, profile: None, journal: None }
     }
 
-    /// What is worn, by angle, of a journal that has turned so far [rad].
-    fn surfaces(&self, turned: f64) -> Surfaces<'_> {
+    /// What is worn, by angle, of a journal that has turned so far [rad]; by the extent of both.
+    fn surfaces(&self, extent: Extent, turned: f64) -> Surfaces<'_> {
         let journal = self.journal.as_ref().map(|journal| (journal, turned));
-        Surfaces { bush: self.profile.as_ref(), journal }
+        Surfaces::new(extent, self.profile.as_ref(), journal)
+    }
+
+    fn extent(&self) -> Extent {
+        Extent::of(self.profile.as_ref(), self.journal.as_ref())
     }
 }
 
@@ -43,10 +47,14 @@ impl ClearanceState {
 pub struct Clearances {
     joints: Vec<Clearance>,
     states: Vec<ClearanceState>,
+    /// Of what is worn by angle, of each.
+    extents: Vec<Extent>,
     contacts: Vec<ContactState>,
     wrenches: Vec<f64>,
     /// Whether the states changed since the last evaluation.
     changed: bool,
+    /// Whether wear may have changed since then.
+    worn: bool,
 }
 
 impl Clearances {
@@ -76,7 +84,9 @@ impl Clearances {
             states: vec![ClearanceState::unworn(); joints.len()],
             contacts: vec![ContactState::default(); joints.len()],
             wrenches: vec![0.0; CONTACT_WRENCH * joints.len()],
+            extents: vec![Extent::default(); joints.len()],
             changed: true,
+            worn: true,
             joints,
         })
     }
@@ -99,6 +109,7 @@ impl Clearances {
     /// The same, to restore it or to change wear. As many as joints.
     pub fn states_mut(&mut self) -> &mut [ClearanceState] {
         self.changed = true;
+        self.worn = true;
         &mut self.states
     }
 
@@ -120,7 +131,8 @@ impl Clearances {
     /// Distance [m] of a journal's centre from the bearing's, along the unit vector `direction`, at which the
     /// penetration is `penetration` [m], worn as at the last evaluation.
     pub fn distance(&self, index: usize, direction: [f64; 3], penetration: f64) -> f64 {
-        let surfaces = self.states[index].surfaces(self.contacts[index].turned);
+        let state = &self.states[index];
+        let surfaces = state.surfaces(state.extent(), self.contacts[index].turned);
         let round = self.contacts[index].clearance - surfaces.mean();
         self.joints[index].distance(round, surfaces, direction, penetration)
     }
@@ -133,11 +145,15 @@ impl Clearances {
     /// Applies the laws to motions as [`crate::Entry::Contacts`] gives them.
     pub fn evaluate(&mut self, motions: &[f64]) {
         self.changed = false;
+        if core::mem::take(&mut self.worn) {
+            self.extents = self.states.iter().map(ClearanceState::extent).collect();
+        }
         let (motions, _) = motions.as_chunks::<CONTACT_MOTION>();
         let (wrenches, _) = self.wrenches.as_chunks_mut::<CONTACT_WRENCH>();
-        let each = self.joints.iter().zip(&self.states).zip(&mut self.contacts);
-        for (((joint, state), touch), (motion, wrench)) in each.zip(motions.iter().zip(wrenches)) {
-            let surfaces = state.surfaces(joint.turned(motion));
+        let states = self.states.iter().zip(&self.extents);
+        let each = self.joints.iter().zip(states).zip(&mut self.contacts);
+        for (((joint, (state, extent)), touch), (motion, wrench)) in each.zip(motions.iter().zip(wrenches)) {
+            let surfaces = state.surfaces(*extent, joint.turned(motion));
             *touch = joint.evaluate(motion, (state.worn, surfaces), &state.memory, touch);
             *wrench = touch.wrench;
         }

@@ -7,9 +7,8 @@
 use crate::linear::largest_of;
 use crate::simulate::TurnState;
 
-/// A turn counts if later ones would differ by no more than this part of their wear, ...
-const SETTLED: f64 = 1e-5;
-/// ... and that although they may differ by so many times what the factor lets expect.
+/// A turn counts if later ones would differ by no more than what is asked for, although they may differ by so many times what the
+/// factor lets expect.
 const SAFETY: f64 = 2.0;
 /// A factor grows by this from one measurement to the next where none was seen: it is looked at every few measurements, ...
 const GROWS: f64 = 1.5;
@@ -32,6 +31,8 @@ pub struct Orbit {
 
 /// The settling of one measurement.
 pub(super) struct Settling {
+    /// By what part of their wear later turns may differ.
+    settled: f64,
     /// The factor known before.
     known: f64,
     /// The largest seen.
@@ -40,11 +41,12 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// Of a motion that goes on from an orbit, where no clearance is more than so many times as large or as small; or begins.
-    pub(super) fn new(from: Option<&Orbit>, far: f64) -> Self {
+    /// Of a motion that goes on from an orbit, where no clearance is more than so many times as large or as small, or begins;
+    /// until later turns would differ by no more than this part of their wear.
+    pub(super) fn new(from: Option<&Orbit>, far: f64, settled: f64) -> Self {
         let grown = if far > 1.0 + FAR { far.powi(FAR_POWER) } else { 1.0 };
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
-        Self { known, seen: None, last: None }
+        Self { settled, known, seen: None, last: None }
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -55,7 +57,7 @@ impl Settling {
             self.seen = Some(self.seen.map_or(factor, |seen| seen.max(factor)));
         }
         self.last = Some(differs);
-        differs <= SETTLED || SAFETY * self.contraction() * differs <= SETTLED
+        differs <= self.settled || SAFETY * self.contraction() * differs <= self.settled
     }
 
     /// The factor to go on with.
@@ -74,7 +76,7 @@ mod tests {
 
     #[test]
     fn turns_count_once_their_factor_tells_that_later_ones_are_alike() {
-        let mut first = Settling::new(None, 1.0);
+        let mut first = Settling::new(None, 1.0, 1e-5);
         // Nothing is known: two turns have to be alike themselves.
         assert!(!first.has_settled([1e-3].into_iter()));
         // By a factor of 0.02, and so do the next ones: 4e-7.
@@ -82,15 +84,15 @@ mod tests {
         assert_eq!(first.contraction(), 0.25);
         let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
         let from = |contraction| Orbit { turn: turn.clone(), contraction };
-        let mut next = Settling::new(Some(&from(0.02)), 1.1);
+        let mut next = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         // 2 times 0.03 times 1e-4.
         assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);
-        let mut slow = Settling::new(Some(&from(0.02)), 1.1);
+        let mut slow = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         assert!(!slow.has_settled([1e-3].into_iter()) && !slow.has_settled([5e-4].into_iter()));
         assert_eq!(slow.contraction(), 0.5);
         // From afar, sixteen times as large.
-        assert!(!Settling::new(Some(&from(0.02)), 2.0).has_settled([1e-4].into_iter()));
-        let mut still = Settling::new(Some(&from(0.5)), 1.1);
+        assert!(!Settling::new(Some(&from(0.02)), 2.0, 1e-5).has_settled([1e-4].into_iter()));
+        let mut still = Settling::new(Some(&from(0.5)), 1.1, 1e-5);
         assert!(still.has_settled([0.0].into_iter()) && !still.has_settled([f64::NAN, 0.0].into_iter()));
     }
 }

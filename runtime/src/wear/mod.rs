@@ -16,6 +16,10 @@ mod measure;
 mod profile;
 #[cfg(feature = "std")]
 mod reach;
+#[cfg(feature = "std")]
+mod surfaces;
+#[cfg(feature = "std")]
+mod wear_in;
 
 pub use archard::{Archard, WearRates};
 pub use area::{Area, Load, Pair};
@@ -27,4 +31,6 @@ pub use measure::ContactMeasure;
 #[cfg(feature = "std")]
 pub use profile::{DEFAULT_BINS, Profile, ProfileError};
 #[cfg(feature = "std")]
-pub use reach::{Grid, Surfaces};
+pub use reach::Grid;
+#[cfg(feature = "std")]
+pub use surfaces::{Extent, Surfaces};

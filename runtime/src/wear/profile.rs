@@ -97,6 +97,11 @@ impl Profile {
         Measure::Mean.of(&self.depths)
     }
 
+    /// Depth of the bin that is least deep [m].
+    pub fn minimum(&self) -> f64 {
+        self.depths.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     /// Depth of the deepest bin [m].
     pub fn maximum(&self) -> f64 {
         Measure::Maximum.of(&self.depths)

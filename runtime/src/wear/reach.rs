@@ -1,6 +1,5 @@
-//! What a journal meets of a worn bearing, and where it then wears it. In: depth by bearing angle, clearance, offset of the
-//! journal, wear by the direction of that offset. Out: penetration with its gradient, depth by bearing angle.
-//! Never knows forces.
+//! What a journal meets of a worn bearing. In: depth by bearing angle, clearance, offset of the journal.
+//! Out: penetration with its gradient. Never knows forces.
 //!
 //! A journal is nearly as large as its bearing: it cannot sink into a worn place that is narrower than the difference
 //! of their curvatures lets it. Its centre, at e from that of the bearing, touches where e cos(phi - theta) first
@@ -10,15 +9,15 @@
 //!
 //! the depth of e beyond a convex region. Wear takes edges away until the journal fits, so that the depth stays as
 //! smooth as the journal is round.
+//!
+//! This is asked for at every evaluation of a contact: it goes over those bins alone that may count, four at a time.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::PI;
 
-use super::profile::Profile;
-use crate::contact::Support;
+use super::surfaces::Surfaces;
+use crate::contact::{Support, bearing_angle};
+use crate::scalar::Scalar;
 
-/// A minimum counts as shared by places this part of the depth of a bin's circular segment above it: small against
-/// the segment, so that an unworn bearing is worn where the journal points.
-const SHARED: f64 = 1.0 / 8.0;
 /// The maximum is smoothed over this many bins to both sides of a round bearing: at 0.8 the ripple from the bins is
 /// exp(-2 pi^2 0.8^2) = 3e-6, and what is left in a round bearing is taken off exactly.
 const SMOOTHED: f64 = 0.8;
@@ -26,66 +25,65 @@ const SMOOTHED: f64 = 0.8;
 const NOTHING: f64 = 40.0;
 /// A distance is found to rounding in fewer steps.
 const MOST_STEPS: usize = 60;
-/// Wear is taken away in pieces of at most this part of that depth, so that edges go before a hole grows.
-const PIECE: f64 = 0.25;
-/// Upper limit on the number of sub-steps of one wear step.
-const MOST_PIECES: f64 = 4096.0;
+/// Bins of one pass, so that compilers use vectors.
+const LANES: usize = 4;
 
 /// Directions of the bins of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    normals: Vec<[f64; 2]>,
+    /// Of the middles of bins, and once more from the first on, so that no window is cut in two.
+    normals: [Vec<f64>; 2],
     middles: Vec<f64>,
+    /// Cosine of the least angle between a direction and the middle of the bin that is so many from its own, from one on.
+    cosines_apart: Vec<f64>,
     /// Smoothing of the maximum over the clearance.
     smoothing: f64,
 }
 
-/// What is worn off a joint: bush, journal, or both. The gap at a bearing angle is the clearance, the depth of the bush there, and
-/// that of the journal at the place of it that has come there.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Surfaces<'p> {
-    /// Depth of the bush by bearing angle.
-    pub bush: Option<&'p Profile>,
-    /// Depth of the journal by its own angle, and how far it has turned in the bearing [rad].
-    pub journal: Option<(&'p Profile, f64)>,
+/// Bins one after the other, counted on past the last.
+#[derive(Clone, Copy)]
+struct Window {
+    first: usize,
+    count: usize,
 }
 
-impl<'p> From<&'p Profile> for Surfaces<'p> {
-    fn from(bush: &'p Profile) -> Self {
-        Self { bush: Some(bush), journal: None }
-    }
+/// How far a journal reaches along the normals of bins [m].
+trait Reaches {
+    /// In bins one after the other, of which the first is in the grid; with slopes over the journal's angle [m/rad].
+    fn at<const N: usize>(&self, place: usize) -> ([f64; N], [f64; N]);
 }
 
-impl Surfaces<'_> {
-    /// Whether nothing is worn.
-    pub fn are_round(&self) -> bool {
-        self.bush.is_none() && self.journal.is_none()
-    }
+/// The offset of its centre.
+struct Unworn<'a> {
+    grid: &'a Grid,
+    offset: [f64; 2],
+}
 
-    /// Depths of both, over the circumference [m].
-    pub fn mean(&self) -> f64 {
-        let journal = self.journal.map(|(journal, _)| journal.mean());
-        let bush = self.bush.map_or(0.0, Profile::mean);
-        journal.map_or(bush, |journal| bush + journal)
-    }
+/// That without the depth that is worn.
+struct Worn<'a, 'p> {
+    unworn: &'a Unworn<'a>,
+    surfaces: Surfaces<'p>,
+}
 
-    /// No less than the largest depth of both together [m].
-    fn maximum(&self) -> f64 {
-        let journal = self.journal.map_or(0.0, |(journal, _)| journal.maximum());
-        self.bush.map_or(0.0, Profile::maximum) + journal
-    }
-
-    /// Depth of both together in a bin of the bearing with its middle [m], and the slope of the journal's [m/rad].
-    fn at(&self, bin: usize, middle: f64) -> (f64, f64) {
-        let bush = self.bush.map_or(0.0, |bush| bush.depths()[bin]);
-        self.journal.map_or((bush, 0.0), |(journal, turned)| {
-            let (depth, slope) = journal.at(middle - turned);
-            (bush + depth, slope)
-        })
+impl Reaches for Unworn<'_> {
+    #[inline(always)]
+    fn at<const N: usize>(&self, place: usize) -> ([f64; N], [f64; N]) {
+        let [x, y] = self.grid.normals_at::<N>(place);
+        let [along_x, along_y] = self.offset;
+        (core::array::from_fn(|i| along_x * x[i] + along_y * y[i]), [0.0; N])
     }
 }
 
-/// A smooth maximum: of the sum of exp(value/scale), and the mean of what is weighed by it.
+impl Reaches for Worn<'_, '_> {
+    #[inline(always)]
+    fn at<const N: usize>(&self, place: usize) -> ([f64; N], [f64; N]) {
+        let (along, _) = self.unworn.at::<N>(place);
+        let (depths, slopes) = self.surfaces.at::<N>(&self.unworn.grid.middles, place);
+        (core::array::from_fn(|i| along[i] - depths[i]), slopes)
+    }
+}
+
+/// A smooth maximum: of the sum of exp((value - largest)/scale), and the mean of what is weighed by it.
 struct Smooth {
     largest: f64,
     sum: f64,
@@ -98,9 +96,13 @@ impl Grid {
     pub fn new(bins: usize) -> Self {
         let width = 2.0 * PI / bins as f64;
         let middle = |bin: usize| (bin as f64 + 0.5) * width - PI;
-        let normals = (0..bins).map(|bin| [libm::cos(middle(bin)), libm::sin(middle(bin))]).collect();
-        let middles = (0..bins).map(middle).collect();
-        Self { normals, middles, smoothing: (SMOOTHED * width) * (SMOOTHED * width) }
+        let twice = |of: fn(f64) -> f64| (0..2 * bins).map(|bin| of(middle(bin % bins))).collect();
+        Self {
+            normals: [twice(libm::cos), twice(libm::sin)],
+            middles: (0..bins).map(middle).collect(),
+            cosines_apart: (0..bins / 2).map(|bins| libm::cos((bins as f64 + 0.5) * width)).collect(),
+            smoothing: (SMOOTHED * width) * (SMOOTHED * width),
+        }
     }
 
     /// Penetration of a journal at an offset [m] into a bearing with a radial clearance [m], worn by profiles with
@@ -114,19 +116,22 @@ impl Grid {
         let surfaces = worn.into();
         let round = Support::round(offset, clearance);
         let scale = self.smoothing * clearance;
-        let along = |normal: &[f64; 2]| offset[0] * normal[0] + offset[1] * normal[1];
-        let unworn = self.smooth(scale, self.normals.iter().map(|normal| (along(normal), 0.0)));
-        let worn = self.normals.iter().zip(&self.middles).enumerate().map(|(bin, (normal, middle))| {
-            let (depth, slope) = surfaces.at(bin, *middle);
-            (along(normal) - depth, slope)
-        });
-        let worn = self.smooth(scale, worn);
+        let nearest = self.bin_at(bearing_angle(offset));
+        let unworn = Unworn { grid: self, offset };
+        let worn = Worn { unworn: &unworn, surfaces };
+        let ([round_reach], _) = unworn.at::<1>(nearest);
+        let ([worn_reach], _) = worn.at::<1>(nearest);
+        // Bins that reach less than the nearest by so much change no sum.
+        let cosine = |reach: f64| (reach - NOTHING * scale) / (round.penetration + clearance);
+        let unworn = self.smooth(scale, self.window(nearest, cosine(round_reach)), round_reach, &unworn);
+        let window = self.window(nearest, cosine(worn_reach + surfaces.minimum()));
+        let worn = self.smooth(scale, window, window.largest(&worn), &worn);
         let deeper = worn.largest - unworn.largest + scale * libm::log(worn.sum / unworn.sum);
         let turned = |axis: usize| round.gradient[axis] + worn.mean[axis] - unworn.mean[axis];
         Support {
             penetration: round.penetration + deeper,
             gradient: [turned(0), turned(1)],
-            turning: surfaces.journal.map(|_| worn.slope),
+            turning: surfaces.turn().then_some(worn.slope),
         }
     }
 
@@ -155,92 +160,92 @@ impl Grid {
         distance
     }
 
-    fn smooth(&self, scale: f64, values: impl Iterator<Item = (f64, f64)> + Clone) -> Smooth {
-        let largest = values.clone().fold(f64::NEG_INFINITY, |most, (value, _)| f64::max(most, value));
-        let (mut sum, mut mean, mut turning) = (0.0, [0.0; 2], 0.0);
-        for (normal, (value, slope)) in self.normals.iter().zip(values) {
-            let below = (largest - value) / scale;
-            if below < NOTHING {
-                let weight = libm::exp(-below);
-                sum += weight;
-                mean = [mean[0] + weight * normal[0], mean[1] + weight * normal[1]];
-                turning += weight * slope;
+    /// The bin that an angle lies in.
+    fn bin_at(&self, angle: f64) -> usize {
+        let bins = self.middles.len();
+        ((angle + PI) * (bins as f64 / (2.0 * PI))).clamp(0.0, bins as f64 - 1.0) as usize
+    }
+
+    /// The bins around one whose directions may have a cosine of more than this with any direction in it.
+    fn window(&self, nearest: usize, cosine: f64) -> Window {
+        let bins = self.middles.len();
+        let aside = self.cosines_apart.partition_point(|apart| *apart > cosine);
+        // A few more, so that none is left over.
+        let count = (2 * aside + 1).next_multiple_of(LANES).min(bins);
+        let first = nearest + bins - (count - 1) / 2;
+        Window { first: if first < bins { first } else { first - bins }, count }
+    }
+
+    /// Normals of bins one after the other.
+    #[inline(always)]
+    fn normals_at<const N: usize>(&self, place: usize) -> [[f64; N]; 2] {
+        [0, 1].map(|axis| self.normals[axis][place..].first_chunk().copied().unwrap_or([f64::NAN; N]))
+    }
+
+    /// The smooth maximum of how far a journal reaches in a window, nowhere much more than `largest`.
+    #[inline(always)]
+    fn smooth(&self, scale: f64, window: Window, largest: f64, reaches: &impl Reaches) -> Smooth {
+        let mut sums = Sums { grid: self, largest, per_scale: 1.0 / scale, sums: [[0.0; LANES]; 4] };
+        let (chunks, rest) = window.parts();
+        chunks.for_each(|place| sums.add::<LANES>(place, reaches));
+        rest.for_each(|place| sums.add::<1>(place, reaches));
+        let [sum, x, y, slope] = sums.sums.map(|[a, b, c, d]| (a + b) + (c + d));
+        Smooth { largest, sum, mean: [x / sum, y / sum], slope: slope / sum }
+    }
+}
+
+/// What is summed up by weights.
+struct Sums<'a> {
+    grid: &'a Grid,
+    largest: f64,
+    per_scale: f64,
+    /// Of the weights, the normals and the slopes by them.
+    sums: [[f64; LANES]; 4],
+}
+
+impl Sums<'_> {
+    #[inline(always)]
+    fn add<const N: usize>(&mut self, place: usize, reaches: &impl Reaches) {
+        let (reach, slopes) = reaches.at::<N>(place);
+        let above = reach.map(|reach| (reach - self.largest) * self.per_scale);
+        let weights = above.map(|above| f64::select((-NOTHING).lt(above), Scalar::exp(above), 0.0));
+        let [x, y] = self.grid.normals_at::<N>(place);
+        for lane in 0..N {
+            let weighed = [1.0, x[lane], y[lane], slopes[lane]];
+            for (sum, weighed) in self.sums.iter_mut().zip(weighed) {
+                sum[lane] += weights[lane] * weighed;
             }
         }
-        Smooth { largest, sum, mean: mean.map(|component| component / sum), slope: turning / sum }
     }
 }
 
-impl Profile {
-    /// Takes away wear that is given by the direction of the journal's offset, mean depths [m] of the bins, times a
-    /// factor: where the journal touches when it points there. Says whether the bins fit (if not, nothing changes).
-    pub fn wear_in(&mut self, by_direction: &[f64], factor: f64, clearance: f64) -> bool {
-        if self.depths.len() != by_direction.len() {
-            return false;
-        }
-        // Not a number (a lost measurement): the profile keeps what it has.
-        if !(by_direction.iter().all(|depth| depth.is_finite()) && factor.is_finite()) {
-            return true;
-        }
-        let bearing = Bearing::new(self, clearance);
-        let most = by_direction.iter().fold(0.0_f64, |most, depth| most.max((factor * depth).abs()));
-        let pieces = (most / (PIECE * bearing.segment)).ceil().clamp(1.0, MOST_PIECES);
-        let amounts: Vec<f64> = by_direction.iter().map(|depth| factor * depth / pieces).collect();
-        let mut more = vec![0.0; amounts.len()];
-        for _ in 0..pieces as usize {
-            more.fill(0.0);
-            for (direction, amount) in amounts.iter().enumerate().filter(|(_, amount)| **amount != 0.0) {
-                bearing.share(&self.depths, (direction, *amount), &mut more);
-            }
-            self.depths.iter_mut().zip(&more).for_each(|(depth, more)| *depth += more);
-        }
-        true
-    }
-}
-
-/// Geometry of a bearing cut into bins.
-struct Bearing {
-    clearance: f64,
-    /// Depth [m] of the circular segment of the centre's path that a bin covers.
-    segment: f64,
-    /// 1/cos of multiples of the angle of a bin, up to a quarter turn.
-    inverse_cosines: Vec<f64>,
-}
-
-impl Bearing {
-    fn new(profile: &Profile, clearance: f64) -> Self {
-        let width = profile.bin_angle();
-        let quarter = (FRAC_PI_2 / width - 1e-9).floor() as usize;
-        let inverse_cosines = (0..=quarter).map(|bins| 1.0 / libm::cos(bins as f64 * width)).collect();
-        Self { clearance, segment: clearance * (1.0 - libm::cos(width)), inverse_cosines }
+impl Window {
+    /// Where to begin [`LANES`] bins at a time, and the bins that are left over.
+    #[inline(always)]
+    fn parts(self) -> (impl Iterator<Item = usize>, impl Iterator<Item = usize>) {
+        let end = self.first + self.count;
+        let rest = end - self.count % LANES;
+        ((self.first..rest).step_by(LANES), rest..end)
     }
 
-    /// Bins within a quarter turn of a direction, each with how far the journal's centre gets until it touches there.
-    fn places<'a>(&'a self, depths: &'a [f64], direction: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let (count, quarter) = (depths.len(), self.inverse_cosines.len() - 1);
-        (0..=2 * quarter).map(move |step| {
-            let bin = (direction + count + step - quarter) % count;
-            (bin, (self.clearance + depths[bin]) * self.inverse_cosines[step.abs_diff(quarter)])
-        })
-    }
-
-    /// Spreads an amount over the bins that the journal touches when it points in a direction.
-    fn share(&self, depths: &[f64], (direction, amount): (usize, f64), more: &mut [f64]) {
-        let nearest =
-            self.places(depths, direction).fold(f64::INFINITY, |nearest, (_, reach)| nearest.min(reach));
-        let scale = SHARED * self.segment;
-        let weight = |(bin, reach): (usize, f64)| (bin, libm::exp((nearest - reach) / scale));
-        let weights: Vec<(usize, f64)> = self.places(depths, direction).map(weight).collect();
-        let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        for (bin, weight) in weights {
-            more[bin] += amount * weight / sum;
+    /// The most that a journal reaches in one of them.
+    #[inline(always)]
+    fn largest(self, reaches: &impl Reaches) -> f64 {
+        let (chunks, rest) = self.parts();
+        let mut most = [f64::NEG_INFINITY; LANES];
+        for place in chunks {
+            let (reach, _) = reaches.at::<LANES>(place);
+            most = core::array::from_fn(|lane| Scalar::max(most[lane], reach[lane]));
         }
+        let rest = rest.map(|place| reaches.at::<1>(place).0[0]);
+        rest.chain(most).fold(f64::NEG_INFINITY, Scalar::max)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wear::{Extent, Profile};
 
     const CLEARANCE: f64 = 1e-5;
 
@@ -318,40 +323,72 @@ mod tests {
         }
     }
 
-    #[test]
-    fn little_wear_of_an_unworn_bearing_stays_where_the_journal_points() {
-        let mut worn = Profile::unworn(72).expect("bins");
-        let by_direction = peak(72, 10, 1e-9);
-        assert!(worn.wear_in(by_direction.depths(), 1.0, CLEARANCE));
-        // exp(-8) = 3e-4 to either side; less as the middle wears.
-        assert!((worn.depths()[10] / 1e-9 - 1.0).abs() < 1e-3, "{:?}", worn.depths());
-    }
-
-    #[test]
-    fn much_wear_in_one_direction_makes_room_for_the_journal_and_keeps_its_volume() {
-        let mut worn = Profile::unworn(72).expect("bins");
-        let by_direction = peak(72, 40, 2e-5);
-        assert!(worn.wear_in(by_direction.depths(), 0.5, CLEARANCE));
-        let sum: f64 = worn.depths().iter().sum();
-        // 72 bins and some thousand pieces round.
-        assert!((sum / 1e-5 - 1.0).abs() < 1e-10, "{sum}");
-        // The journal, moved by d, touches all over an arc: h = (c + d) cos - c, d the depth in the middle, to a
-        // piece of wear and the shared minimum, some hundredths of a micrometre.
-        let far = worn.depths()[40];
-        for offset in 0..4 {
-            let expected = (CLEARANCE + far) * (5.0 * offset as f64).to_radians().cos() - CLEARANCE;
-            for bin in [40 - offset, 40 + offset] {
-                let depth = worn.depths()[bin];
-                assert!((depth - expected.max(0.0)).abs() < 3e-8, "{bin}: {depth:e} {expected:e}");
-            }
+    /// The same over all bins, by the definition.
+    fn by_definition(worn: &Surfaces<'_>, bins: usize, offset: [f64; 2]) -> Support<f64> {
+        let grid = Grid::new(bins);
+        let scale = grid.smoothing * CLEARANCE;
+        let smooth = |value: &dyn Fn(usize) -> f64| {
+            let largest = (0..bins).map(value).fold(f64::NEG_INFINITY, f64::max);
+            let weights: Vec<f64> = (0..bins).map(|bin| libm::exp((value(bin) - largest) / scale)).collect();
+            let sum: f64 = weights.iter().sum();
+            (largest + scale * libm::log(sum), weights.into_iter().map(move |weight| weight / sum).collect())
+        };
+        let normal = |bin: usize| [libm::cos(grid.middles[bin]), libm::sin(grid.middles[bin])];
+        let along = |bin: usize| offset[0] * normal(bin)[0] + offset[1] * normal(bin)[1];
+        let at = |bin: usize| {
+            let ([depth], [slope]) = worn.at(&grid.middles, bin);
+            (depth, slope)
+        };
+        let (unworn, by_unworn): (f64, Vec<f64>) = smooth(&along);
+        let (deep, by_deep): (f64, Vec<f64>) = smooth(&|bin| along(bin) - at(bin).0);
+        let round = Support::round(offset, CLEARANCE);
+        let turned = |axis: usize| {
+            (0..bins).map(|bin| (by_deep[bin] - by_unworn[bin]) * normal(bin)[axis]).sum::<f64>()
+        };
+        let slope = (0..bins).map(|bin| by_deep[bin] * at(bin).1).sum();
+        Support {
+            penetration: round.penetration + deep - unworn,
+            gradient: [round.gradient[0] + turned(0), round.gradient[1] + turned(1)],
+            turning: worn.turn().then_some(slope),
         }
     }
 
     #[test]
-    fn bins_that_do_not_fit_change_nothing() {
-        let mut worn = Profile::unworn(8).expect("bins");
-        assert!(!worn.wear_in(&[1e-6; 9], 1.0, CLEARANCE));
-        assert!(worn.wear_in(&[f64::NAN; 8], 1.0, CLEARANCE));
-        assert_eq!(worn, Profile::unworn(8).expect("bins"));
+    fn bins_that_are_left_out_count_for_nothing() {
+        // Few bins and many, holes as deep as four clearances, a journal that is worn too; near the centre all bins count.
+        for bins in [4, 5, 9, 72, 101, 720] {
+            let depths = |most: f64, factor: usize| {
+                let depth = |bin: usize| most * (bin * factor % 17) as f64 / 16.0;
+                Profile::try_from((0..bins).map(depth).collect::<Vec<_>>()).expect("depths")
+            };
+            let hole =
+                |bin: usize| 4.0 * CLEARANCE * (-((bin as f64 / bins as f64 - 0.4) / 0.1).powi(2)).exp();
+            let hole = Profile::try_from((0..bins).map(hole).collect::<Vec<_>>()).expect("depths");
+            let (rough, journal) = (depths(1e-6, 5), depths(3e-7, 3));
+            let grid = Grid::new(bins);
+            for (bush, journal) in [(&rough, None), (&hole, None), (&hole, Some((&journal, 2.2)))] {
+                let extent = Extent::of(Some(bush), journal.map(|(journal, _)| journal));
+                let worn = Surfaces::new(extent, Some(bush), journal);
+                for i in 0..60 {
+                    let angle = 0.7 * f64::from(i);
+                    let distance = 5e-5 * f64::from(i % 10) / 9.0;
+                    let offset = [distance * angle.cos(), distance * angle.sin()];
+                    let found = grid.support(worn, CLEARANCE, offset);
+                    let expected = by_definition(&worn, bins, offset);
+                    // Roundings of 5e-5 m, and a scale as large as that with few bins.
+                    assert!(
+                        (found.penetration - expected.penetration).abs() < 1e-18,
+                        "{bins} {i}: {found:?}"
+                    );
+                    let turned = |axis: usize| (found.gradient[axis] - expected.gradient[axis]).abs();
+                    // A rounding of the offset over the smoothing, 5e-10 m with 720 bins.
+                    assert!(turned(0) < 1e-10 && turned(1) < 1e-10, "{bins} {i}: {found:?} {expected:?}");
+                    if let (Some(found), Some(expected)) = (found.turning, expected.turning) {
+                        assert!((found - expected).abs() < 1e-14, "{bins} {i}: {found:e} {expected:e}");
+                    }
+                    assert_eq!(found.turning.is_some(), expected.turning.is_some());
+                }
+            }
+        }
     }
 }

@@ -362,6 +362,29 @@ fn a_profile_fed_back_gains_what_the_revolutions_deposit() {
 }
 
 #[test]
+fn cycles_of_a_jump_wear_by_angle_as_those_that_are_stepped_one_by_one() {
+    let joint = |revolutions| {
+        with_profile(joint("R1", revolutions, 0.0), WearOf::Profile(Measure::Maximum), Feedback::Profile)
+    };
+    let lived = |longest| {
+        let step = WearStep::Adaptive { tolerance: 1e-4, shortest: 0.25, longest, remembers: false };
+        let settings = LifeSettings { step, ..LifeSettings::new(vec![joint(2e6)]) };
+        let mut fine = Arc { seen: Vec::new() };
+        let (life, state) = live(&settings, &mut fine).unwrap();
+        (life, state, fine.seen.len())
+    };
+    let ((one_by_one, stepped, measured), (life, jumped, fewer)) = (lived(1), lived(128));
+    assert!(stepped.cycle > 100 && 3 * fewer < measured, "{} {fewer} {measured}", stepped.cycle);
+    // Steps err by their tolerance; pieces are cut at other places, each 1e-8 m of the threshold of 4e-5 m.
+    assert!((life / one_by_one - 1.0).abs() < 3e-4, "{life} {one_by_one}");
+    for (one, other) in stepped.cycles.iter().zip(&jumped.cycles) {
+        let (one, other) = (&one.joints[0], &other.joints[0]);
+        assert!((one.wear - other.wear).abs() < 2e-8, "{one:?} {other:?}");
+        assert!(other.increment > 0.0);
+    }
+}
+
+#[test]
 fn wear_by_profile_can_feed_back_as_one_number() {
     let scalar = joint("R1", 2e7, 0.5).feedback;
     let joint = with_profile(joint("R1", 2e7, 0.5), WearOf::Profile(Measure::Mean), scalar);
