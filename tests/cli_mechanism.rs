@@ -99,6 +99,13 @@ fn cost_counts_and_times_every_entry_point() {
 }
 
 #[test]
+fn cost_of_a_drive_that_swings_is_that_of_a_second() {
+    let cost = linkwear(&["cost", "tests/data/delta.toml", "--format", "json"]).json();
+    assert_eq!(cost["turn"]["time_s"], 1.0, "{cost}");
+    assert!(cost["turn"]["steps"].as_u64() > Some(0), "{cost}");
+}
+
+#[test]
 fn equations_can_be_narrowed_to_one_output() {
     let all = linkwear(&["equations", "mechanisms/pendulum.toml", "--format", "json"]).json();
     let name = all["outputs"][0]["name"].as_str().expect("a name").to_owned();

@@ -6,7 +6,7 @@ use crate::backend::{Backend, Equations};
 use crate::cost::{EntryCost, Nanoseconds, entry_costs};
 use crate::progress::watched;
 use linkwear_codegen::{Compiled, Options};
-use linkwear_runtime::{Integrator, Settings, Span, simulate};
+use linkwear_runtime::{Integrator, RunError, Settings, Span, simulate};
 use serde_json::json;
 
 use super::answer::Answer;
@@ -30,14 +30,24 @@ pub fn run(input: &Input) -> Result<Answer, Failure> {
 fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<TurnCost, Failure> {
     let description = compiled.description();
     let equations = Equations::choose(compiled, options, Backend::Auto)?;
-    let span = if description.turn_driver.is_some() { Span::Turns(1.0) } else { Span::Time(1.0) };
     let integrator = Integrator::adaptive(description, None);
-    // Only the two rows at the ends: more would be paid for.
-    let settings = Settings::new(integrator, span, 2);
     let (system, parameters) = (equations.system(), compiled.parameters());
-    let start = Instant::now();
-    let run = watched("run", |watch| simulate(&*system, description, &parameters, &settings, watch));
-    let wall_seconds = start.elapsed().as_secs_f64();
+    let timed = |span: Span| {
+        // Only the two rows at the ends: more would be paid for.
+        let settings = Settings::new(integrator, span, 2);
+        let start = Instant::now();
+        let run = watched("run", |watch| simulate(&*system, description, &parameters, &settings, watch));
+        (run, start.elapsed().as_secs_f64())
+    };
+    let second = Span::Time(1.0);
+    let (run, wall_seconds) = match description.turn_driver {
+        // A driver that swings makes no turn.
+        Some(_) => match timed(Span::Turns(1.0)) {
+            (Err(RunError::TurnsNotReached { .. }), _) => timed(second),
+            turn => turn,
+        },
+        None => timed(second),
+    };
     let run = run.map_err(|error| Failure::run(&input.file, &error, None))?;
     if let Some(error) = &run.stopped {
         return Err(Failure::run(&input.file, error, None));

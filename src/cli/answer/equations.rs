@@ -58,7 +58,7 @@ pub struct CostAnswer<'a> {
     /// `equations_of_motion` (matrices and vectors), ..
     #[cfg_attr(test, schemars(with = "BTreeMap<String, EntryAnswer>"))]
     pub entry_points: Map<String, Value>,
-    /// A turn of the first driven revolute joint, else a second, by the adaptive method.
+    /// A turn of the first driven revolute joint, else (without one, or where it swings) a second, by the adaptive method.
     pub turn: TurnCost,
     /// Remarks on the file.
     #[cfg_attr(test, schemars(with = "Vec<Remark>"))]
