@@ -7,6 +7,11 @@ use crate::description::Description;
 use crate::tables::{ContactInfo, WearInfo};
 use crate::wear::{ContactMeasure, Limits, Measure, Profile, ScalarFeedback};
 
+/// Where bush and journal both wear, one wears on when the other has opened the gap by this part of the clearance ...
+const OPENED_AT_ONCE: f64 = 0.005;
+/// ... but in no more parts than this.
+const MOST_PARTS: f64 = 1024.0;
+
 /// What counts as the wear W of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -169,23 +174,20 @@ impl JointLife {
 
     /// The joint after `factor` times a mean increment (see [`Self::width`]).
     pub(super) fn after(&self, state: &WearState, increment: &[f64], factor: f64) -> WearState {
-        let (bush, journal) = increment[1..].split_at(self.bins.unwrap_or(0));
-        // To the one, the other is round: it passes all its places.
-        let worn = |profile: &Option<Profile>, other: &Option<Profile>, increment: &[f64]| {
-            profile.as_ref().map(|profile| {
-                let mut worn = profile.clone();
-                let clearance =
-                    other.as_ref().map_or(state.clearance, |other| state.clearance + other.mean());
-                let fits = match self.feedback {
-                    Feedback::Scalar(_) => worn.add_depths(increment, factor),
-                    Feedback::Profile => worn.wear_in(increment, factor, clearance),
+        let (bush, pin) = increment[1..].split_at(self.bins.unwrap_or(0));
+        let (mut profile, mut journal) = (state.profile.clone(), state.journal.clone());
+        let fits = match self.feedback {
+            Feedback::Scalar(_) => {
+                let add = |(worn, increment): (&mut Option<Profile>, &[f64])| {
+                    worn.as_mut().is_none_or(|worn| worn.add_depths(increment, factor))
                 };
-                debug_assert!(fits, "increments are as wide as the joint says");
-                worn
-            })
+                [(&mut profile, bush), (&mut journal, pin)].map(add) == [true; 2]
+            }
+            Feedback::Profile => {
+                wear_in_both([&mut profile, &mut journal], [bush, pin], factor, state.clearance)
+            }
         };
-        let profile = worn(&state.profile, &state.journal, bush);
-        let journal = worn(&state.journal, &state.profile, journal);
+        debug_assert!(fits, "increments are as wide as the joint says");
         let of_journal =
             |journal: &Option<Profile>| journal.as_ref().map(|journal| self.wear.of_journal(journal));
         let wear = match (self.wear, &profile) {
@@ -214,6 +216,31 @@ impl JointLife {
             WearOf::Profile(_) => &increment[1..],
         }
     }
+}
+
+/// Wears bush and journal, those that are kept, by `factor` times their increments. Each makes room for the other, to which it is
+/// round, as it passes all its places: where both wear they do so in turns, in parts that open the gap by little.
+fn wear_in_both(
+    worn: [&mut Option<Profile>; 2],
+    increments: [&[f64]; 2],
+    factor: f64,
+    clearance: f64,
+) -> bool {
+    let opened: f64 = increments.map(|increment| Measure::Mean.of(increment)).iter().sum();
+    let parts = match worn.iter().all(|surface| surface.is_some()) {
+        true => (factor * opened / (OPENED_AT_ONCE * clearance)).ceil().clamp(1.0, MOST_PARTS),
+        false => 1.0,
+    };
+    let mut fits = true;
+    for _ in 0..parts as usize {
+        for (surface, increment) in [0, 1].into_iter().zip(increments) {
+            let room = worn[1 - surface].as_ref().map_or(0.0, Profile::mean);
+            if let Some(own) = worn[surface].as_mut() {
+                fits &= own.wear_in(increment, factor / parts, clearance + room);
+            }
+        }
+    }
+    fits
 }
 
 #[cfg(test)]
