@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::expr::Expr;
 
-use super::dynamics::BodyFields;
+use super::dynamics::{Asked, BodyFields};
 use super::forward::{Forward, Problem, Way};
 use super::kept_rows::closed_biases;
 use super::mass_matrix::{Eliminated, reduced_mass_matrix};
@@ -137,7 +137,7 @@ impl<'g> Problem<'_, 'g> {
         }
         let (sums, keep) = self.made;
         let make = || {
-            let moving = self.moving(accelerations, Way { shapes: &[], ..way });
+            let moving = self.moving(accelerations, Way { shapes: &[], asked: Asked::Nothing, ..way });
             closed_biases(&moving.motion, sums, keep)
         };
         self.known.biases(self.motion.poses.geometry.g, (accelerations, way.axes, sums), make)
@@ -150,7 +150,8 @@ impl<'g> Problem<'_, 'g> {
         for speed in local.iter().flat_map(|body| &body.speeds) {
             accelerations[*speed] = g.zero();
         }
-        let moving = self.moving(accelerations, way);
+        let asked = if way.asked == Asked::Moments { Asked::Loads } else { way.asked };
+        let moving = self.moving(accelerations, Way { asked, ..way });
         if local.is_empty() {
             return moving;
         }
@@ -239,7 +240,9 @@ impl<'g> Problem<'_, 'g> {
             }
             if let Some(Some(by)) = moving.fields.get(body.link) {
                 let fields = by.shapes.changed(&by.fields, moved.alpha, &own);
-                followed.push((body.link, BodyFields::new(&by.shapes, fields)));
+                let mut fields = BodyFields::new(&by.shapes, fields);
+                fields.asked = way.asked;
+                followed.push((body.link, fields));
             }
         }
         self.moving(accelerations, way).with_fields(followed)

@@ -139,17 +139,17 @@ pub fn contact_forces<'g>(
         return loads.pair(joint, &motion, moment, force);
     }
     for (axis, coordinate) in model.offsets().enumerate() {
-        loads.joint[linkage.moved_link(joint, coordinate).first_speed] += contact.force[axis];
+        loads.push_along(linkage.moved_link(joint, coordinate).first_speed, contact.force[axis]);
     }
     if model.is_cross() {
         for (coordinate, axis) in cross_axes(g, state, joint).into_iter().enumerate() {
             let speed = linkage.moved_link(joint, coordinate).first_speed;
-            loads.joint[speed] += axis.dot(contact.moment);
+            loads.push_along(speed, axis.dot(contact.moment));
         }
         return;
     }
     let Some(ball) = linkage.ball_of(joint) else {
-        loads.joint[linkage.moved_link(joint, 0).first_speed] += contact.moment[2];
+        loads.push_along(linkage.moved_link(joint, 0).first_speed, contact.moment[2]);
         return;
     };
     let rotation = state.motion.poses.relative[ball].rotation;

@@ -19,36 +19,52 @@ use super::link_mass::LinkMass;
 use super::linkage::{Freedom, Link};
 use super::loads::Loads;
 use super::mass_properties::MassProperties;
+use super::modal_moments::ByModes;
 use super::motion::Motion;
 use super::turned::Axes;
 use super::wrench::Wrench;
+
+/// What modal equations are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Asked {
+    Nothing,
+    /// What modes feel besides stiffness: it is summed up first.
+    Loads,
+    /// What they know of the wrench, too: modes have the accelerations that they give.
+    Moments,
+}
 
 /// A flexible body by the accelerations of its shape functions.
 #[derive(Clone)]
 pub struct BodyFields<'g> {
     pub shapes: Rc<Shapes<'g>>,
     pub fields: Fields<'g>,
+    pub asked: Asked,
     /// Wrenches that were made, by the motion of the frame: many ways ask for few of them.
     wrenches: RefCell<Vec<(Frame<'g>, Wrench<'g>)>>,
 }
 
-/// Acceleration of the origin of a frame, and its spin.
-type Frame<'g> = (Vec3<'g>, Mat3<'g>);
+/// Acceleration of the origin of a frame, its spin, and what the modes know.
+type Frame<'g> = (Vec3<'g>, Mat3<'g>, ByModes<'g>);
 
 impl<'g> BodyFields<'g> {
     pub fn new(shapes: &Rc<Shapes<'g>>, fields: Fields<'g>) -> Self {
-        Self { shapes: Rc::clone(shapes), fields, wrenches: RefCell::default() }
+        Self { shapes: Rc::clone(shapes), fields, asked: Asked::Nothing, wrenches: RefCell::default() }
     }
 
     /// Inertial wrench about the origin of the floating frame.
-    fn wrench(&self, frame: &Acceleration<'g>) -> Wrench<'g> {
-        let is_same = |(origin, spin): &Frame<'g>| {
-            origin.is(frame.origin) && (0..3).all(|row| spin[row].is(frame.spin[row]))
+    fn wrench(&self, frame: &Acceleration<'g>, known: &ByModes<'g>) -> Wrench<'g> {
+        let nodes = |known: &ByModes<'g>| known.map(|known| known.map(|known| known.id()));
+        let by_modes = nodes(known);
+        let is_same = |(origin, spin, known): &Frame<'g>| {
+            origin.is(frame.origin)
+                && (0..3).all(|row| spin[row].is(frame.spin[row]))
+                && nodes(known) == by_modes
         };
-        let known = self.wrenches.borrow().iter().find(|(of, _)| is_same(of)).map(|(_, wrench)| *wrench);
-        known.unwrap_or_else(|| {
-            let wrench = self.shapes.wrench(&self.fields, frame);
-            self.wrenches.borrow_mut().push(((frame.origin, frame.spin), wrench));
+        let made = self.wrenches.borrow().iter().find(|(of, _)| is_same(of)).map(|(_, wrench)| *wrench);
+        made.unwrap_or_else(|| {
+            let wrench = self.shapes.wrench(&self.fields, frame, known);
+            self.wrenches.borrow_mut().push(((frame.origin, frame.spin, *known), wrench));
             wrench
         })
     }
@@ -170,6 +186,7 @@ pub fn forces_besides<'g>(
     let Geometry { g, linkage, .. } = motion.poses.geometry;
     let poses = &motion.poses;
     let mut forces = vec![g.zero(); linkage.speeds()];
+    let mut joint = loads.joint.clone();
     let mut carried = vec![Wrench::zero(g); linkage.links.len()];
     // Force of a link and all outboard of it, along the axes of W.
     let mut in_ground = vec![g.zero_vector(); linkage.links.len()];
@@ -179,8 +196,17 @@ pub fn forces_besides<'g>(
         g.begin_section(section_of(link));
         let (frame, modes) = (&motion.accelerations[at], &motion.modes[at]);
         let by_fields = fields.get(at).and_then(Option::as_ref);
+        let known = match by_fields {
+            Some(body) if body.asked == Asked::Moments => {
+                // Nothing else moves with modes that are solved for in their body.
+                let besides: Vec<Expr<'g>> =
+                    link.speeds().map(|speed| loads.unstretched[speed] - forces[speed]).collect();
+                body.shapes.by_modes(frame, modes, &besides)
+            }
+            _ => ByModes::default(),
+        };
         let inertial = match by_fields {
-            Some(body) => body.wrench(frame),
+            Some(body) => body.wrench(frame, &known),
             None => inertial_wrench(motion, masses, at),
         };
         let applied = loads.external[at] + loads.reactions[at];
@@ -201,7 +227,7 @@ pub fn forces_besides<'g>(
                 (None, None) => turn * (frame.spin * masses[at].rigid.first - less),
                 (Some(body), _) if inboard => {
                     let still = Acceleration { origin: g.zero_vector(), ..*frame };
-                    turn * (body.wrench(&still).force - less)
+                    turn * (body.wrench(&still, &known).force - less)
                 }
                 _ => turn * (inertial.force - less),
             };
@@ -217,8 +243,12 @@ pub fn forces_besides<'g>(
             };
             felt = felt.into_iter().zip(deforming).map(|(held, deforming)| deforming + held).collect();
         }
+        let apart = by_fields.is_some_and(|body| body.asked != Asked::Nothing);
         for (speed, force) in link.speeds().zip(felt) {
             forces[speed] += force;
+            if apart {
+                joint[speed] = loads.unstretched[speed] - loads.elastic[speed];
+            }
         }
         if let Some(parent) = link.parent {
             let pose = &poses.relative[at];
@@ -241,7 +271,7 @@ pub fn forces_besides<'g>(
             }
         }
     }
-    forces.into_iter().zip(&loads.joint).map(|(force, joint)| force - *joint).collect()
+    forces.into_iter().zip(joint).map(|(force, joint)| force - joint).collect()
 }
 
 /// Wrench that each link's inboard joint transmits to it (drive and joint forces included), about the

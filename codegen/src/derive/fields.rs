@@ -13,6 +13,7 @@ use crate::expr::{Expr, Mat3, Scope, Vec3};
 use crate::flexible::{Basis, ModalData};
 
 use super::kinematics::Acceleration;
+use super::modal_moments::{ByModes, Turning};
 use super::motion::ModalState;
 use super::wrench::Wrench;
 
@@ -41,6 +42,7 @@ pub struct Shapes<'g> {
     data: &'g ModalData,
     lines: Vec<Line>,
     centres: Vec<Centre>,
+    turnings: Vec<Turning>,
 }
 
 /// Accelerations of the shape functions of one body at an instant, in its frame.
@@ -103,8 +105,11 @@ impl<'g> Shapes<'g> {
                 None => centres.push(Centre { place, functions: vec![j] }),
             }
         }
-        let lines = lines.filter(|line| !line.functions.is_empty()).collect();
-        Some(Self { lines, centres, data, basis })
+        let lines: Vec<Line> = lines.filter(|line| !line.functions.is_empty()).collect();
+        let along = [0, 1, 2]
+            .map(|axis| lines.iter().find(|line| line.axis == axis).map_or(&[][..], |line| &line.functions));
+        let turnings = Turning::all(&basis, along, data);
+        Some(Self { lines, centres, turnings, data, basis })
     }
 
     /// `sum_k e_kj x_k` by function.
@@ -161,10 +166,12 @@ impl<'g> Shapes<'g> {
             .fold(g.zero_vector(), |sum, (weight, j)| sum + weight * x[j])
     }
 
-    /// Inertial wrench about the origin of the floating frame.
-    pub fn wrench(&self, fields: &Fields<'g>, frame: &Acceleration<'g>) -> Wrench<'g> {
+    /// Inertial wrench about the origin of the floating frame; what `known` has of `sum U_j x ..` along the axes comes from there.
+    pub fn wrench(&self, fields: &Fields<'g>, frame: &Acceleration<'g>, known: &ByModes<'g>) -> Wrench<'g> {
         let g = frame.origin.scope();
         let Fields { place, rate, omega, acceleration, .. } = fields;
+        let other =
+            |turned: Vec3<'g>| Vec3::from_fn(|i| if known[i].is_some() { g.zero() } else { turned[i] });
         let first = g.vector(self.data.first_moment);
         let product = frame.spin * g.matrix(self.data.second_moment);
         let mut force = self.data.mass * frame.origin + frame.spin * first;
@@ -174,7 +181,7 @@ impl<'g> Shapes<'g> {
             let moved = self.weighted(g, weights(), acceleration);
             force += moved;
             let at = g.vector(centre.place);
-            moment += at.cross(moved) + self.weighted(g, weights(), place).cross(frame.at(at));
+            moment += at.cross(moved) + other(self.weighted(g, weights(), place).cross(frame.at(at)));
         }
         for axis in 0..3 {
             let weights = || {
@@ -183,7 +190,7 @@ impl<'g> Shapes<'g> {
             };
             let along = unit(g, axis);
             moment += along.cross(self.weighted(g, weights(), acceleration));
-            moment += self.weighted(g, weights(), place).cross(frame.spin * along);
+            moment += other(self.weighted(g, weights(), place).cross(frame.spin * along));
         }
         for line in &self.lines {
             let along = unit(g, line.axis);
@@ -197,18 +204,21 @@ impl<'g> Shapes<'g> {
                     }
                 }
             }
-            moment += square * along.cross(frame.spin * along);
-            moment += (2.0 * mixed) * along.cross(omega.cross(along));
+            moment += other(square * along.cross(frame.spin * along));
+            moment += other((2.0 * mixed) * along.cross(omega.cross(along)));
         }
         for j in (0..place.len()).filter(|j| !self.on_line(*j)) {
             let row = &self.basis.gram[j];
             // One product less where the function is like itself only.
             let alone = (0..row.len()).all(|i| i == j || row[i] == 0.0);
-            moment += if alone {
+            moment += other(if alone {
                 row[j] * place[j].cross(acceleration[j])
             } else {
                 place[j].cross(self.momentum(j, acceleration))
-            };
+            });
+        }
+        for (i, known) in known.iter().enumerate() {
+            moment[i] += known.unwrap_or(g.zero());
         }
         Wrench { moment, force }
     }
@@ -216,17 +226,8 @@ impl<'g> Shapes<'g> {
     /// Inertial force of every mode.
     pub fn forces(&self, fields: &Fields<'g>, frame: &Acceleration<'g>, v_dot: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let g = frame.origin.scope();
-        let functions = &self.basis.functions;
         // Of the frame's motion and of the shape's: what the mode has by its own acceleration is M q''.
-        let held: Vec<Vec3<'g>> = (0..functions.len())
-            .map(|j| {
-                let centre = self.centres.iter().find(|centre| centre.functions.contains(&j));
-                match centre {
-                    Some(centre) => functions[j].integral * frame.at(g.vector(centre.place)),
-                    None => frame.spin * g.vector(functions[j].first),
-                }
-            })
-            .collect();
+        let held: Vec<Vec3<'g>> = (0..self.basis.functions.len()).map(|j| self.held(j, frame)).collect();
         self.basis
             .directions
             .iter()
@@ -240,6 +241,36 @@ impl<'g> Shapes<'g> {
                 sum + g.weighted(self.data.mass_matrix[k].iter().copied(), v_dot)
             })
             .collect()
+    }
+
+    /// `g_j a_O + spin p_j`.
+    fn held(&self, j: usize, frame: &Acceleration<'g>) -> Vec3<'g> {
+        let g = frame.origin.scope();
+        let function = &self.basis.functions[j];
+        match self.centres.iter().find(|centre| centre.functions.contains(&j)) {
+            Some(centre) => function.integral * frame.at(g.vector(centre.place)),
+            None => frame.spin * g.vector(function.first),
+        }
+    }
+
+    /// Whether [`Self::by_modes`] knows anything.
+    pub fn turns(&self) -> bool {
+        !self.turnings.is_empty()
+    }
+
+    /// Where modes move by what they feel: `besides` what inertia and stiffness do to each.
+    pub fn by_modes(
+        &self,
+        frame: &Acceleration<'g>,
+        modes: &ModalState<'g>,
+        besides: &[Expr<'g>],
+    ) -> ByModes<'g> {
+        let mut known = ByModes::default();
+        for turning in &self.turnings {
+            let held = |j: usize| self.held(j, frame);
+            turning.add_to(&mut known, (&self.basis, held), (frame.origin.scope(), modes), besides);
+        }
+        known
     }
 
     /// `sum_i G_ji A_i` but for the modes' own accelerations; of functions on a line only along it.
@@ -339,9 +370,15 @@ mod tests {
             let changed = shapes.changed(&earlier, g.vector(turned), &all(&change));
             let expected = by_points(&cloud, [alpha, omega, origin], [&q, &v, &v_dot]);
             let size = expected.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
-            for fields in [fields, changed] {
-                let wrench = shapes.wrench(&fields, &frame(alpha));
-                let forces = shapes.forces(&fields, &frame(alpha), &all(&v_dot));
+            // What the modes feel tells the same of the moment.
+            let felt = all(&expected[6..]);
+            let by_modes = shapes.by_modes(&frame(alpha), &modes(&v_dot), &felt);
+            let known = [ByModes::default(), by_modes];
+            for (fields, known) in
+                [fields, changed].iter().flat_map(|fields| known.map(|known| (fields, known)))
+            {
+                let wrench = shapes.wrench(fields, &frame(alpha), &known);
+                let forces = shapes.forces(fields, &frame(alpha), &all(&v_dot));
                 let found = wrench.force.into_iter().chain(wrench.moment).chain(forces);
                 for (found, expected) in found.zip(&expected) {
                     let found = found.as_number().expect("numbers make a number");
@@ -357,5 +394,6 @@ mod tests {
         let data = Cloud::rod(2, 3).data();
         let shapes = Shapes::new(&data).expect("a basis");
         assert_eq!(shapes.lines.iter().map(|line| line.functions.len()).collect::<Vec<_>>(), [4]);
+        assert!(shapes.turns());
     }
 }

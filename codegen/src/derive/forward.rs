@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use crate::expr::{Expr, Scope, Vec3};
 
-use super::dynamics::{forces_besides, section_of};
+use super::dynamics::{Asked, forces_besides, section_of};
 use super::fields::Shapes;
 use super::kept_rows::{KeptRow, Partition};
 use super::link_mass::LinkMass;
@@ -69,6 +69,8 @@ pub struct Way<'s, 'g> {
     pub local: &'s [LocalModes],
     /// Their accelerations come from their equations once more, else from what the frame's acceleration adds.
     pub again: bool,
+    /// What their equations tell.
+    pub asked: Asked,
     /// Of what the equations of motion are left with.
     pub order: Order<'s>,
     /// Of accelerations and forces.
@@ -88,7 +90,8 @@ impl Way<'_, '_> {
             };
             let plan = way.rows_first.map(std::ptr::from_ref);
             let of_rows = (plan, way.rows_moved, way.rows_push);
-            (of_rows, way.shapes.is_empty(), way.local.is_empty(), way.again, order, way.axes, way.slid)
+            let of_modes = (way.shapes.is_empty(), way.local.is_empty(), way.again, way.asked);
+            (of_rows, of_modes, order, way.axes, way.slid)
         };
         key(self) == key(other)
     }
@@ -118,13 +121,14 @@ impl<'g> Problem<'_, 'g> {
     pub(super) fn moving(
         &self,
         accelerations: &[Expr<'g>],
-        Way { shapes, axes, .. }: Way<'_, 'g>,
+        Way { shapes, axes, asked, local, .. }: Way<'_, 'g>,
     ) -> Rc<Moving<'g>> {
         let mut rates = self.rates.to_vec();
         for (speed, acceleration) in self.partition.free.iter().zip(accelerations) {
             rates[*speed] = *acceleration;
         }
-        self.known.moving(self.motion, (self.v, &rates), shapes, axes)
+        let of: Vec<usize> = local.iter().map(|body| body.link).collect();
+        self.known.moving(self.motion, (self.v, &rates), shapes, (axes, asked, &of))
     }
 
     /// What all speeds feel at given accelerations.

@@ -106,7 +106,7 @@ impl<'g> GuidePlace<'g> {
         }
         let mut add = |moved: Option<Moved<'g>>, by: Expr<'g>| {
             if let Some(Moved { speed, .. }) = moved {
-                loads.joint[speed] += by;
+                loads.push_along(speed, by);
             }
         };
         let about = moment + self.arm.cross(force);

@@ -14,6 +14,10 @@ pub struct Loads<'g> {
     pub external: Vec<Wrench<'g>>,
     /// Force of tree joints along every speed, on the outboard side.
     pub joint: Vec<Expr<'g>>,
+    /// Of that, everything but stiffness of bodies.
+    pub unstretched: Vec<Expr<'g>>,
+    /// What stiffness of bodies takes away.
+    pub elastic: Vec<Expr<'g>>,
     /// Reactions of ball joints' moments on their parent links.
     pub reactions: Vec<Wrench<'g>>,
     /// Moment and force of forces in cut joints on the child at its joint point, in the frame of
@@ -33,6 +37,8 @@ impl<'g> Loads<'g> {
         Self {
             external: vec![none; linkage.links.len()],
             joint: vec![zero; linkage.speeds()],
+            unstretched: vec![zero; linkage.speeds()],
+            elastic: vec![zero; linkage.speeds()],
             reactions: vec![none; linkage.links.len()],
             in_cuts: Vec::new(),
             potential: zero,
@@ -54,11 +60,17 @@ impl<'g> Loads<'g> {
         self.push(motion.parent.link, parent);
     }
 
+    /// A force along a speed.
+    pub fn push_along(&mut self, speed: usize, force: Expr<'g>) {
+        self.joint[speed] += force;
+        self.unstretched[speed] += force;
+    }
+
     /// A moment on a ball link, in its frame.
     pub fn turn(&mut self, linkage: &Linkage, ball: usize, moment: Vec3<'g>) {
         let first = linkage.links[ball].first_speed;
         for (i, component) in moment.into_iter().enumerate() {
-            self.joint[first + i] += component;
+            self.push_along(first + i, component);
         }
     }
 

@@ -44,6 +44,7 @@ mod local_modes;
 mod log_closure;
 mod mass_matrix;
 mod mass_properties;
+mod modal_moments;
 mod motion;
 mod mount;
 mod moving;

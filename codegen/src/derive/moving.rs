@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 
 use crate::expr::{Expr, ExprId, Scope, Section};
 
-use super::dynamics::{BodyFields, bias_forces_by, fields_of};
+use super::dynamics::{Asked, BodyFields, bias_forces_by, fields_of};
 use super::fields::Shapes;
 use super::kinematics::Acceleration;
 use super::link_mass::LinkMass;
@@ -60,7 +60,7 @@ type Nodes = Box<[ExprId]>;
 pub struct Known<'g> {
     accelerated: Made<Nodes, Rc<Motion<'g>>>,
     fields: Made<Nodes, Rc<Vec<Option<BodyFields<'g>>>>>,
-    moving: Made<(Nodes, Axes, bool), Rc<Moving<'g>>>,
+    moving: Made<(Nodes, Axes, bool, Asked), Rc<Moving<'g>>>,
     masses: Made<(bool, bool), Rc<Vec<Vec<Expr<'g>>>>>,
     biases: Made<(Nodes, bool, Sums), Vec<Expr<'g>>>,
     changed: Made<Nodes, Vec<Acceleration<'g>>>,
@@ -68,23 +68,30 @@ pub struct Known<'g> {
 }
 
 impl<'g> Known<'g> {
-    /// `motion` with other accelerations (`v`: speeds) along the given axes; bodies with `shapes` by these.
+    /// `motion` with other accelerations (`v`: speeds) along the given axes; bodies with `shapes` by these, and the modal
+    /// equations of some links asked.
     pub fn moving(
         &self,
         motion: &Motion<'g>,
         (v, rates): (&[Expr<'g>], &[Expr<'g>]),
         shapes: &[Option<Rc<Shapes<'g>>>],
-        axes: Axes,
+        (axes, asked, of): (Axes, Asked, &[usize]),
     ) -> Rc<Moving<'g>> {
         let g = motion.poses.geometry.g;
-        once(&self.moving, g, (ids(rates), axes, !shapes.is_empty()), || {
+        once(&self.moving, g, (ids(rates), axes, !shapes.is_empty(), asked), || {
             let accelerated =
                 once(&self.accelerated, g, ids(rates), || Rc::new(motion.accelerated(v, rates)));
             let motion = accelerated.along(axes);
-            let fields = match shapes {
+            let mut fields = match shapes {
                 [] => Rc::default(),
                 _ => once(&self.fields, g, ids(rates), || Rc::new(fields_of(&motion, shapes))),
             };
+            if asked != Asked::Nothing {
+                let mut by_modes = fields.to_vec();
+                let bodies = by_modes.iter_mut().enumerate().filter(|(at, _)| of.contains(at));
+                bodies.filter_map(|(_, body)| body.as_mut()).for_each(|body| body.asked = asked);
+                fields = Rc::new(by_modes);
+            }
             Rc::new(Moving { motion, fields, axes, felt: OnceCell::new() })
         })
     }

@@ -3,10 +3,13 @@
 //!
 //! Every way is gone and its operations are counted, so that no rule makes a mechanism dearer.
 
+use std::rc::Rc;
+
 use nalgebra::DMatrix;
 
 use super::articulated::articulated;
-use super::dynamics::shapes_of;
+use super::dynamics::{Asked, shapes_of};
+use super::fields::Shapes;
 use super::forward::{Forward, Problem, Way};
 use super::kept_rows::KeptRow;
 use super::least_elimination::least_elimination;
@@ -116,6 +119,19 @@ impl<'g> Search<'_, 'g> {
         shorter
     }
 
+    /// Takes a way that is shorter for everything and for accelerations together: passes make more of one than of the other.
+    fn offer_for_both<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) {
+        let next = self.first(way);
+        let both = |(whole, alone): (usize, usize)| whole + alone;
+        best.gone.push(way);
+        if next.alone.0 < best.alone.0 {
+            best.alone = next.alone;
+        }
+        if both(next.operations) < both(best.operations) {
+            (best.operations, best.forward, best.way) = (next.operations, next.forward, way);
+        }
+    }
+
     /// The other ways to sum vectors up and to take rows.
     fn along_axes<'s>(&self, best: &mut Best<'s, 'g>) {
         let way = best.way;
@@ -197,6 +213,7 @@ pub fn forward<'g>(
         shapes: &[],
         local: &[],
         again: true,
+        asked: Asked::Nothing,
         order: Order::Leaves,
         axes: Axes::default(),
         // Elimination of everything is what the other ways are tested against.
@@ -257,6 +274,11 @@ pub fn forward<'g>(
                 }
             }
         }
+    }
+    let way = best.way;
+    let turn = |shapes: &Option<Rc<Shapes<'g>>>| shapes.as_ref().is_some_and(|shapes| shapes.turns());
+    if !way.local.is_empty() && way.shapes.iter().any(turn) {
+        search.offer_for_both(&mut best, Way { asked: Asked::Moments, ..way });
     }
     let way = best.way;
     if best.forward.slid && speeds + pattern.len() <= MOST_TO_ORDER {

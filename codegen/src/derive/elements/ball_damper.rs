@@ -103,7 +103,7 @@ impl Sections {
     fn bend<'g>(&self, loads: &mut Loads<'g>, g: &'g Scope, side: Side, moment: Vec3<'g>) {
         let Some(section) = self.of(side) else { return };
         for (k, slope) in section.slopes.iter().enumerate() {
-            loads.joint[section.first + k] += g.vector(*slope).dot(moment);
+            loads.push_along(section.first + k, g.vector(*slope).dot(moment));
         }
     }
 }

@@ -17,7 +17,7 @@ impl<'g> Element<'g> for Coupling {
             loads.push(link, wrench);
         }
         for (speed, factor) in given.factors.into_iter().enumerate().filter(|_| self.meshes.is_empty()) {
-            loads.joint[speed] += factor * given.force;
+            loads.push_along(speed, factor * given.force);
         }
     }
 }

@@ -23,6 +23,8 @@ impl<'g> Element<'g> for Elasticity {
             let elastic = g.weighted(flexible.data.stiffness[k].iter().copied(), &modes.q);
             let viscous = g.weighted(flexible.data.damping[k].iter().copied(), &modes.v);
             loads.joint[speed] -= elastic + viscous;
+            loads.unstretched[speed] -= viscous;
+            loads.elastic[speed] = elastic;
             let (work, power) = (elastic * modes.q[k], viscous * modes.v[k]);
             loads.potential += 0.5 * work;
             loads.dissipated += power;

@@ -67,7 +67,7 @@ pub fn push_along<'g>(
 ) {
     let linkage = state.geometry.linkage;
     if let Some(link) = linkage.link_of_coordinate(joint, coordinate) {
-        loads.joint[linkage.links[link].first_speed] += force;
+        loads.push_along(linkage.links[link].first_speed, force);
     } else {
         let (moment, direction) = coordinates.duals[coordinate];
         let motion = state.relative_motion(joint);
