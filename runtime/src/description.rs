@@ -153,6 +153,11 @@ impl Description {
         (0..count).filter_map(|kept| self.rows.iter().position(|row| row.kept == Some(kept))).collect()
     }
 
+    /// Whether a joint feeds back by angle what is worn off it.
+    pub fn feeds_profiles_back(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.wear.is_some_and(|wear| wear.profile))
+    }
+
     /// Modal coordinates of flexible bodies: places of coordinate and speed among the free ones.
     pub(crate) fn modes(&self) -> impl Iterator<Item = (usize, usize)> {
         let scalars = groups(&self.motions).filter(|group| group.motion == Motion::Scalar { driver: None });

@@ -39,14 +39,10 @@ fn turn(input: &Input, compiled: &Compiled, options: &Options) -> Result<TurnCos
         let run = watched("run", |watch| simulate(&*system, description, &parameters, &settings, watch));
         (run, start.elapsed().as_secs_f64())
     };
-    let second = Span::Time(1.0);
-    let (run, wall_seconds) = match description.turn_driver {
+    let (run, wall_seconds) = match description.turn_driver.map(|_| timed(Span::Turns(1.0))) {
         // A driver that swings makes no turn.
-        Some(_) => match timed(Span::Turns(1.0)) {
-            (Err(RunError::TurnsNotReached { .. }), _) => timed(second),
-            turn => turn,
-        },
-        None => timed(second),
+        None | Some((Err(RunError::TurnsNotReached { .. }), _)) => timed(Span::Time(1.0)),
+        Some(turn) => turn,
     };
     let run = run.map_err(|error| Failure::run(&input.file, &error, None))?;
     if let Some(error) = &run.stopped {

@@ -124,8 +124,7 @@ impl<'m> LifeStudy<'m> {
 
     /// Where wear is from: what was asked for; else a table, but the dynamics where a worn profile is fed back.
     pub(crate) fn coupling(&self) -> Coupling {
-        let mut wear = self.mechanism.description.contacts.iter().filter_map(|contact| contact.wear);
-        let has_profile = self.feedback && wear.any(|wear| wear.profile);
+        let has_profile = self.feedback && self.mechanism.description.feeds_profiles_back();
         self.coupling.unwrap_or(if has_profile { Coupling::Full } else { Coupling::Table })
     }
 

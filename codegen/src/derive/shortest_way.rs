@@ -104,6 +104,21 @@ impl<'g> Search<'_, 'g> {
 
     /// Whether the way is shorter than the best. One that was gone already is not.
     fn offer<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) -> bool {
+        self.offer_by(best, way, |next, best| next < best)
+    }
+
+    /// Takes a way that is shorter for everything and for accelerations together: passes make more of one than of the other.
+    fn offer_for_both<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) -> bool {
+        self.offer_by(best, way, |(whole, alone), best| whole + alone < best.0 + best.1)
+    }
+
+    /// The same by how operations of everything and of accelerations alone compare.
+    fn offer_by<'s>(
+        &self,
+        best: &mut Best<'s, 'g>,
+        way: Way<'s, 'g>,
+        is_shorter: impl Fn((usize, usize), (usize, usize)) -> bool,
+    ) -> bool {
         if best.gone.iter().any(|gone| gone.is(&way)) {
             return false;
         }
@@ -112,24 +127,11 @@ impl<'g> Search<'_, 'g> {
         if next.alone.0 < best.alone.0 {
             best.alone = next.alone;
         }
-        let shorter = next.operations < best.operations;
+        let shorter = is_shorter(next.operations, best.operations);
         if shorter {
             (best.operations, best.forward, best.way) = (next.operations, next.forward, way);
         }
         shorter
-    }
-
-    /// Takes a way that is shorter for everything and for accelerations together: passes make more of one than of the other.
-    fn offer_for_both<'s>(&self, best: &mut Best<'s, 'g>, way: Way<'s, 'g>) {
-        let next = self.first(way);
-        let both = |(whole, alone): (usize, usize)| whole + alone;
-        best.gone.push(way);
-        if next.alone.0 < best.alone.0 {
-            best.alone = next.alone;
-        }
-        if both(next.operations) < both(best.operations) {
-            (best.operations, best.forward, best.way) = (next.operations, next.forward, way);
-        }
     }
 
     /// The other ways to sum vectors up and to take rows.

@@ -146,7 +146,8 @@ impl Clearances {
     pub fn evaluate(&mut self, motions: &[f64]) {
         self.changed = false;
         if core::mem::take(&mut self.worn) {
-            self.extents = self.states.iter().map(ClearanceState::extent).collect();
+            let each = self.extents.iter_mut().zip(&self.states);
+            each.for_each(|(extent, state)| *extent = state.extent());
         }
         let (motions, _) = motions.as_chunks::<CONTACT_MOTION>();
         let (wrenches, _) = self.wrenches.as_chunks_mut::<CONTACT_WRENCH>();

@@ -1,4 +1,4 @@
-//! How revolutions are run that a measurement is made of. Never knows a mechanism.
+//! How revolutions are run that a measurement is made of. In: what a mechanism wears. Out: settings. Never knows its motion.
 
 use crate::description::Description;
 use crate::simulate::Integrator;
@@ -37,10 +37,12 @@ impl Default for RevolutionSettings {
 impl RevolutionSettings {
     /// Those that suit lives of a mechanism: the default; where a worn profile is fed back, revolutions to 1e-5 of their wear.
     pub fn of(description: &Description) -> Self {
-        let has_profile =
-            description.contacts.iter().any(|contact| contact.wear.is_some_and(|wear| wear.profile));
         let integrator = Integrator::Rk43 { tolerance: OF_PROFILES, max_step: None };
-        if has_profile { Self { integrator, ..Self::default() } } else { Self::default() }
+        if description.feeds_profiles_back() {
+            Self { integrator, ..Self::default() }
+        } else {
+            Self::default()
+        }
     }
 
     /// Turns have settled where later ones would differ by no more than this part of their wear.

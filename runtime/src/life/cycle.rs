@@ -7,7 +7,7 @@ use std::slice;
 
 use super::error::LifeError;
 use super::increment::IncrementModel;
-use super::joint::{Feedback, JointLife};
+use super::joint::Feedback;
 use super::path::{Path, Walker, rates};
 use super::settings::LifeSettings;
 use super::source::WearSource;
@@ -183,8 +183,8 @@ impl Cycles {
         for cycle in 1..=path.span {
             let increments = path.at(cycle as f64);
             let before = cycles.ends.last().map_or(base, |(_, joints)| joints.as_slice());
-            let from = Begins { base, last: before, known: &known };
-            let mean = from.worn(settings, &increments, &vec![1.0; base.len()]);
+            let from = Begins { settings, base, last: before, known: &known };
+            let mean = from.worn(&increments, &vec![1.0; base.len()]);
             let gains: Vec<f64> = mean.iter().zip(before).map(|(to, from)| to.wear - from.wear).collect();
             // Without a mean path over several cycles the draw sees every cycle from its own begin.
             if !draw.is_mean() {
@@ -198,14 +198,14 @@ impl Cycles {
                 }
                 cycles.is_mean = factors.iter().all(|factor| *factor == 1.0);
             }
-            let mut joints = if cycles.is_mean { mean } else { from.worn(settings, &increments, &factors) };
+            let mut joints = if cycles.is_mean { mean } else { from.worn(&increments, &factors) };
             for ((joint, from), gain) in joints.iter_mut().zip(before).zip(&gains) {
                 joint.exposure = from.exposure + gain;
             }
             let failed =
                 (0..base.len()).filter(|joint| joints[*joint].wear >= settings.joints[*joint].threshold);
             let crossing = |joint: usize| {
-                let time = from.crossing(settings, path, joint, (factors[joint], cycle));
+                let time = from.crossing(path, joint, (factors[joint], cycle));
                 FailureEvent { joint, cycles: done as f64 + time, whole_cycles: done + cycle }
             };
             cycles.failure = failed.map(crossing).min_by(|a, b| a.cycles.total_cmp(&b.cycles));
@@ -266,6 +266,7 @@ fn revolution(
 
 /// Joints at the begin of a path, and at the end of its last cycle with the mean increments up to there.
 struct Begins<'a> {
+    settings: &'a LifeSettings,
     base: &'a [WearState],
     last: &'a [WearState],
     known: &'a [f64],
@@ -273,47 +274,25 @@ struct Begins<'a> {
 
 impl Begins<'_> {
     /// All joints after `factors` times the increments.
-    fn worn(&self, settings: &LifeSettings, increments: &[f64], factors: &[f64]) -> Vec<WearState> {
-        let each = settings.parts(increments).enumerate();
-        each.map(|(at, (joint, own))| self.joint(joint, (at, self.known_of(settings, at)), own, factors[at]))
-            .collect()
+    fn worn(&self, increments: &[f64], factors: &[f64]) -> Vec<WearState> {
+        factors.iter().enumerate().map(|(at, factor)| self.joint(at, increments, *factor)).collect()
     }
 
     /// One of them. Wear by angle is taken away in pieces, wherever they begin: those up to the last cycle are gone.
-    fn joint(
-        &self,
-        joint: &JointLife,
-        (at, known): (usize, &[f64]),
-        increments: &[f64],
-        factor: f64,
-    ) -> WearState {
+    fn joint(&self, at: usize, increments: &[f64], factor: f64) -> WearState {
+        let (joint, own) = self.settings.part(at, increments);
         if joint.feedback != Feedback::Profile {
-            return joint.after(&self.base[at], increments, factor);
+            return joint.after(&self.base[at], own, factor);
         }
-        let more: Vec<f64> = increments.iter().zip(known).map(|(now, known)| now - known).collect();
+        let (_, known) = self.settings.part(at, self.known);
+        let more: Vec<f64> = own.iter().zip(known).map(|(now, known)| now - known).collect();
         joint.after(&self.last[at], &more, factor)
     }
 
-    fn known_of<'k>(&'k self, settings: &'k LifeSettings, joint: usize) -> &'k [f64] {
-        settings.parts(self.known).nth(joint).map_or(&[], |(_, known)| known)
-    }
-
     /// When, in cycles since the start of the path, a joint reached its threshold in the next cycle.
-    fn crossing(
-        &self,
-        settings: &LifeSettings,
-        path: &Path,
-        joint: usize,
-        (factor, cycle): (f64, u64),
-    ) -> f64 {
-        let known = self.known_of(settings, joint);
-        let is_worn = |time: f64| {
-            let increments = path.at(time);
-            let own = settings.parts(&increments).nth(joint);
-            own.is_some_and(|(lives, own)| {
-                self.joint(lives, (joint, known), own, factor).wear >= lives.threshold
-            })
-        };
+    fn crossing(&self, path: &Path, at: usize, (factor, cycle): (f64, u64)) -> f64 {
+        let threshold = self.settings.joints[at].threshold;
+        let is_worn = |time: f64| self.joint(at, &path.at(time), factor).wear >= threshold;
         let (mut early, mut late) = ((cycle - 1) as f64, cycle as f64);
         // Down to neighbouring numbers.
         loop {

@@ -227,13 +227,14 @@ fn wear_in_both(
     clearance: f64,
 ) -> bool {
     let opened: f64 = increments.map(|increment| Measure::Mean.of(increment)).iter().sum();
-    let parts = match worn.iter().all(|surface| surface.is_some()) {
-        true => (factor * opened / (OPENED_AT_ONCE * clearance)).ceil().clamp(1.0, MOST_PARTS),
-        false => 1.0,
+    let parts = if worn.iter().all(|surface| surface.is_some()) {
+        (factor * opened / (OPENED_AT_ONCE * clearance)).ceil().clamp(1.0, MOST_PARTS)
+    } else {
+        1.0
     };
     let mut fits = true;
     for _ in 0..parts as usize {
-        for (surface, increment) in [0, 1].into_iter().zip(increments) {
+        for (surface, increment) in increments.into_iter().enumerate() {
             let room = worn[1 - surface].as_ref().map_or(0.0, Profile::mean);
             if let Some(own) = worn[surface].as_mut() {
                 fits &= own.wear_in(increment, factor / parts, clearance + room);

@@ -96,6 +96,13 @@ impl LifeSettings {
         })
     }
 
+    /// A joint with its part of the increments of all.
+    pub(super) fn part<'i>(&'i self, at: usize, increments: &'i [f64]) -> (&'i JointLife, &'i [f64]) {
+        let first: usize = self.joints[..at].iter().map(JointLife::width).sum();
+        let joint = &self.joints[at];
+        (joint, &increments[first..first + joint.width()])
+    }
+
     /// Whether everything makes sense.
     ///
     /// # Errors

@@ -202,6 +202,14 @@ fn limited_slope(before: f64, after: f64) -> f64 {
     if product > 0.0 { 2.0 * product / (before + after) } else { 0.0 }
 }
 
+/// Worn in one bin alone, to a depth [m].
+#[cfg(test)]
+pub(super) fn peak(bins: usize, at: usize, depth: f64) -> Profile {
+    let mut depths = vec![0.0; bins];
+    depths[at] = depth;
+    Profile { depths }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

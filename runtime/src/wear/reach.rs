@@ -22,7 +22,7 @@ use crate::scalar::Scalar;
 /// exp(-2 pi^2 0.8^2) = 3e-6, and what is left in a round bearing is taken off exactly.
 const SMOOTHED: f64 = 0.8;
 /// exp of less than minus this changes no sum.
-const NOTHING: f64 = 40.0;
+pub(super) const NOTHING: f64 = 40.0;
 /// A distance is found to rounding in fewer steps.
 const MOST_STEPS: usize = 60;
 /// Bins of one pass, so that compilers use vectors.
@@ -245,15 +245,10 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wear::profile::peak;
     use crate::wear::{Extent, Profile};
 
     const CLEARANCE: f64 = 1e-5;
-
-    fn peak(bins: usize, at: usize, depth: f64) -> Profile {
-        let mut depths = vec![0.0; bins];
-        depths[at] = depth;
-        Profile::try_from(depths).expect("depths")
-    }
 
     fn at(grid: &Grid, worn: &Profile, distance: f64, angle: f64) -> Support<f64> {
         grid.support(worn, CLEARANCE, [distance * angle.cos(), distance * angle.sin()])

@@ -7,13 +7,12 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::profile::Profile;
+use super::reach::NOTHING;
 use crate::scalar::Scalar;
 
 /// A minimum counts as shared by places this part of the depth of a bin's circular segment above it: small against
 /// the segment, so that an unworn bearing is worn where the journal points.
 const SHARED: f64 = 1.0 / 8.0;
-/// A place that is farther by this many of it has no share that changes a sum.
-const NOTHING: f64 = 40.0;
 /// Wear is taken away in pieces of at most this part of that depth, so that edges go before a hole grows.
 const PIECE: f64 = 0.25;
 /// Upper limit on the number of sub-steps of one wear step.
@@ -52,6 +51,8 @@ struct Bearing {
     bins: usize,
     /// Depth [m] of the circular segment of the centre's path that a bin covers.
     segment: f64,
+    /// Over how far [m] beyond the nearest place others have a share: one over it.
+    per_shared: f64,
     /// 1/cos of the angles between a direction and the bins within a quarter turn of it.
     inverse_cosines: Vec<f64>,
     /// Clearance with the depth of every bin [m].
@@ -69,10 +70,12 @@ impl Bearing {
         let quarter = (FRAC_PI_2 / width - 1e-9).floor() as usize;
         let inverse_cosine = |step: usize| 1.0 / libm::cos(step.abs_diff(quarter) as f64 * width);
         let inverse_cosines: Vec<f64> = (0..=2 * quarter).map(inverse_cosine).collect();
+        let segment = clearance * (1.0 - libm::cos(width));
         Self {
             clearance,
             bins,
-            segment: clearance * (1.0 - libm::cos(width)),
+            segment,
+            per_shared: 1.0 / (SHARED * segment),
             gaps: vec![0.0; 2 * bins],
             reaches: vec![0.0; inverse_cosines.len()],
             weights: vec![0.0; inverse_cosines.len()],
@@ -96,12 +99,10 @@ impl Bearing {
         {
             *reach = gap * inverse;
         }
-        let nearest =
-            self.reaches.iter().fold(f64::INFINITY, |nearest, reach| -Scalar::max(-nearest, -*reach));
-        let per_scale = 1.0 / (SHARED * self.segment);
+        let nearest = self.reaches.iter().copied().fold(f64::INFINITY, f64::min);
         let mut sum = 0.0;
         for (weight, reach) in self.weights.iter_mut().zip(&self.reaches) {
-            let below = (nearest - reach) * per_scale;
+            let below = (nearest - reach) * self.per_shared;
             *weight = if below > -NOTHING { Scalar::exp(below) } else { 0.0 };
             sum += *weight;
         }
@@ -119,15 +120,10 @@ impl Bearing {
 
 #[cfg(test)]
 mod tests {
+    use super::super::profile::peak;
     use super::*;
 
     const CLEARANCE: f64 = 1e-5;
-
-    fn peak(bins: usize, at: usize, depth: f64) -> Profile {
-        let mut depths = vec![0.0; bins];
-        depths[at] = depth;
-        Profile::try_from(depths).expect("depths")
-    }
 
     #[test]
     fn little_wear_of_an_unworn_bearing_stays_where_the_journal_points() {

@@ -49,6 +49,12 @@ pub fn shorter_in_ground(mechanism: &Mechanism, topology: &Topology) -> bool {
 /// the axes of the other bodies: along a rod no acceleration of its own joints is felt, so that one row of three is left to the
 /// body that they carry.
 pub fn shorter_off_balls(mechanism: &Mechanism, topology: &Topology) -> bool {
+    let is_driven = mechanism.joints.iter().any(|joint| !joint.drives.is_empty());
+    let turns_freely = topology.cuts.iter().filter(|cut| mechanism.joint(**cut).model.turns_freely());
+    // Rows of one cut are few enough as they are.
+    if !is_driven || turns_freely.count() < 2 {
+        return false;
+    }
     let linkage = tree(mechanism, topology);
     let turns = |link: LinkIndex| link.is_some_and(|at| linkage.links[at].freedom == Freedom::Ball);
     let at_balls = linkage.cuts.iter().filter(|cut| {
@@ -57,9 +63,7 @@ pub fn shorter_off_balls(mechanism: &Mechanism, topology: &Topology) -> bool {
         is_ball && turns(cut.parent) != turns(cut.child)
     });
     let rows = ROWS_AT_BALL * at_balls.count();
-    let is_driven = mechanism.joints.iter().any(|joint| !joint.drives.is_empty());
-    // Those of one cut are few enough as they are.
-    if rows <= ROWS_AT_BALL || !is_driven || linkage.speeds() + rows > MOST_TO_COMPARE {
+    if rows <= ROWS_AT_BALL || linkage.speeds() + rows > MOST_TO_COMPARE {
         return false;
     }
     let by = |rows_off_balls: bool| {
