@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from run import HERE, ROOT, Casadi, operations, table
+from run import HERE, ROOT, Casadi, table
 
 ENTRIES = ["accelerations", "forward_dynamics"]
 
@@ -47,14 +47,14 @@ def main():
         folder = Path(folder)
         rows = table(arguments.linkwear, arguments.file, folder)
         peer = Casadi(arguments.file, rows)
-        peer.check(arguments.file, rows)
+        peer.check(arguments.linkwear, arguments.file, rows, folder)
         for entry in ENTRIES:
-            function = {"accelerations": peer.accelerations, "forward_dynamics": peer.forward}[entry]
-            programs = compiled(arguments.linkwear, arguments.file, entry, folder), peer.compile(function, folder)
-            pairs = [(nanoseconds(programs[0]), nanoseconds(programs[1], peer.inputs())) for _ in range(arguments.rounds)]
+            program = peer.programs[entry]
+            binaries = compiled(arguments.linkwear, arguments.file, entry, folder), program.compile(folder)
+            pairs = [(nanoseconds(binaries[0]), nanoseconds(binaries[1], program.text())) for _ in range(arguments.rounds)]
             ratios = sorted(mine / theirs for mine, theirs in pairs)
             mine, theirs = (statistics.median(side) for side in zip(*pairs))
-            print(f"{Path(arguments.file).stem} {entry}: {mine:.1f} ns, CasADi {theirs:.1f} ns ({operations(function)} operations), "
+            print(f"{Path(arguments.file).stem} {entry}: {mine:.1f} ns, CasADi {theirs:.1f} ns ({program.operations} operations), "
                   f"ratio {statistics.median(ratios):.3f} ({ratios[0]:.3f}, {ratios[-1]:.3f})")
 
 

@@ -17,7 +17,9 @@ static int ascending(const void *a, const void *b) {
 int main(void) {
     static double in[INPUTS][IN], out[OUT + 1], w[WORKSPACE + 1], batch[BATCHES];
     for (int i = 0; i < INPUTS; i++) {
+#if PARAMETERS > 0
         for (int j = 0; j < PARAMETERS; j++) in[i][j] = TABLE[j].value;
+#endif
         in[i][PARAMETERS] = 1e-3 * i;
         for (int j = 0; j < STATES; j++) in[i][PARAMETERS + 1 + j] = START[j] + 1e-4 * i;
     }

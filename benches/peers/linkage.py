@@ -1,7 +1,7 @@
 """A linkage file as plain numbers, read without linkwear: what a peer's model is made of.
 
 Taken are rigid bodies of round rods, tubes, boxes and given masses; revolute, prismatic, spherical and universal joints; springs
-between points; drives that grow with time; viscous friction; pinned flexible rods. Anything else is refused.
+between points; drives by formulas over time and parameters; viscous friction; pinned flexible rods. Anything else is refused.
 """
 
 import math
@@ -28,12 +28,18 @@ def unit(text):
     return factor
 
 
+def plain(text):
+    """Without units, in SI."""
+    return NUMBER_AND_UNIT.sub(lambda found: repr(float(found[1]) * unit(found[2])), text).replace("^", "**")
+
+
 class Names(dict):
     """Values of parameters by name, each evaluated when it is asked for."""
 
     def __init__(self, given):
-        super().__init__(pi=math.pi, tanh=math.tanh, sqrt=math.sqrt)
+        super().__init__(pi=math.pi, sin=math.sin, cos=math.cos, tanh=math.tanh, sqrt=math.sqrt)
         self.given = {name: item["value"] if isinstance(item, dict) else item for name, item in given.items()}
+        self.tunable = [name for name, item in given.items() if isinstance(item, dict) and item.get("tunable")]
 
     def __missing__(self, name):
         if name not in self.given:
@@ -44,8 +50,11 @@ class Names(dict):
     def number(self, text):
         if isinstance(text, (int, float)):
             return float(text)
-        text = NUMBER_AND_UNIT.sub(lambda found: repr(float(found[1]) * unit(found[2])), text)
-        return float(eval(text.replace("^", "**"), {"__builtins__": {}}, self))
+        return float(eval(plain(text), {"__builtins__": {}}, self))
+
+    def formula(self, text, symbols):
+        """A formula over parameters and symbols, which go before parameters and functions of the same name."""
+        return eval(plain(text), {"__builtins__": {}}, {name: self[name] for name in [*self.given, "pi"]} | symbols)
 
 
 class Body:
@@ -108,25 +117,30 @@ class Linkage:
         inertia = sum(mass * moment * np.outer(axis, axis) for moment, axis in zip(moments, axes))
         if flexible:
             given = {key: self.number(flexible[key]) for key in ("modes", "young", "poisson", "damping")}
-            flexible = given | {"radius": self.number(item["radius"]), "length": length, "mass": mass, "area": area}
+            if kind != "rod" or flexible.get("held", "pinned") != "pinned" or along[0] < 1 - 1e-12:
+                raise ValueError(f"{name}: flexible are pinned round rods along x")
+            flexible = given | {"radius": self.number(item["radius"]), "begin": begin, "length": length, "mass": mass, "area": area}
         return Body(name, mass, (begin + end) / 2, inertia, flexible)
 
     def joint(self, item):
         kind = next(kind for kind in ("revolute", "prismatic", "spherical", "universal") if kind in item)
         parent, child = item[kind]
         axes = [np.array(axis, float) for axis in item.get("axes", [item.get("axis", [0, 0, 1])])]
-        drive = item.get("drive")
-        if drive is not None and drive != "2*pi*speed*t":
-            raise ValueError(f"drive {drive}")
         force = item.get("force")
         if force is not None:
-            force = re.sub(r"\w+\.v", "v", NUMBER_AND_UNIT.sub(lambda f: repr(float(f[1]) * unit(f[2])), force))
+            force = re.sub(r"\w+\.v", "v", force)
         return {
-            "kind": kind, "parent": parent, "child": child, "cut": item.get("cut", False), "driven": drive is not None, "force": force,
+            "kind": kind, "parent": parent, "child": child, "cut": item.get("cut", False), "drive": item.get("drive"), "force": force,
             "axes": [axis / np.linalg.norm(axis) for axis in axes],
             "at": {body: self.point(item["at"], body) for body in (parent, child)},
             "damping": self.number(item.get("damping", item.get("friction", 0))),
         }
+
+    def across(self, body):
+        """The direction z of a flexible rod along x: the axis of a hinge across it, else y."""
+        hinges = [joint for joint in self.joints.values() if joint["kind"] in ("revolute", "universal") and body in joint["at"]]
+        axes = [axis for joint in hinges for axis in joint["axes"]]
+        return next((axis for axis in axes if abs(axis[0]) < 1e-9), np.array([0.0, 1, 0]))
 
     def spring(self, item):
         ends = item["spring"]
