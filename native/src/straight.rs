@@ -14,6 +14,7 @@ mod operands;
 mod order;
 pub(crate) mod place;
 mod pool;
+mod sines;
 #[cfg(test)]
 pub(crate) mod tests;
 mod uses;

@@ -4,6 +4,7 @@ mod bounds;
 mod encode;
 mod features;
 mod instruction;
+mod masks;
 mod select;
 #[cfg(test)]
 mod tests;

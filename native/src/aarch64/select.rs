@@ -19,16 +19,20 @@ impl Processor for Target {
         Shape { value: self.lanes.bytes(), step, registers: self.registers, columns: false }
     }
 
+    fn widest(self) -> usize {
+        1
+    }
+
     /// What is loaded is as long as any value.
     fn copies(self, _: Option<Operation>) -> usize {
         self.lanes.count()
     }
 
-    fn load(self, to: Register, from: Address) -> Instruction {
+    fn load(self, to: Register, from: Address, _: usize) -> Instruction {
         Instruction::Load { to, from }
     }
 
-    fn store(self, from: Register, to: Address) -> Instruction {
+    fn store(self, from: Register, to: Address, _: usize) -> Instruction {
         Instruction::Store { from, to }
     }
 

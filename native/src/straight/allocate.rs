@@ -24,12 +24,17 @@ pub(crate) trait Processor: Copy + Debug {
 
     fn shape(self) -> Shape;
 
-    /// How many copies of a constant, side by side, an operation reads, or, if there is none, an output.
+    /// How many values an operation may be done with side by side in one register: 1, 2 or 4.
+    fn widest(self) -> usize;
+
+    /// How many copies of a constant, side by side, an operation on single values reads, or, if there is none, an output.
     fn copies(self, reader: Option<Operation>) -> usize;
 
-    fn load(self, to: Register, from: Address) -> Self::Instruction;
+    /// Loads so many values side by side.
+    fn load(self, to: Register, from: Address, width: usize) -> Self::Instruction;
 
-    fn store(self, from: Register, to: Address) -> Self::Instruction;
+    /// Stores so many values side by side.
+    fn store(self, from: Register, to: Address, width: usize) -> Self::Instruction;
 
     /// Puts the address of the result (0) or of an argument where a called function looks for it.
     fn argument(self, number: u8, address: Address) -> Self::Instruction;
@@ -123,7 +128,7 @@ pub(crate) struct Allocation<'a, P: Processor> {
     /// The register of every node.
     pub(super) register: Vec<Option<Register>>,
     /// Where in memory every node lies.
-    home: Vec<Option<Address>>,
+    pub(super) home: Vec<Option<Address>>,
     frame: Frame,
     /// Position in the order.
     pub(super) now: u32,
@@ -159,7 +164,7 @@ impl<P: Processor> Allocation<'_, P> {
             let address = self.home_of(*argument);
             self.push(self.processor.argument(number, address));
         }
-        let result = self.frame.take();
+        let result = self.frame.take(node.width());
         self.push(self.processor.argument(0, result));
         P::call(self, memory, function);
         self.read(&node);
@@ -170,7 +175,7 @@ impl<P: Processor> Allocation<'_, P> {
             self.define(id, register);
         }
         if self.uses.is_over(id) {
-            self.frame.end(result);
+            self.frame.end(result, node.width());
             self.frame.free_ended();
         }
     }
@@ -192,6 +197,12 @@ impl<P: Processor> Allocation<'_, P> {
         self.take(&[])
     }
 
+    /// After an instruction whose result lies in no register and not in memory.
+    pub(crate) fn has_read(&mut self, node: &Node) {
+        self.read(node);
+        self.frame.free_ended();
+    }
+
     /// The result is in `to`: stores it where it is an output.
     pub(crate) fn define(&mut self, id: Id, to: Register) {
         self.frame.free_ended();
@@ -201,7 +212,7 @@ impl<P: Processor> Allocation<'_, P> {
         for index in stores {
             let offset = (index as usize * self.shape.step) as i32;
             let address = Address { base: Base::Output, offset };
-            self.push(self.processor.store(to, address));
+            self.push(self.processor.store(to, address, self.node(id).width()));
             self.home[id as usize].get_or_insert(address);
         }
         if self.uses.is_over(id) {
@@ -224,7 +235,7 @@ impl<P: Processor> Allocation<'_, P> {
                     self.forget(register);
                 }
                 if let Some(address) = self.home[id as usize] {
-                    self.frame.end(address);
+                    self.frame.end(address, self.graph.node(id).width());
                 }
             }
         }
@@ -235,9 +246,10 @@ impl<P: Processor> Allocation<'_, P> {
         if let Some(address) = self.home[id as usize] {
             return address;
         }
-        let to = self.frame.take();
+        let width = self.graph.node(id).width();
+        let to = self.frame.take(width);
         if let Some(from) = self.register[id as usize] {
-            self.push(self.processor.store(from, to));
+            self.push(self.processor.store(from, to, width));
         }
         self.home[id as usize] = Some(to);
         to
@@ -249,11 +261,27 @@ impl<P: Processor> Allocation<'_, P> {
             return register;
         }
         let address = self.home_of(id);
+        let to = self.place(id, locked);
+        self.push(self.processor.load(to, address, self.graph.node(id).width()));
+        to
+    }
+
+    /// A register for a value that lies in none yet; what `locked` names keeps its own.
+    pub(crate) fn place(&mut self, id: Id, locked: &[Id]) -> Register {
         let to = self.take(locked);
-        self.push(self.processor.load(to, address));
         self.held[usize::from(to)] = Some(id);
         self.register[id as usize] = Some(to);
         to
+    }
+
+    /// Whether a value is in a register or in memory.
+    pub(crate) fn is_placed(&self, id: Id) -> bool {
+        self.register[id as usize].is_some() || self.home[id as usize].is_some()
+    }
+
+    /// The position in the order at which a value is read next.
+    pub(crate) fn next_read(&self, id: Id) -> Option<u32> {
+        self.uses.after(id, self.now)
     }
 
     pub(super) fn free_register(&self) -> Option<Register> {
@@ -277,7 +305,8 @@ impl<P: Processor> Allocation<'_, P> {
         last
     }
 
-    fn evict(&mut self, register: Register) {
+    /// Has what a register holds in memory, and in it no more.
+    pub(crate) fn evict(&mut self, register: Register) {
         if let Some(id) = self.held[usize::from(register)] {
             self.home_of(id);
             self.forget(register);

@@ -40,6 +40,16 @@ pub(crate) enum Operation {
     /// The second where the first, a result of `Less`, is set, else the third.
     Select,
     Call(Function),
+    /// Of an angle; stands for its operations until they are written out.
+    Sine,
+    /// As `Sine`.
+    Cosine,
+    /// Two values side by side in one register, twice as wide.
+    Pair,
+    /// The first of a pair.
+    Low,
+    /// The second of a pair.
+    High,
 }
 
 impl Operation {
@@ -56,9 +66,15 @@ pub(crate) struct Node {
     /// Those past `count` are zero, so that equal nodes are equal.
     arguments: [Id; 3],
     count: u8,
+    /// How many values stand side by side in its register: 1, 2 or 4.
+    width: u8,
 }
 
 impl Node {
+    pub(crate) const fn width(&self) -> usize {
+        self.width as usize
+    }
+
     pub(crate) fn arguments(&self) -> &[Id] {
         &self.arguments[..usize::from(self.count)]
     }
@@ -77,12 +93,33 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// The node of an operation on at most three arguments.
+    /// The node of an operation on at most three arguments, done with each value of a register by itself: arguments are of one width,
+    /// and constants of that of what they meet.
     pub(crate) fn node_of<const N: usize>(&mut self, operation: Operation, arguments: [Id; N]) -> Id {
+        let width = arguments.iter().map(|id| self.node(*id).width).max().unwrap_or(1);
+        let arguments = arguments.map(|id| match self.node(id).operation {
+            constant @ Operation::Constant(_) => self.of_width(constant, [], width),
+            _ => id,
+        });
+        self.of_width(operation, arguments, width)
+    }
+
+    /// Two nodes of one width side by side.
+    pub(crate) fn pair(&mut self, [low, high]: [Id; 2]) -> Id {
+        self.of_width(Operation::Pair, [low, high], 2 * self.node(low).width)
+    }
+
+    /// Both halves of a pair.
+    pub(crate) fn halves(&mut self, of: Id) -> [Id; 2] {
+        let width = self.node(of).width / 2;
+        [Operation::Low, Operation::High].map(|half| self.of_width(half, [of], width))
+    }
+
+    fn of_width<const N: usize>(&mut self, operation: Operation, arguments: [Id; N], width: u8) -> Id {
         const { assert!(N <= 3) };
         let mut all = [0; 3];
         all[..N].copy_from_slice(&arguments);
-        let node = Node { operation, arguments: all, count: N as u8 };
+        let node = Node { operation, arguments: all, count: N as u8, width };
         *self.known.entry(node).or_insert_with(|| {
             self.nodes.push(node);
             self.nodes.len() as Id - 1

@@ -1,4 +1,4 @@
-//! From a tape to machine operations. In: a tape that [`verify`] passes. Out: [`Lowered`].
+//! From a tape to machine operations, sines and cosines as one each. In: a tape that [`verify`] passes. Out: [`Lowered`].
 //! Never knows in which order they will run.
 
 use linkwear_tape::{Tape, verify};
@@ -16,6 +16,24 @@ pub(crate) struct Lowered {
     pub(super) first: Vec<Id>,
     /// The node of every entry of the flat output.
     pub(super) outputs: Vec<Id>,
+}
+
+impl Lowered {
+    /// Nodes that outputs are computed from.
+    pub(super) fn needed(&self) -> Vec<bool> {
+        let mut needed = vec![false; self.graph.len()];
+        self.outputs.iter().for_each(|output| needed[*output as usize] = true);
+        // Arguments have smaller places than what is computed from them.
+        for id in (0..self.graph.len() as Id).rev() {
+            if !needed[id as usize] {
+                continue;
+            }
+            for argument in self.graph.node(id).arguments() {
+                needed[*argument as usize] = true;
+            }
+        }
+        needed
+    }
 }
 
 /// Writes a tape's operations down, one by one.

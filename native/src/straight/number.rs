@@ -1,7 +1,7 @@
 //! A scalar that writes down what is done with it: the runtime's own functions, run on it, become machine operations
 //! in exactly their order. In: numbers known already, nodes. Out: nodes of a [`Graph`].
 
-use std::cell::RefCell;
+use std::cell::{RefCell, RefMut};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use linkwear_runtime::Scalar;
@@ -23,6 +23,16 @@ impl Recorder {
 
     fn constant(&self, bits: u64) -> Id {
         self.0.borrow_mut().constant(bits)
+    }
+
+    /// The number of a node.
+    pub(super) const fn of_node(&self, id: Id) -> Number<'_> {
+        Number::Recorded(self, id)
+    }
+
+    /// The graph as it is so far.
+    pub(super) fn graph(&self) -> RefMut<'_, Graph> {
+        self.0.borrow_mut()
     }
 
     /// The node of a number.
@@ -160,7 +170,15 @@ impl<'g> Scalar for Number<'g> {
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        linkwear_runtime::sin_cos(self)
+        match self {
+            Self::Known(angle) => {
+                let (sine, cosine) = linkwear_runtime::sin_cos(angle);
+                (Self::Known(sine), Self::Known(cosine))
+            }
+            Self::Recorded(recorder, id) => {
+                (recorder.number(Operation::Sine, [id]), recorder.number(Operation::Cosine, [id]))
+            }
+        }
     }
 
     fn exp(self) -> Self {

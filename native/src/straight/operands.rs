@@ -2,7 +2,7 @@
 
 use super::allocate::{Allocation, Processor};
 use super::graph::Id;
-use super::place::Register;
+use super::place::{Address, Register};
 
 /// An operand in memory is loaded if it is read again within so many operations and a register is free.
 const SOON: u32 = 8;
@@ -10,6 +10,16 @@ const SOON: u32 = 8;
 impl<P: Processor> Allocation<'_, P> {
     pub(crate) fn register_of(&self, id: Id) -> Option<Register> {
         self.register[id as usize]
+    }
+
+    /// Where two values lie next to each other in memory, if they do and are in no registers.
+    pub(crate) fn side_by_side(&self, first: Id, second: Id) -> Option<Address> {
+        if self.register_of(first).or(self.register_of(second)).is_some() {
+            return None;
+        }
+        let (low, high) = (self.home[first as usize]?, self.home[second as usize]?);
+        let length = (self.node(first).width() * size_of::<f64>()) as i32;
+        (low.base == high.base && high.offset == low.offset + length).then_some(low)
     }
 
     /// Of two arguments that may be exchanged the one to load first: what is in a register, else what is read again sooner.

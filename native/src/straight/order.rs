@@ -37,22 +37,6 @@ fn needs(graph: &Graph) -> Vec<u32> {
     needs
 }
 
-/// Nodes that outputs are computed from.
-fn needed(lowered: &Lowered) -> Vec<bool> {
-    let mut needed = vec![false; lowered.graph.len()];
-    lowered.outputs.iter().for_each(|output| needed[*output as usize] = true);
-    // Arguments have smaller places than what is computed from them.
-    for id in (0..lowered.graph.len() as Id).rev() {
-        if !needed[id as usize] {
-            continue;
-        }
-        for argument in lowered.graph.node(id).arguments() {
-            needed[*argument as usize] = true;
-        }
-    }
-    needed
-}
-
 /// Operations from output to output, each argument as soon as it is wanted.
 fn depth_first(lowered: &Lowered) -> Vec<Id> {
     let graph = &lowered.graph;
@@ -60,7 +44,7 @@ fn depth_first(lowered: &Lowered) -> Vec<Id> {
     let mut placed = vec![false; graph.len()];
     let mut order = Vec::new();
     let mut open: Vec<(Id, bool)> = Vec::new();
-    let needed = needed(lowered);
+    let needed = lowered.needed();
     for output in lowered.first.iter().filter(|id| needed[**id as usize]).chain(&lowered.outputs) {
         open.push((*output, false));
         while let Some((id, arguments_are_placed)) = open.pop() {
@@ -190,9 +174,10 @@ const fn latency(operation: Operation) -> u32 {
     match operation {
         Operation::Input(_) | Operation::Constant(_) => 0,
         Operation::And | Operation::AndNot | Operation::Xor | Operation::Select => 1,
+        Operation::Pair | Operation::Low | Operation::High => 2,
         Operation::Add | Operation::Subtract | Operation::Multiply | Operation::Less => 3,
         Operation::Divide => 13,
         Operation::SquareRoot => 20,
-        Operation::Call(_) => 60,
+        Operation::Call(_) | Operation::Sine | Operation::Cosine => 60,
     }
 }

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use super::graph::{Graph, Id, Operation};
 use super::place::{Address, Base};
 
-/// Lays out what `order` and `outputs` read; `copies_read_by` tells how many copies side by side an operation reads, or an output.
+/// Lays out what `order` and `outputs` read; `copies_read_by` tells how many copies side by side an operation reads, or an
+/// output; a constant that stands side by side with itself has so many.
 pub(super) fn lay_out(
     graph: &Graph,
     order: &[Id],
@@ -20,7 +21,7 @@ pub(super) fn lay_out(
                 copies.push((id, bits, 0));
                 copies.len() - 1
             });
-            copies[at].2 = copies[at].2.max(count);
+            copies[at].2 = copies[at].2.max(count).max(graph.node(id).width());
         }
     };
     for id in outputs {

@@ -9,6 +9,7 @@ use super::bounds::Lengths;
 use super::graph::Function;
 use super::lower::{Lowered, lower};
 use super::order::order;
+use super::sines::written_out;
 
 /// A function, ready to be made executable. Lengths are in numbers, those of all lanes together.
 #[derive(Clone, Debug)]
@@ -72,6 +73,7 @@ pub(crate) fn placed<'n, P: Processor>(
     if i32::try_from(most).is_err() {
         return Err(Refusal::TooLong);
     }
+    let lowered = written_out(lowered, processor.widest());
     let shape = processor.shape();
     let straight = allocate(&lowered, &order(&lowered, shape.registers), processor);
     let (inputs, outputs) = (lowered.inputs * shape.step, lowered.outputs.len() * shape.step);

@@ -3,16 +3,21 @@
 
 use crate::straight::bounds::Lengths;
 
-use super::instruction::{Binary, Instruction, Lanes, Operand, Target};
+use super::instruction::{Binary, Instruction, Lanes, MASKS, MaskRegister, Operand, Target, Wide};
 
 /// Whether an instruction stays within its memory and its registers.
-pub(super) fn is_within(instruction: Instruction, target: Target, lengths: Lengths) -> bool {
-    let value = target.lanes.bytes();
+pub(super) fn is_within(Wide { lanes, instruction }: Wide, target: Target, lengths: Lengths) -> bool {
+    // Values of one state stand side by side, states of a value do not.
+    if lanes != target.lanes && (target.lanes != Lanes::One || lanes == Lanes::Eight) {
+        return false;
+    }
+    let value = lanes.bytes();
     // Bitwise instructions read whole registers.
     let whole = value.max(16);
     let register = |register: u8| register < target.registers;
+    let masked = |mask: MaskRegister| target.registers > 16 && (1..MASKS).contains(&usize::from(mask));
     // Forms that only the shorter encoding has.
-    let low = |register: u8| register < target.registers.min(16) && target.lanes != Lanes::Eight;
+    let low = |register: u8| register < target.registers.min(16) && lanes != Lanes::Eight;
     let read = |operand: Operand, bytes: usize| match operand {
         Operand::Register(number) => register(number),
         Operand::Memory(address) => lengths.hold(address, bytes, false),
@@ -32,17 +37,23 @@ pub(super) fn is_within(instruction: Instruction, target: Target, lengths: Lengt
         Instruction::Select { to, no, yes, mask } => {
             low(to) && low(no) && low(mask) && read(yes, whole) && is_low(yes)
         }
-        Instruction::LessToMask { first, second } => {
-            target.registers > 16 && register(first) && read(second, value)
+        Instruction::LessToMask { mask, first, second } => {
+            masked(mask) && register(first) && read(second, value)
         }
-        Instruction::SignToMask { of: number } | Instruction::MaskToRegister { to: number } => {
-            target.registers > 16 && register(number)
+        Instruction::SignToMask { mask, of: number } | Instruction::MaskToRegister { to: number, mask } => {
+            masked(mask) && register(number)
         }
-        Instruction::SelectByMask { to, no, yes } => {
-            target.registers > 16 && register(to) && register(no) && read(yes, whole)
+        Instruction::SelectByMask { to, no, yes, mask } => {
+            masked(mask) && register(to) && register(no) && read(yes, whole)
         }
         Instruction::Load { to, from } => register(to) && read(from, value),
         Instruction::Store { from, to } => register(from) && lengths.hold(to, value, true),
+        Instruction::Pair { to, low, high } => {
+            lanes != Lanes::One && register(to) && register(low) && read(high, value / 2)
+        }
+        Instruction::Low { to, of } | Instruction::High { to, of } => {
+            lanes != Lanes::One && register(to) && register(of)
+        }
         // The result is written, arguments are read.
         Instruction::Argument { number, address } => number < 4 && lengths.hold(address, value, number == 0),
         Instruction::Enter
@@ -71,7 +82,7 @@ mod tests {
 
     fn is_found(lanes: Lanes, registers: u8, instruction: Instruction) -> bool {
         let target = Target { lanes, registers, columns: false };
-        !is_within(instruction, target, LENGTHS)
+        !is_within(Wide { lanes, instruction }, target, LENGTHS)
     }
 
     fn load(base: Base, offset: i32) -> Instruction {
@@ -115,8 +126,9 @@ mod tests {
         let add =
             Instruction::Binary { operation: Binary::Add, to: 16, first: 0, second: Operand::Register(1) };
         assert!(is_found(Lanes::One, 16, add) && !is_found(Lanes::One, 32, add));
-        let mask = Instruction::SignToMask { of: 0 };
-        assert!(is_found(Lanes::One, 16, mask) && !is_found(Lanes::One, 32, mask));
+        let mask = |mask| Instruction::SignToMask { mask, of: 0 };
+        assert!(is_found(Lanes::One, 16, mask(7)) && !is_found(Lanes::One, 32, mask(7)));
+        assert!(is_found(Lanes::One, 32, mask(0)) && is_found(Lanes::One, 32, mask(8)));
         let select = Instruction::Select { to: 0, no: 1, yes: Operand::Register(2), mask: 16 };
         assert!(is_found(Lanes::One, 32, select));
         assert!(is_found(
@@ -124,5 +136,27 @@ mod tests {
             32,
             Instruction::Select { mask: 3, to: 0, no: 1, yes: Operand::Register(2) }
         ));
+    }
+
+    #[test]
+    fn values_of_one_state_stand_side_by_side_and_states_do_not() {
+        let is_within = |of: Lanes, lanes, instruction| {
+            let target = Target { lanes: of, registers: 32, columns: false };
+            is_within(Wide { lanes, instruction }, target, LENGTHS)
+        };
+        let pair = |offset| Instruction::Pair {
+            to: 0,
+            low: 1,
+            high: Operand::Memory(Address { base: Base::Input, offset }),
+        };
+        for (lanes, last) in [(Lanes::Two, 24), (Lanes::Four, 16)] {
+            assert!(
+                is_within(Lanes::One, lanes, pair(last)) && !is_within(Lanes::One, lanes, pair(last + 1))
+            );
+            assert!(!is_within(Lanes::Eight, lanes, pair(last)));
+        }
+        assert!(!is_within(Lanes::One, Lanes::One, pair(0)));
+        assert!(!is_within(Lanes::One, Lanes::Eight, Instruction::Low { to: 0, of: 1 }));
+        assert!(!is_within(Lanes::One, Lanes::Two, Instruction::High { to: 0, of: 32 }));
     }
 }

@@ -4,12 +4,12 @@
 use crate::straight::graph::Function;
 use crate::straight::place::{Address, Base, Register};
 
-use super::instruction::{Binary, Instruction, Lanes, Operand, Target};
+use super::instruction::{Binary, Instruction, Lanes, Operand, Target, Wide};
 
 /// Predicate of comparisons: ordered, less than, silent on NaN.
 const LESS_THAN: u8 = 0x11;
-/// The one mask register in use.
-const MASK: u8 = 1;
+/// Names the upper half of a register of 32 bytes.
+const UPPER: u8 = 1;
 /// The general register that holds the pointer to a column, rax: nothing else stays there.
 const COLUMN: u8 = 0;
 
@@ -31,6 +31,7 @@ const fn plain(prefix: u8, opcode: u8) -> Form {
 
 pub(super) struct Encoder<'a> {
     code: Vec<u8>,
+    /// Of the instruction at hand.
     lanes: Lanes,
     /// Whether inputs and outputs are behind tables of pointers.
     columns: bool,
@@ -52,7 +53,8 @@ impl<'a> Encoder<'a> {
         self.code
     }
 
-    pub(super) fn instruction(&mut self, instruction: Instruction) {
+    pub(super) fn instruction(&mut self, Wide { lanes, instruction }: Wide) {
+        self.lanes = lanes;
         match instruction {
             Instruction::Binary { operation: Binary::Less, to, first, second } => {
                 self.vector(self.arithmetic(0xC2), to, first, second, 0);
@@ -73,30 +75,20 @@ impl<'a> Encoder<'a> {
                 self.vector(Form { map: 3, ..plain(1, 0x4B) }, to, no, yes, 0);
                 self.code.push(mask << 4);
             }
-            Instruction::LessToMask { first, second } => {
-                self.vector(Form { extended: true, ..self.arithmetic(0xC2) }, MASK, first, second, 0);
+            Instruction::LessToMask { mask, first, second } => {
+                self.vector(Form { extended: true, ..self.arithmetic(0xC2) }, mask, first, second, 0);
                 self.code.push(LESS_THAN);
             }
-            Instruction::SignToMask { of } => {
-                self.vector(
-                    Form { map: 2, extended: true, ..plain(2, 0x39) },
-                    MASK,
-                    0,
-                    Operand::Register(of),
-                    0,
-                );
+            Instruction::SignToMask { mask, of } => {
+                let form = Form { map: 2, extended: true, ..plain(2, 0x39) };
+                self.vector(form, mask, 0, Operand::Register(of), 0);
             }
-            Instruction::MaskToRegister { to } => {
-                self.vector(
-                    Form { map: 2, extended: true, ..plain(2, 0x38) },
-                    to,
-                    0,
-                    Operand::Register(MASK),
-                    0,
-                );
+            Instruction::MaskToRegister { to, mask } => {
+                let form = Form { map: 2, extended: true, ..plain(2, 0x38) };
+                self.vector(form, to, 0, Operand::Register(mask), 0);
             }
-            Instruction::SelectByMask { to, no, yes } => {
-                self.vector(Form { map: 2, extended: true, ..plain(1, 0x65) }, to, no, yes, MASK);
+            Instruction::SelectByMask { to, no, yes, mask } => {
+                self.vector(Form { map: 2, extended: true, ..plain(1, 0x65) }, to, no, yes, mask);
             }
             Instruction::Load { to, from: Operand::Broadcast(from) } => {
                 let form = Form { map: 2, scalar: true, ..plain(1, 0x19) };
@@ -106,6 +98,24 @@ impl<'a> Encoder<'a> {
             Instruction::Store { from, to } => {
                 self.vector(self.arithmetic(0x11), from, 0, Operand::Memory(to), 0)
             }
+            Instruction::Pair { to, low, high } => {
+                let (form, half) = match (lanes, high) {
+                    (Lanes::Four, _) => (Form { map: 3, ..plain(1, 0x18) }, true),
+                    (_, Operand::Register(_)) => (plain(1, 0x14), false),
+                    (_, _) => (plain(1, 0x16), false),
+                };
+                self.vector(form, to, low, high, 0);
+                self.code.extend(half.then_some(UPPER));
+            }
+            Instruction::Low { to, of } => {
+                self.lanes = Lanes::Two;
+                self.vector(plain(1, 0x28), to, 0, Operand::Register(of), 0);
+            }
+            Instruction::High { to, of } if lanes == Lanes::Four => {
+                self.vector(Form { map: 3, ..plain(1, 0x19) }, of, 0, Operand::Register(to), 0);
+                self.code.push(UPPER);
+            }
+            Instruction::High { to, of } => self.vector(plain(1, 0x15), to, of, Operand::Register(of), 0),
             Instruction::Enter => {
                 // push rbx, rbp, r14, r15; sub rsp, 8, which puts the stack on a multiple of 16.
                 self.code.extend([0x53, 0x55, 0x41, 0x56, 0x41, 0x57, 0x48, 0x83, 0xEC, 0x08]);
@@ -205,7 +215,7 @@ impl<'a> Encoder<'a> {
     /// 0, 1, 2: 16, 32, 64 bytes.
     fn length(&self) -> u8 {
         match self.lanes {
-            Lanes::One => 0,
+            Lanes::One | Lanes::Two => 0,
             Lanes::Four => 1,
             Lanes::Eight => 2,
         }
@@ -243,7 +253,12 @@ impl<'a> Encoder<'a> {
         self.code.extend([0x62, first, second, third, form.opcode]);
         let whole = 16 << self.length();
         let number = form.map == 2 && form.opcode == 0x19 || self.lanes == Lanes::One;
-        let unit = if broadcast == 1 || form.scalar && number { 8 } else { whole };
+        let half = form.map == 3 || form.map == 1 && form.opcode == 0x16;
+        let unit = match () {
+            () if broadcast == 1 || form.scalar && number => 8,
+            () if half => self.lanes.bytes() as i32 / 2,
+            () => whole,
+        };
         self.operand(register, operand, unit);
     }
 

@@ -3,10 +3,11 @@
 use crate::straight::graph::Function;
 use crate::straight::place::{Address, Register};
 
-/// How many states one call evaluates side by side.
+/// How many numbers stand side by side: the states that one call evaluates, or the values of one state that one instruction computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lanes {
     One,
+    Two,
     Four,
     Eight,
 }
@@ -15,6 +16,7 @@ impl Lanes {
     pub(super) const fn count(self) -> usize {
         match self {
             Self::One => 1,
+            Self::Two => 2,
             Self::Four => 4,
             Self::Eight => 8,
         }
@@ -35,6 +37,12 @@ pub(crate) struct Target {
     /// Whether inputs and outputs lie apart, each behind its pointer in a table, and not value by value.
     pub(super) columns: bool,
 }
+
+/// A mask register, by its number, from 1 on: 0 stands for no mask.
+pub(crate) type MaskRegister = u8;
+
+/// How many numbers mask registers have, with that of no mask.
+pub(super) const MASKS: usize = 8;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Operand {
@@ -58,7 +66,13 @@ pub(crate) enum Binary {
     Less,
 }
 
-/// The mask register is always the same one, and named by no instruction.
+/// An instruction and the numbers that it computes side by side: the states of the code, or, where that has one, several of its values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Wide {
+    pub(super) lanes: Lanes,
+    pub(super) instruction: Instruction,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Instruction {
     Binary {
@@ -79,19 +93,23 @@ pub(crate) enum Instruction {
         mask: Register,
     },
     LessToMask {
+        mask: MaskRegister,
         first: Register,
         second: Operand,
     },
     SignToMask {
+        mask: MaskRegister,
         of: Register,
     },
     MaskToRegister {
         to: Register,
+        mask: MaskRegister,
     },
     SelectByMask {
         to: Register,
         no: Register,
         yes: Operand,
+        mask: MaskRegister,
     },
     Load {
         to: Register,
@@ -100,6 +118,22 @@ pub(crate) enum Instruction {
     Store {
         from: Register,
         to: Address,
+    },
+    /// Two halves side by side.
+    Pair {
+        to: Register,
+        low: Register,
+        high: Operand,
+    },
+    /// The first half of a pair; lanes are those of the pair, as for `High`.
+    Low {
+        to: Register,
+        of: Register,
+    },
+    /// The second half.
+    High {
+        to: Register,
+        of: Register,
     },
     /// Saves the registers that the caller wants back, and puts the pointers where calls leave them.
     Enter,

@@ -1,5 +1,5 @@
 //! Which instructions do an operation: operands are read from memory where nothing is gained by loading them, comparisons
-//! go through the mask register where there is one. Never knows bytes.
+//! go into mask registers where there are any. Never knows bytes.
 
 use crate::straight::allocate::{Allocation, Processor};
 use crate::straight::bounds::Lengths;
@@ -8,16 +8,20 @@ use crate::straight::place::{Address, Base, Register, Shape};
 
 use super::bounds;
 use super::encode::Encoder;
-use super::instruction::{Binary, Instruction, Lanes, Operand, Target};
+use super::instruction::{Binary, Instruction, Lanes, Operand, Target, Wide};
+use super::masks::Masks;
 
 impl Processor for Target {
-    type Instruction = Instruction;
-    /// The node that the mask register holds.
-    type Memory = Option<Id>;
+    type Instruction = Wide;
+    type Memory = Written;
 
     fn shape(self) -> Shape {
         let value = self.lanes.bytes();
         Shape { value, step: value, registers: self.registers, columns: self.columns }
+    }
+
+    fn widest(self) -> usize {
+        if self.lanes == Lanes::One { 4 } else { 1 }
     }
 
     /// Four lanes read four copies. Eight lanes read one, which their instructions spread, except where a called function
@@ -25,58 +29,75 @@ impl Processor for Target {
     fn copies(self, reader: Option<Operation>) -> usize {
         match (self.lanes, reader) {
             (Lanes::One, reader) => 1 + usize::from(reader.is_some_and(is_bitwise)),
+            (Lanes::Two, _) => 2,
             (Lanes::Four, _) => 4,
             (Lanes::Eight, Some(Operation::Call(_))) => 8,
             (Lanes::Eight, _) => 1,
         }
     }
 
-    fn load(self, to: Register, from: Address) -> Instruction {
-        Instruction::Load { to, from: self.in_memory(from) }
+    fn load(self, to: Register, from: Address, width: usize) -> Wide {
+        self.wide(width, Instruction::Load { to, from: self.in_memory(from) })
     }
 
-    fn store(self, from: Register, to: Address) -> Instruction {
-        Instruction::Store { from, to }
+    fn store(self, from: Register, to: Address, width: usize) -> Wide {
+        self.wide(width, Instruction::Store { from, to })
     }
 
-    fn argument(self, number: u8, address: Address) -> Instruction {
-        Instruction::Argument { number, address }
+    fn argument(self, number: u8, address: Address) -> Wide {
+        self.wide(1, Instruction::Argument { number, address })
     }
 
-    fn operation(allocation: &mut Allocation<'_, Self>, mask: &mut Option<Id>, id: Id) {
+    fn operation(allocation: &mut Allocation<'_, Self>, written: &mut Written, id: Id) {
         let node = allocation.node(id);
+        written.upper |= fills_upper(allocation.processor.lanes_of(node.width()));
         match (node.operation, node.arguments()) {
             (Operation::SquareRoot, [of]) => square_root(allocation, id, *of),
-            (Operation::Select, [by, yes, no]) => select(allocation, mask, id, [*by, *yes, *no]),
-            (operation, [first, second]) => binary(allocation, mask, id, operation, [*first, *second]),
+            (Operation::Low | Operation::High, [of]) => half(allocation, id, *of),
+            (Operation::Pair, [low, high]) => pair(allocation, id, [*low, *high]),
+            (Operation::Select, [by, yes, no]) => {
+                written.masks.copy(allocation, &[*yes, *no], node.arguments());
+                select(allocation, &mut written.masks, id, [*by, *yes, *no]);
+            }
+            (Operation::Less, [first, second]) if allocation.processor.has_masks() => {
+                less_to_mask(allocation, &mut written.masks, id, [*first, *second]);
+            }
+            (operation, [first, second]) => {
+                written.masks.copy(allocation, node.arguments(), node.arguments());
+                binary(allocation, id, operation, [*first, *second]);
+            }
             // No others are left.
             _ => {}
         }
     }
 
-    fn call(allocation: &mut Allocation<'_, Self>, mask: &mut Option<Id>, function: Function) {
-        *mask = None;
-        if allocation.processor.lanes != Lanes::One {
-            allocation.push(Instruction::ClearUpper);
+    fn call(allocation: &mut Allocation<'_, Self>, written: &mut Written, function: Function) {
+        written.masks.save(allocation);
+        let target = allocation.processor;
+        if written.upper || fills_upper(target.lanes) {
+            allocation.push(target.wide(1, Instruction::ClearUpper));
+            written.upper = false;
         }
-        allocation.push(Instruction::Call(function));
+        allocation.push(target.wide(1, Instruction::Call(function)));
     }
 
-    fn framed(self, body: Vec<Instruction>, calls: bool, _: Register) -> Vec<Instruction> {
+    fn framed(self, body: Vec<Wide>, calls: bool, _: Register) -> Vec<Wide> {
+        let upper = fills_upper(self.lanes) || body.iter().any(|wide| fills_upper(wide.lanes));
         let mut all = Vec::with_capacity(body.len() + 4);
-        all.extend(calls.then_some(Instruction::Enter));
+        let alone = |instruction| self.wide(1, instruction);
+        all.extend(calls.then_some(Instruction::Enter).map(alone));
         all.extend(body);
-        all.extend((self.lanes != Lanes::One).then_some(Instruction::ClearUpper));
-        all.extend(calls.then_some(Instruction::Leave));
-        all.push(Instruction::Return);
+        all.extend(upper.then_some(Instruction::ClearUpper).map(alone));
+        all.extend(calls.then_some(Instruction::Leave).map(alone));
+        all.push(alone(Instruction::Return));
         all
     }
 
-    fn is_within(self, instruction: Instruction, lengths: Lengths) -> bool {
+    fn is_within(self, instruction: Wide, lengths: Lengths) -> bool {
         bounds::is_within(instruction, self, lengths)
     }
 
-    fn encode(self, instructions: &[Instruction], functions: &dyn Fn(Function) -> usize) -> Vec<u8> {
+    fn encode(self, instructions: &[Wide], functions: &dyn Fn(Function) -> usize) -> Vec<u8> {
         let mut encoder = Encoder::new(self, functions);
         for instruction in instructions {
             encoder.instruction(*instruction);
@@ -85,7 +106,38 @@ impl Processor for Target {
     }
 }
 
+/// What earlier operations leave behind.
+#[derive(Default)]
+pub(crate) struct Written {
+    masks: Masks,
+    /// Whether upper halves of registers may be in use.
+    upper: bool,
+}
+
+/// Whether more than the first 16 bytes of registers are written.
+const fn fills_upper(lanes: Lanes) -> bool {
+    matches!(lanes, Lanes::Four | Lanes::Eight)
+}
+
 impl Target {
+    /// The lanes of an instruction on so many values side by side.
+    const fn lanes_of(self, width: usize) -> Lanes {
+        match (self.lanes, width) {
+            (Lanes::One, 2) => Lanes::Two,
+            (Lanes::One, 4) => Lanes::Four,
+            (lanes, _) => lanes,
+        }
+    }
+
+    /// Whether there are mask registers.
+    const fn has_masks(self) -> bool {
+        self.registers > 16
+    }
+
+    const fn wide(self, width: usize, instruction: Instruction) -> Wide {
+        Wide { lanes: self.lanes_of(width), instruction }
+    }
+
     fn in_memory(self, address: Address) -> Operand {
         if self.lanes == Lanes::Eight && address.base == Base::Pool {
             Operand::Broadcast(address)
@@ -95,6 +147,12 @@ impl Target {
     }
 }
 
+/// An instruction of an operation.
+pub(super) fn push(allocation: &mut Allocation<'_, Target>, node: &Node, instruction: Instruction) {
+    let wide = allocation.processor.wide(node.width(), instruction);
+    allocation.push(wide);
+}
+
 fn operand(allocation: &mut Allocation<'_, Target>, id: Id, reader: &Node) -> Operand {
     if let Some(register) = allocation.register_of(id) {
         return Operand::Register(register);
@@ -102,7 +160,9 @@ fn operand(allocation: &mut Allocation<'_, Target>, id: Id, reader: &Node) -> Op
     let address = allocation.home_of(id);
     let target = allocation.processor;
     // Bitwise operations read 16 bytes, which only constants have.
-    let too_short = target.lanes == Lanes::One && is_bitwise(reader.operation) && address.base != Base::Pool;
+    let too_short = target.lanes_of(reader.width()) == Lanes::One
+        && is_bitwise(reader.operation)
+        && address.base != Base::Pool;
     if too_short || allocation.is_worth_a_register(id) {
         return Operand::Register(allocation.load(id, reader.arguments()));
     }
@@ -111,13 +171,39 @@ fn operand(allocation: &mut Allocation<'_, Target>, id: Id, reader: &Node) -> Op
 
 fn square_root(allocation: &mut Allocation<'_, Target>, id: Id, of: Id) {
     let node = allocation.node(id);
-    let of = if allocation.processor.lanes == Lanes::One {
+    let of = if allocation.processor.lanes_of(node.width()) == Lanes::One {
         Operand::Register(allocation.load(of, &[]))
     } else {
         operand(allocation, of, &node)
     };
     let to = allocation.result(&node);
-    allocation.push(Instruction::SquareRoot { to, of });
+    push(allocation, &node, Instruction::SquareRoot { to, of });
+    allocation.define(id, to);
+}
+
+/// Numbers that lie side by side in memory come by one load.
+fn pair(allocation: &mut Allocation<'_, Target>, id: Id, [low, high]: [Id; 2]) {
+    let node = allocation.node(id);
+    if let Some(from) = allocation.side_by_side(low, high) {
+        let to = allocation.result(&node);
+        push(allocation, &node, Instruction::Load { to, from: Operand::Memory(from) });
+        return allocation.define(id, to);
+    }
+    let low = allocation.load(low, node.arguments());
+    let high = operand(allocation, high, &node);
+    let to = allocation.result(&node);
+    push(allocation, &node, Instruction::Pair { to, low, high });
+    allocation.define(id, to);
+}
+
+fn half(allocation: &mut Allocation<'_, Target>, id: Id, of: Id) {
+    let node = allocation.node(id);
+    let pair = allocation.node(of);
+    let of = allocation.load(of, &[]);
+    let to = allocation.result(&node);
+    let is_low = node.operation == Operation::Low;
+    let half = if is_low { Instruction::Low { to, of } } else { Instruction::High { to, of } };
+    push(allocation, &pair, half);
     allocation.define(id, to);
 }
 
@@ -131,13 +217,7 @@ const fn is_bitwise(operation: Operation) -> bool {
     matches!(operation, Operation::And | Operation::AndNot | Operation::Xor | Operation::Select)
 }
 
-fn binary(
-    allocation: &mut Allocation<'_, Target>,
-    mask: &mut Option<Id>,
-    id: Id,
-    operation: Operation,
-    [first, second]: [Id; 2],
-) {
+fn binary(allocation: &mut Allocation<'_, Target>, id: Id, operation: Operation, [first, second]: [Id; 2]) {
     let node = allocation.node(id);
     let (first, second) =
         if commutes(operation) { allocation.in_good_order(first, second) } else { (first, second) };
@@ -152,49 +232,46 @@ fn binary(
         Operation::And => Binary::And,
         Operation::AndNot => Binary::AndNot,
         Operation::Xor => Binary::Xor,
-        _ => {
-            less(allocation, mask, id, to, (first, second));
-            return allocation.define(id, to);
-        }
+        // Without mask registers there are 16 registers and at most four lanes: the shorter encoding has it.
+        _ => Binary::Less,
     };
-    allocation.push(Instruction::Binary { operation, to, first, second });
+    push(allocation, &node, Instruction::Binary { operation, to, first, second });
     allocation.define(id, to);
 }
 
-/// Only registers below 16 and no eight lanes can be compared into a register; others go by the mask register.
-fn less(
+/// No register holds what is less: selections mostly go by the mask alone.
+fn less_to_mask(
     allocation: &mut Allocation<'_, Target>,
-    mask: &mut Option<Id>,
+    masks: &mut Masks,
     id: Id,
-    to: Register,
-    (first, second): (Register, Operand),
+    [first, second]: [Id; 2],
 ) {
-    let high = matches!(second, Operand::Register(register) if register > 15) || first > 15 || to > 15;
-    if high || allocation.processor.lanes == Lanes::Eight {
-        allocation.push(Instruction::LessToMask { first, second });
-        allocation.push(Instruction::MaskToRegister { to });
-        *mask = Some(id);
-    } else {
-        allocation.push(Instruction::Binary { operation: Binary::Less, to, first, second });
-    }
+    let node = allocation.node(id);
+    let first = allocation.load(first, node.arguments());
+    let second = operand(allocation, second, &node);
+    let mask = masks.take(allocation, id, node.arguments());
+    push(allocation, &node, Instruction::LessToMask { mask, first, second });
+    allocation.has_read(&node);
 }
 
-fn select(allocation: &mut Allocation<'_, Target>, mask: &mut Option<Id>, id: Id, [by, yes, no]: [Id; 3]) {
+fn select(allocation: &mut Allocation<'_, Target>, masks: &mut Masks, id: Id, [by, yes, no]: [Id; 3]) {
     let node = allocation.node(id);
     let locked = node.arguments();
-    let by_mask = allocation.processor.registers > 16;
-    let known = by_mask && *mask == Some(by);
-    let held = if known { None } else { Some(allocation.load(by, locked)) };
-    let no = allocation.load(no, locked);
-    let yes = operand(allocation, yes, &node);
-    if let (Some(of), true) = (held, by_mask) {
-        allocation.push(Instruction::SignToMask { of });
-        *mask = Some(by);
+    let select = if allocation.processor.has_masks() {
+        let mask = masks.mask_of(allocation, by, locked);
+        let no = allocation.load(no, locked);
+        let yes = operand(allocation, yes, &node);
+        let to = allocation.result(&node);
+        Instruction::SelectByMask { to, no, yes, mask }
+    } else {
+        let mask = allocation.load(by, locked);
+        let no = allocation.load(no, locked);
+        let yes = operand(allocation, yes, &node);
+        let to = allocation.result(&node);
+        Instruction::Select { to, no, yes, mask }
+    };
+    push(allocation, &node, select);
+    if let Instruction::Select { to, .. } | Instruction::SelectByMask { to, .. } = select {
+        allocation.define(id, to);
     }
-    let to = allocation.result(&node);
-    allocation.push(match held {
-        Some(mask) if !by_mask => Instruction::Select { to, no, yes, mask },
-        _ => Instruction::SelectByMask { to, no, yes },
-    });
-    allocation.define(id, to);
 }

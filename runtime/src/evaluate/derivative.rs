@@ -60,6 +60,10 @@ impl<'a> Derivative<'a> {
         }
         if !known {
             self.move_to(questions, (t, q, v));
+            // It costs no more than motions and laws one after the other, and who asks for contacts mostly asks for accelerations next.
+            if self.answer_inside(clearances) {
+                return;
+            }
         }
         let (state, answers) = self.input.split_at_mut(self.state_end);
         let (wrenches, contacts) = answers.split_at_mut(self.wrenches_end - self.state_end);
@@ -94,12 +98,6 @@ impl<'a> Derivative<'a> {
         (t, q, v): (f64, &[f64], &[f64]),
     ) {
         if self.sizes.contacts > 0 {
-            if self.inside.is_some() && !self.is_at(t, q, v) {
-                self.move_to(questions, (t, q, v));
-                if self.answer_inside(clearances) {
-                    return;
-                }
-            }
             self.contacts(questions, clearances, (t, q, v));
         } else if !self.is_at(t, q, v) {
             self.move_to(questions, (t, q, v));

@@ -43,6 +43,10 @@ pub(crate) fn calls(tape: &Tape, input: &[f64]) -> Vec<Call> {
             Operation::And => x & y,
             Operation::AndNot => !x & y,
             Operation::Xor => x ^ y,
+            Operation::Sine => Scalar::sin_cos(a).0.to_bits(),
+            Operation::Cosine => Scalar::sin_cos(a).1.to_bits(),
+            // Values stand alone here.
+            Operation::Pair | Operation::Low | Operation::High => 0,
             Operation::Less => u64::from(a < b).wrapping_neg(),
             Operation::Select => {
                 if x == 0 {

@@ -5,7 +5,7 @@ use iced_x86::{Decoder, DecoderOptions, Formatter, MemorySizeOptions, NasmFormat
 use crate::straight::graph::Function;
 use crate::straight::place::{Address, Base, Register};
 use crate::x86::encode::Encoder;
-use crate::x86::instruction::{Binary, Instruction, Lanes, Operand, Target};
+use crate::x86::instruction::{Binary, Instruction, Lanes, Operand, Target, Wide};
 
 const FUNCTION: usize = 0x1234_5678_9ABC;
 
@@ -19,7 +19,7 @@ struct Assembly {
 impl Assembly {
     fn register(&self, number: Register) -> String {
         let name = match self.lanes {
-            Lanes::One => "xmm",
+            Lanes::One | Lanes::Two => "xmm",
             Lanes::Four => "ymm",
             Lanes::Eight => "zmm",
         };
@@ -70,6 +70,7 @@ impl Assembly {
             | Instruction::Select { yes: operand, .. }
             | Instruction::LessToMask { second: operand, .. }
             | Instruction::SelectByMask { yes: operand, .. }
+            | Instruction::Pair { high: operand, .. }
             | Instruction::Load { from: operand, .. } => Some(operand),
             Instruction::Store { to, .. } => Some(Operand::Memory(to)),
             _ => None,
@@ -111,13 +112,18 @@ impl Assembly {
                 let [to, no, mask] = [to, no, mask].map(|number| self.register(number));
                 format!("vblendvpd {to},{no},{},{mask}", self.operand(yes))
             }
-            Instruction::LessToMask { first, second } => {
-                format!("vcmplt_oq{suffix} k1,{},{}", self.register(first), self.operand(second))
+            Instruction::LessToMask { mask, first, second } => {
+                format!("vcmplt_oq{suffix} k{mask},{},{}", self.register(first), self.operand(second))
             }
-            Instruction::SignToMask { of } => format!("vpmovq2m k1,{}", self.register(of)),
-            Instruction::MaskToRegister { to } => format!("vpmovm2q {},k1", self.register(to)),
-            Instruction::SelectByMask { to, no, yes } => {
-                format!("vblendmpd {}{{k1}},{},{}", self.register(to), self.register(no), self.operand(yes))
+            Instruction::SignToMask { mask, of } => format!("vpmovq2m k{mask},{}", self.register(of)),
+            Instruction::MaskToRegister { to, mask } => format!("vpmovm2q {},k{mask}", self.register(to)),
+            Instruction::SelectByMask { to, no, yes, mask } => {
+                format!(
+                    "vblendmpd {}{{k{mask}}},{},{}",
+                    self.register(to),
+                    self.register(no),
+                    self.operand(yes)
+                )
             }
             Instruction::Load { to, from: Operand::Broadcast(from) } => {
                 format!("vbroadcastsd {},{}", self.register(to), self.address(from))
@@ -127,6 +133,14 @@ impl Assembly {
             }
             Instruction::Store { from, to } => {
                 format!("{of_moves} {},{}", self.address(to), self.register(from))
+            }
+            Instruction::Pair { to, low, high } => self.pair(to, low, high),
+            Instruction::Low { to, of } => format!("vmovapd {},{}", half(to), half(of)),
+            Instruction::High { to, of } if self.lanes == Lanes::Two => {
+                format!("vunpckhpd {},{},{}", half(to), half(of), half(of))
+            }
+            Instruction::High { to, of } => {
+                format!("vextractf{} {},{},1h", halves(to, of), half(to), self.register(of))
             }
             Instruction::Enter => {
                 self.entered = true;
@@ -151,6 +165,32 @@ impl Assembly {
         };
         vec![line]
     }
+
+    fn pair(&self, to: Register, low: Register, high: Operand) -> String {
+        match (self.lanes, high) {
+            (Lanes::Two, Operand::Register(high)) => {
+                format!("vunpcklpd {},{},{}", half(to), half(low), half(high))
+            }
+            (Lanes::Two, high) => format!("vmovhpd {},{},{}", half(to), half(low), self.operand(high)),
+            (_, high) => {
+                let (name, high) = match high {
+                    Operand::Register(high) => (halves(to.max(low), high), half(high)),
+                    high => (halves(to, low), self.operand(high)),
+                };
+                format!("vinsertf{name} {},{},{high},1h", self.register(to), self.register(low))
+            }
+        }
+    }
+}
+
+/// A register's first 16 bytes.
+fn half(number: Register) -> String {
+    format!("xmm{number}")
+}
+
+/// What instructions on halves of 32 bytes are called: otherwise where a register above 15 is among them.
+fn halves(a: Register, b: Register) -> &'static str {
+    if a.max(b) > 15 { "64x2" } else { "128" }
 }
 
 /// Encodes and decodes; returns how many instructions there were.
@@ -160,7 +200,7 @@ fn read_back(lanes: Lanes, columns: bool, instructions: &[Instruction]) -> usize
     let mut assembly = Assembly { lanes, columns, entered: false };
     let mut meant = Vec::new();
     for instruction in instructions {
-        encoder.instruction(*instruction);
+        encoder.instruction(Wide { lanes, instruction: *instruction });
         meant.extend(assembly.lines(*instruction));
     }
     let code = encoder.finish();
@@ -220,6 +260,7 @@ fn addresses() -> impl Iterator<Item = Address> {
 /// Forms that every register may be in.
 fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<Instruction> {
     let mut all = Vec::new();
+    let mask = 1 + a % 7;
     let operations = [
         Binary::Add,
         Binary::Subtract,
@@ -239,8 +280,8 @@ fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<In
         all.extend(anywhere.iter().map(binary));
     }
     for operand in &anywhere {
-        all.push(Instruction::LessToMask { first: b, second: *operand });
-        all.push(Instruction::SelectByMask { to: a, no: b, yes: *operand });
+        all.push(Instruction::LessToMask { mask, first: b, second: *operand });
+        all.push(Instruction::SelectByMask { to: a, no: b, yes: *operand, mask });
         // One lane takes the root of registers only.
         if lanes != Lanes::One || matches!(operand, Operand::Register(_)) {
             all.push(Instruction::SquareRoot { to: a, of: *operand });
@@ -256,14 +297,19 @@ fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<In
             all.push(Instruction::Load { to: a, from: Operand::Broadcast(address) });
         }
     }
-    all.extend([Instruction::SignToMask { of: a }, Instruction::MaskToRegister { to: a }]);
+    all.extend([Instruction::SignToMask { mask, of: a }, Instruction::MaskToRegister { to: a, mask }]);
+    if matches!(lanes, Lanes::Two | Lanes::Four) {
+        let whole = anywhere.iter().filter(|operand| !matches!(operand, Operand::Broadcast(_)));
+        all.extend(whole.map(|high| Instruction::Pair { to: a, low: b, high: *high }));
+        all.extend([Instruction::Low { to: a, of: b }, Instruction::High { to: a, of: b }]);
+    }
     all
 }
 
 #[test]
 fn every_form_is_read_back_as_it_was_meant() {
     let mut count = 0;
-    let targets = [Lanes::One, Lanes::Four, Lanes::Eight].into_iter();
+    let targets = [Lanes::One, Lanes::Two, Lanes::Four, Lanes::Eight].into_iter();
     for (lanes, columns) in targets.flat_map(|lanes| [(lanes, false), (lanes, true)]) {
         for register in 0..32_u16 {
             // The two others go through all registers in other orders.

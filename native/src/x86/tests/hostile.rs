@@ -69,6 +69,11 @@ unsafe extern "sysv64" fn stands_for<const LANES: usize, const FUNCTION: usize>(
             asm!(
                 "kxnorw k1, k1, k1",
                 "kxorw k2, k2, k2",
+                "kxnorw k3, k3, k3",
+                "kxorw k4, k4, k4",
+                "kxnorw k5, k5, k5",
+                "kxorw k6, k6, k6",
+                "kxnorw k7, k7, k7",
                 "vpternlogd zmm16, zmm16, zmm16, 255",
                 "vpternlogd zmm17, zmm17, zmm17, 255",
                 "vpternlogd zmm18, zmm18, zmm18, 255",

@@ -3,5 +3,7 @@
 mod encodings;
 mod guarded;
 mod hostile;
+mod masks;
 mod random;
 mod refused;
+mod sines;

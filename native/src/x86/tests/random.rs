@@ -20,9 +20,10 @@ const TARGETS: [(Lanes, u8); 7] = [
     (Lanes::Eight, 32),
 ];
 
-fn functions(lanes: Lanes) -> fn(Function) -> usize {
+pub(super) fn functions(lanes: Lanes) -> fn(Function) -> usize {
     match lanes {
         Lanes::One => hostile::<1>,
+        Lanes::Two => hostile::<2>,
         Lanes::Four => hostile::<4>,
         Lanes::Eight => hostile::<8>,
     }
