@@ -58,8 +58,8 @@ class Program:
 class Form:
     """The equations of a file in one form; rows that say nothing new are left out, by rank at the given states."""
 
-    def __init__(self, model, rows):
-        self.model = model
+    def __init__(self, model, rows, ways):
+        self.model, self.ways = model, ways
         self.states = [state(model, row) for row in rows]
         self.kept = self.independent()
         inputs = [np.concatenate([q, v]) for q, v in self.states]
@@ -96,7 +96,7 @@ class Form:
         if driven:
             force, target = force - mass[free, driven] @ given, target - jacobian[:, driven] @ given
         numbers = [number[kept][:, free] for number in self.jacobians]
-        for way in WAYS:
+        for way in self.ways:
             found = way(m, j, force, target, numbers)
             if found is None:
                 continue
@@ -158,10 +158,10 @@ def apart(pairs):
 class Casadi:
     """Of all forms of a file's equations, for each entry point the program with the fewest operations."""
 
-    def __init__(self, path, rows):
+    def __init__(self, path, rows, ways=WAYS):
         self.linkage = Linkage(path)
         models = {model.form: model for model in (Model(self.linkage, *form) for form in FORMS)}
-        self.forms = [Form(model.build(), rows) for model in models.values()]
+        self.forms = [Form(model.build(), rows, ways) for model in models.values()]
         entries = {
             "forward_dynamics": [(program, form) for form in self.forms for program in form.forward],
             "accelerations": [(program, form) for form in self.forms for program in form.accelerations],

@@ -21,6 +21,7 @@ import casadi as ca
 
 sys.path.insert(0, str(Path(__file__).parent))
 from programs import Casadi  # noqa: E402
+from solve import OF_A_RUN, WAYS  # noqa: E402
 from states import rounded, table  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
@@ -40,13 +41,13 @@ def cost(linkwear, path):
     return json.loads(answer.stdout)["entry_points"]
 
 
-def compare(linkwear, path, rounds):
+def compare(linkwear, path, rounds, ways):
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         if path.endswith(ROUNDED):
             path = rounded(path.removesuffix(ROUNDED), folder)
         rows = table(linkwear, path, folder)
-        peer = Casadi(path, rows)
+        peer = Casadi(path, rows, ways)
         peer.check(linkwear, path, rows, folder)
         binaries = {name: program.compile(folder) for name, program in peer.programs.items()}
         times = {name: ([], []) for name in binaries}
@@ -78,14 +79,16 @@ def main():
     parser.add_argument("files", nargs="*", default=[str(ROOT / name) for name in MECHANISMS])
     parser.add_argument("--linkwear", default=str(ROOT / "target/release/linkwear"))
     parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--fixed-pivots", action="store_true", help="CasADi may divide by what the run, and it alone, shows to be large")
     parser.add_argument("--record", type=Path, help="folder that keeps a file of results per release")
     arguments = parser.parse_args()
+    ways = WAYS + OF_A_RUN if arguments.fixed_pivots else WAYS
     results = {}
     print(f"linkwear beside CasADi {ca.__version__} (gcc -O3 -march=native), medians of {arguments.rounds} rounds\n")
     print(f"{'mechanism':22} {'entry':20} {'operations':>16} {'ns':>15}  ratio of times (least, most)")
     for path in arguments.files:
         name = Path(path).name.replace(".toml", "").replace(":", "_")
-        results[name] = compare(arguments.linkwear, path, arguments.rounds)
+        results[name] = compare(arguments.linkwear, path, arguments.rounds, ways)
         for entry, found in results[name].items():
             (a, b), (x, y), (median, least, most) = found["operations"], found["ns"], found["ratio"]
             print(f"{name:22} {entry:20} {a:7} {b:8} {x:7.1f} {y:7.1f}  {median:.2f} ({least:.2f}, {most:.2f})", flush=True)

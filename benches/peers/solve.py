@@ -134,4 +134,7 @@ def modes_first(way):
     return solve
 
 
-WAYS = [by_schur, by_rows, by_projection, modes_first(by_schur), modes_first(by_projection)]
+# Good in every position that is not singular.
+WAYS = [by_schur, by_rows, modes_first(by_schur)]
+# Good along the run that their pivots were chosen by.
+OF_A_RUN = [by_projection, modes_first(by_projection)]
