@@ -1,8 +1,8 @@
 //! Machine code for tapes, written at run time: what no compiler has seen runs as fast as compiled code, in the
 //! interpreter's bits.
 //!
-//! From a tape to code: operations as a graph, in which the runtime's sine and its series stand operation by operation,
-//! an order, registers, bytes, memory that is executable and no longer writable. All but the last step and the call is
+//! From a tape to code: operations as a graph, in which the runtime's series stand operation by operation, sines of several angles side by
+//! side, an order, registers, bytes, memory that is executable and no longer writable. All but the last step and the call is
 //! safe code.
 //!
 //! # What `unsafe` stands on

@@ -1,6 +1,7 @@
 //! x86-64 processors: what they have, their instructions, which of them do an operation, their bytes.
 
 mod bounds;
+mod emit;
 mod encode;
 mod features;
 mod instruction;

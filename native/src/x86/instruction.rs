@@ -38,6 +38,22 @@ pub(crate) struct Target {
     pub(super) columns: bool,
 }
 
+impl Target {
+    /// The lanes of an instruction on so many values side by side.
+    pub(super) const fn lanes_of(self, width: usize) -> Lanes {
+        match (self.lanes, width) {
+            (Lanes::One, 2) => Lanes::Two,
+            (Lanes::One, 4) => Lanes::Four,
+            (lanes, _) => lanes,
+        }
+    }
+
+    /// An instruction on so many values side by side.
+    pub(super) const fn wide(self, width: usize, instruction: Instruction) -> Wide {
+        Wide { lanes: self.lanes_of(width), instruction }
+    }
+}
+
 /// A mask register, by its number, from 1 on: 0 stands for no mask.
 pub(crate) type MaskRegister = u8;
 

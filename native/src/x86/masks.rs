@@ -6,8 +6,8 @@ use crate::straight::allocate::Allocation;
 use crate::straight::graph::Id;
 use crate::straight::place::Register;
 
+use super::emit::push;
 use super::instruction::{Instruction, MASKS, MaskRegister, Target};
-use super::select::push;
 
 /// What each mask register holds; the first is no register.
 #[derive(Default)]
@@ -45,8 +45,7 @@ impl Masks {
         }
         let of = allocation.load(id, locked);
         let mask = self.take(allocation, id, locked);
-        let node = allocation.node(id);
-        push(allocation, &node, Instruction::SignToMask { mask, of });
+        push(allocation, id, Instruction::SignToMask { mask, of });
         mask
     }
 
@@ -86,7 +85,6 @@ fn copy(
         return None;
     }
     let to = allocation.place(id, locked);
-    let node = allocation.node(id);
-    push(allocation, &node, Instruction::MaskToRegister { to, mask });
+    push(allocation, id, Instruction::MaskToRegister { to, mask });
     Some(to)
 }

@@ -7,6 +7,7 @@ use crate::straight::graph::{Function, Id, Node, Operation};
 use crate::straight::place::{Address, Base, Register, Shape};
 
 use super::bounds;
+use super::emit::push;
 use super::encode::Encoder;
 use super::instruction::{Binary, Instruction, Lanes, Operand, Target, Wide};
 use super::masks::Masks;
@@ -120,22 +121,9 @@ const fn fills_upper(lanes: Lanes) -> bool {
 }
 
 impl Target {
-    /// The lanes of an instruction on so many values side by side.
-    const fn lanes_of(self, width: usize) -> Lanes {
-        match (self.lanes, width) {
-            (Lanes::One, 2) => Lanes::Two,
-            (Lanes::One, 4) => Lanes::Four,
-            (lanes, _) => lanes,
-        }
-    }
-
     /// Whether there are mask registers.
     const fn has_masks(self) -> bool {
         self.registers > 16
-    }
-
-    const fn wide(self, width: usize, instruction: Instruction) -> Wide {
-        Wide { lanes: self.lanes_of(width), instruction }
     }
 
     fn in_memory(self, address: Address) -> Operand {
@@ -145,12 +133,6 @@ impl Target {
             Operand::Memory(address)
         }
     }
-}
-
-/// An instruction of an operation.
-pub(super) fn push(allocation: &mut Allocation<'_, Target>, node: &Node, instruction: Instruction) {
-    let wide = allocation.processor.wide(node.width(), instruction);
-    allocation.push(wide);
 }
 
 fn operand(allocation: &mut Allocation<'_, Target>, id: Id, reader: &Node) -> Operand {
@@ -177,7 +159,7 @@ fn square_root(allocation: &mut Allocation<'_, Target>, id: Id, of: Id) {
         operand(allocation, of, &node)
     };
     let to = allocation.result(&node);
-    push(allocation, &node, Instruction::SquareRoot { to, of });
+    push(allocation, id, Instruction::SquareRoot { to, of });
     allocation.define(id, to);
 }
 
@@ -186,24 +168,23 @@ fn pair(allocation: &mut Allocation<'_, Target>, id: Id, [low, high]: [Id; 2]) {
     let node = allocation.node(id);
     if let Some(from) = allocation.side_by_side(low, high) {
         let to = allocation.result(&node);
-        push(allocation, &node, Instruction::Load { to, from: Operand::Memory(from) });
+        push(allocation, id, Instruction::Load { to, from: Operand::Memory(from) });
         return allocation.define(id, to);
     }
     let low = allocation.load(low, node.arguments());
     let high = operand(allocation, high, &node);
     let to = allocation.result(&node);
-    push(allocation, &node, Instruction::Pair { to, low, high });
+    push(allocation, id, Instruction::Pair { to, low, high });
     allocation.define(id, to);
 }
 
-fn half(allocation: &mut Allocation<'_, Target>, id: Id, of: Id) {
+fn half(allocation: &mut Allocation<'_, Target>, id: Id, pair: Id) {
     let node = allocation.node(id);
-    let pair = allocation.node(of);
-    let of = allocation.load(of, &[]);
+    let of = allocation.load(pair, &[]);
     let to = allocation.result(&node);
     let is_low = node.operation == Operation::Low;
     let half = if is_low { Instruction::Low { to, of } } else { Instruction::High { to, of } };
-    push(allocation, &pair, half);
+    push(allocation, pair, half);
     allocation.define(id, to);
 }
 
@@ -235,7 +216,7 @@ fn binary(allocation: &mut Allocation<'_, Target>, id: Id, operation: Operation,
         // Without mask registers there are 16 registers and at most four lanes: the shorter encoding has it.
         _ => Binary::Less,
     };
-    push(allocation, &node, Instruction::Binary { operation, to, first, second });
+    push(allocation, id, Instruction::Binary { operation, to, first, second });
     allocation.define(id, to);
 }
 
@@ -250,7 +231,7 @@ fn less_to_mask(
     let first = allocation.load(first, node.arguments());
     let second = operand(allocation, second, &node);
     let mask = masks.take(allocation, id, node.arguments());
-    push(allocation, &node, Instruction::LessToMask { mask, first, second });
+    push(allocation, id, Instruction::LessToMask { mask, first, second });
     allocation.has_read(&node);
 }
 
@@ -270,7 +251,7 @@ fn select(allocation: &mut Allocation<'_, Target>, masks: &mut Masks, id: Id, [b
         let to = allocation.result(&node);
         Instruction::Select { to, no, yes, mask }
     };
-    push(allocation, &node, select);
+    push(allocation, id, select);
     if let Instruction::Select { to, .. } | Instruction::SelectByMask { to, .. } = select {
         allocation.define(id, to);
     }
