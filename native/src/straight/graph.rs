@@ -1,7 +1,7 @@
 //! Machine operations of one function as a graph: equal operations are one node.
 //! In: operations, each after its arguments. Out: [`Graph`]. Never knows registers or addresses.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Place of a node in its graph; arguments have smaller ones than what is computed from them.
 pub(crate) type Id = u32;
@@ -89,7 +89,7 @@ impl Node {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
-    known: HashMap<Node, Id>,
+    known: FxHashMap<Node, Id>,
 }
 
 impl Graph {

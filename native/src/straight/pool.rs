@@ -1,6 +1,6 @@
 //! Constants in memory. In: a graph and an order. Out: the numbers, and where each constant lies.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::graph::{Graph, Id, Operation};
 use super::place::{Address, Base};
@@ -12,9 +12,9 @@ pub(super) fn lay_out(
     order: &[Id],
     outputs: &[Id],
     copies_read_by: impl Fn(Option<Operation>) -> usize,
-) -> (Vec<u64>, HashMap<Id, Address>) {
+) -> (Vec<u64>, FxHashMap<Id, Address>) {
     let mut copies: Vec<(Id, u64, usize)> = Vec::new();
-    let mut place: HashMap<Id, usize> = HashMap::new();
+    let mut place: FxHashMap<Id, usize> = FxHashMap::default();
     let mut read = |id: Id, count: usize| {
         if let Operation::Constant(bits) = graph.node(id).operation {
             let at = *place.entry(id).or_insert_with(|| {
@@ -37,7 +37,7 @@ pub(super) fn lay_out(
     // Longer ones first: each then lies at a multiple of its length, as the pool does.
     copies.sort_by_key(|(_, _, count)| std::cmp::Reverse(*count));
     let mut pool = Vec::new();
-    let mut addresses = HashMap::with_capacity(copies.len());
+    let mut addresses = FxHashMap::with_capacity_and_hasher(copies.len(), Default::default());
     for (id, bits, count) in copies {
         let offset = (size_of::<u64>() * pool.len()) as i32;
         addresses.insert(id, Address { base: Base::Pool, offset });
