@@ -14,10 +14,9 @@ impl Graph {
         needed.count(&uses, &live)
     }
 
-    /// The same of a graph that has little else.
-    pub fn operations_of_most(&self, roots: &[ExprId]) -> usize {
-        let uses = self.uses(roots);
-        self.count(&uses, &self.live(&uses))
+    /// The same of a graph that has little else, with the [`Graph::uses`] of the roots.
+    pub fn operations_of_most(&self, uses: &[u32]) -> usize {
+        self.count(uses, &self.live(uses))
     }
 
     fn count(&self, uses: &[u32], live: &[ExprId]) -> usize {

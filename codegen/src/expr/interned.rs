@@ -36,6 +36,16 @@ impl Interned {
         if 2 * (self.used + 1) > self.slots.len() {
             self.grow();
         }
+        self.search(nodes, node)
+    }
+
+    /// The id of a node, if it is there.
+    pub fn get(&self, nodes: &[Node], node: Node) -> Option<ExprId> {
+        if self.slots.is_empty() { None } else { self.search(nodes, node).ok() }
+    }
+
+    #[inline]
+    fn search(&self, nodes: &[Node], node: Node) -> Result<ExprId, Free> {
         let hash = hash(node);
         let last = self.slots.len() - 1;
         let mut slot = (hash >> self.rest) as usize;

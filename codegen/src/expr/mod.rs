@@ -123,6 +123,13 @@ impl Graph {
         }
     }
 
+    /// The product of a positive number and a node, if it was made.
+    fn scaled(&self, number: f64, of: ExprId) -> Option<ExprId> {
+        let number = self.known.get(&self.nodes, Node::Constant(number.to_bits()))?;
+        let (first, second) = (number.min(of), number.max(of));
+        self.known.get(&self.nodes, Node::Binary(Binary::Mul, first, second))
+    }
+
     /// Number of nodes asked for. Beyond [`EXPRESSIONS`] the graph is cut off and means nothing.
     pub fn wanted(&self) -> usize {
         self.nodes.len() + self.left_out

@@ -2,13 +2,16 @@
 //! In: a tape. Out: the same with values of the same size, some with the other sign. Never changes what is stored.
 //!
 //! A sum takes any signs of its terms but two negative ones, a product those whose product is positive, or any if one factor is
-//! a number. What cannot be taken is an operation more. Values are turned one by one, or with one that reads them, as long as
-//! that leaves less of those.
+//! a number. What cannot be taken is an operation more. Such a change of sign is passed on from statement to statement, a value
+//! turned each time, to one that takes it or has another.
 
 use linkwear_tape::{Binary, Op, Operand, Statement, Tape, Unary, Value, verify};
 
-/// Sweeps over all values at most; nothing shipped takes more than four.
+/// Sweeps over all values at most.
 const SWEEPS: usize = 8;
+
+/// Values that are turned to be rid of one change of sign at most; nothing shipped gains by more.
+const LONGEST: usize = 6;
 
 /// A tape without changes of sign, which its operands have instead.
 struct Signed<'a> {
@@ -133,64 +136,67 @@ impl<'a> Signed<'a> {
         own + stores
     }
 
-    /// A statement, perhaps with one that reads it, and all that read them: each once.
-    fn around(&self, at: usize, with: Option<usize>) -> impl Iterator<Item = usize> {
-        let near = self.readers(at);
-        let far = with.into_iter().flat_map(|reader| self.readers(reader));
-        let far = far.filter(|reader| near.binary_search(reader).is_err());
-        std::iter::once(at).chain(near.iter().chain(far).copied())
-    }
-
-    /// Turns a statement, and one that reads it if there is one, if that leaves fewer changes of sign.
-    fn try_turning(&mut self, at: usize, with: Option<usize>) -> bool {
-        let before: usize = self.around(at, with).map(|at| self.costs[at]).sum();
-        let flip = |signed: &mut Self| {
-            for at in std::iter::once(at).chain(with) {
-                let value = signed.tape.statements[at].first as usize;
-                signed.turned[value] = !signed.turned[value];
-            }
-        };
-        if before == 0 {
-            return false;
-        }
-        flip(self);
-        let mut after = 0;
-        if self.around(at, with).any(|at| {
-            after += self.cost(at);
-            after >= before
-        }) {
-            flip(self);
-            return false;
-        }
-        for at in self.around(at, with).collect::<Vec<_>>() {
-            self.costs[at] = self.cost(at);
-        }
-        true
-    }
-
+    /// Turns values until no change of sign can be passed on to where it ends.
     fn turn(&mut self) {
         for _ in 0..SWEEPS {
             let mut changed = false;
-            for at in (0..self.tape.statements.len()).rev() {
-                if !self.turns(at) {
-                    continue;
-                }
-                if self.try_turning(at, None) {
+            for at in 0..self.costs.len() {
+                while self.costs[at] > 0 && self.passes_on(at, &mut Vec::new()) {
                     changed = true;
-                    continue;
-                }
-                for position in 0..self.readers(at).len() {
-                    let reader = self.readers(at)[position];
-                    if self.turns(reader) && self.try_turning(at, Some(reader)) {
-                        changed = true;
-                        break;
-                    }
                 }
             }
             if !changed {
                 break;
             }
         }
+    }
+
+    /// Rids a statement of a change of sign by turning its value or an operand. A change that is left to another for it is passed
+    /// on likewise, until there are fewer; if that does not come about, nothing is turned.
+    fn passes_on(&mut self, at: usize, path: &mut Vec<usize>) -> bool {
+        let made = |operand| match operand {
+            Operand::Value(value) => Some(self.made[self.is[value as usize].0 as usize]),
+            Operand::Constant(_) | Operand::Input(_) => None,
+        };
+        let operands = self.tape.statements[at].op.operands().filter_map(made);
+        let candidates: Vec<usize> = std::iter::once(at).chain(operands).collect();
+        for candidate in candidates {
+            if !self.turns(candidate) || path.contains(&candidate) {
+                continue;
+            }
+            let more = self.flip(candidate);
+            if more < 0 {
+                return true;
+            }
+            path.push(candidate);
+            if more == 0 && path.len() < LONGEST {
+                let left: Vec<usize> = self.around(candidate).filter(|at| self.costs[*at] > 0).collect();
+                if left.into_iter().any(|at| self.passes_on(at, path)) {
+                    return true;
+                }
+            }
+            path.pop();
+            self.flip(candidate);
+        }
+        false
+    }
+
+    /// A statement and all that read it: each once.
+    fn around(&self, at: usize) -> impl Iterator<Item = usize> {
+        std::iter::once(at).chain(self.readers(at).iter().copied())
+    }
+
+    /// Turns a statement; how many changes of sign more that takes.
+    fn flip(&mut self, at: usize) -> isize {
+        let value = self.tape.statements[at].first as usize;
+        self.turned[value] = !self.turned[value];
+        let mut more = 0;
+        for at in self.around(at).collect::<Vec<_>>() {
+            let cost = self.cost(at);
+            more += cost.cast_signed() - self.costs[at].cast_signed();
+            self.costs[at] = cost;
+        }
+        more
     }
 
     fn written(&self) -> Tape {
@@ -418,6 +424,27 @@ mod tests {
         let before = tape(&ops, &[0, 1, 2, 3]);
         let after = with_fewer_signs(before.clone());
         assert_eq!(after.statements.len(), 4);
+        assert_eq!(values(&after), values(&before));
+    }
+
+    #[test]
+    fn signs_are_passed_on_to_what_takes_them() {
+        use Binary::{Add, Mul, Sub};
+        let [a, b, c, d] = [0, 1, 2, 3].map(Operand::Input);
+        let v = Operand::Value;
+        // -(n b + c d) and (n - d) + c, where n is 3 a: by -3 a, no change of sign is left, though n, n b, the sum, n - d turn.
+        let ops = [
+            Op::Binary(Mul, a, Operand::Constant(3.0)),
+            Op::Binary(Mul, v(0), b),
+            Op::Binary(Mul, c, d),
+            Op::Binary(Add, v(1), v(2)),
+            Op::Unary(Unary::Neg, v(3)),
+            Op::Binary(Sub, v(0), d),
+            Op::Binary(Add, v(5), c),
+        ];
+        let before = tape(&ops, &[4, 6]);
+        let after = with_fewer_signs(before.clone());
+        assert_eq!(after.statements.len(), 6);
         assert_eq!(values(&after), values(&before));
     }
 }

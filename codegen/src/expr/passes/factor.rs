@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use super::formula::Formula;
 use super::program::Program;
-use super::terms::{Kind, terms};
+use super::terms::Kind;
 use crate::expr::{Binary, ExprId, Graph, Node};
 
 /// A product with its sign; `true` subtracts.
@@ -20,21 +20,21 @@ pub fn factor(program: &Program) -> Option<Program> {
         |id: ExprId| uses[id.index()] == 1 && matches!(graph.node(id), Node::Binary(Binary::Mul, ..));
     // Every sum is looked at and few have a common factor: no lists of its own for each.
     let (mut lists, mut counted) = (Lists::default(), Vec::new());
-    for sum in terms(graph, &uses, Kind::Sum).iter() {
+    for sum in program.terms(Kind::Sum).iter() {
         if sum.terms.iter().filter(|(_, id)| is_product(*id)).count() < 2 {
             continue;
         }
         lists.inner.clear();
         counted.clear();
         for (at, (_, id)) in sum.terms.iter().enumerate() {
-            let factors = lists.factors(graph, &uses, *id);
+            let factors = lists.factors(graph, uses, *id);
             counted.extend(factors.iter().filter(|_| factors.len() > 1).map(|factor| (*factor, at)));
         }
         if most_counted(&mut counted).is_some() {
             found = true;
             lists.inner.iter().chain(sum.inner).for_each(|id| left_out[id.index()] = true);
             let products =
-                sum.terms.iter().map(|(negative, id)| (*negative, lists.factors(graph, &uses, *id).to_vec()));
+                sum.terms.iter().map(|(negative, id)| (*negative, lists.factors(graph, uses, *id).to_vec()));
             formulas[sum.root.index()] = Some(Formula::Sum(grouped(products.collect())));
         }
     }

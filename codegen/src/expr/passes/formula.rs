@@ -8,6 +8,8 @@ use crate::expr::{Expr, ExprId};
 pub enum Formula {
     /// What has become of an old node.
     Node(ExprId),
+    /// A number.
+    Number(f64),
     /// Signed terms: `true` subtracts.
     Sum(Vec<(bool, Formula)>),
     /// Factors.
@@ -19,6 +21,7 @@ impl Formula {
     pub fn make<'g>(&self, rebuild: &Rebuild<'_, 'g>) -> Expr<'g> {
         match self {
             Self::Node(id) => rebuild.get(*id),
+            Self::Number(number) => rebuild.scope.number(*number),
             Self::Sum(terms) => terms.iter().fold(rebuild.scope.zero(), |sum, (negative, term)| {
                 let term = term.make(rebuild);
                 if *negative { sum - term } else { sum + term }

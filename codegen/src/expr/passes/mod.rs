@@ -14,7 +14,10 @@ mod terms;
 mod unscaled;
 
 use super::{ExprId, Graph};
+use factor::factor;
 use program::Whole;
+use share::{share_products, share_sums};
+use unscaled::{scaled_by_terms, unscaled};
 
 pub use program::Program;
 
@@ -22,10 +25,11 @@ pub use program::Program;
 type Pass = fn(&Program) -> Option<Program>;
 
 /// Orders of the passes: what one leaves decides what another finds. The shortest result counts, the first among equals.
-const ORDERS: [[Pass; 4]; 2] = [
-    [factor::factor, share::share_sums, share::share_products, unscaled::unscaled],
-    [unscaled::unscaled, factor::factor, share::share_sums, share::share_products],
-];
+const ORDERS: [[Pass; 4]; 2] =
+    [[factor, share_sums, share_products, unscaled], [unscaled, factor, share_sums, share_products]];
+
+/// Passes after those, which find less in what this takes apart.
+const LATER: [Pass; 5] = [scaled_by_terms, factor, share_sums, share_products, unscaled];
 
 /// Rounds of all passes at most; nothing shipped takes more than three.
 const ROUNDS: usize = 4;
@@ -38,14 +42,24 @@ pub fn shortened(graph: &Graph, inputs: &[ExprId], roots: &[ExprId]) -> Program 
     let (mut least, mut best) = passed((whole, &merged), &ORDERS[0]);
     for order in &ORDERS[1..] {
         // The same again if the first pass finds nothing.
-        let first = order[0](&merged).map(|first| (first.operations(), first));
-        let Some((count, first)) = first.filter(|(count, _)| *count < whole) else { continue };
-        let (count, next) = passed((count, &first), order);
-        if count < least {
-            (least, best) = (count, Some(next.unwrap_or(first)));
+        if let Some((count, program)) = begun((whole, &merged), order).filter(|(count, _)| *count < least) {
+            (least, best) = (count, Some(program));
         }
     }
-    best.unwrap_or(merged)
+    let best = best.unwrap_or(merged);
+    // The others have found all that there was.
+    match begun((least, &best), &LATER) {
+        Some((_, later)) => later,
+        None => best,
+    }
+}
+
+/// What rounds of the passes make of a program of so many operations, if the first of them makes it shorter.
+fn begun((count, program): (usize, &Program), passes: &[Pass]) -> Option<(usize, Program)> {
+    let first = passes[0](program).map(|first| (first.operations(), first));
+    let (count, first) = first.filter(|(shorter, _)| *shorter < count)?;
+    let (count, next) = passed((count, &first), passes);
+    Some((count, next.unwrap_or(first)))
 }
 
 /// What rounds of the passes leave of a program of so many operations, each kept where it makes it shorter: how many
@@ -130,5 +144,18 @@ mod tests {
         let (counts, _) =
             shortened_at([1.0; 4], |[a, b, ..]| [0.42 * a * b, (0.420_000_000_000_000_04 * a).sqrt()]);
         assert_eq!(counts, [4, 3]);
+    }
+
+    #[test]
+    fn a_sum_is_scaled_by_terms_where_they_take_the_factor_for_nothing() {
+        // 0.3 sin a is wanted besides, and 2 d is 0.6 d then.
+        let (counts, [before, after]) = shortened_at([2.0, 3.0, 5.0, 7.0], |[a, b, c, d]| {
+            [0.3 * (a.sin() * b - 2.0 * d), 0.3 * a.sin() - c]
+        });
+        assert_eq!(counts, [7, 6]);
+        assert!((0..2).all(|i| (before[i] - after[i]).abs() < 1e-15));
+        // The other term would take an operation for it.
+        let (counts, _) = shortened_at([1.0; 4], |[a, b, c, d]| [0.3 * (a * b + c * d), 0.3 * a]);
+        assert_eq!(counts, [5, 5]);
     }
 }

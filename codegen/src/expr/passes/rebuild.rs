@@ -15,8 +15,16 @@ pub struct Rebuild<'a, 'g> {
 }
 
 /// Copies what the roots need in the old order; `each` makes every node.
-pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId)) -> Program {
-    let uses = whole.graph.uses(whole.roots);
+pub fn copy(whole: &Whole<'_>, each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId)) -> Program {
+    copy_of(whole, &whole.graph.uses(whole.roots), each)
+}
+
+/// The same, of which nodes are needed is known.
+fn copy_of(
+    whole: &Whole<'_>,
+    uses: &[u32],
+    mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId),
+) -> Program {
     let scope = Scope::new();
     let (inputs, roots) = {
         let mut rebuild = Rebuild { old: whole.graph, scope: &scope, made: vec![None; uses.len()] };
@@ -29,7 +37,7 @@ pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>
                 rebuild.set(*id, scope.symbol(whole.graph.symbol_name(symbol)));
             }
         }
-        for id in whole.graph.live(&uses) {
+        for id in whole.graph.live(uses) {
             let index = id.index();
             if rebuild.made[index].is_none() {
                 scope.make(|g| g.current_section = whole.graph.section_of[index]);
@@ -42,13 +50,14 @@ pub fn copy(whole: &Whole<'_>, mut each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>
         let new = |ids: &[ExprId]| ids.iter().map(|id| rebuild.get(*id).id()).collect();
         (new(whole.inputs), new(whole.roots))
     };
-    Program { graph: scope.into_graph(), inputs, roots }
+    Program::new(scope.into_graph(), inputs, roots)
 }
 
 impl Program {
     /// A copy of what is needed, with `each` in charge of every node.
     pub fn rebuilt(&self, each: impl for<'g> FnMut(&mut Rebuild<'_, 'g>, ExprId)) -> Self {
-        copy(&Whole { graph: &self.graph, inputs: &self.inputs, roots: &self.roots }, each)
+        let whole = Whole { graph: &self.graph, inputs: &self.inputs, roots: &self.roots };
+        copy_of(&whole, self.uses(), each)
     }
 }
 

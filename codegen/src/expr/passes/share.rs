@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::program::Program;
 use super::rebuild::Rebuild;
-use super::terms::{Kind, Terms, terms};
+use super::terms::{Kind, Terms};
 use crate::expr::{Expr, ExprId};
 
 /// A term: an old node, or behind those a pair by its number.
@@ -28,9 +28,8 @@ pub fn share_products(program: &Program) -> Option<Program> {
 }
 
 fn share(program: &Program, kind: Kind) -> Option<Program> {
-    let (graph, uses) = (&program.graph, program.uses());
-    let list = terms(graph, &uses, kind);
-    let sums: Vec<Terms<'_>> = list.iter().collect();
+    let uses = program.uses();
+    let sums: Vec<Terms<'_>> = program.terms(kind).iter().collect();
     let mut sharing = Sharing::new(kind, &sums, uses.len());
     sharing.run();
     if sharing.pairs.is_empty() {

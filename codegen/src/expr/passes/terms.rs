@@ -40,6 +40,11 @@ impl List {
         (0..self.sums.len()).rev().map(|at| self.at(at))
     }
 
+    /// The terms of the sum or product with this value, if it is one by itself.
+    pub fn of(&self, root: ExprId) -> Option<Terms<'_>> {
+        self.sums.binary_search_by(|(other, ..)| root.cmp(other)).ok().map(|at| self.at(at))
+    }
+
     fn at(&self, at: usize) -> Terms<'_> {
         let (root, terms, inner) = &self.sums[at];
         Terms { root: *root, terms: &self.terms[terms.clone()], inner: &self.inner[inner.clone()] }
