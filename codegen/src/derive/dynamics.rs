@@ -145,6 +145,11 @@ fn keeps_place(link: &Link) -> bool {
     }
 }
 
+/// The screw of a joint on the ground with one freedom.
+fn screw_on_ground(link: &Link) -> Option<[[f64; 3]; 2]> {
+    link.freedom.screw().filter(|_| link.parent.is_none())
+}
+
 /// Inertial force of a rigid link, weight included, less one in its frame, along the axes of W.
 pub fn rigid_force_in_ground<'g>(
     motion: &Motion<'g>,
@@ -212,10 +217,8 @@ pub fn forces_besides<'g>(
         let applied = loads.external[at] + loads.reactions[at];
         let held = rows.get(at).copied().unwrap_or_else(|| Wrench::zero(g));
         let mut total = inertial + -applied + -held + carried[at];
-        let inboard = axes.masses_inboard
-            && link.parent.is_some()
-            && keeps_place(link)
-            && (by_fields.is_some() || masses[at].modal.is_none());
+        let movable = keeps_place(link) && (by_fields.is_some() || masses[at].modal.is_none());
+        let inboard = axes.masses_inboard && link.parent.is_some() && movable;
         if axes.forces_in_ground {
             let turn = poses.world[at].rotation;
             let mut less = held.force - borne[at];
@@ -266,6 +269,24 @@ pub fn forces_besides<'g>(
                     borne[parent] += moved;
                 }
                 carried[parent] += Wrench { moment, force: g.zero_vector() };
+            } else if let Some(screw) =
+                screw_on_ground(&linkage.links[parent]).filter(|_| axes.screws_outboard)
+            {
+                if movable {
+                    // Mass at the joint moves with the parent link, along whose axes its power mostly vanishes.
+                    let force = masses[at].rigid.mass * motion.accelerations[parent].at(pose.offset);
+                    carried[parent] += Wrench { moment: pose.offset.cross(force), force };
+                    let own = match by_fields {
+                        Some(body) => {
+                            let still = Acceleration { origin: g.zero_vector(), ..*frame };
+                            body.wrench(&still, &known).force
+                        }
+                        None => frame.spin * masses[at].rigid.first,
+                    };
+                    total.force = own + -applied.force + -held.force + carried[at].force;
+                }
+                let screw = screw.map(|axis| g.vector(axis));
+                forces[linkage.links[parent].first_speed] += total.felt_inboard(link.freedom, pose, screw);
             } else {
                 carried[parent] += total.passed_inwards(link.freedom, pose);
             }

@@ -12,6 +12,8 @@ pub struct Axes {
     pub forces_in_ground: bool,
     /// Of those, what a link's mass does at its joint comes by the acceleration of the joint on the parent link.
     pub masses_inboard: bool,
+    /// What a joint on the ground feels of links outboard comes along their axes, to which its screw is turned; else along its own.
+    pub screws_outboard: bool,
 }
 
 impl Axes {
@@ -25,13 +27,16 @@ impl Axes {
         Self::new(true, true, true),
     ];
 
+    /// A further choice where rows ask for the screws along the axes of links outboard, too.
+    pub const BY_SCREWS: Self = Self { screws_outboard: true, ..Self::ALL[1] };
+
     /// All of them, or those that long chains are tried along: each takes them as long as all the rest of a check.
     pub fn choices(all: bool) -> &'static [Self] {
         if all { &Self::ALL } else { &Self::ALL[..4] }
     }
 
     const fn new(accelerations_in_ground: bool, forces_in_ground: bool, masses_inboard: bool) -> Self {
-        Self { accelerations_in_ground, forces_in_ground, masses_inboard }
+        Self { accelerations_in_ground, forces_in_ground, masses_inboard, screws_outboard: false }
     }
 }
 

@@ -59,6 +59,17 @@ impl<'g> Wrench<'g> {
         }
     }
 
+    /// What a joint inboard of the parent link feels of it, whose screw moves that as `turn` and `slide` say, along this link's
+    /// axes: see [`Self::passed_inwards`].
+    pub fn felt_inboard(self, freedom: Freedom, pose: &Pose<'g>, [turn, slide]: [Vec3<'g>; 2]) -> Expr<'g> {
+        let moved = self.force.dot(pose.inwards(slide + turn.cross(pose.offset)));
+        match freedom {
+            Freedom::Free => self.force.scope().zero(),
+            Freedom::Ball => moved,
+            _ => self.moment.dot(pose.inwards(turn)) + moved,
+        }
+    }
+
     /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame
     /// and nodes only what their motion takes, not what deforms the body.
     pub fn generalised(self, freedom: Freedom, node: Option<&NodePose<'g>>) -> Vec<Expr<'g>> {
@@ -99,5 +110,26 @@ impl<'g> Wrench<'g> {
     /// Power on a twist.
     pub fn power(self, omega: Vec3<'g>, origin: Vec3<'g>) -> Expr<'g> {
         self.moment.dot(omega) + self.force.dot(origin)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_joint_feels_is_the_same_along_either_link_s_axes() {
+        let g = Scope::new();
+        let rotation = g.matrix([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]]);
+        let pose = Pose { rotation, offset: g.vector([0.3, -0.7, 0.2]) };
+        let wrench = Wrench { moment: g.vector([2.0, -1.0, 0.5]), force: g.vector([0.4, 3.0, -5.0]) };
+        let screw = [[0.0, 0.6, 0.8], [0.2, 0.0, 0.1]].map(|axis| g.vector(axis));
+        for freedom in [Freedom::Weld, Freedom::Ball, Freedom::Free] {
+            let expected = wrench.passed_inwards(freedom, &pose).power(screw[0], screw[1]);
+            let found = wrench.felt_inboard(freedom, &pose, screw);
+            let [expected, found] = [expected, found].map(|x| x.as_number().expect("numbers make a number"));
+            // A few roundings of numbers of the order of ten.
+            assert!((expected - found).abs() < 1e-14, "{freedom:?}: {found} is not {expected}");
+        }
     }
 }

@@ -373,8 +373,10 @@ impl<'g> Deriver<'g> {
             let of_rows: Vec<Expr<'g>> = of_rows.filter(|entry| !entry.is_zero()).collect();
             // The same for all rows, which alone decide which of them are shortest.
             let axes = if self.compares { Axes::choices(self.is_short()) } else { &[links] };
-            let forces =
-                forces.get_or_init(|| each_once(all_bias_forces(motion, masses, &instant.loads, axes)));
+            let screws: &[Axes] = if self.is_short() { &[Axes::BY_SCREWS] } else { &[] };
+            let forces = forces.get_or_init(|| {
+                each_once(all_bias_forces(motion, masses, &instant.loads, &[axes, screws].concat()))
+            });
             let both = matrices.iter().flat_map(|mass| forces.iter().map(move |h| (mass, h)));
             let counts = counts || matrices.len() * forces.len() > 1;
             let counted = both.map(|((mass, entries), h)| {
